@@ -1,0 +1,36 @@
+# One folder, one library, one namespace: aeroloom_library(<folder> SOURCES ... PUBLIC ... PRIVATE ...).
+# PUBLIC and PRIVATE name libraries; a library of another folder is written aeroloom_<folder>.
+function(aeroloom_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(aeroloom_${folder} STATIC ${ARG_SOURCES})
+  target_include_directories(aeroloom_${folder} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(aeroloom_${folder} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# aeroloom_test(<name> SOURCES ... LIBRARIES ... RANKS 1 2 3 [TIMEOUT seconds])
+# builds one test program and registers it once per rank count, as <name>.n<ranks>.
+function(aeroloom_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;RANKS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES} ${CMAKE_SOURCE_DIR}/tests/test_main.cpp)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE
+    AEROLOOM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" AEROLOOM_PROGRAM="${CMAKE_BINARY_DIR}/bin/aeroloom")
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} aeroloom_parallel GTest::gtest)
+  foreach(ranks IN LISTS ARG_RANKS)
+    add_test(NAME ${name}.n${ranks} COMMAND ${AEROLOOM_MPIRUN} ${ranks} $<TARGET_FILE:${name}>)
+    set_tests_properties(${name}.n${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT ${ARG_TIMEOUT})
+  endforeach()
+endfunction()
+
+# aeroloom_benchmark(<name> SOURCES ... LIBRARIES ...)
+function(aeroloom_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmarks)
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
+endfunction()

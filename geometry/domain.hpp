@@ -1,0 +1,54 @@
+/// From a file or a built-in shape to the fluid domain to mesh.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/model.hpp"
+#include "geometry/transport.hpp"
+
+namespace aeroloom::geometry {
+
+/// Whether the file's solids are the fluid, or bodies in a far field.
+enum class DomainKind { automatic, fluid, body };
+
+enum class FarFieldShape { sphere, box };
+
+/// The far field around a body. Its reference length is the largest extent of the body's box.
+struct FarFieldOptions {
+  FarFieldShape shape = FarFieldShape::sphere;
+  double extent = 10;  ///< distance from the body's centre to the far field, in reference lengths; for the box: from the
+                       ///< centre to each side
+};
+
+struct DomainOptions {
+  std::string file;                               ///< STEP, IGES or BREP, by content and extension; empty for `transport`
+  std::optional<TransportDimensions> transport;   ///< the built-in aircraft
+  DomainKind kind = DomainKind::automatic;
+  std::optional<FarFieldOptions> far_field;       ///< given by the user; bodies get the default where it is absent
+};
+
+/// What was read and what was done with it, for log and report.
+struct DomainReport {
+  DomainKind kind = DomainKind::automatic;  ///< as decided
+  std::string reason;                       ///< why, when it was decided here
+  double reference_length = 0;              ///< of the body (or the domain)
+  std::vector<std::string> changes;         ///< every repair: what, where, how much
+};
+
+struct Domain {
+  Model model;
+  DomainReport report;
+};
+
+/// Reads, heals and builds the domain. Not collective: one rank calls it and broadcasts model.serialise().
+/// Closed shells become solids; faces that belong to no solid are dropped and listed. Throws CadError for
+/// what cannot be meshed: unreadable files, open shells, a far field that cuts the body, a boolean operation
+/// whose volume does not add up; std::ios_base::failure when the file cannot be opened.
+Domain prepare_domain(const DomainOptions& options);
+
+/// Writes the model's shape, before any far field, with names, as STEP.
+void export_step(const DomainOptions& options, const std::string& file);
+
+}  // namespace aeroloom::geometry

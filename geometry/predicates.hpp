@@ -1,0 +1,23 @@
+/// Exact signs of orientation determinants (adaptive: floating point where that is safe, exact otherwise).
+/// All functions return -1, 0 or 1 and never a wrong sign.
+#pragma once
+
+#include "geometry/vec.hpp"
+
+namespace aeroloom::geometry {
+
+/// 1 when (a,b,c) turn counter-clockwise, -1 clockwise, 0 collinear.
+int orient2d(Vec2 a, Vec2 b, Vec2 c);
+/// 1 when d lies on the side the counter-clockwise normal of (a,b,c) points to, i.e. the tetrahedron
+/// (a,b,c,d) has positive volume in VTK's order; 0 coplanar.
+int orient3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+/// For (a,b,c) counter-clockwise: 1 when d is inside their circumcircle, 0 on it, -1 outside.
+int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+/// For (a,b,c,d) of positive orientation: 1 when e is inside their circumsphere, 0 on it, -1 outside.
+int in_sphere(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 e);
+/// Whether the closed triangles share a point, coplanar ones included. Exact.
+bool triangles_intersect(const Vec3 (&a)[3], const Vec3 (&b)[3]);
+/// Whether the closed segment pq meets the closed triangle. Exact.
+bool segment_meets_triangle(Vec3 p, Vec3 q, const Vec3 (&triangle)[3]);
+
+}  // namespace aeroloom::geometry

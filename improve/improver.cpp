@@ -1,0 +1,1 @@
+#include "improve/improver.hpp"

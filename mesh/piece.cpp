@@ -1,0 +1,3 @@
+#include "mesh/piece.hpp"
+#include "mesh/validity.hpp"
+#include "mesh/quality.hpp"

@@ -1,0 +1,72 @@
+/// A piece of a simplicial mesh: the unit of decomposition, work, scheduling, checkpointing and failure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/vec.hpp"
+#include "parallel/communicator.hpp"
+
+namespace aeroloom::mesh {
+
+using LocalIndex = std::int32_t;    ///< of a vertex or cell within a piece
+using GlobalIndex = std::int64_t;   ///< of a vertex or cell of the whole mesh
+using PieceId = std::int32_t;       ///< fixed by the decomposition, whatever the rank count
+/// The name of a vertex that several pieces share, known by construction before any numbering. Equal tokens
+/// are one vertex.
+using SharedToken = std::uint64_t;
+
+enum class CellKind : std::int8_t { triangle = 3, tetrahedron = 4 };
+
+/// Flat arrays of one piece. n vertices, m cells, b boundary triangles. Cells of a tetrahedral piece have positive
+/// volume in VTK's order; its boundary triangles lie on the boundary of the domain (not on interfaces) and are
+/// counter-clockwise seen from outside the domain. In a triangle piece the cells themselves are the
+/// boundary triangles: `boundary` is empty, and `triangle_face` and `triangle_patch` run over the cells.
+struct Piece {
+  PieceId id = 0;
+  CellKind kind = CellKind::tetrahedron;
+  std::vector<double> coordinates;             ///< (n,3)
+  std::vector<LocalIndex> cells;               ///< (m,3) or (m,4)
+  std::vector<std::int8_t> vertex_dimension;   ///< (n) 0 CAD vertex, 1 edge, 2 face, 3 region
+  std::vector<std::int32_t> vertex_entity;     ///< (n) id of that CAD entity
+  std::vector<LocalIndex> boundary;            ///< (b,3)
+  std::vector<std::int32_t> triangle_face;     ///< (b) or (m) CAD face
+  std::vector<std::int32_t> triangle_patch;    ///< (b) or (m) patch
+  std::vector<LocalIndex> shared_vertices;     ///< (s) ascending: vertices that other pieces may know too
+  std::vector<SharedToken> shared_tokens;      ///< (s)
+
+  int vertices_per_cell() const { return static_cast<int>(kind); }
+  LocalIndex vertex_count() const { return static_cast<LocalIndex>(coordinates.size() / 3); }
+  LocalIndex cell_count() const { return static_cast<LocalIndex>(cells.size() / vertices_per_cell()); }
+  LocalIndex boundary_count() const {
+    return static_cast<LocalIndex>(kind == CellKind::triangle ? cells.size() / 3 : boundary.size() / 3);
+  }
+  geometry::Vec3 point(LocalIndex v) const {
+    const double* p = coordinates.data() + 3 * static_cast<std::size_t>(v);
+    return {p[0], p[1], p[2]};
+  }
+  void set_point(LocalIndex v, geometry::Vec3 p) {
+    double* q = coordinates.data() + 3 * static_cast<std::size_t>(v);
+    q[0] = p.x, q[1] = p.y, q[2] = p.z;
+  }
+  /// The vertices of a cell, vertices_per_cell() of them.
+  const LocalIndex* cell(LocalIndex c) const {
+    return cells.data() + static_cast<std::size_t>(c) * vertices_per_cell();
+  }
+  /// The three vertices of a boundary triangle (of a cell, in a triangle piece).
+  const LocalIndex* boundary_triangle(LocalIndex t) const {
+    return (kind == CellKind::triangle ? cells.data() : boundary.data()) + 3 * static_cast<std::size_t>(t);
+  }
+};
+
+/// A piece as bytes, for migration and checkpoints, and back. Bit for bit.
+parallel::Bytes pack_piece(const Piece& piece);
+Piece unpack_piece(std::span<const std::byte> bytes);
+
+/// The four faces of a tetrahedron by local vertex, counter-clockwise seen from outside; face i is opposite
+/// vertex i.
+inline constexpr int tetrahedron_faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+/// The six edges of a tetrahedron by local vertex.
+inline constexpr int tetrahedron_edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+}  // namespace aeroloom::mesh

@@ -1,0 +1,120 @@
+/// The communicator: ranks, typed collectives and sparse exchange. No other header names the message
+/// passing library, and counts and displacements stay inside.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace aeroloom::parallel {
+
+using Rank = int;
+using Bytes = std::vector<std::byte>;
+
+template <class T>
+concept Transferable = std::is_trivially_copyable_v<T>;
+
+/// A parcel of a sparse exchange: the bytes for (or from) one rank.
+struct Parcel {
+  Rank rank;
+  Bytes content;
+};
+
+/// A group of ranks. Cheap to copy; copies refer to the same group. Every member function except rank(),
+/// size() and is_root() is collective over the group. Messages above 2^31 bytes are handled.
+class Communicator {
+ public:
+  /// All ranks of the program. Requires a living Environment.
+  static Communicator world();
+  /// This rank alone.
+  static Communicator self();
+
+  Rank rank() const;
+  int size() const;
+  bool is_root() const { return rank() == 0; }
+
+  void barrier() const;
+  /// Replaces `bytes` on every rank by those of `root`.
+  void broadcast(Bytes& bytes, Rank root = 0) const;
+  /// One entry per rank, in rank order, on every rank.
+  std::vector<Bytes> all_gather(const Bytes& mine) const;
+  /// One entry per rank, in rank order, on `root`; empty elsewhere.
+  std::vector<Bytes> gather(const Bytes& mine, Rank root = 0) const;
+  /// Sends each parcel to its rank, returns what others sent here, in ascending rank of the sender.
+  /// Only ranks that have something for each other exchange messages. At most one parcel per destination.
+  std::vector<Parcel> exchange(std::vector<Parcel> outgoing) const;
+
+  std::int64_t sum(std::int64_t value) const;
+  std::int64_t minimum(std::int64_t value) const;
+  std::int64_t maximum(std::int64_t value) const;
+  /// Sum of the values of lower ranks; 0 on rank 0.
+  std::int64_t exclusive_scan(std::int64_t value) const;
+  double minimum(double value) const;
+  double maximum(double value) const;
+  /// Sum in rank order, the same bits on every rank for the same number of ranks. The bits depend on how
+  /// values are spread over ranks: never feed it into a mesh.
+  double sum(double value) const;
+
+  /// Concatenation of every rank's items in rank order, on every rank.
+  template <Transferable T>
+  std::vector<T> all_gather_items(std::span<const T> mine) const;
+  /// As all_gather_items, on `root` only; empty elsewhere.
+  template <Transferable T>
+  std::vector<T> gather_items(std::span<const T> mine, Rank root = 0) const;
+  template <Transferable T>
+  void broadcast_items(std::vector<T>& items, Rank root = 0) const;
+
+ private:
+  struct Handle;
+  explicit Communicator(std::shared_ptr<const Handle> handle);
+  std::shared_ptr<const Handle> _handle;
+};
+
+/// Items as bytes and back; sizes that do not divide throw std::logic_error.
+template <Transferable T>
+Bytes to_bytes(std::span<const T> items) {
+  const auto raw = std::as_bytes(items);
+  return {raw.begin(), raw.end()};
+}
+template <Transferable T>
+std::vector<T> from_bytes(std::span<const std::byte> bytes);
+
+/// Writes values and arrays one after another into a byte buffer; Unpacker reads them back in order.
+class Packer {
+ public:
+  template <Transferable T>
+  void value(const T& item);
+  template <Transferable T>
+  void array(const std::vector<T>& items);
+  void text(const std::string& text);
+  Bytes take() { return std::move(_bytes); }
+
+ private:
+  void append(const void* data, std::size_t count);
+  Bytes _bytes;
+};
+
+/// Reads what Packer wrote. Reading past the end throws std::logic_error.
+class Unpacker {
+ public:
+  explicit Unpacker(std::span<const std::byte> bytes) : _bytes(bytes) {}
+  template <Transferable T>
+  T value();
+  template <Transferable T>
+  std::vector<T> array();
+  std::string text();
+  bool at_end() const { return _position == _bytes.size(); }
+
+ private:
+  void copy(void* to, std::size_t count);
+  std::span<const std::byte> _bytes;
+  std::size_t _position = 0;
+};
+
+}  // namespace aeroloom::parallel
+
+#include "parallel/communicator_items.hpp"

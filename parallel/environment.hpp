@@ -1,0 +1,20 @@
+/// Start and end of a parallel program.
+#pragma once
+
+namespace aeroloom::parallel {
+
+/// Starts, in this order: the worker server of contained runs (a small process forked before the message
+/// passing library registers any memory, see contained.hpp), then the message passing library. Ends both.
+/// Construct exactly one, first thing in main, after every contained task is registered.
+class Environment {
+ public:
+  Environment(int& argc, char**& argv);
+  ~Environment();
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+};
+
+/// Ends all ranks at once. For what cannot be agreed on collectively; the caller has printed why.
+[[noreturn]] void abort_all_ranks(int exit_code);
+
+}  // namespace aeroloom::parallel

@@ -1,0 +1,36 @@
+/// Messages to the user. Rank 0 speaks for facts all ranks share; any rank may warn of its own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "parallel/communicator.hpp"
+
+namespace aeroloom::parallel {
+
+enum class LogLevel { quiet, normal, verbose };
+
+/// Call once after start; before that, messages go to standard error of every rank.
+void configure_log(const Communicator& communicator, LogLevel level);
+/// Printed by rank 0 only.
+void log_info(const std::string& message);
+void log_verbose(const std::string& message);
+/// Printed by the calling rank, with its number when there are several.
+void log_warning(const std::string& message);
+void log_error(const std::string& message);
+
+/// Progress of a stage on rank 0: percentage, count, memory. One line rewritten in place on a terminal, a plain
+/// line at most every few seconds elsewhere.
+class Progress {
+ public:
+  Progress(std::string stage, std::int64_t total);
+  ~Progress();
+  void advance(std::int64_t count = 1);
+
+ private:
+  std::string _stage;
+  std::int64_t _total, _done = 0;
+  double _last_print = 0;
+};
+
+}  // namespace aeroloom::parallel

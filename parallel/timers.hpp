@@ -1,0 +1,79 @@
+/// Where time and memory go, per stage.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+
+namespace aeroloom::parallel {
+
+/// CPU seconds of the calling thread (CLOCK_THREAD_CPUTIME_ID).
+double cpu_seconds();
+/// Wall seconds from an arbitrary start, monotonic.
+double wall_seconds();
+/// Largest resident set of this process so far, bytes.
+std::int64_t peak_resident_bytes();
+
+/// What one stage cost on this rank.
+struct StageCost {
+  std::string name;
+  double wall_seconds = 0;
+  double task_cpu_seconds = 0;    ///< CPU around task work, waiting excluded, children included
+  double serial_cpu_seconds = 0;  ///< the part of it that does not shrink with more ranks (serial or repeated)
+  std::int64_t pieces = 0;
+  std::int64_t peak_resident_bytes = 0;  ///< this rank, children included
+};
+
+/// A stage's cost over all ranks, the same on every rank.
+struct StageSummary {
+  std::string name;
+  double wall_seconds = 0;  ///< of the slowest rank
+  double cpu_seconds_min = 0, cpu_seconds_mean = 0, cpu_seconds_max = 0;
+  double serial_seconds = 0;  ///< largest over ranks
+  std::int64_t pieces = 0;    ///< sum over ranks
+  std::int64_t peak_resident_bytes_max = 0, peak_resident_bytes_sum = 0;
+};
+
+/// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
+class StageClock {
+ public:
+  void begin(const std::string& name);
+  void end();
+  /// Adds to the open stage; ignored when none is open.
+  void add_task_cpu(double seconds);
+  void add_serial_cpu(double seconds);
+  void add_pieces(std::int64_t count);
+  /// Memory of a child that ran for this stage while this process held what it holds now.
+  void note_child_memory(std::int64_t bytes);
+  const std::vector<StageCost>& costs() const { return _costs; }
+  /// Collective. All ranks must have closed the same stages.
+  std::vector<StageSummary> summarise(const Communicator& communicator) const;
+
+ private:
+  std::vector<StageCost> _costs;
+  bool _open = false;
+  double _wall_start = 0;
+};
+
+/// Adds the CPU time of a scope to the open stage, as task time or as serial work.
+class ScopedCpu {
+ public:
+  enum class As { task, serial };
+  ScopedCpu(StageClock& clock, As as) : _clock(clock), _as(as), _start(cpu_seconds()) {}
+  ~ScopedCpu() {
+    const double used = cpu_seconds() - _start;
+    _clock.add_task_cpu(used);
+    if (_as == As::serial) _clock.add_serial_cpu(used);
+  }
+  ScopedCpu(const ScopedCpu&) = delete;
+  ScopedCpu& operator=(const ScopedCpu&) = delete;
+
+ private:
+  StageClock& _clock;
+  As _as;
+  double _start;
+};
+
+}  // namespace aeroloom::parallel

@@ -1,0 +1,1 @@
+#include "sizing/size_field.hpp"

@@ -1,0 +1,87 @@
+/// The size field h(x): one function for curves, surfaces and volume.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/model.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+
+namespace aeroloom::sizing {
+
+/// What the user asks for. Lengths in the model's unit.
+struct SizingOptions {
+  double minimum = 0;          ///< smallest size, > 0
+  double maximum = 0;          ///< largest size, >= minimum; the size of the far field
+  double curvature_angle = 12; ///< degrees an element may turn on a curved face or edge
+  double growth = 1.3;         ///< ratio of neighbouring element sizes, > 1; h changes by at most ln(growth) per length
+};
+
+/// A point that asks for a size.
+struct SizeSource {
+  geometry::Vec3 point;
+  double size;
+};
+
+/// A graded octree with sizes at the corners of its leaves, trilinear inside: continuous up to hanging nodes,
+/// minimum <= h <= maximum, |grad h| limited by the growth. Immutable and identical on every rank.
+class SizeField {
+ public:
+  /// Builds the field over `domain` from sources. Serial; the result depends on the set of sources, not on their order.
+  static SizeField build(const geometry::Box& domain, std::span<const SizeSource> sources,
+                         const SizingOptions& options);
+
+  /// The size at a point, well under a microsecond. Outside the domain: that of the nearest point of its box.
+  double operator()(geometry::Vec3 x) const;
+  double minimum() const { return _options.minimum; }
+  double maximum() const { return _options.maximum; }
+  const SizingOptions& options() const { return _options; }
+  const geometry::Box& domain() const { return _domain; }
+  std::int64_t leaf_count() const { return static_cast<std::int64_t>(_leaf_keys.size()); }
+
+  /// One leaf of the octree.
+  struct Leaf {
+    geometry::Vec3 low;
+    double edge;    ///< length
+    double size;    ///< h at the centre
+  };
+  Leaf leaf(std::int64_t i) const;
+
+  /// The field with further sources: sizes can only fall. Used where surfaces come too close.
+  SizeField refined(std::span<const SizeSource> more) const;
+
+ private:
+  friend class OctreeBuilder;
+  SizingOptions _options;
+  geometry::Box _domain;                    // as asked for
+  geometry::Vec3 _low;                      // corner of the root cube
+  double _root_edge = 1;                    // of the root cube
+  std::vector<std::uint64_t> _leaf_keys;    // Morton keys of the leaves' low corners, ascending
+  std::vector<std::uint8_t> _leaf_levels;   // 0 is the root
+  std::vector<float> _corner_sizes;         // (leaves,8)
+  std::vector<SizeSource> _sources;         // kept for refined()
+};
+
+/// The field of a model: curvature of faces and edges, far field, bounds, growth. Faces are sampled by the ranks in
+/// parallel, sources are gathered and thinned, the octree is built identically everywhere. Collective. Throws
+/// std::invalid_argument for impossible options.
+SizeField build_size_field(const parallel::Communicator& communicator, const geometry::Model& model,
+                           const SizingOptions& options, parallel::StageClock& clock);
+
+/// Sizes for the impatient: a field that gives about `target` tetrahedra, with bounds taken from the model.
+/// Collective.
+SizingOptions choose_sizes(const parallel::Communicator& communicator, const geometry::Model& model,
+                           double target_tetrahedra, parallel::StageClock& clock);
+
+/// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface and 6 sqrt(2)/h^3 over the
+/// volume.
+struct PredictedCounts {
+  double triangles = 0, tetrahedra = 0;
+};
+/// Collective.
+PredictedCounts predict_counts(const parallel::Communicator& communicator, const geometry::Model& model,
+                               const SizeField& field, parallel::StageClock& clock);
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,5 @@
+#include "surface/front.hpp"
+#include "surface/face_mesher.hpp"
+#include "surface/chart.hpp"
+#include "surface/remesh.hpp"
+#include "surface/intersection.hpp"

@@ -1,0 +1,28 @@
+/// Local operations on the mesh of one face in space: flips, smoothing, contraction of short and division of long edges.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/model.hpp"
+#include "sizing/size_field.hpp"
+
+namespace aeroloom::surface {
+
+/// The mesh of a face under work.
+struct FaceMesh {
+  geometry::FaceId face = geometry::no_entity;
+  std::vector<geometry::Vec3> points;
+  std::vector<geometry::Vec2> uv;                           ///< parameters of each point on the CAD surface
+  std::vector<std::array<std::int32_t, 3>> triangles;       ///< counter-clockwise seen against the outward normal
+  std::int32_t fixed = 0;                                   ///< the first `fixed` vertices lie on CAD curves and stay
+};
+
+/// Smooths and reconnects the interior: edges longer than 1.4 times the local size are divided, shorter than 0.65 times
+/// contracted (where that makes no fold and no worse angle), edges flip where that raises the smaller angle, free vertices
+/// move and return to the CAD surface by projection. A change that would fold the surface or lower the worst mean ratio
+/// around it is not made. Edges between fixed vertices on the boundary stay. Deterministic.
+void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps, FaceMesh& mesh);
+
+}  // namespace aeroloom::surface
