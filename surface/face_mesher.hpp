@@ -21,6 +21,9 @@ class FaceConflict : public std::runtime_error {
   std::vector<sizing::SizeSource> _remedy;
 };
 
+/// The facets a face's support is made of: they turn by at most options.support_angle.
+geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId face, const SurfaceOptions& options);
+
 /// The triangle piece of a face; piece id = face id. A function of the model, the curves on the face and the field alone:
 /// the same bits alone or in a run with others. Not collective. Throws FaceConflict, SurfaceError or geometry::CadError.
 mesh::Piece mesh_face(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,

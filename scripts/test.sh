@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# test.sh: installs what is missing, builds everything and runs the tests on 1, 2, 3 and more ranks.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+cmake --preset release > /dev/null
+cmake --build --preset release
+ctest --preset release

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Checks the architecture: includes point down, third-party headers stay in their room.
+
+usage: check_architecture.py SOURCE_DIR | check_architecture.py --self-test
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+# What each folder may include, besides itself.
+ALLOWED = {
+    "parallel": set(),
+    "geometry": set(),
+    "mesh": {"geometry", "parallel"},
+    "sizing": {"geometry", "parallel"},
+    "partition": {"geometry", "parallel", "mesh", "sizing"},
+    "surface": {"geometry", "parallel", "mesh", "sizing", "partition"},
+    "volume": {"geometry", "parallel", "mesh", "sizing", "partition"},
+    "improve": {"geometry", "parallel", "mesh", "sizing", "partition"},
+    "io": {"geometry", "parallel", "mesh"},
+    "pipeline": {"geometry", "parallel", "mesh", "sizing", "partition", "surface", "volume", "improve", "io"},
+}
+
+# Third-party headers: pattern, folders that may include them, how many files may.
+ROOMS = [
+    (re.compile(r"mpi\.h$"), {"parallel"}, None),
+    (re.compile(r"metis\.h$"), {"partition"}, None),
+    (re.compile(r"tetgen\.h$"), {"volume"}, 1),
+    (re.compile(r"vtk[A-Z]\w*\.h$|hdf5\.h$"), {"io", "tests"}, None),
+    (re.compile(r"yaml-cpp/"), {"pipeline"}, None),
+    (re.compile(r"CGAL/"), {"geometry"}, None),
+]
+OPENCASCADE = re.compile(
+    r"(Standard|TopoDS|TopExp|TopTools|TopLoc|TopAbs|BRep\w*|BOPAlgo\w*|Geom\w*|Poly|STEP\w+|IGES\w+|XCAF\w+|XSControl|TDF|TDocStd"
+    r"|TCol\w+|ShapeFix|ShapeAnalysis|ShapeUpgrade|BinTools|BndLib|Bnd|GProp|gp|Interface|Quantity|NCollection|Message"
+    r"|IMeshTools|Adaptor\w+|ElCLib|ElSLib|GC|GCPnts|Precision|OSD)(_\w+)?\.hxx$")
+MPI_NAME = re.compile(r"\bMPI_[A-Z]\w*")
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+CONCEPT_FREE = {"utils", "util", "common", "core", "misc", "helpers"}
+
+
+def sources(root):
+    for folder in [*ALLOWED, "tests", "benchmarks"]:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in {".cpp", ".hpp"}:
+                yield folder, path
+
+
+def violations(root):
+    found = []
+    uses = {pattern: set() for pattern, _, _ in ROOMS}
+    for folder, path in sources(root):
+        name = path.relative_to(root)
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            where = f"{name}:{number}"
+            if folder not in {"parallel", "tests"} and MPI_NAME.search(line):
+                found.append(f"{where}: names MPI outside parallel/")
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            header = match.group(1)
+            target = header.split("/")[0]
+            if folder in ALLOWED and target in ALLOWED and target != folder and target not in ALLOWED[folder]:
+                found.append(f"{where}: {folder}/ must not include {header}")
+            for pattern, rooms, _ in ROOMS:
+                if pattern.search(header):
+                    uses[pattern].add(str(name))
+                    if folder not in rooms:
+                        found.append(f"{where}: {header} belongs to {', '.join(sorted(rooms))}/")
+            if OPENCASCADE.match(header) and folder != "geometry":
+                found.append(f"{where}: OpenCASCADE ({header}) belongs to geometry/")
+    for pattern, _, most in ROOMS:
+        if most is not None and len(uses[pattern]) > most:
+            found.append(f"{pattern.pattern}: included by {len(uses[pattern])} files, at most {most} may")
+    for path in root.iterdir():
+        if path.is_dir() and path.name in CONCEPT_FREE:
+            found.append(f"{path.name}/: a folder is a concept")
+    return found
+
+
+def self_test():
+    """Each planted violation must be found, and a clean tree must be clean."""
+    planted = {
+        "mesh/up.cpp": '#include "surface/front.hpp"\n',
+        "surface/sideways.cpp": '#include "volume/volume_mesher.hpp"\n',
+        "mesh/mpi.cpp": "#include <mpi.h>\n",
+        "io/names_mpi.cpp": "int r = MPI_Comm_rank;\n",
+        "volume/one.cpp": "#include <tetgen.h>\n",
+        "surface/tetgen.cpp": "#include <tetgen.h>\n",
+        "mesh/vtk.cpp": "#include <vtkPoints.h>\n",
+        "surface/occ.cpp": "#include <BRep_Tool.hxx>\n",
+        "io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
+    }
+    clean = {"mesh/down.cpp": '#include "geometry/vec.hpp"\n', "geometry/occ.cpp": "#include <gp_Pnt.hxx>\n"}
+    with tempfile.TemporaryDirectory() as name:
+        root = pathlib.Path(name)
+        for file, text in clean.items():
+            (root / file).parent.mkdir(exist_ok=True)
+            (root / file).write_text(text)
+        assert violations(root) == [], violations(root)
+        for file, text in planted.items():
+            (root / file).parent.mkdir(exist_ok=True)
+            (root / file).write_text(text)
+        (root / "utils").mkdir()
+        found = violations(root)
+        for file in set(planted) - {"volume/one.cpp"}:
+            assert any(v.startswith(file + ":") for v in found), f"missed {file}"
+        assert any("at most 1" in v for v in found) and any(v.startswith("utils/") for v in found), found
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        self_test()
+        return 0
+    found = violations(pathlib.Path(sys.argv[1]))
+    print("\n".join(found) if found else "architecture: clean")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
