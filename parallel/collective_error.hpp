@@ -1,11 +1,11 @@
 /// Errors that all ranks learn of together.
 #pragma once
 
+#include "parallel/communicator.hpp"
+
 #include <functional>
 #include <stdexcept>
 #include <string>
-
-#include "parallel/communicator.hpp"
 
 namespace aeroloom::parallel {
 
@@ -16,11 +16,11 @@ enum class FailureKind { input, files, resources, bug };
 /// Thrown on every rank with the same text and kind: those of the lowest rank that failed, with a count of
 /// the other failing ranks appended where there are any.
 class CollectiveError : public std::runtime_error {
- public:
+public:
   CollectiveError(FailureKind kind, const std::string& message) : std::runtime_error(message), _kind(kind) {}
   FailureKind kind() const { return _kind; }
 
- private:
+private:
   FailureKind _kind;
 };
 

@@ -1,1 +1,300 @@
 #include "parallel/communicator.hpp"
+
+#include "parallel/session.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace aeroloom::parallel {
+
+using session::check;
+
+namespace {
+
+/// Counts of the library are 32-bit: longer messages travel in parts of this many bytes. Joint messages of
+/// several ranks above it go one rank after the other.
+constexpr std::size_t largest_part = std::size_t{1} << 26;
+
+/// Tags of our own messages. Those of consensus alternate between the first and the one after it.
+constexpr int tag_content = 1;
+constexpr int tag_consensus = 2;
+
+/// Calls `transfer(offset, count)` for each part of a message.
+template <class Transfer>
+void for_each_part(std::size_t total, Transfer transfer) {
+  for (std::size_t offset = 0; offset < total; offset += largest_part) {
+    transfer(offset, static_cast<int>(std::min(largest_part, total - offset)));
+  }
+}
+
+/// Messages under way; parts between the same two ranks stay in order.
+class Transfers {
+public:
+  explicit Transfers(MPI_Comm communicator) : _communicator(communicator) {}
+
+  void send(const Bytes& bytes, Rank to) {
+    for_each_part(bytes.size(), [&](std::size_t offset, int count) {
+      check(MPI_Isend(bytes.data() + offset, count, MPI_BYTE, to, tag_content, _communicator, &add()),
+            "sending");
+    });
+  }
+  void receive(Bytes& bytes, Rank from) {
+    for_each_part(bytes.size(), [&](std::size_t offset, int count) {
+      check(MPI_Irecv(bytes.data() + offset, count, MPI_BYTE, from, tag_content, _communicator, &add()),
+            "receiving");
+    });
+  }
+  void wait() {
+    check(MPI_Waitall(static_cast<int>(_requests.size()), _requests.data(), MPI_STATUSES_IGNORE),
+          "waiting for messages");
+    _requests.clear();
+  }
+
+private:
+  MPI_Request& add() { return _requests.emplace_back(MPI_REQUEST_NULL); }
+
+  MPI_Comm _communicator;
+  std::vector<MPI_Request> _requests;
+};
+
+void broadcast_content(const CommunicatorHandle& handle, Bytes& bytes, Rank root) {
+  for_each_part(bytes.size(), [&](std::size_t offset, int count) {
+    check(MPI_Bcast(bytes.data() + offset, count, MPI_BYTE, root, handle.communicator), "broadcasting");
+  });
+}
+
+template <class T>
+T reduce(const CommunicatorHandle& handle, T value, MPI_Datatype type, MPI_Op operation) {
+  T result{};
+  check(MPI_Allreduce(&value, &result, 1, type, operation, handle.communicator), "reducing");
+  return result;
+}
+
+/// The value of every rank, on every rank.
+template <class T>
+std::vector<T> all_values(const CommunicatorHandle& handle, T value, MPI_Datatype type) {
+  std::vector<T> values(static_cast<std::size_t>(handle.size));
+  check(MPI_Allgather(&value, 1, type, values.data(), 1, type, handle.communicator), "gathering values");
+  return values;
+}
+
+/// all_gather of at most largest_part bytes in total.
+std::vector<Bytes> all_gather_small(const CommunicatorHandle& handle, const Bytes& mine,
+                                    const std::vector<std::uint64_t>& sizes) {
+  std::vector<int> counts(sizes.begin(), sizes.end()), starts(sizes.size());
+  int total = 0;
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    starts[r] = total;
+    total += counts[r];
+  }
+  Bytes joint(static_cast<std::size_t>(total));
+  check(MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_BYTE, joint.data(), counts.data(),
+                       starts.data(), MPI_BYTE, handle.communicator),
+        "gathering on all ranks");
+  std::vector<Bytes> all(sizes.size());
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    all[r].assign(joint.begin() + starts[r], joint.begin() + starts[r] + counts[r]);
+  }
+  return all;
+}
+
+/// all_gather of any size: every rank broadcasts in turn.
+std::vector<Bytes> all_gather_large(const CommunicatorHandle& handle, const Bytes& mine,
+                                    const std::vector<std::uint64_t>& sizes) {
+  std::vector<Bytes> all(sizes.size());
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    if (static_cast<Rank>(r) == handle.rank) {
+      all[r] = mine;
+    } else {
+      all[r].resize(sizes[r]);
+    }
+    broadcast_content(handle, all[r], static_cast<Rank>(r));
+  }
+  return all;
+}
+
+void require_distinct_destinations(const std::vector<Parcel>& outgoing, int ranks) {
+  std::vector<char> seen(static_cast<std::size_t>(ranks), 0);
+  for (const Parcel& parcel : outgoing) {
+    if (parcel.rank < 0 || parcel.rank >= ranks) {
+      throw std::logic_error("exchange: there is no rank " + std::to_string(parcel.rank));
+    }
+    char& destination = seen[static_cast<std::size_t>(parcel.rank)];
+    if (destination) throw std::logic_error("exchange: two parcels for rank " + std::to_string(parcel.rank));
+    destination = 1;
+  }
+}
+
+/// Tells the receivers the sizes of the parcels for them, and returns, with contents of the right size but
+/// not yet received, those that come here. A synchronous send completes when it is matched, so a rank enters
+/// the barrier when its own announcements have arrived; when the barrier completes, all have.
+std::vector<Parcel> announce(const CommunicatorHandle& handle, int tag, const std::vector<Parcel>& outgoing) {
+  std::vector<std::uint64_t> sizes;
+  sizes.reserve(outgoing.size());  // the sends point into it
+  std::vector<MPI_Request> sends;
+  for (const Parcel& parcel : outgoing) {
+    sizes.push_back(parcel.content.size());
+    check(MPI_Issend(&sizes.back(), 1, MPI_UINT64_T, parcel.rank, tag, handle.communicator,
+                     &sends.emplace_back(MPI_REQUEST_NULL)),
+          "announcing a parcel");
+  }
+  std::vector<Parcel> incoming;
+  MPI_Request barrier = MPI_REQUEST_NULL;
+  bool in_barrier = false;
+  for (int complete = 0; !complete;) {
+    int arrived = 0;
+    MPI_Message message = MPI_MESSAGE_NULL;
+    MPI_Status status;
+    check(MPI_Improbe(MPI_ANY_SOURCE, tag, handle.communicator, &arrived, &message, &status), "probing");
+    if (arrived) {
+      std::uint64_t size = 0;
+      check(MPI_Mrecv(&size, 1, MPI_UINT64_T, &message, MPI_STATUS_IGNORE), "receiving an announcement");
+      incoming.push_back({status.MPI_SOURCE, Bytes(size)});
+    }
+    if (in_barrier) {
+      check(MPI_Test(&barrier, &complete, MPI_STATUS_IGNORE), "testing the barrier");
+      continue;
+    }
+    int sent = 0;
+    check(MPI_Testall(static_cast<int>(sends.size()), sends.data(), &sent, MPI_STATUSES_IGNORE),
+          "testing announcements");
+    if (sent) {
+      check(MPI_Ibarrier(handle.communicator, &barrier), "entering the barrier");
+      in_barrier = true;
+    }
+  }
+  std::sort(incoming.begin(), incoming.end(),
+            [](const Parcel& a, const Parcel& b) { return a.rank < b.rank; });
+  return incoming;
+}
+
+}  // namespace
+
+Communicator Communicator::world() {
+  return Communicator(session::world());
+}
+
+Communicator Communicator::self() {
+  return Communicator(session::self());
+}
+
+const CommunicatorHandle& Communicator::usable_handle() const {
+  if (_handle->communicator == MPI_COMM_NULL) {
+    throw std::logic_error("a communicator was used after the end of its parallel::Environment");
+  }
+  return *_handle;
+}
+
+Rank Communicator::rank() const {
+  return _handle->rank;
+}
+
+int Communicator::size() const {
+  return _handle->size;
+}
+
+void Communicator::barrier() const {
+  check(MPI_Barrier(usable_handle().communicator), "waiting at a barrier");
+}
+
+void Communicator::broadcast(Bytes& bytes, Rank root) const {
+  const CommunicatorHandle& handle = usable_handle();
+  std::uint64_t size = bytes.size();
+  check(MPI_Bcast(&size, 1, MPI_UINT64_T, root, handle.communicator), "broadcasting a size");
+  bytes.resize(size);
+  broadcast_content(handle, bytes, root);
+}
+
+std::vector<Bytes> Communicator::all_gather(const Bytes& mine) const {
+  const CommunicatorHandle& handle = usable_handle();
+  const auto sizes = all_values<std::uint64_t>(handle, mine.size(), MPI_UINT64_T);
+  std::uint64_t total = 0;
+  for (const std::uint64_t size : sizes) total += size;
+  return total <= largest_part ? all_gather_small(handle, mine, sizes)
+                               : all_gather_large(handle, mine, sizes);
+}
+
+std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {
+  const CommunicatorHandle& handle = usable_handle();
+  const bool receives = handle.rank == root;
+  const std::uint64_t size = mine.size();
+  std::vector<std::uint64_t> sizes(receives ? static_cast<std::size_t>(handle.size) : 0);
+  check(MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, root, handle.communicator),
+        "gathering sizes");
+  Transfers transfers(handle.communicator);
+  std::vector<Bytes> all(sizes.size());
+  if (receives) {
+    for (Rank r = 0; r < handle.size; ++r) {
+      Bytes& part = all[static_cast<std::size_t>(r)];
+      if (r == root) {
+        part = mine;
+      } else {
+        part.resize(sizes[static_cast<std::size_t>(r)]);
+        transfers.receive(part, r);
+      }
+    }
+  } else {
+    transfers.send(mine, root);
+  }
+  transfers.wait();
+  return all;
+}
+
+std::vector<Parcel> Communicator::exchange(std::vector<Parcel> outgoing) const {
+  const CommunicatorHandle& handle = usable_handle();
+  require_distinct_destinations(outgoing, handle.size);
+  // A rank can leave the consensus and start the next one while another has not yet noticed the end of this
+  // one, but nobody can be two ahead: two alternating tags keep them apart.
+  const int tag = tag_consensus + static_cast<int>(_handle->exchanges++ % 2);
+  std::vector<Parcel> incoming = announce(handle, tag, outgoing);
+  Transfers transfers(handle.communicator);
+  for (Parcel& parcel : incoming) {
+    if (parcel.rank != handle.rank) transfers.receive(parcel.content, parcel.rank);
+  }
+  for (Parcel& parcel : outgoing) {
+    if (parcel.rank != handle.rank) {
+      transfers.send(parcel.content, parcel.rank);
+      continue;
+    }
+    const auto own = std::find_if(incoming.begin(), incoming.end(),
+                                  [&](const Parcel& candidate) { return candidate.rank == handle.rank; });
+    own->content = std::move(parcel.content);
+  }
+  transfers.wait();
+  return incoming;
+}
+
+std::int64_t Communicator::sum(std::int64_t value) const {
+  return reduce(usable_handle(), value, MPI_INT64_T, MPI_SUM);
+}
+
+std::int64_t Communicator::minimum(std::int64_t value) const {
+  return reduce(usable_handle(), value, MPI_INT64_T, MPI_MIN);
+}
+
+std::int64_t Communicator::maximum(std::int64_t value) const {
+  return reduce(usable_handle(), value, MPI_INT64_T, MPI_MAX);
+}
+
+std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
+  const CommunicatorHandle& handle = usable_handle();
+  std::int64_t before = 0;
+  check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, handle.communicator), "scanning");
+  return handle.rank == 0 ? 0 : before;  // the library leaves it undefined there
+}
+
+double Communicator::minimum(double value) const {
+  return reduce(usable_handle(), value, MPI_DOUBLE, MPI_MIN);
+}
+
+double Communicator::maximum(double value) const {
+  return reduce(usable_handle(), value, MPI_DOUBLE, MPI_MAX);
+}
+
+double Communicator::sum(double value) const {
+  double total = 0;
+  for (const double part : all_values(usable_handle(), value, MPI_DOUBLE)) total += part;
+  return total;
+}
+
+}  // namespace aeroloom::parallel

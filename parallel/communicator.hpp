@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::parallel {
@@ -24,13 +25,16 @@ struct Parcel {
   Bytes content;
 };
 
+struct CommunicatorHandle;
+
 /// A group of ranks. Cheap to copy; copies refer to the same group. Every member function except rank(),
-/// size() and is_root() is collective over the group. Messages above 2^31 bytes are handled.
+/// size() and is_root() is collective over the group. Messages above 2^31 bytes are handled. Failures of the
+/// library throw std::runtime_error.
 class Communicator {
- public:
-  /// All ranks of the program. Requires a living Environment.
+public:
+  /// All ranks of the program. Throws std::logic_error without a living Environment.
   static Communicator world();
-  /// This rank alone.
+  /// This rank alone. Throws std::logic_error without a living Environment.
   static Communicator self();
 
   Rank rank() const;
@@ -45,7 +49,9 @@ class Communicator {
   /// One entry per rank, in rank order, on `root`; empty elsewhere.
   std::vector<Bytes> gather(const Bytes& mine, Rank root = 0) const;
   /// Sends each parcel to its rank, returns what others sent here, in ascending rank of the sender.
-  /// Only ranks that have something for each other exchange messages. At most one parcel per destination.
+  /// Only ranks that have something for each other exchange messages. At most one parcel per destination;
+  /// a second one, or a rank that does not exist, throws std::logic_error. Who sends to whom is found by the
+  /// non-blocking consensus of Hoefler, Siebert, Lumsdaine (PPoPP 2010, doi:10.1145/1693453.1693476).
   std::vector<Parcel> exchange(std::vector<Parcel> outgoing) const;
 
   std::int64_t sum(std::int64_t value) const;
@@ -68,10 +74,10 @@ class Communicator {
   template <Transferable T>
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 
- private:
-  struct Handle;
-  explicit Communicator(std::shared_ptr<const Handle> handle);
-  std::shared_ptr<const Handle> _handle;
+private:
+  explicit Communicator(std::shared_ptr<CommunicatorHandle> handle) : _handle(std::move(handle)) {}
+  const CommunicatorHandle& usable_handle() const;
+  std::shared_ptr<CommunicatorHandle> _handle;
 };
 
 /// Items as bytes and back; sizes that do not divide throw std::logic_error.
@@ -85,7 +91,7 @@ std::vector<T> from_bytes(std::span<const std::byte> bytes);
 
 /// Writes values and arrays one after another into a byte buffer; Unpacker reads them back in order.
 class Packer {
- public:
+public:
   template <Transferable T>
   void value(const T& item);
   template <Transferable T>
@@ -93,14 +99,14 @@ class Packer {
   void text(const std::string& text);
   Bytes take() { return std::move(_bytes); }
 
- private:
+private:
   void append(const void* data, std::size_t count);
   Bytes _bytes;
 };
 
 /// Reads what Packer wrote. Reading past the end throws std::logic_error.
 class Unpacker {
- public:
+public:
   explicit Unpacker(std::span<const std::byte> bytes) : _bytes(bytes) {}
   template <Transferable T>
   T value();
@@ -109,7 +115,7 @@ class Unpacker {
   std::string text();
   bool at_end() const { return _position == _bytes.size(); }
 
- private:
+private:
   void copy(void* to, std::size_t count);
   std::span<const std::byte> _bytes;
   std::size_t _position = 0;

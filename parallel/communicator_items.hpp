@@ -9,7 +9,8 @@ namespace aeroloom::parallel {
 template <Transferable T>
 std::vector<T> from_bytes(std::span<const std::byte> bytes) {
   if (bytes.size() % sizeof(T) != 0) {
-    throw std::logic_error("from_bytes: " + std::to_string(bytes.size()) + " bytes are no whole number of items");
+    throw std::logic_error("from_bytes: " + std::to_string(bytes.size()) +
+                           " bytes are no whole number of items");
   }
   std::vector<T> items(bytes.size() / sizeof(T));
   if (!bytes.empty()) std::memcpy(items.data(), bytes.data(), bytes.size());

@@ -5,13 +5,18 @@ namespace aeroloom::parallel {
 
 /// Starts, in this order: the worker server of contained runs (a small process forked before the message
 /// passing library registers any memory, see contained.hpp), then the message passing library. Ends both.
-/// Construct exactly one, first thing in main, after every contained task is registered.
+/// Construct exactly one, first thing in main, after every contained task is registered. Works under mpirun
+/// and without. From then on an uncaught exception is printed and ends all ranks with exit code 70, and so
+/// does an exception that leaves the scope of the environment.
 class Environment {
- public:
+public:
   Environment(int& argc, char**& argv);
   ~Environment();
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
+
+private:
+  int _exceptions_at_start;
 };
 
 /// Ends all ranks at once. For what cannot be agreed on collectively; the caller has printed why.

@@ -1,13 +1,15 @@
-/// Messages to the user. Rank 0 speaks for facts all ranks share; any rank may warn of its own.
+/// Messages to the user. Rank 0 speaks for facts all ranks share; any rank may warn of its own. Facts go to
+/// standard output, warnings and errors to standard error.
 #pragma once
+
+#include "parallel/communicator.hpp"
 
 #include <cstdint>
 #include <string>
 
-#include "parallel/communicator.hpp"
-
 namespace aeroloom::parallel {
 
+/// What rank 0 prints besides warnings and errors, which are always printed.
 enum class LogLevel { quiet, normal, verbose };
 
 /// Call once after start; before that, messages go to standard error of every rank.
@@ -19,18 +21,21 @@ void log_verbose(const std::string& message);
 void log_warning(const std::string& message);
 void log_error(const std::string& message);
 
-/// Progress of a stage on rank 0: percentage, count, memory. One line rewritten in place on a terminal, a plain
-/// line at most every few seconds elsewhere.
+/// Progress of a stage on rank 0, of the work of that rank: percentage, count, memory. One line rewritten in
+/// place on a terminal, a plain line at most every few seconds elsewhere. Silent at LogLevel::quiet.
 class Progress {
- public:
+public:
   Progress(std::string stage, std::int64_t total);
   ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
   void advance(std::int64_t count = 1);
 
- private:
+private:
   std::string _stage;
   std::int64_t _total, _done = 0;
-  double _last_print = 0;
+  double _last_print = 0;  // wall seconds
+  bool _printed = false;
 };
 
 }  // namespace aeroloom::parallel

@@ -1,10 +1,10 @@
 /// Assignment of tasks to ranks by predicted load.
 #pragma once
 
+#include "parallel/communicator.hpp"
+
 #include <span>
 #include <vector>
-
-#include "parallel/communicator.hpp"
 
 namespace aeroloom::parallel {
 

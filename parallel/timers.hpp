@@ -1,11 +1,11 @@
 /// Where time and memory go, per stage.
 #pragma once
 
+#include "parallel/communicator.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "parallel/communicator.hpp"
 
 namespace aeroloom::parallel {
 
@@ -13,17 +13,20 @@ namespace aeroloom::parallel {
 double cpu_seconds();
 /// Wall seconds from an arbitrary start, monotonic.
 double wall_seconds();
-/// Largest resident set of this process so far, bytes.
+/// Largest resident set of this process so far, bytes; children not included.
 std::int64_t peak_resident_bytes();
+/// Resident set of this process now, bytes.
+std::int64_t resident_bytes();
 
 /// What one stage cost on this rank.
 struct StageCost {
   std::string name;
   double wall_seconds = 0;
-  double task_cpu_seconds = 0;    ///< CPU around task work, waiting excluded, children included
-  double serial_cpu_seconds = 0;  ///< the part of it that does not shrink with more ranks (serial or repeated)
+  double task_cpu_seconds = 0;  ///< CPU around task work, waiting excluded, children included
+  double serial_cpu_seconds =
+      0;  ///< the part of it that does not shrink with more ranks (serial or repeated)
   std::int64_t pieces = 0;
-  std::int64_t peak_resident_bytes = 0;  ///< this rank, children included
+  std::int64_t peak_resident_bytes = 0;  ///< this rank within the stage, children included
 };
 
 /// A stage's cost over all ranks, the same on every rank.
@@ -38,7 +41,8 @@ struct StageSummary {
 
 /// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
 class StageClock {
- public:
+public:
+  /// Throws std::logic_error when a stage is open.
   void begin(const std::string& name);
   void end();
   /// Adds to the open stage; ignored when none is open.
@@ -48,10 +52,10 @@ class StageClock {
   /// Memory of a child that ran for this stage while this process held what it holds now.
   void note_child_memory(std::int64_t bytes);
   const std::vector<StageCost>& costs() const { return _costs; }
-  /// Collective. All ranks must have closed the same stages.
+  /// Collective. All ranks must have closed the same stages; else throws std::logic_error.
   std::vector<StageSummary> summarise(const Communicator& communicator) const;
 
- private:
+private:
   std::vector<StageCost> _costs;
   bool _open = false;
   double _wall_start = 0;
@@ -59,7 +63,7 @@ class StageClock {
 
 /// Adds the CPU time of a scope to the open stage, as task time or as serial work.
 class ScopedCpu {
- public:
+public:
   enum class As { task, serial };
   ScopedCpu(StageClock& clock, As as) : _clock(clock), _as(as), _start(cpu_seconds()) {}
   ~ScopedCpu() {
@@ -70,7 +74,7 @@ class ScopedCpu {
   ScopedCpu(const ScopedCpu&) = delete;
   ScopedCpu& operator=(const ScopedCpu&) = delete;
 
- private:
+private:
   StageClock& _clock;
   As _as;
   double _start;

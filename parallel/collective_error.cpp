@@ -1,0 +1,65 @@
+#include "parallel/collective_error.hpp"
+
+#include <filesystem>
+#include <ios>
+#include <new>
+#include <optional>
+
+namespace aeroloom::parallel {
+
+namespace {
+
+struct Failure {
+  FailureKind kind;
+  std::string message;
+};
+
+/// Runs the work; what it threw, if anything. A CollectiveError passes.
+std::optional<Failure> attempt(const std::function<void()>& work) {
+  try {
+    work();
+    return std::nullopt;
+  } catch (const CollectiveError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return Failure{FailureKind::resources, "out of memory"};
+  } catch (const std::logic_error& error) {
+    return Failure{FailureKind::bug, error.what()};
+  } catch (const std::ios_base::failure& error) {
+    return Failure{FailureKind::files, error.what()};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Failure{FailureKind::files, error.what()};
+  } catch (const std::exception& error) {
+    return Failure{FailureKind::input, error.what()};
+  } catch (...) {
+    return Failure{FailureKind::bug, "exception of unknown type"};
+  }
+}
+
+}  // namespace
+
+void agree(const Communicator& communicator, const std::function<void()>& work) {
+  const std::optional<Failure> mine = attempt(work);
+  const std::int64_t failed = communicator.sum(std::int64_t{mine ? 1 : 0});
+  if (failed == 0) return;
+  const Rank first = static_cast<Rank>(
+      communicator.minimum(static_cast<std::int64_t>(mine ? communicator.rank() : communicator.size())));
+  Packer packer;
+  if (communicator.rank() == first) {
+    packer.value(mine->kind);
+    packer.text(mine->message);
+  }
+  Bytes bytes = packer.take();
+  communicator.broadcast(bytes, first);
+  Unpacker unpacker(bytes);
+  const auto kind = unpacker.value<FailureKind>();
+  std::string message = unpacker.text();
+  if (failed > 1) {
+    const std::int64_t others = failed - 1;
+    message +=
+        " (" + std::to_string(others) + (others == 1 ? " other rank" : " other ranks") + " failed as well)";
+  }
+  throw CollectiveError(kind, message);
+}
+
+}  // namespace aeroloom::parallel

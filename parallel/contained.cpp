@@ -1,0 +1,177 @@
+#include "parallel/contained.hpp"
+
+#include "parallel/contained_server.hpp"
+#include "parallel/file_descriptor.hpp"
+#include "parallel/session.hpp"
+
+#include <cstring>
+#include <stdexcept>
+
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+namespace aeroloom::parallel {
+
+namespace {
+
+/// How long the rank sleeps between two looks at its messages while a child works.
+constexpr int progress_interval_ms = 2;
+
+struct Registry {
+  std::vector<RegisteredTask> tasks;
+  bool sealed = false;
+};
+
+Registry& registry() {
+  static Registry instance;
+  return instance;
+}
+
+/// The rank's end of its server.
+struct Server {
+  pid_t process = -1;
+  FileDescriptor socket;
+};
+
+Server& server() {
+  static Server instance;
+  return instance;
+}
+
+std::int32_t position_of_task(const std::string& name) {
+  const std::vector<RegisteredTask>& tasks = registry().tasks;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (tasks[i].name == name) return static_cast<std::int32_t>(i);
+  }
+  throw std::logic_error("no contained task is registered as '" + name + "'");
+}
+
+/// Shared memory without a name.
+FileDescriptor shared_memory(const char* label) {
+  FileDescriptor memory(memfd_create(label, MFD_CLOEXEC));
+  if (!memory.is_open()) throw_system_error("creating shared memory");
+  return memory;
+}
+
+[[noreturn]] void throw_server_gone() {
+  throw std::runtime_error(
+      "the worker server of contained runs is gone; was it killed, or the machine out of memory?");
+}
+
+void send_request(int socket, const ContainedRequest& request, const FileDescriptor& input,
+                  const FileDescriptor& output) {
+  const int descriptors[2] = {input.number(), output.number()};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptors)] = {};
+  iovec content{const_cast<ContainedRequest*>(&request), sizeof request};
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* header = CMSG_FIRSTHDR(&message);
+  header->cmsg_level = SOL_SOCKET;
+  header->cmsg_type = SCM_RIGHTS;
+  header->cmsg_len = CMSG_LEN(sizeof descriptors);
+  std::memcpy(CMSG_DATA(header), descriptors, sizeof descriptors);
+  while (sendmsg(socket, &message, MSG_NOSIGNAL) < 0) {
+    if (errno != EINTR) throw_server_gone();
+  }
+}
+
+ContainedReply await_reply(int socket) {
+  pollfd waiting{socket, POLLIN, 0};
+  while (poll(&waiting, 1, progress_interval_ms) <= 0) session::make_progress();
+  ContainedReply reply;
+  ssize_t received = 0;
+  do {
+    received = recv(socket, &reply, sizeof reply, 0);
+  } while (received < 0 && errno == EINTR);
+  if (received != static_cast<ssize_t>(sizeof reply)) throw_server_gone();
+  return reply;
+}
+
+Bytes read_output(const FileDescriptor& memory) {
+  struct stat facts {};
+  if (fstat(memory.number(), &facts) != 0) throw_system_error("looking at the output of a contained run");
+  Bytes output(static_cast<std::size_t>(facts.st_size));
+  for (std::size_t done = 0; done < output.size();) {
+    const ssize_t count =
+        pread(memory.number(), output.data() + done, output.size() - done, static_cast<off_t>(done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw_system_error("reading the output of a contained run");
+    done += static_cast<std::size_t>(count);
+  }
+  return output;
+}
+
+}  // namespace
+
+void register_contained_task(const std::string& name, ContainedTask task) {
+  for (const RegisteredTask& known : registry().tasks) {
+    if (known.name != name) continue;
+    if (known.run == task) return;
+    throw std::logic_error("two contained tasks are registered as '" + name + "'");
+  }
+  if (registry().sealed) {
+    throw std::logic_error("contained task '" + name +
+                           "' is registered after the start of parallel::Environment");
+  }
+  registry().tasks.push_back({name, task});
+}
+
+const std::vector<RegisteredTask>& contained_tasks() {
+  return registry().tasks;
+}
+
+void start_contained_server() {
+  registry().sealed = true;
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
+    throw_system_error("connecting to the worker server");
+  }
+  FileDescriptor mine(ends[0]), theirs(ends[1]);
+  const pid_t rank_process = getpid();
+  const pid_t process = fork();
+  if (process < 0) throw_system_error("forking the worker server");
+  if (process == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != rank_process) _exit(0);  // the rank died before we asked to be told
+    mine.close();
+    serve_contained_runs(theirs.number());
+  }
+  server().process = process;
+  server().socket = std::move(mine);
+}
+
+void stop_contained_server() {
+  if (!server().socket.is_open()) return;
+  server().socket.close();
+  while (waitpid(server().process, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  server().process = -1;
+}
+
+ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
+                              const ContainedLimits& limits) {
+  const ContainedRequest request{position_of_task(name), limits};
+  if (!server().socket.is_open()) {
+    throw std::logic_error("contained task '" + name + "' is run without a living parallel::Environment");
+  }
+  FileDescriptor input_memory = shared_memory("input"), output_memory = shared_memory("output");
+  if (!write_all(input_memory.number(), input)) throw std::bad_alloc();
+  send_request(server().socket.number(), request, input_memory, output_memory);
+  const ContainedReply reply = await_reply(server().socket.number());
+  ContainedResult result;
+  result.status = reply.status;
+  result.cpu_seconds = reply.cpu_seconds;
+  result.peak_resident_bytes = reply.peak_resident_bytes;
+  result.message.assign(reply.message, reply.message_length);
+  if (result.status == ContainedStatus::ok) result.output = read_output(output_memory);
+  return result;
+}
+
+}  // namespace aeroloom::parallel

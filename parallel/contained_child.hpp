@@ -1,0 +1,16 @@
+/// The child process of one contained run. Internal to parallel/.
+#pragma once
+
+#include "parallel/contained_server.hpp"
+
+namespace aeroloom::parallel {
+
+/// How a child ends when it ends by itself. Values nobody passes to exit() by chance; any other code is an
+/// abort.
+enum class ChildExit : int { ok = 113, threw = 114, out_of_memory = 115 };
+
+/// Runs the requested task under its limits: input is mapped from one descriptor, the output goes to the
+/// other (the exception's text when it threw), what it prints to `printed`. Never returns.
+[[noreturn]] void run_child(const ContainedRequest& request, int input, int output, int printed);
+
+}  // namespace aeroloom::parallel

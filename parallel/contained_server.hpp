@@ -1,0 +1,43 @@
+/// The worker server of contained runs. Internal to parallel/; see contained.hpp for what it is good for.
+#pragma once
+
+#include "parallel/contained.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::parallel {
+
+/// Forks the server. Seals the list of tasks, which the server inherits.
+void start_contained_server();
+/// Ends the server and waits for it. Nothing when there is none.
+void stop_contained_server();
+
+/// A task as registered; server and rank refer to it by its position.
+struct RegisteredTask {
+  std::string name;
+  ContainedTask run;
+};
+const std::vector<RegisteredTask>& contained_tasks();
+
+/// What the rank asks for. Two file descriptors travel with it: input (to map) and output (to write).
+struct ContainedRequest {
+  std::int32_t task;
+  ContainedLimits limits;
+};
+
+/// What the server answers. The output is in the rank's own shared memory.
+struct ContainedReply {
+  static constexpr std::size_t message_capacity = 8192;
+  ContainedStatus status;
+  double cpu_seconds;
+  std::int64_t peak_resident_bytes;
+  std::uint32_t message_length;
+  char message[message_capacity];
+};
+
+/// The server's life: answers requests on `socket` until it closes. Never returns.
+[[noreturn]] void serve_contained_runs(int socket);
+
+}  // namespace aeroloom::parallel

@@ -1,0 +1,63 @@
+#include "parallel/environment.hpp"
+
+#include "parallel/contained_server.hpp"
+#include "parallel/session.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include <unistd.h>
+
+namespace aeroloom::parallel {
+
+namespace {
+
+/// Exit code of a program error.
+constexpr int exit_bug = 70;
+
+/// An exception nobody caught: says what it was, then ends all ranks. Without this the other ranks would wait
+/// for ever.
+[[noreturn]] void report_and_abort() {
+  const int rank = session::is_running() ? session::world()->rank : 0;
+  const char* text = "ended without an exception";
+  if (const std::exception_ptr current = std::current_exception()) {
+    try {
+      std::rethrow_exception(current);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "[rank %d] uncaught exception: %s\n", rank, error.what());
+      abort_all_ranks(exit_bug);
+    } catch (...) {
+      text = "uncaught exception of unknown type";
+    }
+  }
+  std::fprintf(stderr, "[rank %d] %s\n", rank, text);
+  abort_all_ranks(exit_bug);
+}
+
+}  // namespace
+
+Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
+  start_contained_server();
+  session::start(argc, argv);
+  std::set_terminate(report_and_abort);
+}
+
+Environment::~Environment() {
+  if (std::uncaught_exceptions() > _exceptions_at_start) {
+    // Other ranks may be inside a collective call this rank will never join.
+    std::fprintf(stderr, "[rank %d] an exception leaves the parallel environment\n", session::world()->rank);
+    abort_all_ranks(exit_bug);
+  }
+  session::finish();
+  stop_contained_server();
+}
+
+void abort_all_ranks(int exit_code) {
+  std::fflush(stdout);
+  std::fflush(stderr);
+  if (session::is_running()) MPI_Abort(session::world()->communicator, exit_code);
+  _exit(exit_code);
+}
+
+}  // namespace aeroloom::parallel

@@ -1,0 +1,133 @@
+#include "parallel/timers.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <stdexcept>
+
+namespace aeroloom::parallel {
+
+namespace {
+
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// A memory figure of /proc/self/status, in bytes; 0 where the system does not tell. Resource usage would not
+/// do instead: its peak survives exec and may be that of the launcher.
+std::int64_t status_bytes(const char* key) {
+  std::FILE* status = std::fopen("/proc/self/status", "r");
+  if (!status) return 0;
+  char line[256];
+  long long kibibytes = 0;
+  const std::size_t length = std::strlen(key);
+  while (std::fgets(line, sizeof line, status)) {
+    if (std::strncmp(line, key, length) == 0 && std::sscanf(line + length, ": %lld", &kibibytes) == 1) break;
+  }
+  std::fclose(status);
+  return 1024 * static_cast<std::int64_t>(kibibytes);
+}
+
+/// The peak before the system's own counter was last reset.
+std::int64_t earlier_peak = 0;
+
+/// Lets the system's peak start anew from what is resident now, so that a stage's peak is its own. Where the
+/// system refuses, a stage's peak is that of the run so far.
+void restart_peak() {
+  earlier_peak = peak_resident_bytes();
+  if (std::FILE* control = std::fopen("/proc/self/clear_refs", "w")) {
+    std::fputs("5", control);
+    std::fclose(control);
+  }
+}
+
+/// Throws on every rank unless all have closed the stages of rank 0.
+void require_same_stages(const Communicator& communicator, const std::vector<StageCost>& costs, bool open) {
+  Packer packer;
+  for (const StageCost& cost : costs) packer.text(cost.name);
+  const Bytes mine = packer.take();
+  Bytes expected = mine;
+  communicator.broadcast(expected);
+  const bool differs = open || mine != expected;
+  if (communicator.sum(std::int64_t{differs ? 1 : 0}) > 0) {
+    throw std::logic_error("the ranks have not closed the same stages");
+  }
+}
+
+}  // namespace
+
+double cpu_seconds() {
+  return seconds_of(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double wall_seconds() {
+  return seconds_of(CLOCK_MONOTONIC);
+}
+
+std::int64_t peak_resident_bytes() {
+  return std::max(earlier_peak, status_bytes("VmHWM"));
+}
+
+std::int64_t resident_bytes() {
+  return status_bytes("VmRSS");
+}
+
+void StageClock::begin(const std::string& name) {
+  if (_open) throw std::logic_error("stage '" + name + "' begins inside '" + _costs.back().name + "'");
+  restart_peak();
+  _open = true;
+  _costs.push_back({});
+  _costs.back().name = name;
+  _wall_start = wall_seconds();
+}
+
+void StageClock::end() {
+  if (!_open) throw std::logic_error("a stage ends that has not begun");
+  StageCost& cost = _costs.back();
+  cost.wall_seconds = wall_seconds() - _wall_start;
+  cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, status_bytes("VmHWM"));
+  _open = false;
+}
+
+void StageClock::add_task_cpu(double seconds) {
+  if (_open) _costs.back().task_cpu_seconds += seconds;
+}
+
+void StageClock::add_serial_cpu(double seconds) {
+  if (_open) _costs.back().serial_cpu_seconds += seconds;
+}
+
+void StageClock::add_pieces(std::int64_t count) {
+  if (_open) _costs.back().pieces += count;
+}
+
+void StageClock::note_child_memory(std::int64_t bytes) {
+  if (!_open) return;
+  std::int64_t& peak = _costs.back().peak_resident_bytes;
+  peak = std::max(peak, resident_bytes() + bytes);
+}
+
+std::vector<StageSummary> StageClock::summarise(const Communicator& communicator) const {
+  require_same_stages(communicator, _costs, _open);
+  const auto ranks = static_cast<double>(communicator.size());
+  std::vector<StageSummary> summaries;
+  for (const StageCost& cost : _costs) {
+    StageSummary summary;
+    summary.name = cost.name;
+    summary.wall_seconds = communicator.maximum(cost.wall_seconds);
+    summary.cpu_seconds_min = communicator.minimum(cost.task_cpu_seconds);
+    summary.cpu_seconds_mean = communicator.sum(cost.task_cpu_seconds) / ranks;
+    summary.cpu_seconds_max = communicator.maximum(cost.task_cpu_seconds);
+    summary.serial_seconds = communicator.maximum(cost.serial_cpu_seconds);
+    summary.pieces = communicator.sum(cost.pieces);
+    summary.peak_resident_bytes_max = communicator.maximum(cost.peak_resident_bytes);
+    summary.peak_resident_bytes_sum = communicator.sum(cost.peak_resident_bytes);
+    summaries.push_back(summary);
+  }
+  return summaries;
+}
+
+}  // namespace aeroloom::parallel
