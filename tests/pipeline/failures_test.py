@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""Bad input ends on all ranks within seconds, with its exit code and a clear message. usage: failures_test.py PROGRAM"""
+import pathlib
+import sys
+import tempfile
+
+from program import COARSE_TRANSPORT, Run
+
+OPEN_SHELL = """ISO-10303-21;
+HEADER;FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;
+DATA;
+"""
+
+
+def expect(name, run, code, *words):
+    """Whether the run ended with `code` and its message contains each word."""
+    missing = [w for w in words if w not in run.text]
+    ok = run.code == code and not missing and run.seconds < 60
+    print(f"{'ok  ' if ok else 'FAIL'} {name}: exit {run.code}, {run.seconds:.1f} s")
+    if not ok:
+        print(f"  expected exit {code}; missing {missing}\n{run.text}")
+    if ok and code != 2 and run.report is not None:
+        ok = run.report["status"] == "failed" and run.report["exit_code"] == code
+    return ok
+
+
+def file_case(path):
+    return f"geometry: {{file: {path}}}\nsizing: {{minimum: 1, maximum: 100}}\n"
+
+
+def main():
+    program = sys.argv[1]
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_bad_"))
+    corrupt = folder / "corrupt.step"
+    corrupt.write_text(OPEN_SHELL + "#1=ADVANCED_FACE('',(#2,#3),#4,.T.);\n#2=FACE_BOUND(\n")
+    empty = folder / "empty.step"
+    empty.write_text("")
+    checks = []
+    for ranks in (1, 3):
+        checks += [
+            expect("unknown key", Run(program, COARSE_TRANSPORT + "sizng: {minimum: 1}\n", ranks), 2, "sizng", "sizing",
+                   "case.yaml:5:"),
+            expect("size of zero", Run(program, COARSE_TRANSPORT, ranks, ["sizing.minimum=0"]), 2, "sizing.minimum"),
+            expect("missing file", Run(program, file_case(folder / "absent.step"), ranks), 7, "absent.step"),
+            expect("corrupt file", Run(program, file_case(corrupt), ranks), 3, "corrupt.step"),
+            expect("empty file", Run(program, file_case(empty), ranks), 3, "empty.step"),
+            expect("abort in TetGen", Run(program, COARSE_TRANSPORT, ranks, ["volume.inject=aborts"]), 5, "SIGABRT"),
+        ]
+    checks.append(expect("far field cuts the body", Run(program, COARSE_TRANSPORT, 3, ["farfield.extent=0.4"]), 3,
+                         "far field"))
+    checks.append(expect("unwritable output", Run(program, COARSE_TRANSPORT, 2, ["output.directory=/proc/out"]), 7))
+    return 0 if all(checks) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
