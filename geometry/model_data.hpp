@@ -1,0 +1,86 @@
+/// What is behind a Model: shapes of the CAD library and cached evaluators. Seen by this folder only.
+#pragma once
+
+#include "geometry/model.hpp"
+#include "geometry/named_shape.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Geom2dAdaptor_Curve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace aeroloom::geometry {
+
+/// What a face is called in the model.
+struct FaceTag {
+  std::string name;
+  std::string patch;
+  bool far_field = false;
+};
+
+/// Builds the model of a shape whose faces all belong to solids. `tags` follow TopExp's order of faces.
+/// Throws CadError.
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags);
+
+/// The box of a shape's geometry, without the gaps that tolerances and control points would add.
+Box tight_box(const TopoDS_Shape& shape);
+
+/// The parameter curve of one passage along an edge.
+struct UseCurve {
+  EdgeUse use;
+  Geom2dAdaptor_Curve curve;
+  double first = 0, last = 0;  ///< parameters of the curve at the ends of the edge's interval
+};
+
+struct EdgeEvaluator {
+  TopoDS_Edge shape;        ///< oriented forward
+  GeomAdaptor_Curve curve;  ///< not set on degenerate edges
+};
+
+/// One parameter direction of a surface.
+struct ParameterRange {
+  double low = 0,
+         high = 0;      ///< natural range; of a periodic direction, one period from where the face begins
+  double period = 0;    ///< 0 where it is not periodic
+  bool closed = false;  ///< both ends are the same curve, without being periodic
+};
+
+struct FaceEvaluator {
+  TopoDS_Face shape;      ///< oriented forward
+  bool reversed = false;  ///< the normal out of the front region is opposite to du x dv
+  bool planar = false;
+  GeomAdaptor_Surface surface;
+  ParameterRange u, v;
+  Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
+  std::vector<UseCurve> uses;  ///< by (edge, use)
+  mutable double area = -1;    ///< computed on demand
+
+  const UseCurve& use(const EdgeUse& wanted) const;
+};
+
+struct Model::Data {
+  std::vector<std::byte> bytes;
+  TopoDS_Shape shape;
+  std::vector<Vec3> vertices;
+  std::vector<Edge> edges;
+  std::vector<EdgeEvaluator> edge_evaluators;
+  std::vector<Face> faces;
+  std::vector<FaceEvaluator> face_evaluators;
+  std::vector<char> far_field;
+  std::vector<std::string> region_names;
+  std::vector<std::string> patches;
+  Box bounds, body_bounds;
+  std::string unit_name;
+  double unit_in_metres = 1;
+
+  /// "face 12 'wing_upper' near (x, y, z)", for messages.
+  std::string describe_face(FaceId id) const;
+};
+
+}  // namespace aeroloom::geometry

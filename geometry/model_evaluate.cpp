@@ -1,0 +1,180 @@
+#include "geometry/model_data.hpp"
+#include "geometry/occ_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <gp_Pnt.hxx>
+#include <gp_Vec.hxx>
+
+namespace aeroloom::geometry {
+namespace {
+
+Vec3 to_vec(const gp_XYZ& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+Vec3 to_vec(const gp_Pnt& p) {
+  return to_vec(p.XYZ());
+}
+Vec3 to_vec(const gp_Vec& p) {
+  return to_vec(p.XYZ());
+}
+
+}  // namespace
+
+std::int32_t Model::vertex_count() const {
+  return static_cast<std::int32_t>(_data->vertices.size());
+}
+std::int32_t Model::edge_count() const {
+  return static_cast<std::int32_t>(_data->edges.size());
+}
+std::int32_t Model::face_count() const {
+  return static_cast<std::int32_t>(_data->faces.size());
+}
+std::int32_t Model::region_count() const {
+  return static_cast<std::int32_t>(_data->region_names.size());
+}
+Vec3 Model::vertex(VertexId id) const {
+  return _data->vertices.at(id);
+}
+const Edge& Model::edge(EdgeId id) const {
+  return _data->edges.at(id);
+}
+const Face& Model::face(FaceId id) const {
+  return _data->faces.at(id);
+}
+const std::string& Model::region_name(RegionId id) const {
+  return _data->region_names.at(id);
+}
+const std::vector<std::string>& Model::patches() const {
+  return _data->patches;
+}
+const Box& Model::bounds() const {
+  return _data->bounds;
+}
+const Box& Model::body_bounds() const {
+  return _data->body_bounds;
+}
+bool Model::is_far_field(FaceId id) const {
+  return _data->far_field.at(id) != 0;
+}
+const std::string& Model::unit_name() const {
+  return _data->unit_name;
+}
+double Model::unit_in_metres() const {
+  return _data->unit_in_metres;
+}
+std::vector<std::byte> Model::serialise() const {
+  return _data->bytes;
+}
+
+Vec3 Model::edge_point(EdgeId id, double parameter) const {
+  const Edge& edge = _data->edges.at(id);
+  if (edge.degenerate) return vertex(edge.first);
+  return to_vec(_data->edge_evaluators[id].curve.Value(parameter));
+}
+
+Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
+  if (_data->edges.at(id).degenerate) return {};
+  gp_Pnt point;
+  gp_Vec tangent;
+  _data->edge_evaluators[id].curve.D1(parameter, point, tangent);
+  return to_vec(tangent);
+}
+
+double Model::edge_curvature(EdgeId id, double parameter) const {
+  const EdgeEvaluator& evaluator = _data->edge_evaluators.at(id);
+  if (_data->edges[id].degenerate || evaluator.curve.GetType() == GeomAbs_Line) return 0;
+  gp_Pnt point;
+  gp_Vec first, second;
+  evaluator.curve.D2(parameter, point, first, second);
+  const double speed = first.Magnitude();
+  const double curvature = first.Crossed(second).Magnitude() / (speed * speed * speed);
+  return std::isfinite(curvature) ? curvature : 0;
+}
+
+Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
+  const UseCurve& on_face = _data->face_evaluators.at(face).use(use);
+  const Edge& edge = _data->edges[use.edge];
+  double at = parameter;
+  if (on_face.first != edge.first_parameter || on_face.last != edge.last_parameter) {
+    const double share = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
+    at = on_face.first + share * (on_face.last - on_face.first);
+  }
+  const gp_Pnt2d uv = on_face.curve.Value(at);
+  return {uv.X(), uv.Y()};
+}
+
+std::vector<double> Model::edge_breaks(EdgeId id) const {
+  const Edge& edge = _data->edges.at(id);
+  if (edge.degenerate) return {edge.first_parameter, edge.last_parameter};
+  return guarded("splitting an edge where it is not smooth", [&] {
+    const GeomAdaptor_Curve& curve = _data->edge_evaluators[id].curve;
+    TColStd_Array1OfReal breaks(1, curve.NbIntervals(GeomAbs_C1) + 1);
+    curve.Intervals(breaks, GeomAbs_C1);
+    std::vector<double> result(breaks.begin(), breaks.end());
+    result.front() = edge.first_parameter;
+    result.back() = edge.last_parameter;
+    return result;
+  });
+}
+
+Vec3 Model::face_point(FaceId id, Vec2 uv) const {
+  return to_vec(_data->face_evaluators.at(id).surface.Value(uv.x, uv.y));
+}
+
+SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  gp_Pnt point;
+  gp_Vec du, dv;
+  face.surface.D1(uv.x, uv.y, point, du, dv);
+  SurfaceFrame frame{to_vec(point), to_vec(du), to_vec(dv), {}};
+  const Vec3 normal = cross(frame.du, frame.dv);
+  // Below this the angle between the derivatives is rounding error: the direction would be noise.
+  if (norm(normal) > 1e-12 * std::max(dot(frame.du, frame.du), dot(frame.dv, frame.dv))) {
+    frame.normal = face.reversed ? -normalized(normal) : normalized(normal);
+  }
+  return frame;
+}
+
+PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  if (face.planar) return {0, 0, true};
+  gp_Pnt point;
+  gp_Vec du, dv, duu, dvv, duv;
+  face.surface.D2(uv.x, uv.y, point, du, dv, duu, dvv, duv);
+  const double e = du.Dot(du), f = du.Dot(dv), g = dv.Dot(dv);
+  const gp_Vec normal = du.Crossed(dv);
+  const double area = normal.Magnitude();
+  if (!(area > 1e-12 * std::max(e, g))) return {};
+  const double l = duu.Dot(normal) / area, m = duv.Dot(normal) / area, n = dvv.Dot(normal) / area;
+  const double determinant = area * area;
+  const double mean = 0.5 * (e * n - 2 * f * m + g * l) / determinant;
+  const double gauss = (l * n - m * m) / determinant;
+  const double spread = std::sqrt(std::max(0.0, mean * mean - gauss));
+  const double first = std::abs(mean + spread), second = std::abs(mean - spread);
+  if (!std::isfinite(first) || !std::isfinite(second)) return {};
+  return {std::max(first, second), std::min(first, second), true};
+}
+
+bool Model::is_planar(FaceId id) const {
+  return _data->face_evaluators.at(id).planar;
+}
+
+double Model::face_area(FaceId id) const {
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  if (face.area < 0) {
+    face.area = guarded("integrating the area of " + _data->describe_face(id), [&] {
+      GProp_GProps properties;
+      BRepGProp::SurfaceProperties(face.shape, properties);
+      return std::abs(properties.Mass());
+    });
+  }
+  return face.area;
+}
+
+}  // namespace aeroloom::geometry

@@ -1,0 +1,13 @@
+/// Numbering of a shape's entities and their evaluators. Seen by this folder only.
+#pragma once
+
+#include "geometry/model_data.hpp"
+
+namespace aeroloom::geometry {
+
+/// Fills vertices, edges, faces, evaluators and the regions' names (where absent) from data.shape. Ids follow
+/// the order in which the shape's faces, their loops and their edges are stored. Throws CadError for faces
+/// without solid, edges without curve and loops that do not close.
+void index_topology(Model::Data& data);
+
+}  // namespace aeroloom::geometry
