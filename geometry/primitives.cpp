@@ -84,7 +84,7 @@ Model make_primitive_domain(PrimitiveKind kind, const PrimitiveDimensions& dimen
   return guarded("making an analytic shape", [&] {
     NamedShape named;
     named.shape = make_shape(kind, dimensions);
-    named.unit_name = "m";
+    named.unit_name = std::string("m");
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
     std::vector<FaceTag> tags;

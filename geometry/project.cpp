@@ -40,7 +40,7 @@ public:
         ++jumps;
         continue;
       }
-      converged = !descend(at);
+      converged = !descend(at) && !leave_pole(at);
     }
     return {wrap(at.uv), {at.point.X(), at.point.Y(), at.point.Z()}, converged};
   }
@@ -65,7 +65,7 @@ private:
 
   /// One damped step. False when the point cannot get closer: it is the nearest.
   bool descend(Distance& at) const {
-    const Vec2 direction = newton_direction(at);
+    const Vec2 direction = shorten(newton_direction(at));
     double share = 1;
     for (int halving = 0; halving < halvings; ++halving, share *= 0.5) {
       const Vec2 target = clamp(at.uv + share * direction);
@@ -100,6 +100,33 @@ private:
     }
     // Singular, at a pole: along the direction that moves the point.
     return a >= c ? Vec2{a > 0 ? -at.gradient.x / a : 0, 0} : Vec2{0, -at.gradient.y / c};
+  }
+
+  /// Near a pole a step may run round the surface many times: a quarter of the face is far enough.
+  Vec2 shorten(Vec2 direction) const {
+    const double share = std::max(std::abs(direction.x) / extent().x, std::abs(direction.y) / extent().y);
+    return share > 0.25 ? (0.25 / share) * direction : direction;
+  }
+
+  Vec2 extent() const { return _face.uv_high - _face.uv_low; }
+
+  /// At a pole all directions but one look alike to derivatives: tries the others. False when none leads closer.
+  bool leave_pole(Distance& at) const {
+    constexpr int directions = 16;
+    const double along_u = at.guu * extent().x * extent().x, along_v = at.gvv * extent().y * extent().y;
+    if (std::min(along_u, along_v) > 1e-14 * std::max(along_u, along_v)) return false;
+    const bool u_collapses = along_u < along_v;
+    const Vec2 inward = 1e-3 * (0.5 * (_face.uv_low + _face.uv_high) - at.uv);
+    Distance best = at;
+    for (int i = 0; i < directions; ++i) {
+      const Vec2 swept = _face.uv_low + (i + 0.5) / directions * extent();
+      const Distance there =
+          evaluate(clamp(u_collapses ? Vec2{swept.x, at.uv.y + inward.y} : Vec2{at.uv.x + inward.x, swept.y}));
+      if (there.value < best.value) best = there;
+    }
+    const bool closer = best.value < at.value;
+    at = best;
+    return closer;
   }
 
   static bool pushed_out(double parameter, double gradient, const ParameterRange& range) {
