@@ -1,0 +1,288 @@
+#include "parallel/contained.hpp"
+
+#include "parallel/timers.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace aeroloom::parallel {
+namespace {
+
+Bytes reverse(std::span<const std::byte> input) {
+  return {input.rbegin(), input.rend()};
+}
+
+Bytes throw_error(std::span<const std::byte> input) {
+  std::fprintf(stderr, "last words\n");
+  throw std::runtime_error("bad facet " + std::to_string(input.size()));
+}
+
+Bytes throw_number(std::span<const std::byte>) {
+  throw 3;
+}
+
+Bytes abort_at_once(std::span<const std::byte>) {
+  std::fprintf(stderr, "assertion failed: it is flat\n");
+  std::abort();
+}
+
+Bytes write_to_null(std::span<const std::byte>) {
+  volatile int* nowhere = nullptr;
+  *nowhere = 1;
+  return {};
+}
+
+/// Recursion deeper than any stack.
+int descend(int depth) {
+  volatile int frame[1024];
+  frame[0] = depth;
+  if (depth == 1'000'000'000) return 0;
+  return descend(depth + 1) + frame[0];
+}
+
+Bytes overflow_the_stack(std::span<const std::byte>) {
+  return Bytes(static_cast<std::size_t>(descend(0)));
+}
+
+Bytes exit_early(std::span<const std::byte>) {
+  std::exit(0);
+}
+
+Bytes spin(std::span<const std::byte>) {
+  volatile std::uint64_t count = 0;
+  for (;;) count = count + 1;
+}
+
+Bytes doze(std::span<const std::byte>) {
+  for (;;) sleep(1);
+}
+
+Bytes allocate_without_end(std::span<const std::byte>) {
+  std::vector<Bytes> hoard;
+  for (;;) hoard.emplace_back(10'000'000, std::byte{1});
+}
+
+/// As a C library does that does not look at what malloc returns.
+Bytes allocate_unchecked(std::span<const std::byte>) {
+  for (;;) std::memset(std::malloc(1'000'000), 1, 1'000'000);
+}
+
+/// As a library does that catches everything.
+Bytes allocate_and_swallow(std::span<const std::byte>) {
+  try {
+    allocate_without_end({});
+  } catch (...) {
+  }
+  return {};
+}
+
+Bytes count_up(std::span<const std::byte> input) {
+  const auto count = from_bytes<std::int64_t>(input).at(0);
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return to_bytes(std::span<const std::int64_t>(numbers));
+}
+
+Bytes print_much(std::span<const std::byte>) {
+  for (int i = 0; i < 200'000; ++i) std::printf("line %d\n", i);
+  throw std::runtime_error("after much printing");
+}
+
+Bytes close_streams(std::span<const std::byte>) {
+  close(STDOUT_FILENO);
+  close(STDERR_FILENO);
+  return Bytes(3);
+}
+
+const bool registered = [] {
+  register_contained_task("reverse", reverse);
+  register_contained_task("throw_error", throw_error);
+  register_contained_task("throw_number", throw_number);
+  register_contained_task("abort_at_once", abort_at_once);
+  register_contained_task("write_to_null", write_to_null);
+  register_contained_task("overflow_the_stack", overflow_the_stack);
+  register_contained_task("exit_early", exit_early);
+  register_contained_task("spin", spin);
+  register_contained_task("doze", doze);
+  register_contained_task("allocate_without_end", allocate_without_end);
+  register_contained_task("allocate_unchecked", allocate_unchecked);
+  register_contained_task("allocate_and_swallow", allocate_and_swallow);
+  register_contained_task("count_up", count_up);
+  register_contained_task("print_much", print_much);
+  register_contained_task("close_streams", close_streams);
+  return true;
+}();
+
+ContainedResult run(const std::string& name, ContainedLimits limits = {}) {
+  return run_contained(name, {}, limits);
+}
+
+/// A run after whatever happened before must work.
+void expect_still_working() {
+  const Bytes input{std::byte{1}, std::byte{2}, std::byte{3}};
+  const auto result = run_contained("reverse", input, {});
+  ASSERT_EQ(result.status, ContainedStatus::ok) << result.message;
+  EXPECT_EQ(result.output, (Bytes{std::byte{3}, std::byte{2}, std::byte{1}}));
+}
+
+TEST(ContainedTest, ReturnsTheOutput) {
+  ASSERT_TRUE(registered);
+  expect_still_working();
+  const auto empty = run("reverse");
+  EXPECT_EQ(empty.status, ContainedStatus::ok);
+  EXPECT_TRUE(empty.output.empty());
+  EXPECT_TRUE(empty.message.empty());
+}
+
+TEST(ContainedTest, BringsBackTheException) {
+  const Bytes input(5);
+  const auto result = run_contained("throw_error", input, {});
+  EXPECT_EQ(result.status, ContainedStatus::threw);
+  EXPECT_EQ(result.message, "bad facet 5\nIt printed last:\nlast words");
+  EXPECT_TRUE(result.output.empty());
+  EXPECT_EQ(run("throw_number").status, ContainedStatus::threw);
+  EXPECT_NE(run("throw_number").message.find("3"), std::string::npos);
+  expect_still_working();
+}
+
+TEST(ContainedTest, SurvivesAbort) {
+  const auto result = run("abort_at_once");
+  EXPECT_EQ(result.status, ContainedStatus::aborted);
+  EXPECT_EQ(result.message, "SIGABRT\nIt printed last:\nassertion failed: it is flat");
+  expect_still_working();
+}
+
+TEST(ContainedTest, SurvivesSegmentationFaults) {
+  for (const char* task : {"write_to_null", "overflow_the_stack"}) {
+    const auto result = run(task);
+    EXPECT_EQ(result.status, ContainedStatus::aborted) << task;
+#if !defined(__SANITIZE_ADDRESS__)
+    EXPECT_EQ(result.message, "SIGSEGV") << task;
+#endif
+  }
+  expect_still_working();
+}
+
+TEST(ContainedTest, AnExitIsNoSuccess) {
+  const auto result = run("exit_early");
+  EXPECT_EQ(result.status, ContainedStatus::aborted);
+  EXPECT_EQ(result.message, "exited with code 0");
+  expect_still_working();
+}
+
+TEST(ContainedTest, EndsWhatUsesUpItsCpuTime) {
+  ContainedLimits limits;
+  limits.cpu_seconds = 1;
+  const auto result = run("spin", limits);
+  EXPECT_EQ(result.status, ContainedStatus::out_of_time);
+  EXPECT_GE(result.cpu_seconds, 0.9);
+  EXPECT_LT(result.cpu_seconds, 3);
+  expect_still_working();
+}
+
+TEST(ContainedTest, EndsWhatSleeps) {
+  ContainedLimits limits;
+  limits.cpu_seconds = 0.05;
+  limits.idle_seconds = 0.5;
+  const double start = wall_seconds();
+  const auto result = run("doze", limits);
+  EXPECT_EQ(result.status, ContainedStatus::out_of_time);
+  EXPECT_GE(wall_seconds() - start, 1.0);
+  EXPECT_LT(wall_seconds() - start, 20.0);
+  expect_still_working();
+}
+
+TEST(ContainedTest, EndsWhatExhaustsMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer ends the child itself";
+#endif
+  ContainedLimits limits;
+  limits.address_space_bytes = 300'000'000;
+  for (const char* task : {"allocate_without_end", "allocate_unchecked", "allocate_and_swallow"}) {
+    const auto result = run(task, limits);
+    EXPECT_EQ(result.status, ContainedStatus::out_of_memory) << task << ": " << result.message;
+    EXPECT_GT(result.peak_resident_bytes, 200'000'000) << task;
+    EXPECT_LT(result.peak_resident_bytes, 400'000'000) << task;
+  }
+  expect_still_working();
+}
+
+TEST(ContainedTest, CarriesLargeInputAndOutput) {
+  const std::vector<std::int64_t> count{25'000'000};  // 200 MB
+  const auto result = run_contained("count_up", std::as_bytes(std::span(count)), {});
+  ASSERT_EQ(result.status, ContainedStatus::ok) << result.message;
+  ASSERT_EQ(result.output.size(), 200'000'000u);
+  std::vector<std::int64_t> expected(25'000'000);
+  std::iota(expected.begin(), expected.end(), 0);
+  EXPECT_EQ(std::memcmp(result.output.data(), expected.data(), result.output.size()), 0);
+  EXPECT_GE(result.peak_resident_bytes, 200'000'000);
+  const auto back = run_contained("reverse", result.output, {});
+  ASSERT_EQ(back.output.size(), result.output.size());
+  EXPECT_TRUE(std::equal(back.output.begin(), back.output.end(), result.output.rbegin()));
+}
+
+TEST(ContainedTest, KeepsTheTailOfMuchPrinting) {
+  const auto result = run("print_much");
+  EXPECT_EQ(result.status, ContainedStatus::threw);
+  EXPECT_EQ(result.message.rfind("after much printing\n", 0), 0u);
+  EXPECT_EQ(result.message.substr(result.message.size() - 11), "line 199999");
+  EXPECT_LT(result.message.size(), 8192u);
+}
+
+TEST(ContainedTest, CopesWithClosedStreams) {
+  const auto result = run("close_streams");
+  EXPECT_EQ(result.status, ContainedStatus::ok) << result.message;
+  EXPECT_EQ(result.output.size(), 3u);
+}
+
+TEST(ContainedTest, RunsManyTimesInARow) {
+  const auto descriptors = [] {
+    const int probe = dup(STDERR_FILENO);
+    close(probe);
+    return probe;
+  };
+  const int before = descriptors();
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Bytes input(i, static_cast<std::byte>(i));
+    const auto result = run_contained("reverse", input, {});
+    ASSERT_EQ(result.status, ContainedStatus::ok) << result.message;
+    ASSERT_EQ(result.output, input);
+  }
+  EXPECT_EQ(descriptors(), before) << "file descriptors leak";
+}
+
+TEST(ContainedTest, AlternatesFailuresAndSuccesses) {
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(run(i % 2 ? "abort_at_once" : "throw_error").status,
+              i % 2 ? ContainedStatus::aborted : ContainedStatus::threw);
+    expect_still_working();
+  }
+}
+
+TEST(ContainedTest, MessagesMoveWhileAChildWorks) {
+  const auto world = Communicator::world();
+  if (world.size() == 1) GTEST_SKIP() << "needs two ranks";
+  if (world.is_root()) {
+    ContainedLimits limits;
+    limits.cpu_seconds = 1;
+    EXPECT_EQ(run("spin", limits).status, ContainedStatus::out_of_time);
+  }
+  EXPECT_EQ(world.sum(std::int64_t{1}), world.size());
+}
+
+TEST(ContainedTest, RefusesUnknownTasksAndLateRegistration) {
+  EXPECT_THROW(run("no such task"), std::logic_error);
+  EXPECT_THROW(register_contained_task("late", reverse), std::logic_error);
+  EXPECT_THROW(register_contained_task("reverse", spin), std::logic_error);
+  EXPECT_NO_THROW(register_contained_task("reverse", reverse));
+}
+
+}  // namespace
+}  // namespace aeroloom::parallel

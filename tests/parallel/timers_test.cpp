@@ -1,0 +1,110 @@
+#include "parallel/timers.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::parallel {
+namespace {
+
+void work(double seconds) {
+  const double start = cpu_seconds();
+  while (cpu_seconds() - start < seconds) {
+  }
+}
+
+TEST(TimersTest, CpuTimeDoesNotRunWhileSleeping) {
+  const double cpu = cpu_seconds(), wall = wall_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_GE(wall_seconds() - wall, 0.1);
+  EXPECT_LT(cpu_seconds() - cpu, 0.05);
+}
+
+TEST(TimersTest, PeakMemoryRemembersWhatWasFreed) {
+  constexpr std::int64_t size = 100'000'000;
+  { const Bytes memory(size, std::byte{1}); }
+  EXPECT_GE(peak_resident_bytes(), size);
+  EXPECT_LT(resident_bytes(), peak_resident_bytes());
+}
+
+TEST(StageClockTest, AddsToTheOpenStageOnly) {
+  StageClock clock;
+  clock.add_task_cpu(5);  // before any stage: nobody's
+  clock.begin("surface");
+  clock.add_pieces(3);
+  {
+    const ScopedCpu scope(clock, ScopedCpu::As::task);
+    work(0.05);
+  }
+  {
+    const ScopedCpu scope(clock, ScopedCpu::As::serial);
+    work(0.02);
+  }
+  clock.end();
+  clock.add_pieces(100);
+  ASSERT_EQ(clock.costs().size(), 1u);
+  const StageCost& cost = clock.costs()[0];
+  EXPECT_EQ(cost.name, "surface");
+  EXPECT_EQ(cost.pieces, 3);
+  EXPECT_GE(cost.task_cpu_seconds, 0.07);
+  EXPECT_GE(cost.serial_cpu_seconds, 0.02);
+  EXPECT_LT(cost.serial_cpu_seconds, cost.task_cpu_seconds);
+  EXPECT_GE(cost.wall_seconds, cost.task_cpu_seconds * 0.99);
+  EXPECT_GT(cost.peak_resident_bytes, 0);
+}
+
+TEST(StageClockTest, RefusesNestedStages) {
+  StageClock clock;
+  EXPECT_THROW(clock.end(), std::logic_error);
+  clock.begin("a");
+  EXPECT_THROW(clock.begin("b"), std::logic_error);
+  clock.end();
+}
+
+TEST(StageClockTest, CountsChildrenOnTopOfTheRank) {
+  StageClock clock;
+  clock.begin("volume");
+  constexpr std::int64_t child = 1'000'000'000'000;
+  clock.note_child_memory(child);
+  clock.end();
+  EXPECT_GT(clock.costs()[0].peak_resident_bytes, child);
+}
+
+TEST(StageClockTest, SummarisesOverRanks) {
+  const auto world = Communicator::world();
+  const int n = world.size();
+  StageClock clock;
+  for (const char* name : {"surface", "volume"}) {
+    clock.begin(name);
+    clock.add_task_cpu(1.0 + world.rank());
+    clock.add_serial_cpu(0.5 * world.rank());
+    clock.add_pieces(world.rank() + 1);
+    clock.end();
+  }
+  const auto summaries = clock.summarise(world);
+  ASSERT_EQ(summaries.size(), 2u);
+  EXPECT_EQ(summaries[1].name, "volume");
+  for (const StageSummary& summary : summaries) {
+    EXPECT_DOUBLE_EQ(summary.cpu_seconds_min, 1.0);
+    EXPECT_DOUBLE_EQ(summary.cpu_seconds_max, n);
+    EXPECT_DOUBLE_EQ(summary.cpu_seconds_mean, (n + 1) / 2.0);
+    EXPECT_DOUBLE_EQ(summary.serial_seconds, 0.5 * (n - 1));
+    EXPECT_EQ(summary.pieces, n * (n + 1) / 2);
+    EXPECT_GE(summary.peak_resident_bytes_sum, summary.peak_resident_bytes_max);
+    EXPECT_EQ(world.minimum(summary.wall_seconds), world.maximum(summary.wall_seconds));
+  }
+}
+
+TEST(StageClockTest, RefusesDifferentStagesOnEveryRank) {
+  const auto world = Communicator::world();
+  if (world.size() == 1) GTEST_SKIP() << "needs two ranks";
+  StageClock clock;
+  clock.begin(world.is_root() ? "surface" : "volume");
+  clock.end();
+  EXPECT_THROW(clock.summarise(world), std::logic_error);
+}
+
+}  // namespace
+}  // namespace aeroloom::parallel
