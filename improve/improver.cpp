@@ -1,1 +1,88 @@
 #include "improve/improver.hpp"
+
+#include "improve/schedule.hpp"
+#include "improve/tet_mesh.hpp"
+#include "improve/tet_quality.hpp"
+#include "mesh/quality.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::improve {
+namespace {
+
+/// What the report tells of a piece at one moment.
+struct PieceState {
+  std::int64_t bad = 0;
+  double least_angle = 180;  ///< degrees
+};
+
+PieceState examine(const mesh::Piece& piece, const TetQuality& measure) {
+  PieceState state;
+  double bound = 2;  // the quality is at most the sine of the smallest angle: above this nothing can lower
+                     // the least angle
+  for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const mesh::LocalIndex* c = piece.cell(t);
+    const Vec3 p[4] = {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
+    const double quality = measure(p[0], p[1], p[2], p[3]);
+    state.bad += quality < measure.target();
+    if (quality > bound) continue;
+    const double angle = mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest;
+    if (angle >= state.least_angle) continue;
+    state.least_angle = angle;
+    bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
+  }
+  return state;
+}
+
+}  // namespace
+
+ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
+  const TetQuality measure(options.target_angle);
+  ImproveReport report;
+  const PieceState before = examine(piece, measure);
+  report.bad_before = report.bad_after = before.bad;
+  report.min_angle_before = report.min_angle_after = before.least_angle;
+  if (!options.enabled || before.bad == 0) return report;
+
+  TetMesh mesh(piece, measure);
+  Schedule schedule(mesh);
+  schedule.run(options.sweeps);
+  mesh.finish();
+
+  const PieceState after = examine(piece, measure);
+  report.bad_after = after.bad;
+  report.min_angle_after = after.least_angle;
+  report.smoothed = schedule.smoothed();
+  report.swaps = schedule.swaps();
+  return report;
+}
+
+ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                           const ImproveOptions& options, parallel::StageClock& clock) {
+  ImproveReport total;
+  total.min_angle_before = total.min_angle_after = 180;
+  parallel::agree(communicator, [&] {
+    if (mesh.kind != mesh::CellKind::tetrahedron)
+      throw std::logic_error("improve: the mesh has no tetrahedra");
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (mesh::Piece& piece : mesh.pieces) {
+      const ImproveReport mine = improve_piece(piece, options);
+      total.bad_before += mine.bad_before;
+      total.bad_after += mine.bad_after;
+      total.smoothed += mine.smoothed;
+      total.swaps += mine.swaps;
+      total.min_angle_before = std::min(total.min_angle_before, mine.min_angle_before);
+      total.min_angle_after = std::min(total.min_angle_after, mine.min_angle_after);
+      clock.add_pieces(1);
+    }
+  });
+  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps}) {
+    *count = communicator.sum(*count);
+  }
+  for (double* angle : {&total.min_angle_before, &total.min_angle_after})
+    *angle = communicator.minimum(*angle);
+  return total;
+}
+
+}  // namespace aeroloom::improve

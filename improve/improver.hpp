@@ -1,30 +1,30 @@
 /// The improvement stage: bad tetrahedra mended by local operations, never at the cost of a worse one.
 #pragma once
 
-#include <cstdint>
-
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/piece.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 
+#include <cstdint>
+
 namespace aeroloom::improve {
 
 struct ImproveOptions {
   bool enabled = true;
-  double target_angle = 15;    ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180 minus
-                               ///< 1.5 times this, are worked on
-  int sweeps = 12;             ///< at most; ends earlier when a sweep gains nothing
+  double target_angle = 15;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
+                             ///< minus 1.5 times this, are worked on
+  int sweeps = 12;  ///< at most; ends earlier when a sweep gains nothing
 };
 
 struct ImproveReport {
-  std::int64_t bad_before = 0, bad_after = 0;   ///< tetrahedra that miss the target
+  std::int64_t bad_before = 0, bad_after = 0;        ///< tetrahedra that miss the target
   double min_angle_before = 0, min_angle_after = 0;  ///< degrees
   std::int64_t smoothed = 0, swaps = 0;
 };
 
-/// Improves one tetrahedral piece in place: boundary, interface and shared vertices stay, the boundary triangles stay, the
-/// worst element of any changed cavity never gets worse. Deterministic. Not collective.
+/// Improves one tetrahedral piece in place: boundary, interface and shared vertices stay, the boundary
+/// triangles stay, the worst element of any changed cavity never gets worse. Deterministic. Not collective.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options);
 
 /// Improves all pieces of a mesh. Collective.

@@ -1,0 +1,49 @@
+/// Filling a cavity around a bad tetrahedron anew from one point: an existing free vertex, or a new one.
+#pragma once
+
+#include "improve/smoothing.hpp"
+#include "improve/tet_mesh.hpp"
+
+#include <array>
+#include <vector>
+
+namespace aeroloom::improve {
+
+/// Grows a cavity by the neighbour behind its worst face as long as the cones from the point gain, and places
+/// the point best (a greedy form of the vertex insertion of Klingner and Shewchuk, 16th International Meshing
+/// Roundtable, 2007, doi:10.1007/978-3-540-75103-8_1).
+class CavityInsertion {
+public:
+  static constexpr int most_tets = 80;  ///< of a cavity
+
+  /// Proposes a cavity grown from all tetrahedra around a free vertex, which moves. Nothing in the mesh
+  /// changes yet.
+  bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Cavity& cavity);
+  /// Proposes a cavity grown from tetrahedron t around a new vertex, whose number in the cavity is
+  /// mesh.vertex_count().
+  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, Cavity& cavity);
+  /// Where the free point of the last proposal goes.
+  Vec3 position() const { return _point; }
+
+private:
+  /// A face of the cavity, counter-clockwise seen from inside it; `side` belongs to the cavity.
+  struct Wall {
+    std::array<LocalIndex, 3> corners;
+    HalfFace side;
+    double quality;  ///< of the cone to it
+  };
+  bool propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity);
+  void collect_walls(const TetMesh& mesh);
+  void grow(const TetMesh& mesh);
+  bool swallow_neighbour(const TetMesh& mesh, std::size_t wall);
+  bool keeps_fixed_vertices(const TetMesh& mesh) const;
+  bool contains(LocalIndex t) const;
+  double cone_quality(const TetMesh& mesh, const std::array<LocalIndex, 3>& corners) const;
+
+  std::vector<LocalIndex> _tets;
+  std::vector<Wall> _walls, _grown;
+  ConeOptimiser _cones;
+  Vec3 _point;
+};
+
+}  // namespace aeroloom::improve

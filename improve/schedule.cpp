@@ -1,0 +1,155 @@
+#include "improve/schedule.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::improve {
+namespace {
+
+// The heap's top is its greatest element: the worst quality, then the lowest slot.
+constexpr auto later = [](const auto& a, const auto& b) {
+  return a.quality != b.quality ? a.quality > b.quality : a.tet > b.tet;
+};
+
+}  // namespace
+
+Schedule::Schedule(TetMesh& mesh)
+    : _mesh(mesh),
+      _version(mesh.slot_count(), 0),
+      _attempt(mesh.slot_count(), 0),
+      _attempt_means(mesh.slot_count(), Means::swaps_and_smoothing),
+      _changed(mesh.vertex_count(), 1) {}
+
+void Schedule::run(int sweeps) {
+  Means means = Means::swaps_and_smoothing;
+  for (int i = 0; i < sweeps; ++i) {
+    const std::int64_t gains = sweep(means);
+    if (gains == 0 && means == Means::new_vertices) return;
+    if (i >= 1 && means != Means::new_vertices) means = static_cast<Means>(static_cast<int>(means) + 1);
+  }
+}
+
+std::int64_t Schedule::sweep(Means means) {
+  fill_queue();
+  std::int64_t gains = 0;
+  while (!_queue.empty()) {
+    std::pop_heap(_queue.begin(), _queue.end(), later);
+    const Task task = _queue.back();
+    _queue.pop_back();
+    if (task.version != _version[task.tet] || !_mesh.is_alive(task.tet) || !worth_trying(task.tet, means))
+      continue;
+    if (mend(task.tet, means)) {
+      ++gains;
+    } else {
+      _attempt[task.tet] = _now;
+      _attempt_means[task.tet] = means;
+    }
+  }
+  return gains;
+}
+
+void Schedule::fill_queue() {
+  _queue.clear();
+  for (LocalIndex t = 0; t < _mesh.slot_count(); ++t) {
+    if (_mesh.is_alive(t) && _mesh.quality(t) < _mesh.measure().target()) {
+      _queue.push_back({_mesh.quality(t), t, _version[t]});
+    }
+  }
+  std::make_heap(_queue.begin(), _queue.end(), later);
+}
+
+void Schedule::push(LocalIndex t) {
+  if (_mesh.quality(t) >= _mesh.measure().target()) return;
+  _queue.push_back({_mesh.quality(t), t, _version[t]});
+  std::push_heap(_queue.begin(), _queue.end(), later);
+}
+
+bool Schedule::worth_trying(LocalIndex t, Means means) const {
+  if (_attempt[t] == 0 || _attempt_means[t] < means) return true;
+  const Corners& corners = _mesh.corners(t);
+  return std::any_of(corners.begin(), corners.end(), [&](LocalIndex v) { return _changed[v] > _attempt[t]; });
+}
+
+bool Schedule::mend(LocalIndex t, Means means) {
+  return swap(t) || smooth(t) || (means >= Means::moving_cavities && move_cavity(t)) ||
+         (means >= Means::new_vertices && insert_vertex(t));
+}
+
+bool Schedule::swap(LocalIndex t) {
+  _best.clear();
+  const auto keep_trial = [&] { std::swap(_best, _trial); };
+  const double least = _mesh.quality(t);
+  for (int edge = 0; edge < 6; ++edge) {
+    if (_edge_removal.propose(_mesh, t, edge, std::max(least, _best.after), _trial)) keep_trial();
+  }
+  for (int face = 0; face < 4; ++face) {
+    if (_face_removal.propose(_mesh, t, face, std::max(least, _best.after), _trial)) keep_trial();
+  }
+  if (!_best.improves() || !apply(_best)) return false;
+  ++_swaps;
+  return true;
+}
+
+bool Schedule::smooth(LocalIndex t) {
+  const Corners corners = _mesh.corners(t);
+  bool moved = false;
+  for (const LocalIndex v : corners) {
+    if (_mesh.quality(t) >= _mesh.measure().target()) break;
+    if (_mesh.is_fixed(v) || !_smoothing.smooth(_mesh, v, _star)) continue;
+    moved = true;
+    ++_smoothed;
+    note_change(_star, t);
+  }
+  return moved;
+}
+
+bool Schedule::move_cavity(LocalIndex t) {
+  const Corners corners = _mesh.corners(t);
+  for (const LocalIndex v : corners) {
+    if (_mesh.is_fixed(v) || !_insertion.propose_around_vertex(_mesh, v, _trial)) continue;
+    const Vec3 origin = _mesh.point(v);
+    _mesh.move_vertex(v, _insertion.position(), {});
+    if (apply(_trial)) {
+      ++_swaps;
+      return true;
+    }
+    _mesh.move_vertex(v, origin, {});
+  }
+  return false;
+}
+
+bool Schedule::insert_vertex(LocalIndex t) {
+  if (!_insertion.propose_new_vertex(_mesh, t, _trial)) return false;
+  _mesh.add_vertex(_insertion.position(), _mesh.corners(t)[0]);
+  _changed.push_back(_now);
+  if (apply(_trial)) {
+    ++_swaps;
+    return true;
+  }
+  _mesh.drop_last_vertex();
+  _changed.pop_back();
+  return false;
+}
+
+bool Schedule::apply(const Cavity& cavity) {
+  for (const Corners& c : cavity.new_tets) {
+    if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
+  }
+  _mesh.replace(cavity, _placed);
+  _version.resize(_mesh.slot_count(), 0);
+  _attempt.resize(_mesh.slot_count(), 0);
+  _attempt_means.resize(_mesh.slot_count(), Means::swaps_and_smoothing);
+  for (const LocalIndex t : _placed) _attempt[t] = 0;
+  note_change(_placed, -1);
+  return true;
+}
+
+void Schedule::note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred) {
+  ++_now;
+  for (const LocalIndex t : tets) {
+    ++_version[t];
+    for (const LocalIndex v : _mesh.corners(t)) _changed[v] = _now;
+    if (t != deferred) push(t);
+  }
+}
+
+}  // namespace aeroloom::improve

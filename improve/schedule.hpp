@@ -1,0 +1,65 @@
+/// Which bad tetrahedron is worked on when, and with what.
+#pragma once
+
+#include "improve/cavity_insertion.hpp"
+#include "improve/edge_removal.hpp"
+#include "improve/face_removal.hpp"
+#include "improve/smoothing.hpp"
+#include "improve/tet_mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::improve {
+
+/// Works through the tetrahedra below the target, worst first, ties on the slot. One sweep tries each once,
+/// and what swaps leave behind with it; a tetrahedron that resisted is tried again when something around it
+/// has changed, or when stronger means are allowed.
+class Schedule {
+public:
+  explicit Schedule(TetMesh& mesh);
+
+  /// At most `sweeps` sweeps; ends earlier when one gains nothing.
+  void run(int sweeps);
+  std::int64_t smoothed() const { return _smoothed; }
+  std::int64_t swaps() const { return _swaps; }
+
+private:
+  /// Means, each including the ones before.
+  enum class Means : std::int8_t { swaps_and_smoothing, moving_cavities, new_vertices };
+  struct Task {
+    double quality;
+    LocalIndex tet;
+    std::uint32_t version;
+  };
+
+  std::int64_t sweep(Means means);
+  void fill_queue();
+  void push(LocalIndex t);
+  bool mend(LocalIndex t, Means means);
+  bool swap(LocalIndex t);
+  bool smooth(LocalIndex t);
+  bool move_cavity(LocalIndex t);
+  bool insert_vertex(LocalIndex t);
+  bool apply(const Cavity& cavity);
+  /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
+  void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
+  bool worth_trying(LocalIndex t, Means means) const;
+
+  TetMesh& _mesh;
+  EdgeRemoval _edge_removal;
+  FaceRemoval _face_removal;
+  Smoothing _smoothing;
+  CavityInsertion _insertion;
+  Cavity _best, _trial;
+  std::vector<LocalIndex> _placed, _star;
+  std::vector<Task> _queue;             ///< a heap, worst on top
+  std::vector<std::uint32_t> _version;  ///< of each slot: tasks of older versions are stale
+  std::vector<std::uint32_t> _attempt;  ///< when a slot was last tried in vain; 0 never
+  std::vector<Means> _attempt_means;
+  std::vector<std::uint32_t> _changed;  ///< when something around a vertex changed last
+  std::uint32_t _now = 1;
+  std::int64_t _smoothed = 0, _swaps = 0;
+};
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,127 @@
+#include "improve/smoothing.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace aeroloom::improve {
+namespace {
+
+constexpr int most_steps = 12;          // of the ascent
+constexpr int most_halvings = 6;        // of one step
+constexpr double active_margin = 0.02;  // of quality: cones this close to the worst one shape the direction
+constexpr double least_gain = 1e-3;     // of quality: a smaller gain does not count as one
+
+/// The point of the convex hull of the vectors that lies next to the origin, by conditional gradients: the
+/// direction in which the slowest of them grows fastest.
+Vec3 nearest_to_origin(const std::vector<Vec3>& vectors) {
+  Vec3 nearest = vectors[0];
+  for (int i = 0; i < 40; ++i) {
+    Vec3 extreme = vectors[0];
+    for (const Vec3& v : vectors) {
+      if (dot(v, nearest) < dot(extreme, nearest)) extreme = v;
+    }
+    const Vec3 step = extreme - nearest;
+    const double gain = -dot(step, nearest);
+    if (gain <= 1e-3 * dot(nearest, nearest)) break;
+    nearest += std::min(1.0, gain / dot(step, step)) * step;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+double ConeOptimiser::worst(const TetQuality& measure, Vec3 p, double floor) {
+  double least = std::numeric_limits<double>::max();
+  std::size_t decider = 0;
+  for (std::size_t i = 0; i < _bases.size(); ++i) {
+    const double quality = measure(_bases[i].a, _bases[i].b, _bases[i].c, p);
+    if (quality >= least) continue;
+    least = quality;
+    decider = i;
+    if (least <= floor) break;
+  }
+  std::swap(_bases[0], _bases[decider]);
+  return least;
+}
+
+double ConeOptimiser::mean_distance(Vec3 p) const {
+  double sum = 0;
+  for (const Base& base : _bases) sum += distance(base.a, p);
+  return sum / static_cast<double>(_bases.size());
+}
+
+Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe) {
+  _gradients.clear();
+  for (const Base& base : _bases) {
+    const double here = measure(base.a, base.b, base.c, p);
+    if (here > quality + active_margin) continue;
+    Vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 probed = p;
+      probed[axis] += probe;
+      gradient[axis] = (measure(base.a, base.b, base.c, probed) - here) / probe;
+    }
+    _gradients.push_back(gradient);
+  }
+  return nearest_to_origin(_gradients);
+}
+
+double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality) {
+  const double size = mean_distance(p);
+  double length = 0.1 * size;
+  for (int i = 0; i < most_steps; ++i) {
+    const Vec3 direction = normalized(ascent_direction(measure, p, quality, 1e-6 * size));
+    const double start = quality;
+    Vec3 best = p;
+    for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
+      const Vec3 candidate = p + length * direction;
+      const double reached = worst(measure, candidate, quality);
+      if (reached <= quality) {
+        if (quality > start) break;
+        continue;
+      }
+      quality = reached;
+      best = candidate;
+    }
+    if (quality <= start + 0.1 * least_gain) break;
+    p = best;
+    length *= 4;
+  }
+  return quality;
+}
+
+double ConeOptimiser::optimise(const TetQuality& measure, Vec3& p, double quality) {
+  Vec3 mean;
+  for (const Base& base : _bases) mean += base.a + base.b + base.c;
+  mean = mean / (3 * static_cast<double>(_bases.size()));
+  const double smoothed = worst(measure, mean, quality);
+  if (smoothed > quality) {
+    p = mean;
+    quality = smoothed;
+  }
+  return climb(measure, p, quality);
+}
+
+bool Smoothing::smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star) {
+  mesh.collect_star(vertex, star);
+  _cones.clear();
+  double before = std::numeric_limits<double>::max();
+  for (const LocalIndex t : star) {
+    const auto& face = mesh::tetrahedron_faces[mesh.local_vertex(t, vertex)];
+    const Corners& c = mesh.corners(t);
+    _cones.add(mesh.point(c[face[0]]), mesh.point(c[face[2]]), mesh.point(c[face[1]]));
+    before = std::min(before, mesh.quality(t));
+  }
+  const Vec3 origin = mesh.point(vertex);
+  Vec3 moved = origin;
+  if (_cones.optimise(mesh.measure(), moved, before) < before + least_gain) return false;
+  mesh.move_vertex(vertex, moved, star);
+  for (const LocalIndex t : star) {
+    if (mesh.quality(t) > before && mesh.is_positive(mesh.corners(t))) continue;
+    mesh.move_vertex(vertex, origin, star);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,53 @@
+/// Moving one vertex so that the worst of the tetrahedra around it gets better.
+#pragma once
+
+#include "improve/tet_mesh.hpp"
+
+#include <array>
+#include <vector>
+
+namespace aeroloom::improve {
+
+/// The cones from one free point to a set of triangles, and the point that makes the worst of them best.
+class ConeOptimiser {
+public:
+  /// Starts a set of cones.
+  void clear() { _bases.clear(); }
+  /// Adds the cone to triangle (a,b,c), which is counter-clockwise seen from the free point.
+  void add(Vec3 a, Vec3 b, Vec3 c) { _bases.push_back({a, b, c}); }
+  bool empty() const { return _bases.empty(); }
+
+  /// The worst quality with the free point at p; where it is not above `floor`, some value not above `floor`.
+  /// Bases that once decided move to the front.
+  double worst(const TetQuality& measure, Vec3 p, double floor);
+
+  /// Improves the point from p with worst quality `quality`: first towards the mean of the bases' corners,
+  /// then by steepest ascent of the active qualities (Freitag and Ollivier-Gooch, Int. J. Numer. Meth. Engng
+  /// 40, 1997, doi:10.1002/(SICI)1097-0207(19971115)40:21<3979::AID-NME251>3.0.CO;2-9). Returns the new worst
+  /// quality and moves p.
+  double optimise(const TetQuality& measure, Vec3& p, double quality);
+
+private:
+  struct Base {
+    Vec3 a, b, c;
+  };
+  double climb(const TetQuality& measure, Vec3& p, double quality);
+  Vec3 ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe);
+  double mean_distance(Vec3 p) const;
+
+  std::vector<Base> _bases;
+  std::vector<Vec3> _gradients;
+};
+
+/// Smooths single vertices of a mesh.
+class Smoothing {
+public:
+  /// Moves a free vertex where that lifts the worst quality around it noticeably. `star` receives its
+  /// tetrahedra.
+  bool smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star);
+
+private:
+  ConeOptimiser _cones;
+};
+
+}  // namespace aeroloom::improve

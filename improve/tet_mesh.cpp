@@ -1,0 +1,274 @@
+#include "improve/tet_mesh.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace aeroloom::improve {
+namespace {
+
+using mesh::tetrahedron_edges;
+using mesh::tetrahedron_faces;
+
+std::array<LocalIndex, 3> sorted(LocalIndex a, LocalIndex b, LocalIndex c) {
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  return {a, b, c};
+}
+
+}  // namespace
+
+TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure) : _piece(piece), _measure(measure) {
+  _original_count = piece.cell_count();
+  _cells.resize(_original_count);
+  _quality.resize(_original_count);
+  for (LocalIndex t = 0; t < _original_count; ++t) {
+    std::copy_n(piece.cell(t), 4, _cells[t].begin());
+    _quality[t] = quality_of(_cells[t]);
+  }
+  piece.cells.clear();
+  piece.cells.shrink_to_fit();
+  _incident.assign(piece.vertex_count(), -1);
+  for (LocalIndex t = _original_count - 1; t >= 0; --t) {
+    for (const LocalIndex v : _cells[t]) _incident[v] = t;
+  }
+  _tet_mark.assign(_original_count, 0);
+  match_all_faces();
+  fix_vertices();
+}
+
+std::array<LocalIndex, 3> TetMesh::face_key(HalfFace h) const {
+  const auto& face = tetrahedron_faces[h & 3];
+  const Corners& c = _cells[h >> 2];
+  return sorted(c[face[0]], c[face[1]], c[face[2]]);
+}
+
+// Sides of faces are bucketed by their lowest vertex; within a bucket a small sort brings the two sides
+// together.
+void TetMesh::match_all_faces() {
+  struct Side {
+    std::uint64_t upper;  // the two higher vertices
+    HalfFace side;
+  };
+  const std::size_t sides = 4 * _cells.size();
+  _mates.assign(sides, -1);
+  std::vector<std::int64_t> first(_incident.size() + 1, 0);
+  for (std::size_t h = 0; h < sides; ++h) ++first[face_key(static_cast<HalfFace>(h))[0] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Side> bucketed(sides);
+  std::vector<std::int64_t> next(first.begin(), first.end() - 1);
+  for (std::size_t h = 0; h < sides; ++h) {
+    const auto key = face_key(static_cast<HalfFace>(h));
+    bucketed[next[key[0]]++] = {static_cast<std::uint64_t>(key[1]) << 32 | static_cast<std::uint32_t>(key[2]),
+                                static_cast<HalfFace>(h)};
+  }
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    const auto begin = bucketed.begin() + first[v], end = bucketed.begin() + first[v + 1];
+    std::sort(begin, end, [](const Side& a, const Side& b) {
+      return a.upper != b.upper ? a.upper < b.upper : a.side < b.side;
+    });
+    for (auto side = begin; side != end; ++side) {
+      if (side + 1 == end || (side + 1)->upper != side->upper) continue;
+      if (side + 2 != end && (side + 2)->upper == side->upper) {
+        throw std::logic_error("improve: three tetrahedra share a face");
+      }
+      _mates[side->side] = (side + 1)->side;
+      _mates[(side + 1)->side] = side->side;
+      ++side;
+    }
+  }
+}
+
+void TetMesh::fix_vertices() {
+  _fixed.assign(_incident.size(), 0);
+  for (std::size_t v = 0; v < _fixed.size(); ++v)
+    _fixed[v] = _piece.vertex_dimension[v] < 3 || _incident[v] < 0;
+  for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = 1;
+  for (const LocalIndex v : _piece.boundary) _fixed[v] = 1;
+  for (std::size_t h = 0; h < _mates.size(); ++h) {
+    if (_mates[h] >= 0) continue;
+    for (const LocalIndex v : face_key(static_cast<HalfFace>(h))) _fixed[v] = 1;
+  }
+}
+
+int TetMesh::local_vertex(LocalIndex t, LocalIndex v) const {
+  const Corners& c = _cells[t];
+  return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : 3;
+}
+
+void TetMesh::next_mark() {
+  if (++_mark == 0) {
+    std::fill(_tet_mark.begin(), _tet_mark.end(), 0);
+    _mark = 1;
+  }
+}
+
+void TetMesh::collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets) {
+  next_mark();
+  tets.assign(1, _incident[vertex]);
+  _tet_mark[tets[0]] = _mark;
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    const LocalIndex t = tets[i];
+    for (int f = 0; f < 4; ++f) {
+      const HalfFace other = _mates[4 * t + f];
+      if (_cells[t][f] == vertex || other < 0 || _tet_mark[other >> 2] == _mark) continue;
+      _tet_mark[other >> 2] = _mark;
+      tets.push_back(other >> 2);
+    }
+  }
+}
+
+bool TetMesh::collect_shell(LocalIndex t, int edge, int most, Shell& shell) const {
+  // For each edge, the two other vertices in the order that makes (start, end, from, to) positive.
+  static constexpr int others[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
+  shell.start = _cells[t][tetrahedron_edges[edge][0]];
+  shell.end = _cells[t][tetrahedron_edges[edge][1]];
+  LocalIndex from = _cells[t][others[edge][0]], to = _cells[t][others[edge][1]];
+  shell.tets.clear();
+  shell.ring.clear();
+  LocalIndex current = t;
+  do {
+    if (static_cast<int>(shell.tets.size()) == most) return false;
+    shell.tets.push_back(current);
+    shell.ring.push_back(from);
+    const HalfFace next = _mates[4 * current + local_vertex(current, from)];
+    if (next < 0) return false;
+    from = to;
+    current = next >> 2;
+    to = _cells[current][next & 3];
+  } while (current != t);
+  return true;
+}
+
+void TetMesh::take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed) {
+  placed.clear();
+  for (std::size_t i = 0; i < cavity.new_tets.size(); ++i) {
+    LocalIndex slot = slot_count();
+    if (i < cavity.old_tets.size()) {
+      slot = cavity.old_tets[i];
+    } else {
+      const LocalIndex origin = cavity.old_tets[0];
+      _place.push_back(origin < _original_count ? origin : _place[origin - _original_count]);
+      _cells.emplace_back();
+      _quality.push_back(0);
+      _tet_mark.push_back(0);
+      _mates.insert(_mates.end(), 4, -1);
+    }
+    _cells[slot] = cavity.new_tets[i];
+    _quality[slot] = quality_of(cavity.new_tets[i]);
+    placed.push_back(slot);
+  }
+  for (std::size_t i = cavity.new_tets.size(); i < cavity.old_tets.size(); ++i)
+    _cells[cavity.old_tets[i]][0] = -1;
+}
+
+void TetMesh::match_cavity_faces() {
+  std::sort(_faces.begin(), _faces.end(), [](const FaceRecord& a, const FaceRecord& b) {
+    return a.key != b.key ? a.key < b.key : a.side < b.side;
+  });
+  if (_faces.size() % 2 != 0)
+    throw std::logic_error("improve: a cavity and its filling differ in their faces");
+  for (std::size_t i = 0; i < _faces.size(); i += 2) {
+    const FaceRecord &a = _faces[i], &b = _faces[i + 1];
+    if (a.key != b.key || (a.outer && b.outer)) {
+      throw std::logic_error("improve: a cavity and its filling differ in their faces");
+    }
+    if (a.side >= 0) _mates[a.side] = b.side;
+    if (b.side >= 0) _mates[b.side] = a.side;
+  }
+}
+
+void TetMesh::replace(const Cavity& cavity, std::vector<LocalIndex>& placed) {
+  next_mark();
+  for (const LocalIndex t : cavity.old_tets) _tet_mark[t] = _mark;
+  _faces.clear();
+  for (const LocalIndex t : cavity.old_tets) {
+    for (int f = 0; f < 4; ++f) {
+      const HalfFace other = _mates[4 * t + f];
+      if (other < 0 || _tet_mark[other >> 2] != _mark) _faces.push_back({face_key(4 * t + f), other, true});
+    }
+  }
+  _cavity_vertices.clear();
+  for (const LocalIndex t : cavity.old_tets) {
+    for (const LocalIndex v : _cells[t]) {
+      _incident[v] = -1;
+      _cavity_vertices.push_back(v);
+    }
+  }
+  take_slots(cavity, placed);
+  for (const LocalIndex t : placed) {
+    for (int f = 0; f < 4; ++f) _faces.push_back({face_key(4 * t + f), 4 * t + f, false});
+    for (const LocalIndex v : _cells[t]) _incident[v] = t;
+  }
+  match_cavity_faces();
+  for (const LocalIndex v : _cavity_vertices) _swallowed = _swallowed || _incident[v] < 0;
+}
+
+void TetMesh::move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star) {
+  _piece.set_point(v, p);
+  for (const LocalIndex t : star) _quality[t] = quality_of(_cells[t]);
+}
+
+LocalIndex TetMesh::add_vertex(Vec3 p, LocalIndex like) {
+  const LocalIndex v = vertex_count();
+  _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
+  _piece.vertex_dimension.push_back(3);
+  _piece.vertex_entity.push_back(_piece.vertex_dimension[like] == 3 ? _piece.vertex_entity[like] : 0);
+  _incident.push_back(-1);
+  _fixed.push_back(0);
+  return v;
+}
+
+void TetMesh::drop_last_vertex() {
+  _piece.coordinates.resize(_piece.coordinates.size() - 3);
+  _piece.vertex_dimension.pop_back();
+  _piece.vertex_entity.pop_back();
+  _incident.pop_back();
+  _fixed.pop_back();
+}
+
+void TetMesh::finish() {
+  order_cells();
+  if (_swallowed) remove_swallowed_vertices();
+}
+
+// Slots beyond the original ones are merged in behind the original slot their cavity had, in order of their
+// making.
+void TetMesh::order_cells() {
+  std::vector<LocalIndex> added(_place.size());
+  std::iota(added.begin(), added.end(), 0);
+  std::stable_sort(added.begin(), added.end(),
+                   [&](LocalIndex a, LocalIndex b) { return _place[a] < _place[b]; });
+  std::vector<LocalIndex>& cells = _piece.cells;
+  cells.reserve(4 * _cells.size());
+  const auto emit = [&](LocalIndex slot) {
+    if (is_alive(slot)) cells.insert(cells.end(), _cells[slot].begin(), _cells[slot].end());
+  };
+  auto next = added.begin();
+  for (LocalIndex t = 0; t < _original_count; ++t) {
+    emit(t);
+    for (; next != added.end() && _place[*next] == t; ++next) emit(_original_count + *next);
+  }
+}
+
+void TetMesh::remove_swallowed_vertices() {
+  std::vector<LocalIndex> renumbered(_incident.size(), -1);
+  LocalIndex kept = 0;
+  for (LocalIndex v = 0; v < vertex_count(); ++v) {
+    if (!is_used(v) && !is_fixed(v)) continue;
+    renumbered[v] = kept;
+    _piece.set_point(kept, _piece.point(v));
+    _piece.vertex_dimension[kept] = _piece.vertex_dimension[v];
+    _piece.vertex_entity[kept] = _piece.vertex_entity[v];
+    ++kept;
+  }
+  _piece.coordinates.resize(3 * static_cast<std::size_t>(kept));
+  _piece.vertex_dimension.resize(kept);
+  _piece.vertex_entity.resize(kept);
+  for (auto* indices : {&_piece.cells, &_piece.boundary, &_piece.shared_vertices}) {
+    for (LocalIndex& v : *indices) v = renumbered[v];
+  }
+}
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,125 @@
+/// A tetrahedral piece open for local changes: cells with neighbours, qualities, and the one operation every
+/// change goes through, the replacement of a cavity.
+#pragma once
+
+#include "geometry/vec.hpp"
+#include "improve/tet_quality.hpp"
+#include "mesh/piece.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::improve {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+
+/// The four vertices of a tetrahedron, positive in VTK's order.
+using Corners = std::array<LocalIndex, 4>;
+
+/// One side of a face: 4 * tetrahedron + local face (opposite the local vertex); -1 where there is no
+/// tetrahedron.
+using HalfFace = std::int32_t;
+
+/// Tetrahedra around an interior edge: (start, end, ring[i], ring[i+1]) is tets[i], of positive volume; the
+/// ring is closed.
+struct Shell {
+  LocalIndex start = 0, end = 0;
+  std::vector<LocalIndex> tets;
+  std::vector<LocalIndex> ring;
+};
+
+/// A proposed change: the tetrahedra that go, those that come, and the worst quality of both.
+struct Cavity {
+  std::vector<LocalIndex> old_tets;
+  std::vector<Corners> new_tets;
+  double before = 0, after = 0;
+
+  void clear() { old_tets.clear(), new_tets.clear(), before = after = 0; }
+  bool improves() const { return after > before; }
+};
+
+/// Holds a piece's cells while they change; vertices on faces without a neighbour, shared ones, and those
+/// classified below the region are fixed.
+class TetMesh {
+public:
+  /// Takes the cells out of the piece; finish() puts them back. Throws std::logic_error when three tetrahedra
+  /// share a face.
+  TetMesh(mesh::Piece& piece, const TetQuality& measure);
+
+  /// Slots of tetrahedra, dead ones included.
+  LocalIndex slot_count() const { return static_cast<LocalIndex>(_cells.size()); }
+  bool is_alive(LocalIndex t) const { return _cells[t][0] >= 0; }
+  const Corners& corners(LocalIndex t) const { return _cells[t]; }
+  double quality(LocalIndex t) const { return _quality[t]; }
+  HalfFace mate(HalfFace h) const { return _mates[h]; }
+  bool is_fixed(LocalIndex v) const { return _fixed[v] != 0; }
+  /// False for vertices that a replaced cavity has swallowed.
+  bool is_used(LocalIndex v) const { return _incident[v] >= 0; }
+  LocalIndex vertex_count() const { return _piece.vertex_count(); }
+  Vec3 point(LocalIndex v) const { return _piece.point(v); }
+  const TetQuality& measure() const { return _measure; }
+  double quality_of(const Corners& c) const {
+    return _measure(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
+  }
+  bool is_positive(const Corners& c) const {
+    return has_positive_volume(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
+  }
+  /// The local number of a vertex in a tetrahedron that has it.
+  int local_vertex(LocalIndex t, LocalIndex v) const;
+
+  /// The tetrahedra around a vertex, in an order that depends on the mesh alone.
+  void collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets);
+  /// The tetrahedra around edge i (mesh::tetrahedron_edges) of a tetrahedron. False when the edge lies on a
+  /// face without neighbour, or has more than `most` tetrahedra.
+  bool collect_shell(LocalIndex t, int edge, int most, Shell& shell) const;
+
+  /// Puts the new tetrahedra in the place of the old ones; both must fill the same space with positive
+  /// volumes. Vertices that only old ones use are swallowed. `placed` receives the slots of the new ones.
+  void replace(const Cavity& cavity, std::vector<LocalIndex>& placed);
+  /// Moves a vertex; `star` is all its tetrahedra.
+  void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star);
+  /// A new vertex inside the region that `like` lies in; to be used by the next replaced cavity.
+  LocalIndex add_vertex(Vec3 p, LocalIndex like);
+  /// Takes back the vertex added last.
+  void drop_last_vertex();
+
+  /// Puts the cells back: in the old order, new ones where the cavity they came from was; swallowed vertices
+  /// removed.
+  void finish();
+
+private:
+  struct FaceRecord {
+    std::array<LocalIndex, 3> key;  ///< ascending
+    HalfFace side;
+    bool outer;  ///< `side` belongs to a tetrahedron outside the cavity, or is -1
+  };
+
+  void match_all_faces();
+  void fix_vertices();
+  void match_cavity_faces();
+  void take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed);
+  void order_cells();
+  void remove_swallowed_vertices();
+  std::array<LocalIndex, 3> face_key(HalfFace h) const;
+  void next_mark();
+
+  mesh::Piece& _piece;
+  TetQuality _measure;
+  std::vector<Corners> _cells;   ///< first corner -1 in dead slots
+  std::vector<HalfFace> _mates;  ///< 4 per slot
+  std::vector<double> _quality;
+  std::vector<LocalIndex> _incident;  ///< a tetrahedron of each vertex
+  std::vector<std::uint8_t> _fixed;
+  std::vector<LocalIndex> _place;  ///< of slots beyond the first: the original slot they are ordered after
+  LocalIndex _original_count = 0;
+  bool _swallowed = false;
+  std::vector<std::uint32_t> _tet_mark;
+  std::uint32_t _mark = 0;
+  std::vector<FaceRecord> _faces;  ///< scratch of replace, as is the next
+  std::vector<LocalIndex> _cavity_vertices;
+};
+
+}  // namespace aeroloom::improve

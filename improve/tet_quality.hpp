@@ -1,0 +1,69 @@
+/// The measure that decides every change of the improver.
+#pragma once
+
+#include "geometry/predicates.hpp"
+#include "geometry/vec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace aeroloom::improve {
+
+/// Whether the tetrahedron (a,b,c,d) has positive volume in VTK's order. Exact; the exact predicate is asked
+/// only where rounding could matter.
+inline bool has_positive_volume(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c, geometry::Vec3 d) {
+  const auto sum = [](geometry::Vec3 e) { return std::abs(e.x) + std::abs(e.y) + std::abs(e.z); };
+  const double bound = 1e-14 * sum(b - a) * sum(c - a) * sum(d - a);
+  return geometry::volume6(a, b, c, d) > bound || geometry::orient3d(a, b, c, d) > 0;
+}
+
+/// The biased minimum sine of the dihedral angles (Klingner and Shewchuk, 16th International Meshing
+/// Roundtable, 2007, doi:10.1007/978-3-540-75103-8_1): small for small and for large angles alike. The weight
+/// of obtuse angles is such that a tetrahedron falls below target() exactly when an angle is below the target
+/// angle T or above 180 - 1.5 T. Not positive for flat or inverted tetrahedra.
+class TetQuality {
+public:
+  /// `target_angle` in degrees, within (0, 50]; throws std::invalid_argument otherwise.
+  explicit TetQuality(double target_angle) {
+    if (!(target_angle > 0 && target_angle <= 50)) {
+      throw std::invalid_argument("improve: the target angle must lie within (0, 50] degrees");
+    }
+    const double small = target_angle * std::numbers::pi / 180;
+    _target = std::sin(small);
+    _full_bias_cosine = std::cos(1.5 * small);
+    _bias = 1 - _target / std::sin(1.5 * small);
+  }
+
+  double target() const { return _target; }
+
+  double operator()(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c, geometry::Vec3 d) const {
+    const geometry::Vec3 ab = b - a, ac = c - a, ad = d - a;
+    const geometry::Vec3 na = cross(c - b, d - b), nb = cross(ad, ac), nc = cross(ab, ad), nd = cross(ac, ab);
+    const double volume = -dot(nd, ad);
+    const double aa = dot(na, na), bb = dot(nb, nb), cc = dot(nc, nc), dd = dot(nd, nd);
+    double least = angle_term(dot(na, nb), aa * bb, dot(d - c, d - c));
+    least = std::min(least, angle_term(dot(na, nc), aa * cc, dot(d - b, d - b)));
+    least = std::min(least, angle_term(dot(na, nd), aa * dd, dot(c - b, c - b)));
+    least = std::min(least, angle_term(dot(nb, nc), bb * cc, dot(ad, ad)));
+    least = std::min(least, angle_term(dot(nb, nd), bb * dd, dot(ac, ac)));
+    least = std::min(least, angle_term(dot(nc, nd), cc * dd, dot(ab, ab)));
+    const double value = volume * std::sqrt(least);
+    return std::isfinite(value) ? value : -1;
+  }
+
+private:
+  /// The squared biased sine over the squared volume: from the dot product of the two outward normals, the
+  /// product of their squared lengths, and the squared length of the edge between them.
+  double angle_term(double normals, double squares, double edge) const {
+    const double plain = edge / squares;
+    if (normals <= 0) return plain;
+    const double weight = 1 - _bias * std::min(1.0, normals / std::sqrt(squares) / _full_bias_cosine);
+    return plain * weight * weight;
+  }
+
+  double _target, _full_bias_cosine, _bias;
+};
+
+}  // namespace aeroloom::improve
