@@ -1,0 +1,103 @@
+#include "surface/triangle_links.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::surface {
+namespace {
+
+/// Flag bits of one edge, moved to corner 0.
+std::uint32_t edge_bits(const LinkedTriangle& triangle, int corner) {
+  return triangle.flags >> corner & 0b1001u;
+}
+
+constexpr std::uint32_t all_edge_bits = 0b111111u;
+
+}  // namespace
+
+void TriangleLinks::build(const std::vector<std::array<std::int32_t, 3>>& triples,
+                          std::int32_t vertex_count) {
+  struct Side {
+    std::int32_t low, high;
+    HalfEdge edge;
+  };
+  triangles.assign(triples.size(), {});
+  triangle_at.assign(vertex_count, -1);
+  std::vector<Side> sides;
+  sides.reserve(3 * triples.size());
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(triples.size()); ++t) {
+    triangles[t].vertices = triples[t];
+    for (int i = 0; i < 3; ++i) {
+      triangle_at[triples[t][i]] = t;
+      const auto [low, high] = std::minmax(triples[t][next_corner(i)], triples[t][previous_corner(i)]);
+      sides.push_back({low, high, half_edge(t, i)});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.edge < b.edge;
+  });
+  for (std::size_t first = 0, last; first < sides.size(); first = last) {
+    for (last = first + 1; last < sides.size() && sides[last].low == sides[first].low &&
+                           sides[last].high == sides[first].high;) {
+      ++last;
+    }
+    if (last == first + 2 && origin(sides[first].edge) != origin(sides[first + 1].edge)) {
+      join(sides[first].edge, sides[first + 1].edge);
+    }
+  }
+}
+
+void TriangleLinks::fix(HalfEdge edge) {
+  triangles[triangle_of(edge)].flags |= 1u << corner_of(edge);
+  if (const HalfEdge other = mate(edge); other != no_half_edge) {
+    triangles[triangle_of(other)].flags |= 1u << corner_of(other);
+  }
+}
+
+HalfEdge TriangleLinks::find(std::int32_t a, std::int32_t b) const {
+  const std::int32_t start = triangle_at[a];
+  const auto runs_to_b = [&](std::int32_t t, int k) { return triangles[t].vertices[next_corner(k)] == b; };
+  for (std::int32_t t = start;;) {
+    const int k = corner(t, a);
+    if (runs_to_b(t, k)) return half_edge(t, previous_corner(k));
+    const HalfEdge across = triangles[t].links[next_corner(k)];
+    if (across == no_half_edge) break;
+    t = triangle_of(across);
+    if (t == start) return no_half_edge;
+  }
+  for (std::int32_t t = start;;) {  // the fan is open: look at its other part
+    const HalfEdge across = triangles[t].links[previous_corner(corner(t, a))];
+    if (across == no_half_edge) return no_half_edge;
+    t = triangle_of(across);
+    const int k = corner(t, a);
+    if (runs_to_b(t, k)) return half_edge(t, previous_corner(k));
+  }
+}
+
+HalfEdge TriangleLinks::flip(HalfEdge edge) {
+  const HalfEdge other = mate(edge);
+  const std::int32_t t = triangle_of(edge), u = triangle_of(other);
+  const int i = corner_of(edge), j = corner_of(other);
+  const LinkedTriangle left = triangles[t], right = triangles[u];
+  const std::int32_t a = left.vertices[i], b = left.vertices[next_corner(i)],
+                     c = left.vertices[previous_corner(i)];
+  const std::int32_t d = right.vertices[j];
+
+  auto& first = triangles[t];
+  auto& second = triangles[u];
+  first.vertices = {a, b, d};
+  second.vertices = {d, c, a};
+  first.flags = (left.flags & ~all_edge_bits) | edge_bits(right, next_corner(j)) |
+                edge_bits(left, previous_corner(i)) << 2;
+  second.flags = (right.flags & ~all_edge_bits) | edge_bits(left, next_corner(i)) |
+                 edge_bits(right, previous_corner(j)) << 2;
+  join(half_edge(t, 0), right.links[next_corner(j)]);
+  join(half_edge(t, 2), left.links[previous_corner(i)]);
+  join(half_edge(u, 0), left.links[next_corner(i)]);
+  join(half_edge(u, 2), right.links[previous_corner(j)]);
+  join(half_edge(t, 1), half_edge(u, 1));
+  triangle_at[a] = triangle_at[b] = triangle_at[d] = t;
+  triangle_at[c] = u;
+  return half_edge(t, 1);
+}
+
+}  // namespace aeroloom::surface

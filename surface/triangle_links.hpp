@@ -1,0 +1,88 @@
+/// Triangles with links to their neighbours: the connectivity both the front and the remeshing work on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// An edge seen from one of its triangles: 4 * triangle + the corner opposite the edge.
+using HalfEdge = std::int32_t;
+inline constexpr HalfEdge no_half_edge = -1;
+
+constexpr HalfEdge half_edge(std::int32_t triangle, int corner) {
+  return 4 * triangle + corner;
+}
+constexpr std::int32_t triangle_of(HalfEdge edge) {
+  return edge >> 2;
+}
+constexpr int corner_of(HalfEdge edge) {
+  return edge & 3;
+}
+constexpr int next_corner(int corner) {
+  return corner == 2 ? 0 : corner + 1;
+}
+constexpr int previous_corner(int corner) {
+  return corner == 0 ? 2 : corner - 1;
+}
+
+/// A triangle, counter-clockwise. What belongs to an edge is found under the corner opposite to it.
+struct LinkedTriangle {
+  std::array<std::int32_t, 3> vertices{};
+  std::array<HalfEdge, 3> links{no_half_edge, no_half_edge,
+                                no_half_edge};  ///< the same edge from the other side
+  std::uint32_t flags = 0;  ///< bits 0..2: edge is fixed; bits 3..5: edge is tagged; from bit 6: the user's
+  std::int32_t mark = 0;    ///< the user's
+};
+
+/// Linked triangles with one triangle known for each vertex.
+class TriangleLinks {
+public:
+  std::vector<LinkedTriangle> triangles;
+  std::vector<std::int32_t> triangle_at;  ///< per vertex, one triangle that has it; -1 for none
+
+  /// Links triangles given as vertex triples. Edges used by more than two triangles, or twice in one
+  /// direction, stay unlinked.
+  void build(const std::vector<std::array<std::int32_t, 3>>& triples, std::int32_t vertex_count);
+
+  std::int32_t origin(HalfEdge edge) const { return corner_vertex(edge, next_corner(corner_of(edge))); }
+  std::int32_t target(HalfEdge edge) const { return corner_vertex(edge, previous_corner(corner_of(edge))); }
+  std::int32_t apex(HalfEdge edge) const { return corner_vertex(edge, corner_of(edge)); }
+  HalfEdge mate(HalfEdge edge) const { return triangles[triangle_of(edge)].links[corner_of(edge)]; }
+
+  bool is_fixed(HalfEdge edge) const { return triangles[triangle_of(edge)].flags >> corner_of(edge) & 1u; }
+  bool is_tagged(HalfEdge edge) const {
+    return triangles[triangle_of(edge)].flags >> (3 + corner_of(edge)) & 1u;
+  }
+  void set_tagged(HalfEdge edge, bool value) {
+    const std::uint32_t bit = 8u << corner_of(edge);
+    auto& flags = triangles[triangle_of(edge)].flags;
+    flags = value ? flags | bit : flags & ~bit;
+  }
+  /// Fixes the edge on both sides.
+  void fix(HalfEdge edge);
+  /// Joins two half edges; `b` may be no_half_edge.
+  void join(HalfEdge a, HalfEdge b) {
+    triangles[triangle_of(a)].links[corner_of(a)] = b;
+    if (b != no_half_edge) triangles[triangle_of(b)].links[corner_of(b)] = a;
+  }
+  int corner(std::int32_t triangle, std::int32_t vertex) const {
+    const auto& v = triangles[triangle].vertices;
+    return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
+  }
+  /// The half edge from `a` to `b`, its triangle on the left; no_half_edge when there is none. Looks around
+  /// `a`.
+  HalfEdge find(std::int32_t a, std::int32_t b) const;
+  /// Replaces the edge by the other diagonal of its two triangles, and returns the new diagonal: from the
+  /// apex across the edge to the edge's own apex. Flags of the four outer edges and the users' bits of both
+  /// triangles are kept.
+  HalfEdge flip(HalfEdge edge);
+
+private:
+  std::int32_t corner_vertex(HalfEdge edge, int corner) const {
+    return triangles[triangle_of(edge)].vertices[corner];
+  }
+};
+
+}  // namespace aeroloom::surface
