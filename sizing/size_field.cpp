@@ -1,1 +1,71 @@
 #include "sizing/size_field.hpp"
+
+#include "sizing/field_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::sizing {
+namespace {
+
+/// Finest cell along one axis; NaN counts as 0.
+std::uint32_t cell_of(double t) {
+  if (!(t > 0)) return 0;
+  return t < grid_size - 1 ? static_cast<std::uint32_t>(t) : grid_size - 1;
+}
+
+/// Position within the leaf of the given edge (in finest cells) along one axis, 0 to 1.
+double fraction(double t, std::uint32_t cell, std::uint32_t leaf_edge) {
+  const double low = cell & ~(leaf_edge - 1);
+  return std::clamp((t - low) / leaf_edge, 0.0, 1.0);
+}
+
+double blend(double a, double b, double t) {
+  return a + t * (b - a);
+}
+
+}  // namespace
+
+SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSource> sources,
+                           const SizingOptions& options) {
+  std::vector<SizeSource> bounded(sources.begin(), sources.end());
+  for (SizeSource& source : bounded) {
+    if (source.size > 0) source.size = std::max(source.size, options.minimum);
+  }
+  return FieldBuilder(domain, options).build(bounded);
+}
+
+SizeField SizeField::refined(std::span<const SizeSource> more) const {
+  return FieldBuilder(*this).build(more);
+}
+
+double SizeField::operator()(geometry::Vec3 x) const {
+  return interpolate(std::clamp(x.x, _domain.low.x, _domain.high.x) - _low.x,
+                     std::clamp(x.y, _domain.low.y, _domain.high.y) - _low.y,
+                     std::clamp(x.z, _domain.low.z, _domain.high.z) - _low.z);
+}
+
+double SizeField::interpolate(double dx, double dy, double dz) const {
+  const double cells_per_length = grid_size / _root_edge;
+  const double tx = dx * cells_per_length, ty = dy * cells_per_length, tz = dz * cells_per_length;
+  const GridPoint cell{cell_of(tx), cell_of(ty), cell_of(tz)};
+  const auto leaf = static_cast<std::size_t>(_leaf_table.find(morton_key(cell)));
+  const std::uint32_t edge = grid_size >> _leaf_levels[leaf];
+  const double u = fraction(tx, cell.x, edge), v = fraction(ty, cell.y, edge), w = fraction(tz, cell.z, edge);
+  const float* h = _corner_sizes.data() + 8 * leaf;
+  const double low = blend(blend(h[0], h[1], u), blend(h[2], h[3], u), v);
+  const double high = blend(blend(h[4], h[5], u), blend(h[6], h[7], u), v);
+  return std::min(blend(low, high, w), _options.maximum);
+}
+
+SizeField::Leaf SizeField::leaf(std::int64_t i) const {
+  const GridPoint low = grid_point(_leaf_keys[i]);
+  const double unit = _root_edge / grid_size;
+  const float* h = _corner_sizes.data() + 8 * i;
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) sum += h[corner];
+  return {_low + unit * geometry::Vec3{double(low.x), double(low.y), double(low.z)},
+          unit * (grid_size >> _leaf_levels[i]), std::min(sum / 8, _options.maximum)};
+}
+
+}  // namespace aeroloom::sizing

@@ -1,22 +1,27 @@
 /// The size field h(x): one function for curves, surfaces and volume.
 #pragma once
 
+#include "geometry/model.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+#include "sizing/octree.hpp"
+
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "geometry/model.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
-
 namespace aeroloom::sizing {
 
-/// What the user asks for. Lengths in the model's unit.
+/// What the user asks for. Lengths in the model's unit. Going away from where a size is asked for, each
+/// element is at most `growth` times as large as the one before, so |grad h| <= ln(growth).
 struct SizingOptions {
-  double minimum = 0;          ///< smallest size, > 0
-  double maximum = 0;          ///< largest size, >= minimum; the size of the far field
-  double curvature_angle = 12; ///< degrees an element may turn on a curved face or edge
-  double growth = 1.3;         ///< ratio of neighbouring element sizes, > 1; h changes by at most ln(growth) per length
+  double minimum = 0;           ///< smallest size, > 0
+  double maximum = 0;           ///< largest size, >= minimum; the size of the far field
+  double curvature_angle = 12;  ///< degrees an element may turn on a curved face or edge
+  double growth =
+      1.3;  ///< ratio of neighbouring element sizes, > 1; h changes by at most ln(growth) per length
+  double surface_maximum =
+      0;  ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
 };
 
 /// A point that asks for a size.
@@ -25,11 +30,16 @@ struct SizeSource {
   double size;
 };
 
-/// A graded octree with sizes at the corners of its leaves, trilinear inside: continuous up to hanging nodes,
-/// minimum <= h <= maximum, |grad h| limited by the growth. Immutable and identical on every rank.
+/// A graded octree with sizes at the corners of its leaves, trilinear inside, continuous. At a source h is at
+/// most the size asked for there (to single precision) and less only where a neighbour asks for less: a
+/// source asks for its size in the whole leaf around it, whose edge is at most that size. From there h grows
+/// by ln(growth) per length. minimum <= h <= maximum, except that `minimum` does not bind against short
+/// edges, narrow faces and what refined() asks for. Immutable and identical on every rank.
 class SizeField {
- public:
-  /// Builds the field over `domain` from sources. Serial; the result depends on the set of sources, not on their order.
+public:
+  /// Builds the field over `domain` from sources, their sizes raised to the minimum; sources outside count at
+  /// the nearest point of the box. Serial; the result depends on the set of sources, not on their order.
+  /// Throws std::invalid_argument for impossible options, an empty domain, and sizes that are not positive.
   static SizeField build(const geometry::Box& domain, std::span<const SizeSource> sources,
                          const SizingOptions& options);
 
@@ -44,29 +54,33 @@ class SizeField {
   /// One leaf of the octree.
   struct Leaf {
     geometry::Vec3 low;
-    double edge;    ///< length
-    double size;    ///< h at the centre
+    double edge;  ///< length
+    double size;  ///< h at the centre
   };
   Leaf leaf(std::int64_t i) const;
 
-  /// The field with further sources: sizes can only fall. Used where surfaces come too close.
+  /// The field with further sources: sizes can only fall, below the minimum too. Used where surfaces come too
+  /// close.
   SizeField refined(std::span<const SizeSource> more) const;
 
- private:
-  friend class OctreeBuilder;
+private:
+  friend class FieldBuilder;
+  /// The size at an offset from the low corner of the root cube.
+  double interpolate(double dx, double dy, double dz) const;
+
   SizingOptions _options;
-  geometry::Box _domain;                    // as asked for
-  geometry::Vec3 _low;                      // corner of the root cube
-  double _root_edge = 1;                    // of the root cube
-  std::vector<std::uint64_t> _leaf_keys;    // Morton keys of the leaves' low corners, ascending
-  std::vector<std::uint8_t> _leaf_levels;   // 0 is the root
-  std::vector<float> _corner_sizes;         // (leaves,8)
-  std::vector<SizeSource> _sources;         // kept for refined()
+  geometry::Box _domain;                   // as asked for
+  geometry::Vec3 _low;                     // corner of the root cube
+  double _root_edge = 1;                   // of the root cube
+  std::vector<std::uint64_t> _leaf_keys;   // Morton keys of the leaves' low corners, ascending
+  std::vector<std::uint8_t> _leaf_levels;  // 0 is the root
+  LeafTable _leaf_table;
+  std::vector<float> _corner_sizes;  // (leaves,8), corners in Morton order
 };
 
-/// The field of a model: curvature of faces and edges, far field, bounds, growth. Faces are sampled by the ranks in
-/// parallel, sources are gathered and thinned, the octree is built identically everywhere. Collective. Throws
-/// std::invalid_argument for impossible options.
+/// The field of a model: curvature of faces and edges, far field, bounds, growth. Faces are sampled by the
+/// ranks in parallel, sources are gathered and thinned, the octree is built identically everywhere.
+/// Collective. Throws std::invalid_argument for impossible options.
 SizeField build_size_field(const parallel::Communicator& communicator, const geometry::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock);
 
@@ -75,8 +89,8 @@ SizeField build_size_field(const parallel::Communicator& communicator, const geo
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const geometry::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock);
 
-/// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface and 6 sqrt(2)/h^3 over the
-/// volume.
+/// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface and 6 sqrt(2)/h^3
+/// over the volume.
 struct PredictedCounts {
   double triangles = 0, tetrahedra = 0;
 };

@@ -1,0 +1,72 @@
+/// The octree behind the size field: which cells are split, the leaves along the curve, and how a point finds
+/// its leaf.
+#pragma once
+
+#include "sizing/morton.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// An octree as the sets of its split cells, one ascending list of level keys per level (a level key has
+/// three bits per level). Splitting a cell splits its ancestors once balance() has run.
+class SplitCells {
+public:
+  /// Splits the cell of `level` that holds the finest cell `key`.
+  void split(std::uint64_t key, int level) { _cells[level].push_back(key >> 3 * (finest_level - level)); }
+  /// Splits what it takes to have leaves of at most one level apart across faces, edges and corners.
+  void balance();
+
+  /// Leaves along the Morton curve: key of the low corner, level.
+  struct Leaves {
+    std::vector<std::uint64_t> keys;
+    std::vector<std::uint8_t> levels;
+  };
+  /// After balance().
+  Leaves leaves() const;
+
+private:
+  std::array<std::vector<std::uint64_t>, finest_level> _cells;
+};
+
+/// Finds the leaf of a finest cell: a tree with 64 branches per node, two octree levels each.
+class LeafTable {
+public:
+  LeafTable() = default;
+  explicit LeafTable(const SplitCells::Leaves& leaves);
+
+  /// Index of the leaf that holds the finest cell with this key.
+  std::int32_t find(std::uint64_t key) const {
+    std::int32_t entry = 0;
+    for (int shift = top_shift;; shift -= 6) {
+      entry = _entries[static_cast<std::size_t>(entry) * 64 + (key >> shift & 63)];
+      if (entry >= 0) return entry;
+      entry = -entry;
+    }
+  }
+
+private:
+  static constexpr int top_shift = 3 * finest_level - 6;
+  std::vector<std::int32_t> _entries;  // (nodes,64): a leaf where >= 0, else minus the node one step down
+};
+
+/// The distinct corners of all leaves.
+struct OctreeNodes {
+  std::vector<GridPoint> points;
+  std::vector<std::int32_t> corners;  ///< (leaves,8) node per leaf and corner, corners in Morton order
+
+  /// A node in the middle of an edge or face of a leaf next to it. Its masters are that edge's or face's
+  /// corners, which in a balanced octree hang nowhere themselves.
+  struct Hanging {
+    std::int32_t node;
+    std::int32_t count;  ///< of masters: 2 or 4
+    std::array<std::int32_t, 4> masters;
+  };
+  std::vector<Hanging> hanging;           ///< ascending node
+  std::vector<std::int32_t> leaf_around;  ///< (nodes,8) leaf in each octant, -1 outside the root cube
+};
+OctreeNodes collect_nodes(const SplitCells::Leaves& leaves, const LeafTable& table);
+
+}  // namespace aeroloom::sizing
