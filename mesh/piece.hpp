@@ -1,7 +1,9 @@
 /// A piece of a simplicial mesh: the unit of decomposition, work, scheduling, checkpointing and failure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/vec.hpp"
@@ -62,6 +64,13 @@ struct Piece {
 /// A piece as bytes, for migration and checkpoints, and back. Bit for bit.
 parallel::Bytes pack_piece(const Piece& piece);
 Piece unpack_piece(std::span<const std::byte> bytes);
+
+/// Cells a piece may hold at most: indices of faces must fit 30 bits.
+inline constexpr std::size_t max_cells_per_piece = std::size_t{1} << 28;
+
+/// Throws std::logic_error when the arrays do not fit together: sizes, index ranges, order of shared vertices.
+/// Says nothing about geometry.
+void require_consistent_arrays(const Piece& piece);
 
 /// The four faces of a tetrahedron by local vertex, counter-clockwise seen from outside; face i is opposite
 /// vertex i.

@@ -1,0 +1,107 @@
+#include "io/vtk_files.hpp"
+
+#include <cerrno>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <vtkCallbackCommand.h>
+#include <vtkDataObject.h>
+#include <vtkErrorCode.h>
+#include <vtkNew.h>
+#include <vtkTypeInt64Array.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+/// Keeps VTK's error messages from the terminal: the exception tells.
+void keep_silent(vtkObject*, unsigned long, void*, void*) {}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += letter;
+    }
+  }
+  return result;
+}
+
+std::string array_lines(std::span<const IndexArray> arrays) {
+  std::string lines;
+  for (const auto& [type, name] : arrays) {
+    lines += std::string("      <PDataArray type=\"") + type + "\" Name=\"" + name + "\"/>\n";
+  }
+  return lines;
+}
+
+}  // namespace
+
+void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path) {
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback(keep_silent);
+  writer.AddObserver("ErrorEvent", silence);
+  writer.SetInputDataObject(&data);
+  writer.SetFileName(path.c_str());
+  writer.SetDataModeToAppended();
+  writer.EncodeAppendedDataOff();
+  writer.SetHeaderTypeToUInt64();
+  writer.SetIdTypeToInt64();
+  writer.SetByteOrderToLittleEndian();
+  writer.SetCompressorTypeToNone();
+  errno = 0;
+  if (writer.Write() == 1 && writer.GetErrorCode() == vtkErrorCode::NoError) return;
+  const int reason = errno != 0 ? errno : EIO;
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  throw std::filesystem::filesystem_error("cannot write", path,
+                                          std::error_code(reason, std::generic_category()));
+}
+
+vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(coordinates.size() / 3));
+  for (std::size_t i = 0; i < coordinates.size() / 3; ++i) {
+    points->SetPoint(static_cast<vtkIdType>(i), coordinates.data() + 3 * i);
+  }
+  return points;
+}
+
+vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int64_t>& connectivity,
+                                         int vertices_per_cell) {
+  const auto cell_count = static_cast<vtkIdType>(connectivity.size()) / vertices_per_cell;
+  vtkNew<vtkTypeInt64Array> offsets;
+  offsets->SetNumberOfValues(cell_count + 1);
+  for (vtkIdType i = 0; i <= cell_count; ++i) offsets->SetValue(i, i * vertices_per_cell);
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, make_array<vtkTypeInt64Array>("connectivity", connectivity));
+  return cells;
+}
+
+std::string index_text(const char* grid_type, std::span<const IndexArray> point_arrays,
+                       std::span<const IndexArray> cell_arrays, const std::vector<std::string>& sources) {
+  const std::string grid = grid_type;
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + grid +
+                     "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <" + grid +
+                     " GhostLevel=\"0\">\n    <PPointData>\n" + array_lines(point_arrays) +
+                     "    </PPointData>\n    <PCellData>\n" + array_lines(cell_arrays) +
+                     "    </PCellData>\n    <PPoints>\n"
+                     "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
+                     "    </PPoints>\n";
+  for (const std::string& source : sources) text += "    <Piece Source=\"" + escaped(source) + "\"/>\n";
+  return text + "  </" + grid + ">\n</VTKFile>\n";
+}
+
+}  // namespace aeroloom::io

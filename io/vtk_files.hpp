@@ -1,0 +1,45 @@
+/// What the writers of VTK files share. Included by io/vtk_*.cpp alone: it names VTK.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <vtkCellArray.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLWriter.h>
+
+namespace aeroloom::io {
+
+/// Sets binary appended form, 64-bit, and writes. Throws std::filesystem::filesystem_error with the reason.
+void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path);
+
+/// Points in double precision from (n,3) coordinates.
+vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates);
+/// Cells of equal size from their connectivity.
+vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int64_t>& connectivity,
+                                         int vertices_per_cell);
+
+/// A VTK array of type `Array` that holds a copy of `values`.
+template <class Array, class Value>
+vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& values) {
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), values[i]);
+  return array;
+}
+
+/// An array of an index file: its VTK type and its name.
+struct IndexArray {
+  const char* type;
+  const char* name;
+};
+
+/// The XML of a .pvtu (`grid_type` PUnstructuredGrid) or .pvtp (PPolyData) file.
+std::string index_text(const char* grid_type, std::span<const IndexArray> point_arrays,
+                       std::span<const IndexArray> cell_arrays, const std::vector<std::string>& sources);
+
+}  // namespace aeroloom::io

@@ -1,1 +1,0 @@
-#include "io/vtk_writer.hpp"

@@ -1,0 +1,185 @@
+/// Matching of faces and edges over all pieces: what meets at the same vertices is brought together and
+/// judged.
+///
+/// A face or edge whose vertices are not all shared belongs to one piece and is matched there. Only the
+/// others, on interfaces, travel: each goes to the rank its global vertex numbers point to.
+#pragma once
+
+#include "mesh/delivery.hpp"
+#include "mesh/distributed_mesh.hpp"
+#include "mesh/findings.hpp"
+#include "mesh/mixing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace aeroloom::mesh {
+
+/// One of the items that meet at a face or edge.
+struct Member {
+  PieceId piece;
+  std::uint32_t tag;  ///< bit 0: odd, bit 1: role, the rest: item
+
+  bool odd() const { return tag & 1U; }  ///< whether its vertices run against those of even members
+  int role() const { return static_cast<int>(tag >> 1) & 1; }
+  std::int64_t item() const { return tag >> 2; }
+};
+
+/// What the items of role 0 and 1 are called in the report.
+using RoleEntities = std::array<Entity, 2>;
+
+/// Sorts the vertices and returns whether that took an odd permutation.
+template <class Index, std::size_t N>
+bool sort_vertices(std::array<Index, N>& v) {
+  bool odd = false;
+  const auto order = [&](std::size_t i, std::size_t j) {
+    if (v[j] < v[i]) std::swap(v[i], v[j]), odd = !odd;
+  };
+  order(0, 1);
+  if constexpr (N == 3) order(1, 2), order(0, 1);
+  return odd;
+}
+
+/// 1 where a vertex of the piece is shared.
+inline std::vector<std::uint8_t> mark_shared(const Piece& piece) {
+  std::vector<std::uint8_t> marks(piece.vertex_count(), 0);
+  for (const LocalIndex v : piece.shared_vertices) marks[v] = 1;
+  return marks;
+}
+
+/// Matches the faces (N = 3) or edges (N = 2) of a mesh. `enumerate(piece, sink)` calls sink(vertices, role,
+/// item) for each of them, the same in every call; `judge(members)` gets all that meet at one and names the
+/// rule that is broken, if any. Offenders go to `findings`. Collective.
+template <std::size_t N, class Enumerate, class Judge>
+class Matcher {
+public:
+  Matcher(RoleEntities entities, Enumerate enumerate, Judge judge, Findings& findings)
+      : _entities(entities), _enumerate(enumerate), _judge(judge), _findings(findings) {}
+
+  void match(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+             const Numbering& numbering) {
+    for (std::size_t i = 0; i < mesh.pieces.size(); ++i) match_inside(mesh.pieces[i], numbering.vertices[i]);
+    match_across(communicator);
+  }
+
+private:
+  /// Inside a piece, in the bucket of its lowest vertex.
+  struct Inside {
+    std::array<LocalIndex, N - 1> rest;
+    std::uint32_t tag;
+    friend auto operator<=>(const Inside&, const Inside&) = default;
+  };
+  struct Across {
+    std::array<GlobalIndex, N> vertices;
+    PieceId piece;
+    std::uint32_t tag;
+    friend auto operator<=>(const Across&, const Across&) = default;
+  };
+
+  static std::uint32_t make_tag(bool odd, int role, std::uint32_t item) {
+    return (item << 2) | (static_cast<std::uint32_t>(role) << 1) | (odd ? 1U : 0U);
+  }
+
+  void match_inside(const Piece& piece, const std::vector<GlobalIndex>& numbers) {
+    const std::vector<std::uint8_t> shared = mark_shared(piece);
+    const auto all_shared = [&](const std::array<LocalIndex, N>& v) {
+      return std::all_of(v.begin(), v.end(), [&](LocalIndex vertex) { return shared[vertex] != 0; });
+    };
+    std::vector<std::uint32_t> first(piece.vertex_count() + 2, 0);
+    _enumerate(piece, [&](const std::array<LocalIndex, N>& v, int, std::uint32_t) {
+      if (!all_shared(v)) ++first[*std::min_element(v.begin(), v.end()) + 2];
+    });
+    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
+    std::vector<Inside> items(first.back());
+    _enumerate(piece, [&](std::array<LocalIndex, N> v, int role, std::uint32_t item) {
+      if (all_shared(v)) return send_across(piece.id, v, numbers, role, item);
+      const bool odd = sort_vertices(v);
+      Inside& slot = items[first[v[0] + 1]++];
+      std::copy(v.begin() + 1, v.end(), slot.rest.begin());
+      slot.tag = make_tag(odd, role, item);
+    });
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      judge_bucket(piece.id, v, std::span(items).subspan(first[v], first[v + 1] - first[v]), numbers);
+    }
+  }
+
+  void send_across(PieceId piece, const std::array<LocalIndex, N>& v, const std::vector<GlobalIndex>& numbers,
+                   int role, std::uint32_t item) {
+    std::array<GlobalIndex, N> vertices;
+    for (std::size_t k = 0; k < N; ++k) vertices[k] = numbers[v[k]];
+    const bool odd = sort_vertices(vertices);
+    _across.push_back({vertices, piece, make_tag(odd, role, item)});
+  }
+
+  void judge_bucket(PieceId piece, LocalIndex lowest, std::span<Inside> bucket,
+                    const std::vector<GlobalIndex>& numbers) {
+    std::sort(bucket.begin(), bucket.end());
+    for (std::size_t i = 0, j = 0; i < bucket.size(); i = j) {
+      _members.clear();
+      for (; j < bucket.size() && bucket[j].rest == bucket[i].rest; ++j)
+        _members.push_back({piece, bucket[j].tag});
+      const std::optional<Violation> violation = _judge(std::span<const Member>(_members));
+      if (!violation) continue;
+      std::array<GlobalIndex, N> vertices;
+      vertices[0] = numbers[lowest];
+      for (std::size_t k = 1; k < N; ++k) vertices[k] = numbers[bucket[i].rest[k - 1]];
+      report(*violation, vertices);
+    }
+  }
+
+  void match_across(const parallel::Communicator& communicator) {
+    std::vector<Across> met = deliver(communicator, _across, [&](const Across& item) {
+      std::uint64_t mixed = 0;
+      for (const GlobalIndex v : item.vertices) mixed = mix_in(mixed, static_cast<std::uint64_t>(v));
+      return meeting_rank(mixed, communicator.size());
+    });
+    _across = {};
+    std::sort(met.begin(), met.end());
+    for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
+      _members.clear();
+      for (; j < met.size() && met[j].vertices == met[i].vertices; ++j) {
+        _members.push_back({met[j].piece, met[j].tag});
+      }
+      if (const std::optional<Violation> violation = _judge(std::span<const Member>(_members))) {
+        report(*violation, met[i].vertices);
+      }
+    }
+  }
+
+  /// The offender is the member of the lowest piece and item, whatever order they met in.
+  void report(Violation violation, std::array<GlobalIndex, N> vertices) {
+    sort_vertices(vertices);
+    Offender offender;
+    std::copy(vertices.begin(), vertices.end(), offender.key.begin());
+    const Member& first =
+        *std::min_element(_members.begin(), _members.end(), [](const Member& a, const Member& b) {
+          return std::pair(a.piece, a.tag >> 1) < std::pair(b.piece, b.tag >> 1);
+        });
+    offender.piece = first.piece;
+    offender.entity = _entities[first.role()];
+    offender.item = first.item();
+    _findings.add(violation, offender);
+  }
+
+  RoleEntities _entities;
+  Enumerate _enumerate;
+  Judge _judge;
+  Findings& _findings;
+  std::vector<Across> _across;
+  std::vector<Member> _members;
+};
+
+/// Matches and judges all faces (N = 3) or edges (N = 2). See Matcher. Collective.
+template <std::size_t N, class Enumerate, class Judge>
+void match_all(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+               const Numbering& numbering, RoleEntities entities, Enumerate enumerate, Judge judge,
+               Findings& findings) {
+  Matcher<N, Enumerate, Judge>(entities, enumerate, judge, findings).match(communicator, mesh, numbering);
+}
+
+}  // namespace aeroloom::mesh

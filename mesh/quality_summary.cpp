@@ -1,0 +1,202 @@
+#include "mesh/delivery.hpp"
+#include "mesh/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace aeroloom::mesh {
+
+using geometry::Vec3;
+
+namespace {
+
+constexpr std::size_t worst_kept = 10;
+
+/// A measure's range, its fine bins per unit, and how many of those make a bin of the published histogram.
+struct Scale {
+  double high;
+  int bins_per_unit;
+  int merged;
+};
+constexpr Scale angle_scale{180, 100, 200};
+constexpr Scale ratio_scale{1, 10000, 200};
+
+enum Measure { min_angle, max_angle, mean, radius, measures };
+constexpr Scale scales[measures] = {angle_scale, angle_scale, ratio_scale, ratio_scale};
+
+/// One measure over the cells seen so far.
+struct Accumulated {
+  double minimum = std::numeric_limits<double>::infinity();
+  double maximum = -std::numeric_limits<double>::infinity();
+  std::vector<std::int64_t> bins;
+
+  explicit Accumulated(const Scale& scale)
+      : bins(static_cast<std::size_t>(scale.high * scale.bins_per_unit), 0) {}
+
+  void add(double value, const Scale& scale) {
+    minimum = std::min(minimum, value);
+    maximum = std::max(maximum, value);
+    const double bin =
+        std::clamp(std::floor(value * scale.bins_per_unit), 0.0, static_cast<double>(bins.size() - 1));
+    ++bins[static_cast<std::size_t>(bin)];
+  }
+};
+
+struct Values {
+  double of[measures];
+};
+
+Values measure_tetrahedron(const Piece& piece, LocalIndex c) {
+  const LocalIndex* v = piece.cell(c);
+  const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+  const DihedralRange angles = dihedral_range(p[0], p[1], p[2], p[3]);
+  return {{angles.smallest, angles.largest, mean_ratio(p[0], p[1], p[2], p[3]),
+           radius_ratio(p[0], p[1], p[2], p[3])}};
+}
+
+Values measure_triangle(const Piece& piece, LocalIndex c) {
+  const LocalIndex* v = piece.cell(c);
+  const Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
+  return {{smallest_angle(p[0], p[1], p[2]), largest_angle(p[0], p[1], p[2]),
+           triangle_mean_ratio(p[0], p[1], p[2]), 0}};
+}
+
+/// A cell with a coordinate that is no number counts as flat.
+Values measure(const Piece& piece, LocalIndex c) {
+  Values values =
+      piece.kind == CellKind::tetrahedron ? measure_tetrahedron(piece, c) : measure_triangle(piece, c);
+  for (double& value : values.of) {
+    if (!std::isfinite(value)) value = 0;
+  }
+  return values;
+}
+
+Vec3 center_of(const Piece& piece, LocalIndex c) {
+  Vec3 sum;
+  for (int k = 0; k < piece.vertices_per_cell(); ++k) sum += piece.point(piece.cell(c)[k]);
+  return sum / piece.vertices_per_cell();
+}
+
+bool worse(const WorstCell& a, const WorstCell& b) {
+  return std::tie(a.value, a.cell) < std::tie(b.value, b.cell);
+}
+
+void keep_worst(std::vector<WorstCell>& worst) {
+  std::sort(worst.begin(), worst.end(), worse);
+  if (worst.size() > worst_kept) worst.resize(worst_kept);
+}
+
+/// What one rank knows of its pieces.
+struct LocalSummary {
+  std::vector<Accumulated> measure;
+  std::vector<Values> sums;  ///< per piece
+  std::vector<WorstCell> worst;
+};
+
+LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbering) {
+  LocalSummary local;
+  for (const Scale& scale : scales) local.measure.emplace_back(scale);
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const Piece& piece = mesh.pieces[i];
+    Values sum{};
+    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const Values values = measure(piece, c);
+      for (int m = 0; m < measures; ++m) {
+        local.measure[m].add(values.of[m], scales[m]);
+        sum.of[m] += values.of[m];
+      }
+      if (local.worst.size() < worst_kept || values.of[min_angle] <= local.worst.back().value) {
+        local.worst.push_back({values.of[min_angle], numbering.first_cell[i] + c, center_of(piece, c)});
+        keep_worst(local.worst);
+      }
+    }
+    local.sums.push_back(sum);
+  }
+  return local;
+}
+
+/// Sums arrays of equal length over all ranks. Each rank adds up its own stretch, so no rank holds one array
+/// per rank.
+std::vector<std::int64_t> sum_bins(const parallel::Communicator& communicator,
+                                   const std::vector<std::int64_t>& bins) {
+  struct Entry {
+    std::int64_t bin, count;
+  };
+  const auto per_rank = static_cast<std::int64_t>(bins.size() / communicator.size() + 1);
+  std::vector<Entry> filled;
+  for (std::size_t b = 0; b < bins.size(); ++b) {
+    if (bins[b] != 0) filled.push_back({static_cast<std::int64_t>(b), bins[b]});
+  }
+  const auto arrived = deliver(communicator, filled, [per_rank](const Entry& entry) {
+    return static_cast<parallel::Rank>(entry.bin / per_rank);
+  });
+  std::vector<std::int64_t> stretch(per_rank, 0);
+  const std::int64_t first = per_rank * communicator.rank();
+  for (const Entry& entry : arrived) stretch[entry.bin - first] += entry.count;
+  auto all = communicator.all_gather_items(std::span<const std::int64_t>(stretch));
+  all.resize(bins.size());
+  return all;
+}
+
+/// The lower end of the bin in which the cell at this fraction of all cells, counted from below, lies.
+double percentile(const std::vector<std::int64_t>& bins, const Scale& scale, GlobalIndex cells,
+                  int per_mille) {
+  const GlobalIndex wanted = std::max<GlobalIndex>(1, (cells * per_mille + 999) / 1000);
+  GlobalIndex seen = 0;
+  std::size_t bin = 0;
+  while (bin < bins.size() && (seen += bins[bin]) < wanted) ++bin;
+  return static_cast<double>(bin) / scale.bins_per_unit;
+}
+
+Distribution distribution_of(const parallel::Communicator& communicator, const Accumulated& local,
+                             const Scale& scale, double sum, GlobalIndex cells) {
+  const std::vector<std::int64_t> bins = sum_bins(communicator, local.bins);
+  Distribution result;
+  result.minimum = communicator.minimum(local.minimum);
+  result.maximum = communicator.maximum(local.maximum);
+  result.histogram.high = scale.high;
+  result.histogram.counts.assign(bins.size() / scale.merged, 0);
+  for (std::size_t b = 0; b < bins.size(); ++b) result.histogram.counts[b / scale.merged] += bins[b];
+  if (cells == 0) {
+    result.minimum = result.maximum = 0;
+    return result;
+  }
+  result.mean = sum / static_cast<double>(cells);
+  const auto at = [&](int per_mille) {
+    return std::max(result.minimum, percentile(bins, scale, cells, per_mille));
+  };
+  result.percentile_01 = at(1);
+  result.percentile_1 = at(10);
+  result.percentile_5 = at(50);
+  return result;
+}
+
+}  // namespace
+
+QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                                 const Numbering& numbering) {
+  LocalSummary local = summarise_local(mesh, numbering);
+  Values sums{};
+  for (const Values& piece : gather_by_piece(communicator, mesh, local.sums)) {
+    for (int m = 0; m < measures; ++m) sums.of[m] += piece.of[m];
+  }
+  const auto distribution = [&](Measure m) {
+    return distribution_of(communicator, local.measure[m], scales[m], sums.of[m], numbering.cell_count);
+  };
+  QualitySummary summary;
+  summary.min_dihedral = distribution(min_angle);
+  summary.max_dihedral = distribution(max_angle);
+  summary.mean_ratio = distribution(mean);
+  if (mesh.kind == CellKind::tetrahedron) summary.radius_ratio = distribution(radius);
+  summary.worst = communicator.all_gather_items(std::span<const WorstCell>(local.worst));
+  keep_worst(summary.worst);
+  return summary;
+}
+
+}  // namespace aeroloom::mesh

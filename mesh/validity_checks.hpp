@@ -1,0 +1,54 @@
+/// The checks that volume and surface meshes have in common. All report to Findings.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "mesh/findings.hpp"
+
+#include <vector>
+
+namespace aeroloom::mesh {
+
+/// Throws CollectiveError when the arrays of a piece do not fit together or the numbering belongs to another
+/// mesh: then nothing else can be checked. Collective.
+void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                       const Numbering& numbering);
+
+/// Every coordinate is a finite number. Not collective.
+void check_finite_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
+/// Every vertex is used by a cell of its piece. Not collective.
+void check_orphans(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
+/// Every boundary triangle has one of the mesh's patches and CAD faces. Not collective.
+void check_labels(const DistributedMesh& mesh, Findings& findings);
+/// All pieces agree on the coordinate bits of the vertices they share. Collective.
+void check_shared_coordinates(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                              const Numbering& numbering, Findings& findings);
+/// The boundary triangles close: each edge is passed equally often in both directions. Collective.
+void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                          const Numbering& numbering, Findings& findings);
+
+/// The boundary triangles of `mesh` are exactly the triangles of `surface`, by the bits of their coordinates
+/// and their orientation. Collective.
+void check_same_triangles(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                          const DistributedMesh& surface, Findings& in_mesh, Findings& in_surface);
+
+/// A sum that carries its rounding error along (Neumaier, ZAMM 54, 1974, doi:10.1002/zamm.19740540106).
+class CompensatedSum {
+public:
+  void add(double term);
+  double value() const { return _sum + _error; }
+
+private:
+  double _sum = 0, _error = 0;
+};
+
+/// The centre of the box around the finite points of a mesh. Collective.
+geometry::Vec3 center_of_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh);
+/// The volume enclosed by a piece's boundary triangles together with the cone from `origin` over their rim:
+/// summed over all pieces, the rims cancel.
+double enclosed_volume(const Piece& piece, geometry::Vec3 origin);
+/// The sum of one value per local piece over the whole mesh, in piece order: the same bits whatever the
+/// ranks. Collective.
+double sum_over_pieces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                       const std::vector<double>& values);
+
+}  // namespace aeroloom::mesh
