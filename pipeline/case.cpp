@@ -1,1 +1,193 @@
-#include "geometry/vec.hpp"
+#include "pipeline/case.hpp"
+
+#include "pipeline/yaml_reader.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+namespace {
+
+const std::string length = "(length unit of the geometry)";
+
+/// What is built in. The empty name is not among the choices of the key: it stands for a file.
+enum class Builtin { none, transport };
+
+/// A case while it is read or written: what is optional in a Case is a value here, with a flag beside it.
+struct Draft {
+  Case result;
+  Builtin builtin = Builtin::none;
+  geometry::TransportDimensions dimensions;
+  bool dimensions_given = false;
+  geometry::FarFieldOptions far_field;
+  bool far_field_given = false;
+};
+
+void declare_lifting_surface(KeyTable& keys, geometry::LiftingSurface& surface) {
+  keys.number("root_chord", surface.root_chord, Range::above(0, "m"));
+  keys.number("taper", surface.taper, Range::above(0, 1));
+  keys.number("half_span", surface.half_span, Range::above(0, "m"));
+  keys.number("sweep", surface.sweep, Range::between(-75, 75, "degrees"));
+  keys.number("dihedral", surface.dihedral, Range::between(-75, 75, "degrees"));
+  keys.number("thickness", surface.thickness, Range::above(0, 0.5, "of the chord"));
+  keys.number("camber", surface.camber, Range::between(-0.2, 0.2, "of the chord"));
+  keys.number("root_incidence", surface.root_incidence, Range::between(-30, 30, "degrees"));
+  keys.number("tip_incidence", surface.tip_incidence, Range::between(-30, 30, "degrees"));
+  keys.number("x", surface.x, {});
+  keys.number("z", surface.z, {});
+  keys.number("trailing_edge", surface.trailing_edge, Range::above(0, 0.1, "of the chord"));
+}
+
+void declare_dimensions(KeyTable& keys, geometry::TransportDimensions& dimensions) {
+  keys.number("fuselage_length", dimensions.fuselage_length, Range::above(0, "m"));
+  keys.number("fuselage_diameter", dimensions.fuselage_diameter, Range::above(0, "m"));
+  keys.number("nose_length", dimensions.nose_length, Range::above(0, "m"));
+  keys.number("tail_length", dimensions.tail_length, Range::above(0, "m"));
+  keys.number("tail_upsweep", dimensions.tail_upsweep, {});
+  declare_lifting_surface(keys.section("wing"), dimensions.wing);
+  declare_lifting_surface(keys.section("horizontal_tail"), dimensions.horizontal_tail);
+  declare_lifting_surface(keys.section("vertical_tail"), dimensions.vertical_tail);
+}
+
+void declare_geometry(KeyTable& root, Draft& draft) {
+  using geometry::DomainKind;
+  using geometry::FarFieldShape;
+  KeyTable& keys = root.section("geometry");
+  keys.text("file", draft.result.domain.file);
+  keys.choice<Builtin>("builtin", draft.builtin, {{"transport", Builtin::transport}});
+  declare_dimensions(keys.section("dimensions", &draft.dimensions_given), draft.dimensions);
+  keys.choice<DomainKind>(
+      "domain", draft.result.domain.kind,
+      {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
+  KeyTable& far_field = root.section("farfield", &draft.far_field_given);
+  far_field.choice<FarFieldShape>("shape", draft.far_field.shape,
+                                  {{"sphere", FarFieldShape::sphere}, {"box", FarFieldShape::box}});
+  far_field.number("extent", draft.far_field.extent, Range::above(0, "reference lengths"));
+}
+
+void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
+  keys.number("minimum", sizing.minimum, Range::above(0, length));
+  keys.number("maximum", sizing.maximum, Range::above(0, length));
+  keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length));
+  keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"));
+  keys.number("growth", sizing.growth, Range::above(1, 3));
+  keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10));
+}
+
+void declare_stages(KeyTable& root, Case& result) {
+  using volume::VolumeOptions;
+  const Range piece_size = Range::between(100, 1e9, "elements");
+  KeyTable& surface = root.section("surface");
+  surface.integer("piece_triangles", result.piece_triangles, piece_size);
+  surface.choice<SurfaceDecomposition>(
+      "decomposition", result.decomposition,
+      {{"faces", SurfaceDecomposition::faces}, {"pieces", SurfaceDecomposition::pieces}});
+  KeyTable& volume = root.section("volume");
+  volume.integer("piece_tets", result.piece_tets, piece_size);
+  volume.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"));
+  volume.number("perturbation", result.volume.perturbation, Range::between(0, 0.25, "local sizes"));
+  volume.choice<VolumeOptions::Sabotage>("inject", result.volume.sabotage,
+                                         {{"none", VolumeOptions::Sabotage::none},
+                                          {"throws", VolumeOptions::Sabotage::throws},
+                                          {"aborts", VolumeOptions::Sabotage::aborts},
+                                          {"hangs", VolumeOptions::Sabotage::hangs},
+                                          {"exhausts_memory", VolumeOptions::Sabotage::exhausts_memory}});
+  KeyTable& improve = root.section("improve");
+  improve.flag("enabled", result.improve.enabled);
+  improve.number("target_angle", result.improve.target_angle, Range::between(0, 60, "degrees"));
+  improve.integer("sweeps", result.improve.sweeps, Range::between(0, 1000));
+  KeyTable& output = root.section("output");
+  output.text("directory", result.output.directory);
+  output.choice<parallel::LogLevel>("log", result.output.log,
+                                    {{"quiet", parallel::LogLevel::quiet},
+                                     {"normal", parallel::LogLevel::normal},
+                                     {"verbose", parallel::LogLevel::verbose}});
+}
+
+/// All keys of a case, bound to the draft.
+void declare_keys(KeyTable& root, Draft& draft) {
+  declare_geometry(root, draft);
+  declare_sizing(root.section("sizing"), draft.result.sizing);
+  declare_stages(root, draft.result);
+}
+
+void check_geometry(const KeyTable& keys, const Draft& draft, const std::string& file) {
+  const auto at = [&](const std::string& key) { return keys.where("geometry." + key) + ": "; };
+  const bool from_file = !draft.result.domain.file.empty(), built_in = draft.builtin != Builtin::none;
+  if (!from_file && !built_in) {
+    throw CaseError(file + ": the case has no geometry; give 'geometry.file' or 'geometry.builtin'");
+  }
+  if (from_file && built_in) {
+    throw CaseError(at("builtin") + "'geometry.file' and 'geometry.builtin' exclude each other");
+  }
+  if (draft.dimensions_given && !built_in) {
+    throw CaseError(at("dimensions") + "'geometry.dimensions' belongs to 'geometry.builtin', not to a file");
+  }
+  if (draft.result.domain.kind != geometry::DomainKind::fluid) return;
+  if (built_in)
+    throw CaseError(at("domain") + "the built-in geometry is a body, 'geometry.domain' cannot be fluid");
+  if (draft.far_field_given) {
+    throw CaseError(keys.where("farfield") + ": 'farfield' surrounds bodies, but 'geometry.domain' is fluid");
+  }
+}
+
+/// Refuses `smaller` above `larger`, wherever the two were given.
+void check_order(const KeyTable& keys, const std::string& smaller, std::optional<double> small_value,
+                 const std::string& larger, std::optional<double> large_value) {
+  if (!small_value || !large_value || *small_value <= *large_value) return;
+  throw CaseError(fmt::format("{}: '{}' is {}, but must be at least '{}', which is {} ({})",
+                              keys.where(larger), larger, *large_value, smaller, *small_value,
+                              keys.where(smaller)));
+}
+
+void check_sizing(const KeyTable& keys, const SizingRequest& sizing) {
+  check_order(keys, "sizing.minimum", sizing.minimum, "sizing.maximum", sizing.maximum);
+  check_order(keys, "sizing.minimum", sizing.minimum, "sizing.surface_maximum", sizing.surface_maximum);
+}
+
+/// Where the geometry is: seen from the working directory or else from the case.
+std::string locate(const std::string& geometry_file, const std::string& case_file) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;  // what cannot be looked at is not there
+  if (geometry_file.empty() || fs::exists(geometry_file, ignored)) return geometry_file;
+  const fs::path beside_case = fs::path(case_file).parent_path() / geometry_file;
+  return fs::exists(beside_case, ignored) ? beside_case.string() : geometry_file;
+}
+
+}  // namespace
+
+Case read_case(const std::string& file, const std::vector<std::string>& overrides) {
+  Draft draft;
+  KeyTable keys;
+  declare_keys(keys, draft);
+  keys.read_file(file);
+  for (const std::string& assignment : overrides) keys.read_override(assignment);
+  check_geometry(keys, draft, file);
+  check_sizing(keys, draft.result.sizing);
+  Case result = draft.result;
+  result.domain.file = locate(result.domain.file, file);
+  if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
+  if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  return result;
+}
+
+std::string resolved_yaml(const Case& input) {
+  Draft draft;
+  draft.result = input;
+  if (input.domain.transport) {
+    draft.builtin = Builtin::transport;
+    draft.dimensions = *input.domain.transport;
+    draft.dimensions_given = true;
+  }
+  if (input.domain.far_field) {
+    draft.far_field = *input.domain.far_field;
+    draft.far_field_given = true;
+  }
+  KeyTable keys;
+  declare_keys(keys, draft);
+  return keys.write();
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,57 @@
+/// A case: everything a run depends on, as plain options of the stages. Keys: docs/configuration.md.
+#pragma once
+
+#include "geometry/domain.hpp"
+#include "improve/improver.hpp"
+#include "parallel/log.hpp"
+#include "pipeline/case_error.hpp"
+#include "surface/surface_mesher.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// What the user said about sizes; what is left out comes from the preset. Lengths in the model's unit.
+struct SizingRequest {
+  std::optional<double> minimum, maximum;  ///< minimum <= maximum
+  std::optional<double> surface_maximum;   ///< largest size on faces that are not far field
+  std::optional<double> curvature_angle;   ///< degrees
+  std::optional<double> growth;            ///< ratio of neighbouring sizes
+  double target_tetrahedra = 1'000'000;    ///< what sizes chosen from the model aim at
+};
+
+/// How a surface is cut into pieces. For now a surface piece is a whole CAD face either way.
+enum class SurfaceDecomposition { faces, pieces };
+
+struct OutputOptions {
+  std::string directory = "out";                        ///< relative to the working directory
+  parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
+};
+
+struct Case {
+  geometry::DomainOptions domain;
+  SizingRequest sizing;
+  surface::SurfaceOptions surface;
+  std::int64_t piece_triangles =
+      50'000;  ///< wanted size of a surface piece; has no effect while pieces are CAD faces
+  SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
+  volume::VolumeOptions volume;
+  std::int64_t piece_tets = 250'000;  ///< wanted size of a volume piece
+  improve::ImproveOptions improve;
+  OutputOptions output;
+};
+
+/// Reads a case and overrides of the form "section.key=value" (the value is YAML; a later one wins). A
+/// relative geometry.file is sought in the working directory, then in the case file's folder; one found in
+/// neither stays as it is. Throws CaseError: unknown keys (with the nearest one), duplicates, wrong types,
+/// values out of range or at odds with each other, no geometry or two.
+Case read_case(const std::string& file, const std::vector<std::string>& overrides);
+
+/// The case as YAML with every value spelled out, which read_case reads back to the same case.
+std::string resolved_yaml(const Case& input);
+
+}  // namespace aeroloom::pipeline

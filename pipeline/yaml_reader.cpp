@@ -1,0 +1,326 @@
+#include "pipeline/yaml_reader.hpp"
+
+#include "pipeline/nearest_name.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace aeroloom::pipeline {
+
+namespace {
+
+/// What a node is, in the words of a message.
+std::string describe(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return "'" + node.Scalar() + "'";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Map:
+      return "a map of keys";
+    case YAML::NodeType::Null:
+      return "nothing";
+    case YAML::NodeType::Undefined:
+      break;
+  }
+  return "something undefined";
+}
+
+/// The shortest text that reads back as the same number.
+std::string shortest(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+std::optional<double> parse_number(const std::string& text) {
+  const char* first = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
+  const char* last = text.data() + text.size();
+  double value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string position(const YAML::Mark& mark) {
+  return mark.is_null() ? "" : fmt::format(":{}:{}", mark.line + 1, mark.column + 1);
+}
+
+/// The one document of a text; a null node when it is empty.
+YAML::Node parse(const std::string& text, const std::string& name, bool positions) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    throw CaseError(
+        fmt::format("{}{}: not valid YAML: {}", name, positions ? position(error.mark) : "", error.msg));
+  }
+  if (documents.size() > 1) throw CaseError(name + ": several YAML documents, one is expected");
+  return documents.empty() ? YAML::Node() : documents[0];
+}
+
+}  // namespace
+
+Range Range::above(double low, const std::string& unit) {
+  return {low, std::numeric_limits<double>::infinity(), false, unit};
+}
+
+Range Range::above(double low, double up_to, const std::string& unit) {
+  return {low, up_to, false, unit};
+}
+
+Range Range::between(double low, double high, const std::string& unit) {
+  return {low, high, true, unit};
+}
+
+std::string Range::description() const {
+  std::string text;
+  if (std::isfinite(low)) text = (low_allowed ? "at least " : "above ") + shortest(low);
+  if (std::isfinite(high)) text += (text.empty() ? "at most " : " and at most ") + shortest(high);
+  if (text.empty()) text = "any number";
+  return unit.empty() ? text : text + " " + unit;
+}
+
+void YamlValue::refuse(const std::string& expectation) const {
+  throw CaseError(fmt::format("{}: '{}': expected {}, got {}", _where, _path, expectation, describe(_node)));
+}
+
+void YamlValue::require_within(double value, const Range& range) const {
+  if (range.contains(value)) return;
+  throw CaseError(
+      fmt::format("{}: '{}' is {}, but must be {}", _where, _path, shortest(value), range.description()));
+}
+
+double YamlValue::number(const Range& range) const {
+  const std::optional<double> value = _node.IsScalar() ? parse_number(_node.Scalar()) : std::nullopt;
+  if (!value) refuse("a number");
+  require_within(*value, range);
+  return *value;
+}
+
+std::int64_t YamlValue::integer(const Range& range) const {
+  const std::optional<double> value = _node.IsScalar() ? parse_number(_node.Scalar()) : std::nullopt;
+  if (!value || *value != std::floor(*value)) refuse("a whole number");
+  require_within(*value, range);
+  return static_cast<std::int64_t>(*value);
+}
+
+bool YamlValue::flag() const {
+  bool value = false;
+  if (!_node.IsScalar() || !YAML::convert<bool>::decode(_node, value)) refuse("true or false");
+  return value;
+}
+
+std::string YamlValue::text() const {
+  if (!_node.IsScalar() || _node.Scalar().empty()) refuse("a text");
+  return _node.Scalar();
+}
+
+std::size_t YamlValue::choice(const std::vector<std::string>& names) const {
+  const auto found = _node.IsScalar() ? std::find(names.begin(), names.end(), _node.Scalar()) : names.end();
+  if (found == names.end()) refuse((names.size() > 1 ? "one of " : "") + joined(names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// What is being read.
+struct KeyTable::Source {
+  std::string name;  // a file, or "--set a.b=c"
+  bool positions;    // whether line and column mean anything to the user
+  const KeyTable& root;
+};
+
+std::string KeyTable::origin_in(const Source& source, const YAML::Node& node) {
+  return source.positions ? source.name + position(node.Mark()) : source.name;
+}
+
+void KeyTable::add(const std::string& name, std::function<void(const YamlValue&)> read,
+                   std::function<std::optional<std::string>()> written) {
+  Entry entry;
+  entry.name = name;
+  entry.read = std::move(read);
+  entry.written = std::move(written);
+  _entries.push_back(std::move(entry));
+}
+
+KeyTable& KeyTable::section(const std::string& name, bool* given) {
+  Entry entry;
+  entry.name = name;
+  entry.given = given;
+  entry.below = std::make_unique<KeyTable>();
+  entry.below->_path = path_of(name);
+  _entries.push_back(std::move(entry));
+  return *_entries.back().below;
+}
+
+void KeyTable::number(const std::string& name, double& target, const Range& range) {
+  add(
+      name, [&target, range](const YamlValue& value) { target = value.number(range); },
+      [&target] { return shortest(target); });
+}
+
+void KeyTable::number(const std::string& name, std::optional<double>& target, const Range& range) {
+  add(
+      name, [&target, range](const YamlValue& value) { target = value.number(range); },
+      [&target] { return target ? std::optional(shortest(*target)) : std::nullopt; });
+}
+
+void KeyTable::integer(const std::string& name, std::int64_t& target, const Range& range) {
+  add(
+      name, [&target, range](const YamlValue& value) { target = value.integer(range); },
+      [&target] { return std::to_string(target); });
+}
+
+void KeyTable::integer(const std::string& name, int& target, const Range& range) {
+  add(
+      name, [&target, range](const YamlValue& value) { target = static_cast<int>(value.integer(range)); },
+      [&target] { return std::to_string(target); });
+}
+
+void KeyTable::flag(const std::string& name, bool& target) {
+  add(
+      name, [&target](const YamlValue& value) { target = value.flag(); },
+      [&target] { return target ? "true" : "false"; });
+}
+
+void KeyTable::text(const std::string& name, std::string& target) {
+  add(
+      name, [&target](const YamlValue& value) { target = value.text(); },
+      [&target] { return target.empty() ? std::nullopt : std::optional(target); });
+}
+
+void KeyTable::read_file(const std::string& file) {
+  std::error_code ignored;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file, ignored)) {
+    throw CaseError(file + ": the case cannot be opened; it must be a YAML file");
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  read(parse(text, file, true), {file, true, *this});
+}
+
+void KeyTable::read_override(const std::string& assignment) {
+  const std::string name = "--set " + assignment;
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) throw CaseError(name + ": expected section.key=value");
+  std::vector<std::string> names;
+  for (std::size_t start = 0; start <= equals;) {
+    const std::size_t dot = std::min(assignment.find('.', start), equals);
+    if (dot == start) throw CaseError(name + ": expected section.key=value, found an empty name");
+    names.push_back(assignment.substr(start, dot - start));
+    start = dot + 1;
+  }
+  YAML::Node node = parse(assignment.substr(equals + 1), name, false);
+  for (auto key = names.rbegin(); key != names.rend(); ++key) {
+    YAML::Node map(YAML::NodeType::Map);
+    map.force_insert(*key, node);
+    node.reset(map);
+  }
+  read(node, {name, false, *this});
+}
+
+void KeyTable::read(const YAML::Node& node, const Source& source) {
+  if (node.IsNull()) return;  // everything below is left out
+  if (!node.IsMap()) {
+    const std::string place = _path.empty() ? "" : " below '" + _path + "'";
+    throw CaseError(
+        fmt::format("{}: expected keys{}, got {}", origin_in(source, node), place, describe(node)));
+  }
+  std::set<std::string> seen;
+  for (const auto& item : node) {
+    const YAML::Node& key = item.first;
+    const std::string where = origin_in(source, key);
+    if (!key.IsScalar()) throw CaseError(fmt::format("{}: expected a key, got {}", where, describe(key)));
+    const std::string& name = key.Scalar();
+    Entry* entry = find(name);
+    if (!entry) {
+      const std::string place = _path.empty() ? "" : " in '" + _path + "'";
+      throw CaseError(
+          fmt::format("{}: unknown key '{}'{}; {}", where, name, place, advice(name, source.root)));
+    }
+    if (!seen.insert(name).second)
+      throw CaseError(fmt::format("{}: key '{}' is given twice", where, path_of(name)));
+    entry->where = where;
+    read_entry(*entry, item.second, source);
+  }
+}
+
+void KeyTable::read_entry(Entry& entry, const YAML::Node& node, const Source& source) {
+  if (entry.below) {
+    entry.below->read(node, source);
+    if (entry.given) *entry.given = true;
+    return;
+  }
+  // What is not there has no place of its own: the key's is shown.
+  const std::string where = node.IsNull() ? entry.where : origin_in(source, node);
+  entry.read(YamlValue(node, path_of(entry.name), where));
+}
+
+KeyTable::Entry* KeyTable::find(const std::string& name) {
+  const auto found =
+      std::find_if(_entries.begin(), _entries.end(), [&](const Entry& e) { return e.name == name; });
+  return found == _entries.end() ? nullptr : &*found;
+}
+
+std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) const {
+  std::vector<std::string> here, everywhere;
+  for (const Entry& entry : _entries) here.push_back(entry.name);
+  if (const auto near = nearest_name(unknown, here)) return "did you mean '" + *near + "'?";
+  root.collect_paths(everywhere);
+  std::vector<std::string> last_names;
+  for (const std::string& path : everywhere) last_names.push_back(path.substr(path.rfind('.') + 1));
+  if (const auto near = nearest_name(unknown, last_names)) {
+    const auto found = std::find(last_names.begin(), last_names.end(), *near) - last_names.begin();
+    return "did you mean '" + everywhere[static_cast<std::size_t>(found)] + "'?";
+  }
+  return "valid keys: " + joined(here);
+}
+
+void KeyTable::collect_paths(std::vector<std::string>& paths) const {
+  for (const Entry& entry : _entries) paths.push_back(path_of(entry.name));
+  for (const Entry& entry : _entries) {
+    if (entry.below) entry.below->collect_paths(paths);
+  }
+}
+
+std::string KeyTable::where(const std::string& path) const {
+  const std::size_t dot = path.find('.');
+  for (const Entry& entry : _entries) {
+    if (entry.name != path.substr(0, dot)) continue;
+    return dot == std::string::npos ? entry.where : entry.below->where(path.substr(dot + 1));
+  }
+  return "";
+}
+
+std::string KeyTable::write() const {
+  YAML::Emitter emitter;
+  write(emitter);
+  return std::string(emitter.c_str()) + "\n";
+}
+
+void KeyTable::write(YAML::Emitter& emitter) const {
+  emitter << YAML::BeginMap;
+  for (const Entry& entry : _entries) {
+    if (entry.below) {
+      if (entry.given && !*entry.given) continue;
+      emitter << YAML::Key << entry.name << YAML::Value;
+      entry.below->write(emitter);
+    } else if (const std::optional<std::string> value = entry.written()) {
+      emitter << YAML::Key << entry.name << YAML::Value << *value;
+    }
+  }
+  emitter << YAML::EndMap;
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,130 @@
+/// Strict reading of YAML into variables: every key is declared once, with what it accepts and where its
+/// value goes; reading, writing and the search for the nearest key follow from that.
+#pragma once
+
+#include "pipeline/case_error.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace YAML {
+class Emitter;
+class Node;
+}  // namespace YAML
+
+namespace aeroloom::pipeline {
+
+/// The numbers a key accepts.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_allowed = true;
+  std::string unit;
+
+  static Range above(double low, const std::string& unit = "");
+  static Range above(double low, double up_to, const std::string& unit = "");
+  static Range between(double low, double high, const std::string& unit = "");
+  bool contains(double value) const { return (low_allowed ? value >= low : value > low) && value <= high; }
+  /// As in "above 1 and at most 3 degrees".
+  std::string description() const;
+};
+
+/// A value in a file or on the command line, as the readers of single keys see it.
+class YamlValue {
+public:
+  YamlValue(const YAML::Node& node, std::string path, std::string where)
+      : _node(node), _path(std::move(path)), _where(std::move(where)) {}
+  /// Each throws CaseError when the value is something else.
+  double number(const Range& range) const;
+  std::int64_t integer(const Range& range) const;
+  bool flag() const;
+  std::string text() const;
+  /// The position among `names`.
+  std::size_t choice(const std::vector<std::string>& names) const;
+
+private:
+  [[noreturn]] void refuse(const std::string& expectation) const;
+  void require_within(double value, const Range& range) const;
+
+  const YAML::Node& _node;
+  std::string _path, _where;
+};
+
+/// The keys of a YAML map and what is below them. Variables must outlive the table.
+class KeyTable {
+public:
+  KeyTable() = default;
+  KeyTable(const KeyTable&) = delete;
+  KeyTable& operator=(const KeyTable&) = delete;
+
+  /// Declares a key with keys below it. `given`, if any, becomes true when the key is read; while it is false
+  /// the section is not written.
+  KeyTable& section(const std::string& name, bool* given = nullptr);
+  void number(const std::string& name, double& target, const Range& range);
+  /// An empty optional is not written.
+  void number(const std::string& name, std::optional<double>& target, const Range& range);
+  void integer(const std::string& name, std::int64_t& target, const Range& range);
+  void integer(const std::string& name, int& target, const Range& range);
+  void flag(const std::string& name, bool& target);
+  /// Empty text is not accepted, and not written.
+  void text(const std::string& name, std::string& target);
+  /// One of the names, each standing for a value of the enumeration.
+  template <class Enum>
+  void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values);
+
+  /// Reads a file, later "a.b=value" overrides. Only what is given is assigned. Throws CaseError.
+  void read_file(const std::string& file);
+  void read_override(const std::string& assignment);
+  /// Where the key of this path ("sizing.minimum") was given last; empty when it was not.
+  std::string where(const std::string& path) const;
+  /// All values in the order of declaration, as YAML that read_file accepts.
+  std::string write() const;
+
+private:
+  struct Entry {
+    std::string name;
+    std::unique_ptr<KeyTable> below;                      // of a section
+    bool* given = nullptr;                                // of a section
+    std::function<void(const YamlValue&)> read;           // of a value
+    std::function<std::optional<std::string>()> written;  // of a value
+    std::string where;
+  };
+  struct Source;
+
+  static std::string origin_in(const Source& source, const YAML::Node& node);
+  void add(const std::string& name, std::function<void(const YamlValue&)> read,
+           std::function<std::optional<std::string>()> written);
+  void read(const YAML::Node& node, const Source& source);
+  void read_entry(Entry& entry, const YAML::Node& node, const Source& source);
+  Entry* find(const std::string& name);
+  std::string path_of(const std::string& name) const { return _path.empty() ? name : _path + "." + name; }
+  std::string advice(const std::string& unknown, const KeyTable& root) const;
+  void collect_paths(std::vector<std::string>& paths) const;
+  void write(YAML::Emitter& emitter) const;
+
+  std::string _path;  // of the section; empty at the top
+  std::vector<Entry> _entries;
+};
+
+template <class Enum>
+void KeyTable::choice(const std::string& name, Enum& target,
+                      const std::vector<std::pair<std::string, Enum>>& values) {
+  std::vector<std::string> names;
+  for (const auto& value : values) names.push_back(value.first);
+  add(
+      name, [&target, names, values](const YamlValue& value) { target = values[value.choice(names)].second; },
+      [&target, values]() -> std::optional<std::string> {
+        for (const auto& value : values) {
+          if (value.second == target) return value.first;
+        }
+        return std::nullopt;
+      });
+}
+
+}  // namespace aeroloom::pipeline
