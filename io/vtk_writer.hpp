@@ -1,15 +1,14 @@
 /// Meshes for ParaView: .pvtu with .vtu parts, .pvtp with .vtp parts; binary appended, 64-bit.
 #pragma once
 
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+
 #include <array>
 #include <string>
 #include <vector>
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-
 namespace aeroloom::io {
-
 
 /// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/. Tetrahedra only. Cell arrays `piece`,
 /// `mean_ratio`, `min_dihedral`; point array `global_id`. One part is in VTK's form at a time. The files are
@@ -17,8 +16,9 @@ namespace aeroloom::io {
 void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                   const mesh::Numbering& numbering, const std::string& directory, const std::string& name);
 
-/// Writes DIRECTORY/NAME.pvtp and its parts in DIRECTORY/NAME/. Cell arrays `face` and `patch` (ids), `quality`;
-/// field arrays `face_names` and `patch_names`; point array `global_id`. Collective, as write_volume.
+/// Writes DIRECTORY/NAME.pvtp and its parts in DIRECTORY/NAME/. Cell arrays `face` and `patch` (ids),
+/// `quality`; field arrays `face_names` and `patch_names`; point array `global_id`. Collective, as
+/// write_volume.
 void write_surface(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                    const mesh::Numbering& numbering, const std::string& directory, const std::string& name);
 

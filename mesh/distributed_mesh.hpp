@@ -1,10 +1,10 @@
 /// The distributed mesh: pieces spread over ranks.
 #pragma once
 
+#include "mesh/piece.hpp"
+
 #include <string>
 #include <vector>
-
-#include "mesh/piece.hpp"
 
 namespace aeroloom::mesh {
 
@@ -17,16 +17,18 @@ struct DistributedMesh {
   std::vector<std::string> faces;    ///< CAD face names by face id, the same on every rank
 };
 
-/// Global numbers, a function of pieces and tokens alone: vertices run by the id of the owning piece (the lowest that
-/// knows the vertex), then by local order; cells by piece id, then local order.
+/// Global numbers, a function of pieces and tokens alone: vertices run by the id of the owning piece (the
+/// lowest that knows the vertex), then by local order; cells by piece id, then local order.
 struct Numbering {
-  std::vector<std::vector<GlobalIndex>> vertices;  ///< per local piece (order of mesh.pieces), per local vertex
-  std::vector<std::vector<std::uint8_t>> owned;    ///< same shape: 1 where this piece owns the vertex
-  std::vector<GlobalIndex> first_cell;             ///< per local piece
-  GlobalIndex vertex_count = 0, cell_count = 0;    ///< of the whole mesh
+  std::vector<std::vector<GlobalIndex>>
+      vertices;                                  ///< per local piece (order of mesh.pieces), per local vertex
+  std::vector<std::vector<std::uint8_t>> owned;  ///< same shape: 1 where this piece owns the vertex
+  std::vector<GlobalIndex> first_cell;           ///< per local piece
+  GlobalIndex vertex_count = 0, cell_count = 0;  ///< of the whole mesh
 };
 
-/// Collective. Pieces that share a token must agree on its coordinates bit for bit; a mismatch throws on all ranks.
+/// Collective. Pieces that share a token must agree on its coordinates bit for bit; a mismatch throws on all
+/// ranks.
 Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh);
 
 /// Moves pieces so that piece p lives on rank owner[p]; `owner` is the same on every rank. Collective.
@@ -40,8 +42,8 @@ struct MeshCounts {
 MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering);
 
-/// The 128-bit hash of the mesh as 32 hexadecimal digits: coordinate bits, cells, classification, patches and boundary
-/// triangles in global numbering. Independent of ranks; flipping any one bit changes it. Collective.
+/// The 128-bit hash of the mesh as 32 hexadecimal digits: coordinate bits, cells, classification, patches and
+/// boundary triangles in global numbering. Independent of ranks; flipping any one bit changes it. Collective.
 std::string hash_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering);
 

@@ -1,41 +1,42 @@
 /// A piece of a simplicial mesh: the unit of decomposition, work, scheduling, checkpointing and failure.
 #pragma once
 
+#include "geometry/vec.hpp"
+#include "parallel/communicator.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "geometry/vec.hpp"
-#include "parallel/communicator.hpp"
-
 namespace aeroloom::mesh {
 
-using LocalIndex = std::int32_t;    ///< of a vertex or cell within a piece
-using GlobalIndex = std::int64_t;   ///< of a vertex or cell of the whole mesh
-using PieceId = std::int32_t;       ///< fixed by the decomposition, whatever the rank count
+using LocalIndex = std::int32_t;   ///< of a vertex or cell within a piece
+using GlobalIndex = std::int64_t;  ///< of a vertex or cell of the whole mesh
+using PieceId = std::int32_t;      ///< fixed by the decomposition, whatever the rank count
 /// The name of a vertex that several pieces share, known by construction before any numbering. Equal tokens
 /// are one vertex.
 using SharedToken = std::uint64_t;
 
 enum class CellKind : std::int8_t { triangle = 3, tetrahedron = 4 };
 
-/// Flat arrays of one piece. n vertices, m cells, b boundary triangles. Cells of a tetrahedral piece have positive
-/// volume in VTK's order; its boundary triangles lie on the boundary of the domain (not on interfaces) and are
-/// counter-clockwise seen from outside the domain. In a triangle piece the cells themselves are the
-/// boundary triangles: `boundary` is empty, and `triangle_face` and `triangle_patch` run over the cells.
+/// Flat arrays of one piece. n vertices, m cells, b boundary triangles. Cells of a tetrahedral piece have
+/// positive volume in VTK's order; its boundary triangles lie on the boundary of the domain (not on
+/// interfaces) and are counter-clockwise seen from outside the domain. In a triangle piece the cells
+/// themselves are the boundary triangles: `boundary` is empty, and `triangle_face` and `triangle_patch` run
+/// over the cells.
 struct Piece {
   PieceId id = 0;
   CellKind kind = CellKind::tetrahedron;
-  std::vector<double> coordinates;             ///< (n,3)
-  std::vector<LocalIndex> cells;               ///< (m,3) or (m,4)
-  std::vector<std::int8_t> vertex_dimension;   ///< (n) 0 CAD vertex, 1 edge, 2 face, 3 region
-  std::vector<std::int32_t> vertex_entity;     ///< (n) id of that CAD entity
-  std::vector<LocalIndex> boundary;            ///< (b,3)
-  std::vector<std::int32_t> triangle_face;     ///< (b) or (m) CAD face
-  std::vector<std::int32_t> triangle_patch;    ///< (b) or (m) patch
-  std::vector<LocalIndex> shared_vertices;     ///< (s) ascending: vertices that other pieces may know too
-  std::vector<SharedToken> shared_tokens;      ///< (s)
+  std::vector<double> coordinates;            ///< (n,3)
+  std::vector<LocalIndex> cells;              ///< (m,3) or (m,4)
+  std::vector<std::int8_t> vertex_dimension;  ///< (n) 0 CAD vertex, 1 edge, 2 face, 3 region
+  std::vector<std::int32_t> vertex_entity;    ///< (n) id of that CAD entity
+  std::vector<LocalIndex> boundary;           ///< (b,3)
+  std::vector<std::int32_t> triangle_face;    ///< (b) or (m) CAD face
+  std::vector<std::int32_t> triangle_patch;   ///< (b) or (m) patch
+  std::vector<LocalIndex> shared_vertices;    ///< (s) ascending: vertices that other pieces may know too
+  std::vector<SharedToken> shared_tokens;     ///< (s)
 
   int vertices_per_cell() const { return static_cast<int>(kind); }
   LocalIndex vertex_count() const { return static_cast<LocalIndex>(coordinates.size() / 3); }
@@ -68,8 +69,8 @@ Piece unpack_piece(std::span<const std::byte> bytes);
 /// Cells a piece may hold at most: indices of faces must fit 30 bits.
 inline constexpr std::size_t max_cells_per_piece = std::size_t{1} << 28;
 
-/// Throws std::logic_error when the arrays do not fit together: sizes, index ranges, order of shared vertices.
-/// Says nothing about geometry.
+/// Throws std::logic_error when the arrays do not fit together: sizes, index ranges, order of shared
+/// vertices. Says nothing about geometry.
 void require_consistent_arrays(const Piece& piece);
 
 /// The four faces of a tetrahedron by local vertex, counter-clockwise seen from outside; face i is opposite

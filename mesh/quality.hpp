@@ -1,12 +1,12 @@
 /// Shape measures of triangles and tetrahedra, and their distribution over a mesh.
 #pragma once
 
+#include "geometry/vec.hpp"
+#include "mesh/distributed_mesh.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "geometry/vec.hpp"
-#include "mesh/distributed_mesh.hpp"
 
 namespace aeroloom::mesh {
 
@@ -27,8 +27,8 @@ double smallest_angle(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c);
 /// Largest angle of a triangle, degrees.
 double largest_angle(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c);
 
-/// A histogram over [low, high) with equal bins; what falls outside counts in the first or last bin. Bins are two
-/// degrees or a fiftieth of a ratio wide.
+/// A histogram over [low, high) with equal bins; what falls outside counts in the first or last bin. Bins are
+/// two degrees or a fiftieth of a ratio wide.
 struct Histogram {
   double low = 0, high = 1;
   std::vector<std::int64_t> counts;
@@ -44,17 +44,17 @@ struct WorstCell {
 /// Distribution of one measure over all cells; all zero where there is no cell.
 struct Distribution {
   double minimum = 0, maximum = 0, mean = 0;
-  /// The values that 0.1 %, 1 % and 5 % of the cells do not exceed, rounded down to a hundredth of a degree (ratios:
-  /// to a ten-thousandth), but never below the minimum.
+  /// The values that 0.1 %, 1 % and 5 % of the cells do not exceed, rounded down to a hundredth of a degree
+  /// (ratios: to a ten-thousandth), but never below the minimum.
   double percentile_01 = 0, percentile_1 = 0, percentile_5 = 0;
   Histogram histogram;
 };
 
 struct QualitySummary {
-  Distribution min_dihedral;   ///< degrees (triangles: smallest angle)
-  Distribution max_dihedral;   ///< degrees (triangles: largest angle)
+  Distribution min_dihedral;  ///< degrees (triangles: smallest angle)
+  Distribution max_dihedral;  ///< degrees (triangles: largest angle)
   Distribution mean_ratio;
-  Distribution radius_ratio;   ///< tetrahedra only
+  Distribution radius_ratio;     ///< tetrahedra only
   std::vector<WorstCell> worst;  ///< the ten of smallest min_dihedral, worst first, ties by global number
 };
 

@@ -1,31 +1,32 @@
 /// The invariants of a mesh (docs/architecture.md), checked over all pieces and ranks.
 #pragma once
 
+#include "mesh/distributed_mesh.hpp"
+
 #include <string>
 #include <vector>
 
-#include "mesh/distributed_mesh.hpp"
-
 namespace aeroloom::mesh {
 
-/// What is wrong with a mesh, the same on every rank. Each violation is a sentence with a count, and the piece and
-/// coordinates of the first offender by global number.
+/// What is wrong with a mesh, the same on every rank. Each violation is a sentence with a count, and the
+/// piece and coordinates of the first offender by global number.
 struct ValidityReport {
   std::vector<std::string> violations;
-  double volume = 0;            ///< of all cells (tetrahedra), or enclosed by the surface (triangles)
-  double surface_volume = 0;    ///< by the divergence integral over the boundary triangles
+  double volume = 0;          ///< of all cells (tetrahedra), or enclosed by the surface (triangles)
+  double surface_volume = 0;  ///< by the divergence integral over the boundary triangles
   bool valid() const { return violations.empty(); }
 };
 
 /// Checks a tetrahedral mesh: positive volumes, every face in one cell plus one boundary triangle or in two
-/// cells, closed boundary, no orphan vertices, identical coordinates of shared vertices, equal volumes (1e-10), a
-/// patch and a CAD face for every boundary triangle, and, when `surface` is given, that the boundary triangles are
-/// exactly its triangles (by coordinate bits). Memory per rank is bounded by its share of the faces. Collective.
+/// cells, closed boundary, no orphan vertices, identical coordinates of shared vertices, equal volumes
+/// (1e-10), a patch and a CAD face for every boundary triangle, and, when `surface` is given, that the
+/// boundary triangles are exactly its triangles (by coordinate bits). Memory per rank is bounded by its share
+/// of the faces. Collective.
 ValidityReport check_volume_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                  const Numbering& numbering, const DistributedMesh* surface);
 
-/// Checks a surface mesh: every edge in exactly two triangles with opposite directions (an even number, half each way,
-/// where sheets touch), no degenerate or repeated triangle, no orphan vertices, positive enclosed
+/// Checks a surface mesh: every edge in exactly two triangles with opposite directions (an even number, half
+/// each way, where sheets touch), no degenerate or repeated triangle, no orphan vertices, positive enclosed
 /// volume, a patch for every triangle. Collective.
 ValidityReport check_surface_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                   const Numbering& numbering);

@@ -1,0 +1,298 @@
+#include "io/vtk_writer.hpp"
+
+#include "mesh/quality.hpp"
+#include "parallel/collective_error.hpp"
+#include "tests/mesh/meshes.hpp"
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPPolyDataReader.h>
+#include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+namespace aeroloom::io {
+namespace {
+
+namespace fs = std::filesystem;
+using parallel::Communicator;
+
+/// A folder of this test alone, the same on every rank, empty at the start, removed at the end.
+class VtkWriter : public testing::Test {
+protected:
+  void SetUp() override {
+    const auto id = world.sum(world.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
+    folder = fs::temp_directory_path() / ("aeroloom_io_" + std::to_string(id));
+    if (world.is_root()) fs::remove_all(folder);
+    world.barrier();
+  }
+  void TearDown() override {
+    world.barrier();
+    if (world.is_root()) fs::remove_all(folder);
+    world.barrier();
+  }
+  void write_cube(const Communicator& communicator, int n, int pieces, const std::string& where) {
+    const auto mesh = mesh::examples::cube(communicator, n, pieces);
+    write_volume(communicator, mesh, mesh::number_mesh(communicator, mesh), where, "mesh");
+    const auto surface = mesh::examples::cube_surface(communicator, n, pieces);
+    write_surface(communicator, surface, mesh::number_mesh(communicator, surface), where, "surface");
+  }
+
+  const Communicator world = Communicator::world();
+  fs::path folder;
+};
+
+/// All files below a folder with their bytes.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream stream(entry.path(), std::ios::binary);
+    files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
+  }
+  return files;
+}
+
+TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
+  write_cube(world, 4, 7, folder / "here");
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "here" / "mesh.pvtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid& grid = *reader->GetOutput();
+  ASSERT_EQ(grid.GetNumberOfCells(), 6 * 64);
+  EXPECT_EQ(grid.GetNumberOfPoints(), 125);  // one part: shared vertices are merged
+  auto& ids = *grid.GetPointData()->GetArray("global_id");
+  auto& piece = *grid.GetCellData()->GetArray("piece");
+  auto& ratio = *grid.GetCellData()->GetArray("mean_ratio");
+  auto& angle = *grid.GetCellData()->GetArray("min_dihedral");
+  EXPECT_EQ(ids.GetDataTypeSize(), 8);
+  EXPECT_EQ(grid.GetPoints()->GetDataType(), VTK_DOUBLE);
+  const auto mesh = mesh::examples::cube(Communicator::self(), 4, 7);
+  const auto numbering = mesh::number_mesh(Communicator::self(), mesh);
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const auto& expected = mesh.pieces[i];
+    for (mesh::LocalIndex c = 0; c < expected.cell_count(); ++c) {
+      const vtkIdType cell = numbering.first_cell[i] + c;
+      ASSERT_EQ(grid.GetCellType(cell), VTK_TETRA);
+      vtkNew<vtkIdList> corners;
+      grid.GetCellPoints(cell, corners);
+      for (int k = 0; k < 4; ++k) {
+        const mesh::LocalIndex v = expected.cell(c)[k];
+        EXPECT_EQ(ids.GetTuple1(corners->GetId(k)), numbering.vertices[i][v]);
+        double p[3];
+        grid.GetPoint(corners->GetId(k), p);
+        EXPECT_EQ((geometry::Vec3{p[0], p[1], p[2]}), expected.point(v));
+      }
+      const auto p = [&](int k) { return expected.point(expected.cell(c)[k]); };
+      EXPECT_EQ(piece.GetTuple1(cell), expected.id);
+      EXPECT_EQ(ratio.GetTuple1(cell), static_cast<float>(mesh::mean_ratio(p(0), p(1), p(2), p(3))));
+      EXPECT_EQ(angle.GetTuple1(cell),
+                static_cast<float>(mesh::dihedral_range(p(0), p(1), p(2), p(3)).smallest));
+    }
+  }
+}
+
+TEST_F(VtkWriter, WritesTrianglesWithTheirNames) {
+  write_cube(world, 3, 4, folder / "here");
+  vtkNew<vtkXMLPPolyDataReader> reader;
+  reader->SetFileName((folder / "here" / "surface.pvtp").c_str());
+  reader->Update();
+  vtkPolyData& surface = *reader->GetOutput();
+  EXPECT_EQ(surface.GetNumberOfCells(), 6 * 2 * 9);
+  EXPECT_EQ(surface.GetNumberOfPoints(), 56);
+  for (vtkIdType t = 0; t < surface.GetNumberOfCells(); ++t) {
+    const int face = static_cast<int>(surface.GetCellData()->GetArray("face")->GetTuple1(t));
+    EXPECT_EQ(surface.GetCellData()->GetArray("patch")->GetTuple1(t), face / 2);
+    double p[3];
+    surface.GetPoint(surface.GetCell(t)->GetPointId(0), p);
+    EXPECT_EQ(p[face / 2], face % 2);
+    EXPECT_NEAR(surface.GetCellData()->GetArray("quality")->GetTuple1(t), std::sqrt(0.75), 1e-6);
+  }
+  vtkNew<vtkXMLPolyDataReader> part;
+  part->SetFileName((folder / "here" / "surface" / "surface_000000.vtp").c_str());
+  part->Update();
+  auto* faces =
+      vtkStringArray::SafeDownCast(part->GetOutput()->GetFieldData()->GetAbstractArray("face_names"));
+  auto* patches =
+      vtkStringArray::SafeDownCast(part->GetOutput()->GetFieldData()->GetAbstractArray("patch_names"));
+  ASSERT_NE(faces, nullptr);
+  ASSERT_NE(patches, nullptr);
+  ASSERT_EQ(faces->GetNumberOfValues(), 6);
+  EXPECT_EQ(faces->GetValue(3), "y+");
+  ASSERT_EQ(patches->GetNumberOfValues(), 3);
+  EXPECT_EQ(patches->GetValue(2), "z sides");
+}
+
+TEST_F(VtkWriter, WritesTheSameBytesOnAnyNumberOfRanks) {
+  write_cube(world, 4, 9, folder / "here");
+  if (world.is_root()) {
+    write_cube(Communicator::self(), 4, 9, folder / "alone");
+    const auto here = contents(folder / "here");
+    EXPECT_EQ(here.size(), 4U);
+    EXPECT_TRUE(here == contents(folder / "alone"));
+  }
+}
+
+/// A square sheet of 2 n^2 triangles as one piece, beside the others in x; columns of vertices are shared.
+mesh::Piece sheet(mesh::PieceId id, int n) {
+  mesh::Piece piece;
+  piece.id = id;
+  piece.kind = mesh::CellKind::triangle;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      piece.coordinates.insert(piece.coordinates.end(),
+                               {id + static_cast<double>(i) / n, static_cast<double>(j), 0});
+      if (i % n == 0) {
+        piece.shared_vertices.push_back(i * (n + 1) + j);
+        piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(id + i / n) * 1000000 + j);
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const mesh::LocalIndex a = i * (n + 1) + j, b = a + n + 1;
+      piece.cells.insert(piece.cells.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+  }
+  piece.vertex_dimension.assign(piece.vertex_count(), 2);
+  piece.vertex_entity.assign(piece.vertex_count(), 0);
+  piece.triangle_face.assign(piece.cell_count(), id);
+  piece.triangle_patch.assign(piece.cell_count(), 0);
+  return piece;
+}
+
+TEST_F(VtkWriter, CutsALargeSurfaceIntoPartsThatReadTogether) {
+  constexpr int n = 230, pieces = 5;  // 105,800 triangles each: parts of two pieces, the last of one
+  mesh::DistributedMesh surface;
+  surface.kind = mesh::CellKind::triangle;
+  surface.piece_count = pieces;
+  surface.faces = {"a", "b", "c", "d", "e"};
+  surface.patches = {"wall"};
+  for (int p = world.rank(); p < pieces; p += world.size()) surface.pieces.push_back(sheet(p, n));
+  write_surface(world, surface, mesh::number_mesh(world, surface), folder, "surface");
+  if (!world.is_root()) return;
+  std::set<std::string> names;
+  for (const auto& [name, bytes] : contents(folder)) names.insert(name);
+  EXPECT_EQ(names, (std::set<std::string>{"surface.pvtp", "surface/surface_000000.vtp",
+                                          "surface/surface_000001.vtp", "surface/surface_000002.vtp"}));
+  vtkNew<vtkXMLPPolyDataReader> reader;
+  reader->SetFileName((folder / "surface.pvtp").c_str());
+  reader->Update();
+  vtkPolyData& whole = *reader->GetOutput();
+  EXPECT_EQ(whole.GetNumberOfCells(), pieces * 2 * n * n);
+  EXPECT_EQ(whole.GetNumberOfPoints(), (pieces * n + 3) * (n + 1));  // the columns between parts twice
+  auto& face = *whole.GetCellData()->GetArray("face");
+  for (vtkIdType t = 0; t < whole.GetNumberOfCells(); t += 997) EXPECT_EQ(face.GetTuple1(t), t / (2 * n * n));
+}
+
+TEST_F(VtkWriter, LeavesOrphansOut) {
+  auto mesh = mesh::examples::two_tets(world);
+  for (auto& piece : mesh.pieces) {
+    piece.coordinates.insert(piece.coordinates.end(), {9, 9, 9});
+    piece.vertex_dimension.push_back(3);
+    piece.vertex_entity.push_back(0);
+  }
+  write_volume(world, mesh, mesh::number_mesh(world, mesh), folder, "mesh");
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "mesh.pvtu").c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 5);
+}
+
+TEST_F(VtkWriter, RemovesPartsOfAnEarlierRunAndNothingElse) {
+  write_cube(world, 2, 3, folder);
+  if (world.is_root()) {
+    std::ofstream(folder / "mesh" / "mesh_000007.vtu") << "old";
+    std::ofstream(folder / "mesh" / "notes.txt") << "mine";
+  }
+  world.barrier();
+  write_cube(world, 2, 3, folder);
+  EXPECT_FALSE(fs::exists(folder / "mesh" / "mesh_000007.vtu"));
+  EXPECT_TRUE(fs::exists(folder / "mesh" / "notes.txt"));
+  EXPECT_TRUE(fs::exists(folder / "mesh" / "mesh_000000.vtu"));
+}
+
+TEST_F(VtkWriter, EscapesWhatXmlReserves) {
+  const auto mesh = mesh::examples::two_tets(world);
+  write_volume(world, mesh, mesh::number_mesh(world, mesh), folder, "a<&\"b");
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "a<&\"b.pvtu").c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfCells(), 2);
+}
+
+TEST_F(VtkWriter, NamesThePathItCannotCreateOnAllRanks) {
+  if (world.is_root()) std::ofstream(folder) << "a file where the folder should be";
+  world.barrier();
+  try {
+    write_cube(world, 2, 2, folder / "out");
+    FAIL() << "no rank may go on";
+  } catch (const parallel::CollectiveError& error) {
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+    EXPECT_NE(std::string(error.what()).find(folder.string()), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Not a directory"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(VtkWriter, SaysWhenAFileCannotGrow) {
+  // A limit on the size of files stands for a full disk: the system refuses to write on.
+  const auto mesh = mesh::examples::cube(world, 6, 3);
+  const auto numbering = mesh::number_mesh(world, mesh);
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{20000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    write_volume(world, mesh, numbering, folder, "mesh");
+  } catch (const parallel::CollectiveError& error) {
+    message = error.what();
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find("mesh_000000.vtu"), std::string::npos) << message;
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+  world.barrier();
+  EXPECT_FALSE(fs::exists(folder / "mesh.pvtu"));
+  EXPECT_FALSE(fs::exists(folder / "mesh" / "mesh_000000.vtu"));
+}
+
+TEST_F(VtkWriter, WritesAnEmptyMesh) {
+  mesh::DistributedMesh mesh;
+  write_volume(world, mesh, mesh::number_mesh(world, mesh), folder, "mesh");
+  EXPECT_TRUE(fs::exists(folder / "mesh.pvtu"));
+}
+
+TEST_F(VtkWriter, WritesSingleTriangles) {
+  if (!world.is_root()) return;
+  const auto file = folder / "deep" / "offenders.vtp";
+  write_triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}, {{0, 1, 2}, {0, 2, 3}}, file);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPolys(), 2);
+  double p[3];
+  reader->GetOutput()->GetPoint(3, p);
+  EXPECT_EQ(p[2], 0.1);
+}
+
+}  // namespace
+}  // namespace aeroloom::io

@@ -1,0 +1,67 @@
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/collective_error.hpp"
+#include "tests/mesh/meshes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::mesh {
+namespace {
+
+using parallel::Communicator;
+
+TEST(Piece, SurvivesPackingBitForBit) {
+  const auto mesh = examples::cube(Communicator::self(), 2, 3);
+  for (const Piece& piece : mesh.pieces) {
+    const parallel::Bytes bytes = pack_piece(piece);
+    const Piece copy = unpack_piece(bytes);
+    EXPECT_EQ(copy.id, piece.id);
+    EXPECT_EQ(copy.kind, piece.kind);
+    EXPECT_EQ(pack_piece(copy), bytes);
+  }
+}
+
+TEST(Piece, RefusesBytesThatAreTooFewOrTooMany) {
+  const auto mesh = examples::two_tets(Communicator::self());
+  parallel::Bytes bytes = pack_piece(mesh.pieces[0]);
+  bytes.push_back(std::byte{0});
+  EXPECT_THROW(unpack_piece(bytes), std::logic_error);
+  bytes.resize(bytes.size() - 2);
+  EXPECT_THROW(unpack_piece(bytes), std::logic_error);
+}
+
+TEST(Migration, PutsEveryPieceWhereItsOwnerSays) {
+  const auto world = Communicator::world();
+  constexpr int pieces = 11;
+  auto mesh = examples::cube(world, 3, pieces);
+  const auto all = examples::cube(Communicator::self(), 3, pieces);
+  std::vector<parallel::Rank> owner(pieces);
+  for (int round = 0; round < 3; ++round) {
+    for (int p = 0; p < pieces; ++p) owner[p] = (p * p + round) % world.size();
+    migrate(world, mesh, owner);
+    std::size_t next = 0;
+    for (int p = 0; p < pieces; ++p) {
+      if (owner[p] != world.rank()) continue;
+      ASSERT_LT(next, mesh.pieces.size());
+      EXPECT_EQ(pack_piece(mesh.pieces[next++]), pack_piece(all.pieces[p]));
+    }
+    EXPECT_EQ(next, mesh.pieces.size());
+  }
+}
+
+TEST(Migration, CannotChangeTheHash) {
+  const auto world = Communicator::world();
+  auto mesh = examples::cube(world, 3, 5);
+  const std::string before = hash_mesh(world, mesh, number_mesh(world, mesh));
+  migrate(world, mesh, std::vector<parallel::Rank>(5, world.size() - 1));
+  EXPECT_EQ(hash_mesh(world, mesh, number_mesh(world, mesh)), before);
+}
+
+TEST(Migration, RefusesOwnersThatDoNotFit) {
+  const auto world = Communicator::world();
+  auto mesh = examples::two_tets(world);
+  EXPECT_THROW(migrate(world, mesh, {0}), parallel::CollectiveError);
+  EXPECT_THROW(migrate(world, mesh, {0, world.size()}), parallel::CollectiveError);
+}
+
+}  // namespace
+}  // namespace aeroloom::mesh
