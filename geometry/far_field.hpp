@@ -1,0 +1,24 @@
+/// Bodies made one, and the fluid around them. Seen by this folder only.
+#pragma once
+
+#include "geometry/domain.hpp"
+#include "geometry/named_shape.hpp"
+
+#include <string>
+#include <vector>
+
+namespace aeroloom::geometry {
+
+/// Bodies that touch or overlap become one solid each (boolean union, its volume checked); labels follow.
+NamedShape unite_bodies(NamedShape bodies, std::vector<std::string>& changes);
+
+/// Solids that touch come to share their common faces, so that meshes of neighbouring regions conform. Throws
+/// CadError where they overlap.
+NamedShape join_regions(NamedShape regions, std::vector<std::string>& changes);
+
+/// The space between the far field and the bodies, which are disjoint. No boolean operation: the bodies'
+/// outer shells become voids of the far field, which is exact and keeps faces and labels. Throws CadError
+/// where the far field does not clear the bodies, or when the volumes do not add up.
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, std::vector<std::string>& changes);
+
+}  // namespace aeroloom::geometry

@@ -1,0 +1,277 @@
+#include "geometry/heal.hpp"
+
+#include "geometry/model_data.hpp"
+#include "geometry/shells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <ShapeFix_Edge.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::geometry {
+namespace {
+
+/// What a file's shape consists of.
+struct Parts {
+  std::vector<TopoDS_Solid> solids;
+  std::vector<TopoDS_Shell> closed_shells;  ///< outside solids
+  TopTools_IndexedMapOfShape open_faces;    ///< of shells that do not close
+  TopTools_IndexedMapOfShape loose_faces;   ///< of no shell
+};
+
+std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Shell> shells;
+  for (TopExp_Explorer each(shape, TopAbs_SHELL); each.More(); each.Next()) {
+    shells.push_back(TopoDS::Shell(each.Current()));
+  }
+  return shells;
+}
+
+Parts take_apart(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
+  Parts parts;
+  TopTools_IndexedMapOfShape solids, shells, faces;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    const std::vector<TopoDS_Shell> bounds = shells_of(solids(i));
+    const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed);
+    if (closed) {
+      parts.solids.push_back(TopoDS::Solid(solids(i).Oriented(TopAbs_FORWARD)));
+    } else {
+      changes.push_back(fmt::format("solid {} is not closed: its faces are sewn anew", i - 1));
+      TopExp::MapShapes(solids(i), TopAbs_FACE, parts.open_faces);
+    }
+  }
+  for (TopExp_Explorer each(shape, TopAbs_SHELL, TopAbs_SOLID); each.More(); each.Next())
+    shells.Add(each.Current());
+  for (int i = 1; i <= shells.Extent(); ++i) {
+    const TopoDS_Shell shell = TopoDS::Shell(shells(i));
+    if (is_closed(shell)) {
+      parts.closed_shells.push_back(shell);
+    } else {
+      TopExp::MapShapes(shell, TopAbs_FACE, parts.open_faces);
+    }
+  }
+  for (TopExp_Explorer each(shape, TopAbs_FACE, TopAbs_SHELL); each.More(); each.Next()) {
+    parts.loose_faces.Add(each.Current());
+  }
+  return parts;
+}
+
+/// One solid may hold shells that are no voids but bodies of their own.
+void split_solid(const TopoDS_Solid& solid, std::size_t index, std::vector<TopoDS_Solid>& result,
+                 std::vector<std::string>& changes) {
+  const std::vector<TopoDS_Shell> shells = shells_of(solid);
+  if (shells.size() == 1) {
+    const double volume = volume_of(solid);
+    if (volume >= 0) return result.push_back(solid);
+    changes.push_back(fmt::format("solid {} was inside out: turned", index));
+    return result.push_back(solid_of(shells.front()));
+  }
+  const std::vector<TopoDS_Solid> split = nest_shells(shells);
+  if (split.size() > 1) {
+    changes.push_back(fmt::format("solid {} held {} separate bodies: one solid each", index, split.size()));
+  }
+  result.insert(result.end(), split.begin(), split.end());
+}
+
+std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape users;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
+  std::vector<TopoDS_Edge> open;
+  for (int i = 1; i <= users.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
+    if (users(i).Extent() == 1 && !BRep_Tool::Degenerated(edge)) open.push_back(edge);
+  }
+  return open;
+}
+
+std::string list_open_edges(const TopoDS_Shape& shape) {
+  constexpr std::size_t shown = 5;
+  const std::vector<TopoDS_Edge> edges = open_edges(shape);
+  std::string text = fmt::format("{} open edges", edges.size());
+  for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {
+    const BRepAdaptor_Curve curve(edges[i]);
+    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    text += fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) length {:.6g}", i == 0 ? ":" : ";", middle.X(),
+                        middle.Y(), middle.Z(), GCPnts_AbscissaPoint::Length(curve));
+  }
+  return text + (edges.size() > shown ? "; ..." : "");
+}
+
+void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_Sewing& sewing,
+                 FaceLabels& labels) {
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const FaceLabel* label = labels.Seek(faces(i));
+    if (!label) continue;
+    const FaceLabel kept = *label;
+    for (TopExp_Explorer sewn(sewing.ModifiedSubShape(faces(i)), TopAbs_FACE); sewn.More(); sewn.Next()) {
+      labels.Bind(sewn.Current(), kept);
+    }
+  }
+}
+
+struct Sewn {
+  std::vector<TopoDS_Shell> closed;
+  TopoDS_Shape shape;
+  bool complete = false;  ///< no face outside closed shells
+};
+
+Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, FaceLabels& labels) {
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
+  sewing.Perform();
+  Sewn sewn;
+  sewn.shape = sewing.SewedShape();
+  if (sewn.shape.IsNull()) return sewn;
+  sewn.complete = true;
+  for (const TopoDS_Shell& shell : shells_of(sewn.shape)) {
+    if (is_closed(shell)) {
+      sewn.closed.push_back(shell);
+    } else {
+      sewn.complete = false;
+    }
+  }
+  if (TopExp_Explorer(sewn.shape, TopAbs_FACE, TopAbs_SHELL).More()) sewn.complete = false;
+  move_labels(faces, sewing, labels);
+  return sewn;
+}
+
+std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, FaceLabels& labels,
+                              std::vector<std::string>& changes) {
+  Box box;
+  for (int i = 1; i <= faces.Extent(); ++i) box.add(tight_box(faces(i)));
+  Sewn sewn;
+  for (const double share : {1e-7, 1e-6, 1e-5}) {
+    const double tolerance = share * box.diagonal();
+    sewn = sew_once(faces, tolerance, labels);
+    if (!sewn.complete) continue;
+    changes.push_back(
+        fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the diagonal)",
+                    faces.Extent(), sewn.closed.size(), tolerance, share));
+    return sewn.closed;
+  }
+  throw CadError(fmt::format(
+      "the faces do not close to a solid, even sewn with a tolerance of {:.3g} (1e-5 of the diagonal): {}. "
+      "Close the "
+      "gaps in the CAD program",
+      1e-5 * box.diagonal(), sewn.shape.IsNull() ? "nothing was sewn" : list_open_edges(sewn.shape)));
+}
+
+void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
+                std::vector<std::string>& changes) {
+  TopTools_IndexedMapOfShape used;
+  for (const TopoDS_Solid& solid : solids) TopExp::MapShapes(solid, TopAbs_FACE, used);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    if (used.Contains(faces(i))) continue;
+    const Vec3 center = tight_box(faces(i)).center();
+    changes.push_back(fmt::format("a loose face around ({:.6g}, {:.6g}, {:.6g}) belongs to no solid: dropped",
+                                  center.x, center.y, center.z));
+  }
+}
+
+/// Edges need a curve in space and one on each face.
+void complete_edges(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
+  int curves = 0, parameter_curves = 0;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
+    for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
+      double first, last;
+      if (!BRep_Tool::Degenerated(edge) && BRep_Tool::Curve(edge, first, last).IsNull()) {
+        curves += BRepLib::BuildCurve3d(edge);
+      }
+      if (BRep_Tool::CurveOnSurface(edge, face, first, last).IsNull()) {
+        parameter_curves += ShapeFix_Edge().FixAddPCurve(edge, face, BRep_Tool::IsClosed(edge, face));
+      }
+    }
+  }
+  if (curves > 0) changes.push_back(fmt::format("{} edges got the curve they lacked", curves));
+  if (parameter_curves > 0) {
+    changes.push_back(
+        fmt::format("{} edges got the parameter curve they lacked on a face", parameter_curves));
+  }
+}
+
+void require_volume(const std::vector<TopoDS_Solid>& solids) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Box box = tight_box(solids[i]);
+    GProp_GProps surface;
+    BRepGProp::SurfaceProperties(solids[i], surface);
+    const double volume = volume_of(solids[i]);
+    if (volume > 1e-8 * surface.Mass() * box.diagonal()) continue;
+    const Vec3 at = box.center();
+    throw CadError(
+        fmt::format("solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses no volume ({:.3g}, surface {:.3g}): a "
+                    "sheet is no body",
+                    i, at.x, at.y, at.z, volume, surface.Mass()));
+  }
+}
+
+}  // namespace
+
+std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, TopAbs_SOLID, map);
+  std::vector<TopoDS_Solid> solids;
+  for (int i = 1; i <= map.Extent(); ++i) solids.push_back(TopoDS::Solid(map(i)));
+  return solids;
+}
+
+TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Solid& solid : solids) builder.Add(compound, solid);
+  return compound;
+}
+
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+NamedShape make_solids(NamedShape named, std::vector<std::string>& changes) {
+  Parts parts = take_apart(named.shape, changes);
+  std::vector<TopoDS_Solid> solids;
+  for (std::size_t i = 0; i < parts.solids.size(); ++i) split_solid(parts.solids[i], i, solids, changes);
+  std::vector<TopoDS_Shell> shells = parts.closed_shells;
+  if (!shells.empty()) changes.push_back(fmt::format("{} closed shells promoted to solids", shells.size()));
+  if (solids.empty() && shells.empty()) {
+    TopExp::MapShapes(named.shape, TopAbs_FACE, parts.open_faces);
+    parts.loose_faces.Clear();
+  }
+  if (!parts.open_faces.IsEmpty()) {
+    const std::vector<TopoDS_Shell> sewn = sew(parts.open_faces, named.labels, changes);
+    shells.insert(shells.end(), sewn.begin(), sewn.end());
+  }
+  const std::vector<TopoDS_Solid> promoted = nest_shells(shells);
+  solids.insert(solids.end(), promoted.begin(), promoted.end());
+  if (solids.empty()) throw CadError("there are no faces to make a solid of");
+  drop_faces(parts.loose_faces, solids, changes);
+  named.shape = make_compound(solids);
+  complete_edges(named.shape, changes);
+  require_volume(solids);
+  return named;
+}
+
+}  // namespace aeroloom::geometry
