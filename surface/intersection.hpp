@@ -1,23 +1,23 @@
 /// Self-intersection of a distributed surface, by exact predicates.
 #pragma once
 
-#include <vector>
-
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
+
+#include <vector>
 
 namespace aeroloom::surface {
 
 /// Two triangles that meet elsewhere than in a common vertex or edge.
 struct TriangleHit {
-  mesh::PieceId first_piece, second_piece;   ///< first <= second
-  mesh::LocalIndex first, second;            ///< cells of those pieces
-  geometry::Vec3 center;                     ///< of the first triangle
-  double size;                               ///< shortest edge of both
+  mesh::PieceId first_piece, second_piece;  ///< first <= second
+  mesh::LocalIndex first, second;           ///< cells of those pieces
+  geometry::Vec3 center;                    ///< of the first triangle
+  double size;                              ///< shortest edge of both
 };
 
-/// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test. Vertices are the
-/// same when their tokens are (across pieces) or their indices (within one). Collective.
+/// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.
+/// Vertices are the same when their tokens are (across pieces) or their indices (within one). Collective.
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
                                             const mesh::DistributedMesh& surface);
 

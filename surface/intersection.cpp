@@ -1,0 +1,258 @@
+#include "surface/intersection.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "surface/box_tree.hpp"
+#include "surface/triangle_contact.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::Box;
+using geometry::Vec3;
+using mesh::LocalIndex;
+
+constexpr int block_triangles = 256;
+
+/// A spatially compact part of a piece; the table of all blocks is known to every rank, by piece, then by
+/// order in the piece.
+struct Block {
+  Box box;
+  mesh::PieceId piece;
+  std::int32_t order;
+  parallel::Rank rank;
+};
+
+struct BlockTriangle {
+  NamedTriangle corners;
+  Box box;
+  LocalIndex cell;
+};
+
+using Triangles = std::vector<BlockTriangle>;
+
+/// Two blocks, lower first, tested on one rank.
+struct BlockPair {
+  std::int32_t lower, upper;
+};
+
+std::vector<VertexName> name_vertices(const mesh::Piece& piece) {
+  std::vector<VertexName> names(piece.vertex_count());
+  for (std::size_t v = 0; v < names.size(); ++v) names[v] = {piece.id, v};
+  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+    names[piece.shared_vertices[s]] = {-1, piece.shared_tokens[s]};
+  }
+  return names;
+}
+
+Triangles name_triangles(const mesh::Piece& piece) {
+  const std::vector<VertexName> names = name_vertices(piece);
+  Triangles triangles(piece.cell_count());
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    triangles[t].cell = t;
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex v = piece.cell(t)[i];
+      triangles[t].corners.points[i] = piece.point(v);
+      triangles[t].corners.names[i] = names[v];
+      triangles[t].box.add(piece.point(v));
+    }
+  }
+  return triangles;
+}
+
+/// The blocks of this rank's pieces and their triangles.
+void cut_into_blocks(const mesh::DistributedMesh& surface, parallel::Rank rank, std::vector<Block>& blocks,
+                     std::vector<Triangles>& contents) {
+  if (surface.kind != mesh::CellKind::triangle)
+    throw std::logic_error("find_intersections: the mesh is no surface");
+  for (const mesh::Piece& piece : surface.pieces) {
+    const Triangles triangles = name_triangles(piece);
+    std::vector<Box> boxes;
+    boxes.reserve(triangles.size());
+    for (const BlockTriangle& t : triangles) boxes.push_back(t.box);
+    const BoxTree tree(std::move(boxes), block_triangles);
+    std::int32_t order = 0;
+    for (const auto leaf : tree.leaves()) {
+      Block& block = blocks.emplace_back(Block{{}, piece.id, order++, rank});
+      Triangles& content = contents.emplace_back();
+      for (const std::int32_t t : leaf) {
+        content.push_back(triangles[t]);
+        block.box.add(triangles[t].box);
+      }
+    }
+  }
+}
+
+/// The rank that tests a pair: either owner, in turn.
+parallel::Rank tester(const std::vector<Block>& table, BlockPair pair) {
+  return table[(pair.lower + pair.upper) % 2 == 0 ? pair.lower : pair.upper].rank;
+}
+
+/// Pairs of overlapping blocks in which this rank has a part, ascending.
+std::vector<BlockPair> find_block_pairs(const std::vector<Block>& table, parallel::Rank rank) {
+  std::vector<Box> boxes;
+  for (const Block& block : table) boxes.push_back(block.box);
+  const BoxTree tree(boxes, 4);
+  std::vector<BlockPair> pairs;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(table.size()); ++i) {
+    if (table[i].rank != rank) continue;
+    tree.for_each_overlap(boxes[i], [&](std::int32_t j) {
+      if (table[j].rank != rank || i <= j) pairs.push_back({std::min(i, j), std::max(i, j)});
+    });
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](BlockPair a, BlockPair b) { return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper); });
+  return pairs;
+}
+
+/// All blocks this rank needs for the pairs it tests, by number in the table: its own and those of others.
+std::map<std::int32_t, Triangles> fetch_blocks(const parallel::Communicator& communicator,
+                                               const std::vector<Block>& table,
+                                               const std::vector<BlockPair>& pairs,
+                                               std::vector<Triangles> contents) {
+  std::map<std::int32_t, Triangles> at_hand;
+  std::size_t mine = 0;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(table.size()); ++i) {
+    if (table[i].rank == communicator.rank()) at_hand[i] = std::move(contents[mine++]);
+  }
+  std::vector<std::pair<parallel::Rank, std::int32_t>> wanted;  // by a rank, of the blocks here
+  for (const BlockPair pair : pairs) {
+    const parallel::Rank rank = tester(table, pair);
+    if (rank == communicator.rank()) continue;
+    wanted.emplace_back(rank, table[pair.lower].rank == communicator.rank() ? pair.lower : pair.upper);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::vector<parallel::Parcel> parcels;
+  for (auto next = wanted.begin(); next != wanted.end();) {
+    const parallel::Rank rank = next->first;
+    parallel::Packer packer;
+    for (; next != wanted.end() && next->first == rank; ++next) {
+      packer.value(next->second);
+      packer.array(at_hand[next->second]);
+    }
+    parcels.push_back({rank, packer.take()});
+  }
+  for (const parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
+    parallel::Unpacker unpacker(parcel.content);
+    while (!unpacker.at_end()) {
+      const auto number = unpacker.value<std::int32_t>();
+      at_hand[number] = unpacker.array<BlockTriangle>();
+    }
+  }
+  return at_hand;
+}
+
+double shortest_edge(const NamedTriangle& t) {
+  return std::min({distance(t.points[0], t.points[1]), distance(t.points[1], t.points[2]),
+                   distance(t.points[2], t.points[0])});
+}
+
+TriangleHit make_hit(mesh::PieceId piece_a, const BlockTriangle& a, mesh::PieceId piece_b,
+                     const BlockTriangle& b) {
+  const auto& [p, q, r] = a.corners.points;
+  if (std::tie(piece_b, b.cell) < std::tie(piece_a, a.cell)) return make_hit(piece_b, b, piece_a, a);
+  return {piece_a, piece_b,           a.cell,
+          b.cell,  (p + q + r) / 3.0, std::min(shortest_edge(a.corners), shortest_edge(b.corners))};
+}
+
+/// The triangles that reach into a box, by their low end along an axis.
+void select_triangles(const Triangles& triangles, const Box& box, int axis,
+                      std::vector<const BlockTriangle*>& selected) {
+  selected.clear();
+  for (const BlockTriangle& t : triangles) {
+    if (t.box.overlaps(box)) selected.push_back(&t);
+  }
+  std::sort(selected.begin(), selected.end(), [axis](const BlockTriangle* a, const BlockTriangle* b) {
+    const double left = a->box.low[axis], right = b->box.low[axis];
+    return left != right ? left < right : a->cell < b->cell;
+  });
+}
+
+/// Tests the triangles of two blocks (or of one with itself) against each other.
+class BlockTest {
+public:
+  explicit BlockTest(const std::vector<Block>& table) : _table(table) {}
+
+  void run(BlockPair pair, const Triangles& lower, const Triangles& upper, std::vector<TriangleHit>& hits) {
+    const Box &a = _table[pair.lower].box, &b = _table[pair.upper].box;
+    const Box common{
+        {std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y), std::max(a.low.z, b.low.z)},
+        {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
+    const Vec3 size = common.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    select_triangles(lower, common, axis, _lower);
+    if (pair.lower == pair.upper) {
+      sweep(_lower, 0, _lower, pair, axis, hits);
+      return;
+    }
+    select_triangles(upper, common, axis, _upper);
+    sweep(_lower, 1, _upper, pair, axis, hits);
+    sweep(_upper, 2, _lower, {pair.upper, pair.lower}, axis, hits);
+  }
+
+private:
+  using Selection = std::vector<const BlockTriangle*>;
+
+  // Meets each triangle with those of `others` that begin within its extent: behind it in its own list (part
+  // 0), not before it (part 1), strictly behind it (part 2), so that the parts 1 and 2 of two lists find each
+  // pair once.
+  void sweep(const Selection& list, int part, const Selection& others, BlockPair pair, int axis,
+             std::vector<TriangleHit>& hits) const {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const BlockTriangle& t = *list[i];
+      const double low = t.box.low[axis], high = t.box.high[axis];
+      const auto is_before = [&](const BlockTriangle& o) {
+        return part == 2 ? o.box.low[axis] <= low : o.box.low[axis] < low;
+      };
+      if (part == 0) {
+        first = i + 1;
+      } else {
+        while (first < others.size() && is_before(*others[first])) ++first;
+      }
+      for (std::size_t j = first; j < others.size() && others[j]->box.low[axis] <= high; ++j) {
+        const BlockTriangle& o = *others[j];
+        if (!t.box.overlaps(o.box) || !meet_wrongly(t.corners, o.corners)) continue;
+        hits.push_back(make_hit(_table[pair.lower].piece, t, _table[pair.upper].piece, o));
+      }
+    }
+  }
+
+  const std::vector<Block>& _table;
+  Selection _lower, _upper;
+};
+
+}  // namespace
+
+std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
+                                            const mesh::DistributedMesh& surface) {
+  std::vector<Block> blocks;
+  std::vector<Triangles> contents;
+  parallel::agree(communicator, [&] { cut_into_blocks(surface, communicator.rank(), blocks, contents); });
+  std::vector<Block> table = communicator.all_gather_items(std::span<const Block>(blocks));
+  std::sort(table.begin(), table.end(), [](const Block& a, const Block& b) {
+    return std::tie(a.piece, a.order) < std::tie(b.piece, b.order);
+  });
+  const std::vector<BlockPair> pairs = find_block_pairs(table, communicator.rank());
+  const auto at_hand = fetch_blocks(communicator, table, pairs, std::move(contents));
+
+  std::vector<TriangleHit> hits;
+  BlockTest test(table);
+  for (const BlockPair pair : pairs) {
+    if (tester(table, pair) == communicator.rank())
+      test.run(pair, at_hand.at(pair.lower), at_hand.at(pair.upper), hits);
+  }
+  hits = communicator.all_gather_items(std::span<const TriangleHit>(hits));
+  std::sort(hits.begin(), hits.end(), [](const TriangleHit& a, const TriangleHit& b) {
+    return std::tie(a.first_piece, a.first, a.second_piece, a.second) <
+           std::tie(b.first_piece, b.first, b.second_piece, b.second);
+  });
+  return hits;
+}
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,28 @@
+/// The exact decision whether two triangles of a surface meet where they must not.
+#pragma once
+
+#include "geometry/vec.hpp"
+
+#include <compare>
+#include <cstdint>
+
+namespace aeroloom::surface {
+
+/// The name of a vertex over all pieces: its token with piece -1, or its index in its piece.
+struct VertexName {
+  std::int64_t piece = -1;
+  std::uint64_t id = 0;
+  friend bool operator==(const VertexName&, const VertexName&) = default;
+};
+
+/// A triangle with named corners.
+struct NamedTriangle {
+  geometry::Vec3 points[3];
+  VertexName names[3];
+};
+
+/// Whether the closed triangles share a point outside their common vertices and edge. Two triangles with
+/// three common vertices do; so does a triangle without area with one that shares an edge with it. Exact.
+bool meet_wrongly(const NamedTriangle& a, const NamedTriangle& b);
+
+}  // namespace aeroloom::surface
