@@ -9,25 +9,25 @@ namespace aeroloom::pipeline {
 /// Exit codes of the program; part of its interface (docs/usage.md).
 enum class ExitCode {
   ok = 0,
-  usage = 2,         ///< command line or configuration
+  usage = 2,  ///< command line or configuration
   cad = 3,
   surface = 4,
   volume = 5,
   quality_gate = 6,
-  files = 7,         ///< reading or writing
+  files = 7,  ///< reading or writing
   resources = 8,
   bug = 70,
 };
 
 /// A stage failed: the same message and code on every rank.
 class StageFailure : public std::runtime_error {
- public:
+public:
   StageFailure(std::string stage, ExitCode code, const std::string& message)
       : std::runtime_error(message), _stage(std::move(stage)), _code(code) {}
   const std::string& stage() const { return _stage; }
   ExitCode code() const { return _code; }
 
- private:
+private:
   std::string _stage;
   ExitCode _code;
 };

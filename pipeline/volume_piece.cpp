@@ -1,9 +1,9 @@
 #include "pipeline/volume_piece.hpp"
 
-#include <fmt/format.h>
-
 #include "io/vtk_writer.hpp"
 #include "parallel/collective_error.hpp"
+
+#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 namespace {
@@ -25,7 +25,8 @@ struct BoundaryTriangle {
   std::int32_t face, patch;
 };
 
-std::vector<BoundaryVertex> owned_vertices(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering) {
+std::vector<BoundaryVertex> owned_vertices(const mesh::DistributedMesh& surface,
+                                           const mesh::Numbering& numbering) {
   std::vector<BoundaryVertex> vertices;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const Piece& piece = surface.pieces[p];
@@ -38,7 +39,8 @@ std::vector<BoundaryVertex> owned_vertices(const mesh::DistributedMesh& surface,
   return vertices;
 }
 
-std::vector<BoundaryTriangle> triangles_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering) {
+std::vector<BoundaryTriangle> triangles_of(const mesh::DistributedMesh& surface,
+                                           const mesh::Numbering& numbering) {
   std::vector<BoundaryTriangle> triangles;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const Piece& piece = surface.pieces[p];
@@ -65,7 +67,8 @@ Piece piece_of(const PieceBoundary& boundary, volume::FilledVolume&& filled) {
   piece.vertex_dimension.resize(piece.vertex_count(), 3);
   piece.vertex_entity.resize(piece.vertex_count(), 0);
   piece.boundary.reserve(3 * boundary.surface.triangles.size());
-  for (const auto& t : boundary.surface.triangles) piece.boundary.insert(piece.boundary.end(), t.begin(), t.end());
+  for (const auto& t : boundary.surface.triangles)
+    piece.boundary.insert(piece.boundary.end(), t.begin(), t.end());
   piece.triangle_face = boundary.triangle_face;
   piece.triangle_patch = boundary.triangle_patch;
   return piece;
@@ -85,15 +88,17 @@ std::string explain(const volume::VolumeError& error, const PieceBoundary& bound
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   text += "; CAD faces:";
-  for (std::size_t i = 0; i < std::min<std::size_t>(faces.size(), 8); ++i) text += " '" + face_names[faces[i]] + "'";
+  for (std::size_t i = 0; i < std::min<std::size_t>(faces.size(), 8); ++i)
+    text += " '" + face_names[faces[i]] + "'";
   io::write_triangles(boundary.surface.points, offenders, offenders_file);
   return text + "; the triangles are in " + offenders_file;
 }
 
 }  // namespace
 
-PieceBoundary gather_boundary(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                              const mesh::Numbering& numbering, parallel::Rank owner) {
+PieceBoundary gather_boundary(const parallel::Communicator& communicator,
+                              const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                              parallel::Rank owner) {
   const auto vertices = communicator.gather_items<BoundaryVertex>(owned_vertices(surface, numbering), owner);
   const auto triangles = communicator.gather_items<BoundaryTriangle>(triangles_of(surface, numbering), owner);
   PieceBoundary boundary;
@@ -109,17 +114,19 @@ PieceBoundary gather_boundary(const parallel::Communicator& communicator, const 
   boundary.triangle_face.resize(triangles.size());
   boundary.triangle_patch.resize(triangles.size());
   for (const BoundaryTriangle& t : triangles) {
-    for (int k = 0; k < 3; ++k) boundary.surface.triangles[t.number][k] = static_cast<LocalIndex>(t.vertices[k]);
+    for (int k = 0; k < 3; ++k)
+      boundary.surface.triangles[t.number][k] = static_cast<LocalIndex>(t.vertices[k]);
     boundary.triangle_face[t.number] = t.face;
     boundary.triangle_patch[t.number] = t.patch;
   }
   return boundary;
 }
 
-mesh::DistributedMesh mesh_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                                  const mesh::Numbering& numbering, const sizing::SizeField& field,
-                                  const volume::VolumeOptions& options, const std::string& offenders_file,
-                                  parallel::StageClock& clock, VolumeReport& report) {
+mesh::DistributedMesh mesh_volume(const parallel::Communicator& communicator,
+                                  const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                                  const sizing::SizeField& field, const volume::VolumeOptions& options,
+                                  const std::string& offenders_file, parallel::StageClock& clock,
+                                  VolumeReport& report) {
   constexpr parallel::Rank owner = 0;
   const PieceBoundary boundary = gather_boundary(communicator, surface, numbering, owner);
   mesh::DistributedMesh mesh;

@@ -1,14 +1,14 @@
 #include "surface/face_mesher.hpp"
 
-#include <fmt/format.h>
-
-#include <numbers>
-#include <utility>
-
 #include "surface/chart.hpp"
 #include "surface/front.hpp"
 #include "surface/remesh.hpp"
 #include "surface/support.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace aeroloom::surface {
 namespace {
@@ -51,16 +51,17 @@ FaceConflict conflict_of(const geometry::Model& model, geometry::FaceId face, co
       if (distance(a, b) > 0) remedy.push_back({0.5 * (a + b), 0.5 * distance(a, b)});
     }
   }
-  std::string where = remedy.empty()
-                          ? std::string()
-                          : fmt::format(" near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there", remedy[0].point.x,
-                                        remedy[0].point.y, remedy[0].point.z, 2 * remedy[0].size);
-  return {fmt::format("face '{}' (patch '{}'): its boundary curves cross or touch{}: {}", model.face(face).name,
-                      model.patches()[model.face(face).patch], where, error.what()),
+  std::string where =
+      remedy.empty() ? std::string()
+                     : fmt::format(" near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there", remedy[0].point.x,
+                                   remedy[0].point.y, remedy[0].point.z, 2 * remedy[0].size);
+  return {fmt::format("face '{}' (patch '{}'): its boundary curves cross or touch{}: {}",
+                      model.face(face).name, model.patches()[model.face(face).patch], where, error.what()),
           std::move(remedy)};
 }
 
-/// Appends the triangles of one chart to the mesh of the face. Points the front placed return to the CAD surface.
+/// Appends the triangles of one chart to the mesh of the face. Points the front placed return to the CAD
+/// surface.
 void fill_chart(const geometry::Model& model, const sizing::SizeField& field, const Chart& chart,
                 const FaceVertices& vertices, FaceMesh& mesh) {
   const ChartBoundary boundary = boundary_of(chart);
@@ -83,14 +84,16 @@ void fill_chart(const geometry::Model& model, const sizing::SizeField& field, co
     const geometry::Projection on_surface = model.project(chart.support.face, at.point, at.uv);
     number.push_back(static_cast<std::int32_t>(mesh.points.size()));
     mesh.uv.push_back(on_surface.converged ? on_surface.uv : at.uv);
-    mesh.points.push_back(on_surface.converged ? on_surface.point : model.face_point(chart.support.face, at.uv));
+    mesh.points.push_back(on_surface.converged ? on_surface.point
+                                               : model.face_point(chart.support.face, at.uv));
   }
   for (const auto& t : filled.triangles) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
 }
 
-/// Charts take part with every triangle; the vertices known beforehand come first, those on CAD curves stay fixed.
-FaceMesh fill_charts(const geometry::Model& model, const sizing::SizeField& field, const std::vector<Chart>& charts,
-                     const FaceVertices& vertices, geometry::FaceId face) {
+/// Charts take part with every triangle; the vertices known beforehand come first, those on CAD curves stay
+/// fixed.
+FaceMesh fill_charts(const geometry::Model& model, const sizing::SizeField& field,
+                     const std::vector<Chart>& charts, const FaceVertices& vertices, geometry::FaceId face) {
   FaceMesh mesh;
   mesh.face = face;
   mesh.points = vertices.points;
@@ -129,7 +132,8 @@ mesh::Piece piece_of(const geometry::Model& model, const CurveMesh& curves, cons
 
 }  // namespace
 
-geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId face, const SurfaceOptions& options) {
+geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId face,
+                                const SurfaceOptions& options) {
   const double scale = model.is_far_field(face) ? model.bounds().diagonal() : model.body_bounds().diagonal();
   return model.facets(face, 1e-3 * scale, options.support_angle * std::numbers::pi / 180);
 }

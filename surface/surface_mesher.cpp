@@ -1,6 +1,11 @@
 #include "surface/surface_mesher.hpp"
 
-#include <fmt/format.h>
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
+#include "parallel/schedule.hpp"
+#include "surface/curves.hpp"
+#include "surface/face_mesher.hpp"
+#include "surface/intersection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +13,7 @@
 #include <numbers>
 #include <optional>
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "parallel/schedule.hpp"
-#include "surface/curves.hpp"
-#include "surface/face_mesher.hpp"
-#include "surface/intersection.hpp"
+#include <fmt/format.h>
 
 namespace aeroloom::surface {
 namespace {
@@ -40,7 +40,8 @@ double predict_face(const Stage& stage, const SizeField& field, FaceId face) {
     const double area = 0.5 * norm(cross(b - a, c - a));
     // Sizes vary inside a facet that spans many elements: the corners' halves stand for it.
     double density = 0;
-    for (const Vec3& p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) density += 1 / std::pow(field(p), 2) / 3;
+    for (const Vec3& p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)})
+      density += 1 / std::pow(field(p), 2) / 3;
     count += 4 / std::numbers::sqrt3 * area * density;
   }
   return std::max(count, 1.0);
@@ -61,7 +62,8 @@ std::vector<double> predict_loads(const Stage& stage, const SizeField& field) {
     }
   });
   std::vector<double> loads(stage.model.face_count());
-  for (const FaceLoad& load : stage.communicator.all_gather_items<FaceLoad>(mine)) loads[load.face] = load.triangles;
+  for (const FaceLoad& load : stage.communicator.all_gather_items<FaceLoad>(mine))
+    loads[load.face] = load.triangles;
   return loads;
 }
 
@@ -100,7 +102,8 @@ bool take_over(const Stage& stage, const SizeField& field, const CurveMesh& curv
     if (!(curves.points[now[i]] == piece.point(piece.shared_vertices[i]))) return false;
   }
   if (sizes_at_vertices(field, piece) != meshed.vertex_sizes) return false;
-  for (std::size_t i = 0; i < now.size(); ++i) piece.shared_tokens[i] = static_cast<mesh::SharedToken>(now[i]);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    piece.shared_tokens[i] = static_cast<mesh::SharedToken>(now[i]);
   return true;
 }
 
@@ -110,8 +113,8 @@ struct Pass {
   std::string complaint;  // of the first face in conflict
 };
 
-Pass mesh_faces(const Stage& stage, const SizeField& field, const CurveMesh& curves, const std::vector<int>& tasks,
-                std::map<FaceId, MeshedFace>& faces) {
+Pass mesh_faces(const Stage& stage, const SizeField& field, const CurveMesh& curves,
+                const std::vector<int>& tasks, std::map<FaceId, MeshedFace>& faces) {
   Pass pass;
   parallel::Progress progress("surface", static_cast<std::int64_t>(tasks.size()));
   for (const FaceId face : tasks) {
@@ -146,9 +149,10 @@ mesh::DistributedMesh assemble(const geometry::Model& model, const std::map<Face
 }
 
 std::string describe(const geometry::Model& model, const TriangleHit& hit, const SizeField& field) {
-  return fmt::format("triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there",
-                     model.face(hit.first_piece).name, model.face(hit.second_piece).name, hit.center.x, hit.center.y,
-                     hit.center.z, field(hit.center));
+  return fmt::format(
+      "triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there",
+      model.face(hit.first_piece).name, model.face(hit.second_piece).name, hit.center.x, hit.center.y,
+      hit.center.z, field(hit.center));
 }
 
 /// Where triangles of the whole surface intersect, half the size there is asked for.
@@ -172,14 +176,16 @@ Pass share(const parallel::Communicator& communicator, const Pass& mine) {
 }
 
 [[noreturn]] void give_up(const Stage& stage, const Pass& pass) {
-  throw SurfaceError(fmt::format(
-      "surface: {} after {} rounds of local refinement. Remedy: smaller sizing.minimum or curvature_angle, or repair the "
-      "geometry there (overlapping or self-intersecting faces cannot be meshed)",
-      pass.complaint, stage.options.mending_rounds));
+  throw SurfaceError(
+      fmt::format("surface: {} after {} rounds of local refinement. Remedy: smaller sizing.minimum or "
+                  "curvature_angle, or repair the "
+                  "geometry there (overlapping or self-intersecting faces cannot be meshed)",
+                  pass.complaint, stage.options.mending_rounds));
 }
 
 /// The relative error that 90 % of the predictions stay below.
-double prediction_error(const Stage& stage, const std::vector<double>& predicted, const mesh::DistributedMesh& surface) {
+double prediction_error(const Stage& stage, const std::vector<double>& predicted,
+                        const mesh::DistributedMesh& surface) {
   std::vector<FaceLoad> real;
   for (const mesh::Piece& piece : surface.pieces) real.push_back({piece.id, double(piece.cell_count())});
   std::vector<double> errors;
@@ -192,8 +198,8 @@ double prediction_error(const Stage& stage, const std::vector<double>& predicted
 
 }  // namespace
 
-SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geometry::Model& model, const SizeField& field,
-                         const SurfaceOptions& options, parallel::StageClock& clock) {
+SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geometry::Model& model,
+                         const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock) {
   const Stage stage{communicator, model, options, clock};
   SurfaceMesh result{{}, {}, field};
   const std::vector<double> loads = predict_loads(stage, field);
@@ -212,7 +218,8 @@ SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geome
     }
     if (pass.complaint.empty()) break;
     if (result.report.mending_rounds == options.mending_rounds || pass.remedies.empty()) give_up(stage, pass);
-    parallel::log_verbose(fmt::format("surface: {}; sizes fall there ({} places)", pass.complaint, pass.remedies.size()));
+    parallel::log_verbose(
+        fmt::format("surface: {}; sizes fall there ({} places)", pass.complaint, pass.remedies.size()));
     result.field = result.field.refined(pass.remedies);
   }
   for (const mesh::Piece& piece : result.mesh.pieces) result.report.triangles += piece.cell_count();

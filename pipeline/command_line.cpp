@@ -1,0 +1,161 @@
+#include "pipeline/command_line.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
+#include "pipeline/report.hpp"
+#include "pipeline/run.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using parallel::Communicator;
+
+constexpr const char* description =
+    "Aeroloom: from aircraft CAD to a distributed tetrahedral mesh.\n"
+    "There are no boundary layers: all elements are isotropic tetrahedra.";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  aeroloom run configs/transport.yaml                 mesh the built-in aircraft on one rank\n"
+    "  mpirun -n 8 aeroloom run case.yaml                  the same mesh, bit for bit, by eight ranks\n"
+    "  aeroloom run case.yaml --set sizing.minimum=0.02    override a key of the case\n"
+    "  aeroloom export-cad configs/transport.yaml a.step   write the case's geometry as STEP\n\n"
+    "Exit codes: 0 ok, 2 usage or configuration, 3 CAD, 4 surface, 5 volume, 6 quality gate,\n"
+    "7 input/output, 8 resources, 70 bug.";
+
+/// What was typed.
+struct Arguments {
+  std::string case_file;
+  std::vector<std::string> overrides;
+  std::string cad_file;
+  bool verbose = false, quiet = false;
+};
+
+void print(const Communicator& communicator, const std::string& text) {
+  if (communicator.is_root()) fmt::print("{}", text), std::fflush(stdout);
+}
+
+int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
+  if (communicator.is_root()) parallel::log_error(message);
+  communicator.barrier();
+  return static_cast<int>(code);
+}
+
+void write_text(const std::string& file, const std::string& text) {
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+  std::ofstream stream(file);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
+}
+
+/// Writes report.json for a run that ended well or not. Collective; what goes wrong here replaces a good
+/// outcome.
+void report(const Communicator& communicator, const Case& input, const RunRecord& record,
+            const RunOutcome& outcome) {
+  const auto stages = record.clock.summarise(communicator);
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    write_text(input.output.directory + "/report.json",
+               report_json(input, record, stages, outcome, communicator.size()));
+  });
+  if (outcome.code == ExitCode::ok) print(communicator, report_table(record, stages, communicator.size()));
+}
+
+/// Runs and reports; a failure is reported too, as far as the output directory can be written.
+int run(const Communicator& communicator, const Case& input) {
+  RunRecord record;
+  RunOutcome outcome;
+  try {
+    run_case(communicator, input, record);
+  } catch (const StageFailure& failure) {
+    outcome = {failure.code(), failure.stage(), failure.what()};
+  }
+  try {
+    report(communicator, input, record, outcome);
+  } catch (const parallel::CollectiveError& error) {
+    if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
+  }
+  if (outcome.code != ExitCode::ok) {
+    return fail(communicator, outcome.code,
+                fmt::format("stage {} failed: {}", outcome.stage, outcome.message));
+  }
+  print(communicator, fmt::format("open in ParaView: {}\n",
+                                  std::filesystem::absolute(input.output.directory + "/mesh.pvtu").string()));
+  return 0;
+}
+
+int export_cad(const Communicator& communicator, const Case& input, const std::string& file) {
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) geometry::export_step(input.domain, file);
+  });
+  print(communicator, fmt::format("wrote {}\n", file));
+  return 0;
+}
+
+/// Every rank reads the case: it is small, and all learn of an error together.
+Case load_case(const Communicator& communicator, const Arguments& arguments) {
+  Case input;
+  parallel::agree(communicator, [&] { input = read_case(arguments.case_file, arguments.overrides); });
+  return input;
+}
+
+void add_case_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("case", arguments.case_file, "the case, a YAML file (docs/configuration.md)")
+      ->required();
+  command
+      .add_option("--set", arguments.overrides,
+                  "override a key of the case, as section.key=value; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false);
+  command.add_flag("-v,--verbose", arguments.verbose, "say more");
+  command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");
+}
+
+}  // namespace
+
+int run_command_line(const Communicator& communicator, int argc, char** argv) {
+  Arguments arguments;
+  CLI::App program(description, "aeroloom");
+  program.footer(examples);
+  program.set_version_flag("--version",
+                           std::string("aeroloom ") + AEROLOOM_VERSION + "\n" + AEROLOOM_LIBRARIES);
+  program.require_subcommand(1);
+  CLI::App* run_command = program.add_subcommand("run", "mesh a case");
+  CLI::App* export_command = program.add_subcommand("export-cad", "write the geometry of a case as STEP");
+  add_case_options(*run_command, arguments);
+  add_case_options(*export_command, arguments);
+  export_command->add_option("file", arguments.cad_file, "the STEP file to write")->required();
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = communicator.is_root() ? program.exit(error) : error.get_exit_code();
+    return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+
+  parallel::configure_log(communicator, parallel::LogLevel::normal);
+  Case input;
+  try {
+    input = load_case(communicator, arguments);
+  } catch (const std::exception& error) {
+    return fail(communicator, ExitCode::usage, error.what());
+  }
+  parallel::configure_log(communicator, arguments.quiet     ? parallel::LogLevel::quiet
+                                        : arguments.verbose ? parallel::LogLevel::verbose
+                                                            : input.output.log);
+  if (run_command->parsed()) return run(communicator, input);
+  try {
+    return export_cad(communicator, input, arguments.cad_file);
+  } catch (const parallel::CollectiveError& error) {
+    const bool files = error.kind() == parallel::FailureKind::files;
+    return fail(communicator, files ? ExitCode::files : ExitCode::cad, error.what());
+  }
+}
+
+}  // namespace aeroloom::pipeline

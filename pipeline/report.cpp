@@ -1,0 +1,177 @@
+#include "pipeline/report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int schema_version = 1;
+
+Json to_json(geometry::Vec3 p) {
+  return Json::array({p.x, p.y, p.z});
+}
+
+Json geometry_json(const RunRecord& record) {
+  Json json;
+  json["unit"] = record.unit;
+  json["unit_in_metres"] = record.unit_in_metres;
+  if (!record.bounds.empty()) json["bounds"] = {to_json(record.bounds.low), to_json(record.bounds.high)};
+  json["regions"] = record.regions;
+  json["faces"] = record.faces;
+  json["edges"] = record.edges;
+  json["domain"] = record.domain.kind == geometry::DomainKind::fluid  ? "fluid"
+                   : record.domain.kind == geometry::DomainKind::body ? "body"
+                                                                      : "auto";
+  json["domain_reason"] = record.domain.reason;
+  json["reference_length"] = record.domain.reference_length;
+  json["changes"] = record.domain.changes;
+  return json;
+}
+
+Json sizing_json(const RunRecord& record) {
+  return {{"minimum", record.sizes.minimum},
+          {"maximum", record.sizes.maximum},
+          {"surface_maximum", record.sizes.surface_maximum},
+          {"curvature_angle", record.sizes.curvature_angle},
+          {"growth", record.sizes.growth},
+          {"octree_leaves", record.size_field_leaves},
+          {"predicted_triangles", record.predicted.triangles},
+          {"predicted_tetrahedra", record.predicted.tetrahedra}};
+}
+
+Json mesh_json(const RunRecord& record) {
+  return {{"points", record.counts.vertices},
+          {"tetrahedra", record.counts.cells},
+          {"boundary_triangles", record.counts.boundary_triangles},
+          {"volume", record.mesh_volume},
+          {"hash", record.hash}};
+}
+
+Json distribution_json(const mesh::Distribution& d) {
+  return {
+      {"minimum", d.minimum},
+      {"maximum", d.maximum},
+      {"mean", d.mean},
+      {"percentile_0.1", d.percentile_01},
+      {"percentile_1", d.percentile_1},
+      {"percentile_5", d.percentile_5},
+      {"histogram", {{"low", d.histogram.low}, {"high", d.histogram.high}, {"counts", d.histogram.counts}}}};
+}
+
+Json quality_json(const mesh::QualitySummary& quality) {
+  Json json = {{"min_dihedral_deg", quality.min_dihedral.minimum},
+               {"max_dihedral_deg", quality.max_dihedral.maximum},
+               {"min_mean_ratio", quality.mean_ratio.minimum},
+               {"mean_mean_ratio", quality.mean_ratio.mean},
+               {"min_dihedral", distribution_json(quality.min_dihedral)},
+               {"max_dihedral", distribution_json(quality.max_dihedral)},
+               {"mean_ratio", distribution_json(quality.mean_ratio)},
+               {"radius_ratio", distribution_json(quality.radius_ratio)}};
+  json["worst"] = Json::array();
+  for (const mesh::WorstCell& cell : quality.worst) {
+    json["worst"].push_back(
+        {{"min_dihedral_deg", cell.value}, {"cell", cell.cell}, {"center", to_json(cell.center)}});
+  }
+  return json;
+}
+
+Json surface_json(const RunRecord& record) {
+  Json json = {{"triangles", record.surface.triangles},
+               {"curve_vertices", record.surface.curve_vertices},
+               {"mending_rounds", record.surface.mending_rounds},
+               {"load_error_90", record.surface.load_error_90}};
+  if (record.surface_quality) {
+    json["min_angle_deg"] = record.surface_quality->min_dihedral.minimum;
+    json["min_mean_ratio"] = record.surface_quality->mean_ratio.minimum;
+    json["mean_mean_ratio"] = record.surface_quality->mean_ratio.mean;
+  }
+  return json;
+}
+
+Json patches_json(const RunRecord& record) {
+  Json json = Json::array();
+  for (const PatchRow& patch : record.patches) {
+    json.push_back({{"name", patch.name},
+                    {"area", patch.area},
+                    {"cad_area", patch.cad_area},
+                    {"triangles", patch.triangles}});
+  }
+  return json;
+}
+
+Json stages_json(const std::vector<parallel::StageSummary>& stages) {
+  Json json = Json::array();
+  for (const parallel::StageSummary& stage : stages) {
+    json.push_back({{"name", stage.name},
+                    {"wall_seconds", stage.wall_seconds},
+                    {"cpu_seconds_min", stage.cpu_seconds_min},
+                    {"cpu_seconds_mean", stage.cpu_seconds_mean},
+                    {"cpu_seconds_max", stage.cpu_seconds_max},
+                    {"serial_seconds", stage.serial_seconds},
+                    {"pieces", stage.pieces},
+                    {"peak_rss_bytes_max", stage.peak_resident_bytes_max},
+                    {"peak_rss_bytes_sum", stage.peak_resident_bytes_sum}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const Case& input, const RunRecord& record,
+                        const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
+                        int ranks) {
+  Json json;
+  json["schema_version"] = schema_version;
+  json["program"] = {{"name", "aeroloom"}, {"version", AEROLOOM_VERSION}};
+  json["status"] = outcome.code == ExitCode::ok ? "ok" : "failed";
+  json["exit_code"] = static_cast<int>(outcome.code);
+  if (outcome.code != ExitCode::ok)
+    json["failure"] = {{"stage", outcome.stage}, {"message", outcome.message}};
+  json["ranks"] = ranks;
+  json["configuration"] = resolved_yaml(input);
+  json["geometry"] = geometry_json(record);
+  json["sizing"] = sizing_json(record);
+  json["surface"] = surface_json(record);
+  json["mesh"] = mesh_json(record);
+  if (record.quality) json["quality"] = quality_json(*record.quality);
+  json["volume"] = {{"steiner_points", record.volume.steiner_points}, {"attempts", record.volume.attempts}};
+  json["improve"] = {{"bad_before", record.improve.bad_before},
+                     {"bad_after", record.improve.bad_after},
+                     {"smoothed", record.improve.smoothed},
+                     {"swaps", record.improve.swaps}};
+  json["pinned"] = Json::array();
+  json["patches"] = patches_json(record);
+  json["wall_seconds"] = record.wall_seconds;
+  json["stages"] = stages_json(stages);
+  return json.dump(2) + "\n";
+}
+
+std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
+                         int ranks) {
+  std::string text = fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>8} {:>11}\n", "stage", "wall s",
+                                 "cpu min", "cpu mean", "cpu max", "pieces", "memory MiB");
+  for (const parallel::StageSummary& s : stages) {
+    text += fmt::format("{:<10} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8} {:>11.0f}\n", s.name,
+                        s.wall_seconds, s.cpu_seconds_min, s.cpu_seconds_mean, s.cpu_seconds_max, s.pieces,
+                        double(s.peak_resident_bytes_max) / (1 << 20));
+  }
+  text += fmt::format("{:<10} {:>9.2f}  on {} rank(s)\n", "total", record.wall_seconds, ranks);
+  if (!record.quality) return text;
+  text += fmt::format(
+      "mesh: {} tetrahedra, {} points, {} boundary triangles, volume {:.10g}\n"
+      "quality: dihedral angles {:.2f} to {:.2f} degrees, mean ratio {:.3f} at least, {:.3f} on average\n"
+      "hash: {}\n",
+      record.counts.cells, record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
+      record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
+      record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
+  text += fmt::format("{:<28} {:>10} {:>14} {:>14}\n", "patch", "triangles", "area", "CAD area");
+  for (const PatchRow& p : record.patches) {
+    text += fmt::format("{:<28} {:>10} {:>14.8g} {:>14.8g}\n", p.name, p.triangles, p.area, p.cad_area);
+  }
+  return text;
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,270 @@
+#include "pipeline/run.hpp"
+
+#include "io/vtk_writer.hpp"
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using parallel::Communicator;
+
+ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage) {
+  switch (error.kind()) {
+    case parallel::FailureKind::files:
+      return ExitCode::files;
+    case parallel::FailureKind::resources:
+      return ExitCode::resources;
+    case parallel::FailureKind::bug:
+      return ExitCode::bug;
+    case parallel::FailureKind::input:
+      break;
+  }
+  return of_stage;
+}
+
+/// Runs `work` as stage `name`: opens and closes its clock, and turns what it throws into a StageFailure with
+/// `code`, or the code that the kind of failure demands. What is thrown here has been agreed on by all ranks
+/// or follows from data all ranks share.
+template <class Work>
+auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work work) {
+  struct Clock {
+    parallel::StageClock& clock;
+    ~Clock() { clock.end(); }
+  };
+  record.clock.begin(name);
+  const Clock closes{record.clock};
+  try {
+    return work();
+  } catch (const parallel::CollectiveError& error) {
+    throw StageFailure(name, code_of(error, code), error.what());
+  } catch (const std::bad_alloc&) {
+    throw StageFailure(name, ExitCode::resources, "out of memory");
+  } catch (const std::logic_error& error) {
+    throw StageFailure(name, dynamic_cast<const std::invalid_argument*>(&error) ? code : ExitCode::bug,
+                       error.what());
+  } catch (const std::exception& error) {
+    throw StageFailure(name, code, error.what());
+  }
+}
+
+/// Rank 0 reads and builds the domain; every rank numbers its entities from the same bytes.
+geometry::Model load_domain(const Communicator& communicator, const Case& input, RunRecord& record) {
+  parallel::Bytes bytes;
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    const parallel::ScopedCpu cpu(record.clock, parallel::ScopedCpu::As::serial);
+    geometry::Domain domain = geometry::prepare_domain(input.domain);
+    record.domain = domain.report;
+    bytes = domain.model.serialise();
+  });
+  communicator.broadcast(bytes);
+  std::optional<geometry::Model> model;
+  parallel::agree(communicator, [&] {
+    const parallel::ScopedCpu cpu(record.clock, parallel::ScopedCpu::As::serial);
+    model = geometry::Model::from_bytes(bytes);
+  });
+  return *model;
+}
+
+void describe_domain(const geometry::Model& model, RunRecord& record) {
+  record.unit = model.unit_name();
+  record.unit_in_metres = model.unit_in_metres();
+  record.bounds = model.bounds();
+  record.regions = model.region_count();
+  record.faces = model.face_count();
+  record.edges = model.edge_count();
+  const geometry::Vec3 size = model.body_bounds().size();
+  parallel::log_info(
+      fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",
+                  record.regions, record.faces, record.edges, size.x, size.y, size.z,
+                  record.unit.empty() ? "(no unit declared)" : record.unit));
+  if (!record.domain.reason.empty()) parallel::log_info("geometry: " + record.domain.reason);
+  for (const std::string& change : record.domain.changes) parallel::log_info("geometry: " + change);
+}
+
+/// Faces between two regions need conforming volume meshes on both sides, which are not built yet.
+void refuse_inner_faces(const geometry::Model& model) {
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.face(f).back == geometry::no_entity) continue;
+    throw geometry::CadError(
+        fmt::format("face '{}' lies between two solids; regions that share faces are not supported yet. "
+                    "Remedy: unite the solids, "
+                    "or mesh them one by one",
+                    model.face(f).name));
+  }
+}
+
+/// What the user asked for; the rest is chosen from the model. Bounds that the user gave bind the choice.
+sizing::SizingOptions resolve_sizes(const Communicator& communicator, const geometry::Model& model,
+                                    const SizingRequest& request, parallel::StageClock& clock) {
+  sizing::SizingOptions sizes;
+  if (!request.minimum || !request.maximum) {
+    sizes = sizing::choose_sizes(communicator, model, request.target_tetrahedra, clock);
+  }
+  if (request.minimum) sizes.minimum = *request.minimum;
+  if (request.maximum) sizes.maximum = *request.maximum;
+  if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;
+  if (request.growth) sizes.growth = *request.growth;
+  if (request.surface_maximum) sizes.surface_maximum = *request.surface_maximum;
+  if (sizes.minimum > sizes.maximum) {
+    throw std::invalid_argument(
+        fmt::format("sizing.minimum ({:.6g}) exceeds sizing.maximum ({:.6g}), one of which was chosen from "
+                    "the model. Remedy: give both",
+                    sizes.minimum, sizes.maximum));
+  }
+  return sizes;
+}
+
+sizing::SizeField build_sizes(const Communicator& communicator, const geometry::Model& model,
+                              const Case& input, RunRecord& record) {
+  record.sizes = resolve_sizes(communicator, model, input.sizing, record.clock);
+  sizing::SizeField field = sizing::build_size_field(communicator, model, record.sizes, record.clock);
+  record.size_field_leaves = field.leaf_count();
+  parallel::log_info(
+      fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
+                  record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
+                  record.sizes.growth, record.size_field_leaves));
+  return field;
+}
+
+/// One volume piece for now: what it will hold is predicted, and refused when it is too much for one piece.
+void decompose(const Communicator& communicator, const geometry::Model& model, const sizing::SizeField& field,
+               const Case& input, RunRecord& record) {
+  record.predicted = sizing::predict_counts(communicator, model, field, record.clock);
+  parallel::log_info(fmt::format(
+      "decompose: {} surface pieces, 1 volume piece; predicted {:.3g} triangles, {:.3g} tetrahedra",
+      model.face_count(), record.predicted.triangles, record.predicted.tetrahedra));
+  if (record.predicted.tetrahedra > 1.5 * double(input.volume.largest_piece)) {
+    throw std::runtime_error(
+        fmt::format("the sizes ask for about {:.3g} tetrahedra, more than one volume piece holds ({}). "
+                    "Remedy: larger sizing.minimum, "
+                    "sizing.maximum or curvature_angle",
+                    record.predicted.tetrahedra, input.volume.largest_piece));
+  }
+}
+
+/// An invalid mesh is a defect of the program that must not reach a file unnoticed.
+double require_valid(const std::string& what, const mesh::ValidityReport& report) {
+  if (report.valid()) return report.volume;
+  std::string text = what + " is not valid:";
+  for (const std::string& violation : report.violations) text += "\n  " + violation;
+  throw std::runtime_error(text);
+}
+
+/// Areas and counts by patch; sums run in the order of the faces, whatever rank they live on.
+std::vector<PatchRow> table_of_patches(const Communicator& communicator, const geometry::Model& model,
+                                       const mesh::DistributedMesh& surface) {
+  struct FaceRow {
+    geometry::FaceId face;
+    double area, cad_area;
+    std::int64_t triangles;
+  };
+  std::vector<FaceRow> mine;
+  for (const mesh::Piece& piece : surface.pieces) {
+    double area = 0;
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const geometry::Vec3 a = piece.point(v[0]);
+      area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
+    }
+    mine.push_back({piece.id, area, model.face_area(piece.id), piece.cell_count()});
+  }
+  std::vector<FaceRow> rows = communicator.all_gather_items<FaceRow>(mine);
+  std::sort(rows.begin(), rows.end(), [](const FaceRow& a, const FaceRow& b) { return a.face < b.face; });
+  std::vector<PatchRow> patches;
+  for (const std::string& name : model.patches()) patches.push_back({.name = name});
+  for (const FaceRow& row : rows) {
+    PatchRow& patch = patches[model.face(row.face).patch];
+    patch.area += row.area;
+    patch.cad_area += row.cad_area;
+    patch.triangles += row.triangles;
+  }
+  return patches;
+}
+
+surface::SurfaceMesh build_surface(const Communicator& communicator, const geometry::Model& model,
+                                   const sizing::SizeField& field, const Case& input, RunRecord& record,
+                                   mesh::Numbering& numbering) {
+  surface::SurfaceMesh surface =
+      surface::mesh_surface(communicator, model, field, input.surface, record.clock);
+  record.surface = surface.report;
+  numbering = mesh::number_mesh(communicator, surface.mesh);
+  require_valid("the surface mesh", mesh::check_surface_mesh(communicator, surface.mesh, numbering));
+  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
+  record.patches = table_of_patches(communicator, model, surface.mesh);
+  parallel::log_info(
+      fmt::format("surface: {} triangles, smallest angle {:.3g} degrees, mean ratio {:.3f} on average",
+                  surface.report.triangles, record.surface_quality->min_dihedral.minimum,
+                  record.surface_quality->mean_ratio.mean));
+  return surface;
+}
+
+void improve_volume(const Communicator& communicator, const Case& input, mesh::DistributedMesh& volume,
+                    RunRecord& record) {
+  if (!input.improve.enabled) return;
+  record.improve = improve::improve_mesh(communicator, volume, input.improve, record.clock);
+  parallel::log_info(
+      fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
+                  record.improve.min_angle_before, record.improve.min_angle_after, record.improve.bad_before,
+                  record.improve.bad_after));
+}
+
+/// Checks and measures the mesh that the last stage left.
+mesh::Numbering inspect_volume(const Communicator& communicator, const mesh::DistributedMesh& volume,
+                               const mesh::DistributedMesh& surface, RunRecord& record) {
+  mesh::Numbering numbering = mesh::number_mesh(communicator, volume);
+  record.mesh_volume =
+      require_valid("the volume mesh", mesh::check_volume_mesh(communicator, volume, numbering, &surface));
+  record.counts = mesh::count_mesh(communicator, volume, numbering);
+  return numbering;
+}
+
+}  // namespace
+
+void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
+  const double start = parallel::wall_seconds();
+  const std::string& directory = input.output.directory;
+
+  const geometry::Model model = run_stage(record, "geometry", ExitCode::cad, [&] {
+    geometry::Model loaded = load_domain(communicator, input, record);
+    describe_domain(loaded, record);
+    refuse_inner_faces(loaded);
+    return loaded;
+  });
+  const sizing::SizeField field = run_stage(record, "sizing", ExitCode::usage,
+                                            [&] { return build_sizes(communicator, model, input, record); });
+  run_stage(record, "decompose", ExitCode::resources,
+            [&] { decompose(communicator, model, field, input, record); });
+  mesh::Numbering surface_numbering;
+  const surface::SurfaceMesh surface = run_stage(record, "surface", ExitCode::surface, [&] {
+    return build_surface(communicator, model, field, input, record, surface_numbering);
+  });
+  mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
+    mesh::DistributedMesh filled =
+        mesh_volume(communicator, surface.mesh, surface_numbering, surface.field, input.volume,
+                    directory + "/offending_triangles.vtp", record.clock, record.volume);
+    inspect_volume(communicator, filled, surface.mesh, record);
+    parallel::log_info(
+        fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));
+    return filled;
+  });
+  const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
+    improve_volume(communicator, input, volume, record);
+    mesh::Numbering improved = inspect_volume(communicator, volume, surface.mesh, record);
+    record.quality = mesh::summarise_quality(communicator, volume, improved);
+    record.hash = mesh::hash_mesh(communicator, volume, improved);
+    return improved;
+  });
+  run_stage(record, "output", ExitCode::files, [&] {
+    io::write_volume(communicator, volume, numbering, directory, "mesh");
+    io::write_surface(communicator, surface.mesh, surface_numbering, directory, "surface");
+  });
+  record.wall_seconds = parallel::wall_seconds() - start;
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,57 @@
+/// One run: from a case to a mesh on disk.
+#pragma once
+
+#include "geometry/domain.hpp"
+#include "improve/improver.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+#include "pipeline/case.hpp"
+#include "pipeline/exit_code.hpp"
+#include "pipeline/volume_piece.hpp"
+#include "sizing/size_field.hpp"
+#include "surface/surface_mesher.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// A boundary patch of the finished mesh.
+struct PatchRow {
+  std::string name;
+  double area = 0;      ///< of the triangles, in the square of the model's unit
+  double cad_area = 0;  ///< of the CAD faces
+  std::int64_t triangles = 0;
+};
+
+/// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
+/// rank except `domain`, which rank 0 alone holds.
+struct RunRecord {
+  geometry::DomainReport domain;
+  std::string unit;
+  double unit_in_metres = 0;
+  geometry::Box bounds;
+  std::int32_t regions = 0, faces = 0, edges = 0;
+  sizing::SizingOptions sizes;
+  sizing::PredictedCounts predicted;
+  std::int64_t size_field_leaves = 0;
+  surface::SurfaceReport surface;
+  VolumeReport volume;
+  improve::ImproveReport improve;
+  mesh::MeshCounts counts;
+  double mesh_volume = 0;
+  std::string hash;
+  std::optional<mesh::QualitySummary> surface_quality, quality;
+  std::vector<PatchRow> patches;
+  parallel::StageClock clock;
+  double wall_seconds = 0;  ///< of the run, from the first stage to the end of the last
+};
+
+/// Runs all stages of the case in order, with validity checks between them, and writes mesh.pvtu and
+/// surface.pvtp. Collective. Throws StageFailure on all ranks.
+void run_case(const parallel::Communicator& communicator, const Case& input, RunRecord& record);
+
+}  // namespace aeroloom::pipeline
