@@ -1,26 +1,26 @@
 /// CAD curves discretised once, under the size field.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "geometry/model.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
 
+#include <cstdint>
+#include <vector>
+
 namespace aeroloom::surface {
 
-/// Index of a vertex on the curves: the model's CAD vertices first, then the interior vertices edge by edge. It is
-/// also the vertex's shared token.
+/// Index of a vertex on the curves: the model's CAD vertices first, then the interior vertices edge by edge.
+/// It is also the vertex's shared token.
 using CurveVertex = std::int32_t;
 
-/// All curve vertices of a model. Seams (edges that one face uses twice and no other face uses) and degenerate edges carry
-/// no vertices: they do not constrain the mesh.
+/// All curve vertices of a model. Seams (edges that one face uses twice and no other face uses) and
+/// degenerate edges carry no vertices: they do not constrain the mesh.
 struct CurveMesh {
-  std::vector<geometry::Vec3> points;       ///< by curve vertex
-  std::vector<std::int32_t> first_interior; ///< (edges + 1): the interior vertices of edge e are [e], [e+1]
-  std::vector<double> parameters;           ///< by curve vertex minus the model's vertex count: on its edge, ascending
+  std::vector<geometry::Vec3> points;        ///< by curve vertex
+  std::vector<std::int32_t> first_interior;  ///< (edges + 1): the interior vertices of edge e are [e], [e+1]
+  std::vector<double> parameters;  ///< by curve vertex minus the model's vertex count: on its edge, ascending
 
   /// The vertices of an edge in the direction of its parameter, ends included; empty when it carries none.
   std::vector<CurveVertex> chain(const geometry::Model& model, geometry::EdgeId edge) const;
@@ -33,9 +33,10 @@ struct CurveMesh {
 /// Whether an edge constrains the surface mesh (is neither degenerate nor a seam).
 bool is_constraining(const geometry::Model& model, geometry::EdgeId edge);
 
-/// Spreads vertices so that each segment has length 1 in the metric of the field (equal parts of the integral of ds/h, at
-/// least enough segments that no two curves share both ends of a segment: three on a closed edge, two where another edge
-/// joins the same vertices). Each edge is discretised by one rank, the result is shared. Collective.
+/// Spreads vertices so that each segment has length 1 in the metric of the field (equal parts of the integral
+/// of ds/h, at least enough segments that no two curves share both ends of a segment: three on a closed edge,
+/// two where another edge joins the same vertices). Each edge is discretised by one rank, the result is
+/// shared. Collective.
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const geometry::Model& model,
                             const sizing::SizeField& field, parallel::StageClock& clock);
 

@@ -1,42 +1,43 @@
 /// The support of a surface piece: a triangulation that carries charts and leads back to the CAD surface.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "geometry/model.hpp"
 #include "geometry/vec.hpp"
 #include "surface/curves.hpp"
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace aeroloom::surface {
 
-/// A triangulated patch of one CAD face. Seams are closed and poles are single points, by topology: what repeats in the
-/// parameter plane occurs once here, and parameters belong to triangle corners.
+/// A triangulated patch of one CAD face. Seams are closed and poles are single points, by topology: what
+/// repeats in the parameter plane occurs once here, and parameters belong to triangle corners.
 struct Support {
   geometry::FaceId face = geometry::no_entity;
   std::vector<geometry::Vec3> points;
-  std::vector<std::array<std::int32_t, 3>> triangles;      ///< counter-clockwise seen against the outward normal
-  std::vector<std::array<geometry::Vec2, 3>> corner_uv;    ///< per triangle corner
-  /// Vertex of the face's mesh at this support point, -1 where there is none. Numbers run over the face: those of
-  /// `FaceVertices` below.
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
+  std::vector<std::array<geometry::Vec2, 3>> corner_uv;  ///< per triangle corner
+  /// Vertex of the face's mesh at this support point, -1 where there is none. Numbers run over the face:
+  /// those of `FaceVertices` below.
   std::vector<std::int32_t> mesh_vertex;
   /// Boundary edges of the mesh as directed pairs of support points, the patch on the left: chords between
   /// consecutive mesh vertices. Empty on a closed surface.
   std::vector<std::array<std::int32_t, 2>> loop_edges;
 };
 
-/// The mesh vertices of a face known before its interior is meshed: those on CAD curves first, then those on the cuts
-/// between its charts.
+/// The mesh vertices of a face known before its interior is meshed: those on CAD curves first, then those on
+/// the cuts between its charts.
 struct FaceVertices {
   std::vector<geometry::Vec3> points;
-  std::vector<geometry::Vec2> uv;              ///< one valid parameter pair on the face for each
-  std::vector<CurveVertex> curve_vertex;       ///< for the first `curve_count`
+  std::vector<geometry::Vec2> uv;         ///< one valid parameter pair on the face for each
+  std::vector<CurveVertex> curve_vertex;  ///< for the first `curve_count`
   std::int32_t curve_count = 0;
 };
 
-/// Builds the support of a whole face from its facets: closes seams and poles, splits boundary edges at the curve
-/// vertices, and improves it by Delaunay flips. `vertices` receives the curve vertices of the face in a fixed order.
+/// Builds the support of a whole face from its facets: closes seams and poles, splits boundary edges at the
+/// curve vertices, and improves it by Delaunay flips. `vertices` receives the curve vertices of the face in a
+/// fixed order.
 Support build_support(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
                       const geometry::Facets& facets, FaceVertices& vertices);
 

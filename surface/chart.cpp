@@ -1,0 +1,167 @@
+#include "surface/chart.hpp"
+
+#include "surface/conformal_map.hpp"
+#include "surface/cut_curves.hpp"
+#include "surface/plane_cut.hpp"
+#include "surface/support_flips.hpp"
+#include "surface/support_topology.hpp"
+#include "surface/surface_mesher.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace aeroloom::surface {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+/// Below this spread of normals a parallel projection stretches by less than 7 %.
+constexpr double projection_spread = 20 * degree;
+/// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,
+/// and one that is the best to be had.
+constexpr double acceptable_fold = 1e-6, bearable_fold = 1e-3;
+constexpr int rigid_steps = 15;
+constexpr int deepest_split = 14;
+
+struct Candidate {
+  PlaneMap map;
+  MapQuality quality;
+};
+
+bool is_acceptable(const MapQuality& quality, const ChartLimits& limits) {
+  return !quality.overlaps && quality.folded <= acceptable_fold && quality.stretch <= limits.stretch &&
+         quality.scale_ratio <= limits.scale_ratio;
+}
+
+bool is_bearable(const MapQuality& quality) {
+  return !quality.overlaps && quality.folded <= bearable_fold;
+}
+
+/// Whether a is nearer to the limits than b.
+bool is_better(const MapQuality& a, const MapQuality& b, const ChartLimits& limits) {
+  if (is_bearable(a) != is_bearable(b)) return is_bearable(a);
+  const auto excess = [&](const MapQuality& q) {
+    return std::max(q.stretch / limits.stretch, q.scale_ratio / limits.scale_ratio);
+  };
+  return excess(a) < excess(b);
+}
+
+/// Tries maps from the cheapest to the most patient; the first acceptable one, or the best of all.
+Candidate choose_map(const Support& support, const ChartLimits& limits, double spread) {
+  const PlaneMap projection = project_to_mean_plane(support);
+  Candidate best{projection, judge_map(support, projection)};
+  const auto consider = [&](std::optional<PlaneMap> map) {
+    if (!map) return;
+    Candidate candidate{std::move(*map), {}};
+    candidate.quality = judge_map(support, candidate.map);
+    const bool better =
+        is_acceptable(candidate.quality, limits) || is_better(candidate.quality, best.quality, limits);
+    if (better) best = std::move(candidate);
+  };
+  if (spread <= projection_spread && is_acceptable(best.quality, limits)) return best;
+  const std::optional<PlaneMap> conformal = map_conformally(support, projection);
+  consider(conformal);
+  if (!is_acceptable(best.quality, limits) && conformal)
+    consider(map_rigidly(support, *conformal, rigid_steps));
+  if (!is_acceptable(best.quality, limits)) consider(scale_parameters(support));
+  return best;
+}
+
+struct Patch {
+  Support support;
+  int depth;
+};
+
+class ChartMaker {
+public:
+  ChartMaker(const geometry::Model& model, const sizing::SizeField& field, const ChartLimits& limits,
+             FaceVertices& vertices)
+      : _model(model), _field(field), _limits(limits), _vertices(vertices) {}
+
+  std::vector<Chart> run(const Support& whole) {
+    for (const auto& [a, b] : whole.loop_edges) {
+      _joined.insert({std::min(whole.mesh_vertex[a], whole.mesh_vertex[b]),
+                      std::max(whole.mesh_vertex[a], whole.mesh_vertex[b])});
+    }
+    const std::vector<HalfEdge> twins = match_half_edges(whole.triangles);
+    std::vector<std::int32_t> component;
+    const std::vector<std::int32_t> alike(whole.triangles.size(), 0);
+    const std::int32_t count = label_components(twins, alike, component);
+    push(separate_parts(whole, twins, component, count), 0);
+    while (!_waiting.empty()) {
+      Patch patch = std::move(_waiting.back());
+      _waiting.pop_back();
+      if (!map_whole(patch)) split(std::move(patch));
+    }
+    return std::move(_charts);
+  }
+
+private:
+  void push(std::vector<Support> parts, int depth) {
+    for (std::size_t i = parts.size(); i-- > 0;) _waiting.push_back({std::move(parts[i]), depth});
+  }
+
+  void accept(Support support, PlaneMap map) {
+    Chart chart{std::move(support), std::move(map), {}};
+    chart.scale = point_scales(chart.support, chart.plane);
+    _charts.push_back(std::move(chart));
+  }
+
+  /// Maps the patch to one chart if it fits the limits, or is flat enough not to be split any further.
+  bool map_whole(Patch& patch) {
+    const Support& support = patch.support;
+    if (_model.is_planar(support.face)) {
+      PlaneMap map = project_to_mean_plane(support);
+      accept(std::move(patch.support), std::move(map));
+      return true;
+    }
+    if (!is_planar_domain(support, match_half_edges(support.triangles))) return false;
+    const double spread = normal_spread(support);
+    Candidate best = choose_map(support, _limits, spread);
+    const bool flat = spread <= _limits.spread * degree || patch.depth >= deepest_split;
+    if (!is_acceptable(best.quality, _limits) && !(flat && is_bearable(best.quality))) return false;
+    accept(std::move(patch.support), std::move(best.map));
+    return true;
+  }
+
+  void split(Patch patch) {
+    if (patch.depth >= deepest_split) fail(patch.support);
+    for (const CutPlane& plane : propose_planes(patch.support)) {
+      std::optional<CutSupport> cut = cut_by_plane(patch.support, plane);
+      if (!cut) continue;
+      std::vector<Support> parts = separate_at_cut(_model, _field, std::move(*cut), _vertices, _joined);
+      for (Support& part : parts) flip_to_delaunay(part);
+      push(std::move(parts), patch.depth + 1);
+      return;
+    }
+    fail(patch.support);
+  }
+
+  [[noreturn]] void fail(const Support& support) const {
+    const geometry::Vec3 at = support.points.front();
+    throw SurfaceError(fmt::format(
+        "face {} (patch {}): no chart can be found for its part near ({:.6g}, {:.6g}, {:.6g}), where the "
+        "size is {:.4g}; "
+        "the face may fold over itself: repair it in the CAD program, or ask for a smaller size there",
+        _model.face(support.face).name, _model.patches()[_model.face(support.face).patch], at.x, at.y, at.z,
+        _field(at)));
+  }
+
+  const geometry::Model& _model;
+  const sizing::SizeField& _field;
+  ChartLimits _limits;
+  FaceVertices& _vertices;
+  JoinedVertices _joined;
+  std::vector<Patch> _waiting;
+  std::vector<Chart> _charts;
+};
+
+}  // namespace
+
+std::vector<Chart> make_charts(const geometry::Model& model, const sizing::SizeField& field, Support support,
+                               const ChartLimits& limits, FaceVertices& vertices) {
+  return ChartMaker(model, field, limits, vertices).run(support);
+}
+
+}  // namespace aeroloom::surface

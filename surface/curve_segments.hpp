@@ -1,0 +1,24 @@
+/// How many segments each CAD edge gets.
+#pragma once
+
+#include "geometry/model.hpp"
+
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// What decides on the segments of a constraining edge.
+struct EdgeMeasure {
+  geometry::EdgeId edge;
+  double metric_length;  ///< integral of ds/h
+  double length;         ///< about
+  double chord;          ///< distance of its ends
+  double turning;        ///< about the integral of the curvature, radians
+};
+
+/// Segments per edge of the model, 0 where it carries no vertices: the metric length rounded, but no fewer
+/// than a conforming triangulation needs. Of edges that join the same two vertices at most one is a single
+/// segment, a closed edge has three or more, and so has every loop of a face.
+std::vector<int> count_segments(const geometry::Model& model, std::vector<EdgeMeasure> measures);
+
+}  // namespace aeroloom::surface

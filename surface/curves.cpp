@@ -1,0 +1,193 @@
+#include "surface/curves.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/schedule.hpp"
+#include "surface/curve_metric.hpp"
+#include "surface/curve_segments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::Edge;
+using geometry::EdgeId;
+using geometry::Model;
+using geometry::Vec3;
+
+/// An interior vertex as it travels between ranks.
+struct PlacedVertex {
+  EdgeId edge;
+  std::int32_t rank_on_edge;
+  double parameter;
+  Vec3 point;
+};
+
+MetricLength metric_length(const Model& model, const sizing::SizeField& field, EdgeId edge) {
+  auto density = [&model, &field, edge](double t) {
+    return geometry::norm(model.edge_tangent(edge, t)) / field(model.edge_point(edge, t));
+  };
+  return {density, model.edge_breaks(edge)};
+}
+
+/// A cheap guess of the segments of an edge, as its load.
+double estimate_load(const Model& model, const sizing::SizeField& field, EdgeId id) {
+  constexpr int chords = 8;
+  const Edge& edge = model.edge(id);
+  Vec3 from = model.edge_point(id, edge.first_parameter);
+  double load = 1;
+  for (int i = 1; i <= chords; ++i) {
+    const double t = edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / chords;
+    const Vec3 to = model.edge_point(id, t);
+    load += geometry::distance(from, to) / field(0.5 * (from + to));
+    from = to;
+  }
+  return load;
+}
+
+/// Length, chord and turning of an edge beside its length in the metric.
+EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& length) {
+  constexpr int samples = 32;
+  const Edge& edge = model.edge(id);
+  EdgeMeasure measure{id, length.total(), 0, 0, 0};
+  std::optional<Vec3> direction;
+  Vec3 from = model.edge_point(id, edge.first_parameter);
+  const Vec3 start = from;
+  for (int i = 1; i <= samples; ++i) {
+    const double t = edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / samples;
+    const Vec3 to = model.edge_point(id, t);
+    const Vec3 step = to - from;
+    measure.length += geometry::norm(step);
+    if (geometry::norm(step) > 0) {
+      const Vec3 now = geometry::normalized(step);
+      if (direction) {
+        measure.turning +=
+            std::atan2(geometry::norm(geometry::cross(*direction, now)), geometry::dot(*direction, now));
+      }
+      direction = now;
+    }
+    from = to;
+  }
+  measure.chord = geometry::distance(start, from);
+  return measure;
+}
+
+std::vector<PlacedVertex> place_vertices(const Model& model, EdgeId id, const MetricLength& length,
+                                         int segments) {
+  const Edge& edge = model.edge(id);
+  std::vector<double> parameters = equal_parts(length, segments);
+  // An edge without length still gets distinct parameters.
+  if (!(length.total() > 0)) {
+    for (int i = 1; i < segments; ++i) {
+      parameters[i - 1] = edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / segments;
+    }
+  }
+  std::vector<PlacedVertex> placed;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    placed.push_back({id, static_cast<std::int32_t>(i), parameters[i], model.edge_point(id, parameters[i])});
+  }
+  return placed;
+}
+
+/// Joins what the ranks placed; vertices by edge, then along it.
+CurveMesh assemble(const Model& model, std::vector<PlacedVertex> placed) {
+  std::sort(placed.begin(), placed.end(), [](const PlacedVertex& a, const PlacedVertex& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.rank_on_edge < b.rank_on_edge;
+  });
+  CurveMesh mesh;
+  for (geometry::VertexId v = 0; v < model.vertex_count(); ++v) mesh.points.push_back(model.vertex(v));
+  mesh.first_interior.assign(model.edge_count() + 1, model.vertex_count());
+  for (const PlacedVertex& vertex : placed) {
+    mesh.points.push_back(vertex.point);
+    mesh.parameters.push_back(vertex.parameter);
+    ++mesh.first_interior[vertex.edge + 1];
+  }
+  for (EdgeId e = 0; e < model.edge_count(); ++e) {
+    mesh.first_interior[e + 1] += mesh.first_interior[e] - model.vertex_count();
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<CurveVertex> CurveMesh::chain(const Model& model, EdgeId id) const {
+  if (!is_constraining(model, id)) return {};
+  std::vector<CurveVertex> vertices{model.edge(id).first};
+  for (CurveVertex v = first_interior[id]; v < first_interior[id + 1]; ++v) vertices.push_back(v);
+  vertices.push_back(model.edge(id).last);
+  return vertices;
+}
+
+std::vector<double> CurveMesh::chain_parameters(const Model& model, EdgeId id) const {
+  if (!is_constraining(model, id)) return {};
+  std::vector<double> result{model.edge(id).first_parameter};
+  for (CurveVertex v = first_interior[id]; v < first_interior[id + 1]; ++v) {
+    result.push_back(parameters[v - model.vertex_count()]);
+  }
+  result.push_back(model.edge(id).last_parameter);
+  return result;
+}
+
+EdgeId CurveMesh::edge_of(const Model& model, CurveVertex v) const {
+  if (v < model.vertex_count()) return geometry::no_entity;
+  return static_cast<EdgeId>(std::upper_bound(first_interior.begin(), first_interior.end(), v) -
+                             first_interior.begin()) -
+         1;
+}
+
+bool is_constraining(const Model& model, EdgeId id) {
+  const Edge& edge = model.edge(id);
+  if (edge.degenerate) return false;
+  if (edge.faces.size() != 1) return !edge.faces.empty();
+  int uses = 0;
+  for (const auto& loop : model.face(edge.faces.front()).loops) {
+    for (const auto& use : loop) uses += use.edge == id;
+  }
+  return uses < 2;
+}
+
+CurveMesh discretise_curves(const parallel::Communicator& communicator, const Model& model,
+                            const sizing::SizeField& field, parallel::StageClock& clock) {
+  std::vector<EdgeId> edges;
+  std::vector<double> loads;
+  std::vector<EdgeId> mine;
+  std::vector<MetricLength> lengths;
+  std::vector<EdgeMeasure> measures;
+  parallel::agree(communicator, [&] {
+    {
+      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+      for (EdgeId e = 0; e < model.edge_count(); ++e) {
+        if (!is_constraining(model, e)) continue;
+        edges.push_back(e);
+        loads.push_back(estimate_load(model, field, e));
+      }
+    }
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+    const auto assignment = parallel::assign_largest_first(loads, communicator.size());
+    for (const int task : parallel::tasks_of_rank(assignment, loads, communicator.rank())) {
+      mine.push_back(edges[task]);
+      lengths.push_back(metric_length(model, field, edges[task]));
+      measures.push_back(measure_edge(model, edges[task], lengths.back()));
+    }
+  });
+  measures = communicator.all_gather_items(std::span<const EdgeMeasure>(measures));
+
+  std::vector<PlacedVertex> placed;
+  parallel::agree(communicator, [&] {
+    const std::vector<int> segments = [&] {
+      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+      return count_segments(model, std::move(measures));
+    }();
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const auto vertices = place_vertices(model, mine[i], lengths[i], segments[mine[i]]);
+      placed.insert(placed.end(), vertices.begin(), vertices.end());
+    }
+  });
+  return assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
+}
+
+}  // namespace aeroloom::surface

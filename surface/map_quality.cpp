@@ -1,0 +1,173 @@
+#include "geometry/predicates.hpp"
+#include "surface/conformal_map.hpp"
+#include "surface/support_topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::Vec2;
+using geometry::Vec3;
+
+struct Weighted {
+  double value, weight;
+};
+
+/// The value below which the given share of the weight lies.
+double quantile(std::vector<Weighted>& items, double share) {
+  if (items.empty()) return 0;
+  std::sort(items.begin(), items.end(), [](const Weighted& a, const Weighted& b) {
+    return a.value != b.value ? a.value < b.value : a.weight < b.weight;
+  });
+  double total = 0, sum = 0;
+  for (const Weighted& item : items) total += item.weight;
+  for (const Weighted& item : items) {
+    sum += item.weight;
+    if (sum >= share * total) return item.value;
+  }
+  return items.back().value;
+}
+
+/// Singular values of the map of one triangle; the smaller is negative where it turns over.
+struct Stretch {
+  double large, small;
+};
+
+Stretch triangle_stretch(Vec3 ab, Vec3 ac, Vec2 plane_ab, Vec2 plane_ac) {
+  const double length = norm(ab);
+  const double x = dot(ab, ac) / length, y = norm(cross(ab, ac)) / length;
+  // Columns of the Jacobian in the triangle's frame.
+  const Vec2 ju = plane_ab / length, jv = (plane_ac - x * ju) / y;
+  const double conformal = std::hypot(ju.x + jv.y, ju.y - jv.x), anti = std::hypot(ju.x - jv.y, ju.y + jv.x);
+  return {0.5 * (conformal + anti), 0.5 * (conformal - anti)};
+}
+
+/// Segments of the boundary hashed into a uniform grid, so that crossings are looked for among neighbours
+/// alone.
+class BoundaryCrossings {
+public:
+  BoundaryCrossings(const PlaneMap& map, const std::vector<std::array<std::int32_t, 2>>& edges)
+      : _map(map), _edges(edges) {}
+
+  bool any() {
+    Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+    double length = 0;
+    for (const auto& [a, b] : _edges) {
+      length += distance(_map[a], _map[b]);
+      for (const std::int32_t p : {a, b}) {
+        low = {std::min(low.x, _map[p].x), std::min(low.y, _map[p].y)};
+        high = {std::max(high.x, _map[p].x), std::max(high.y, _map[p].y)};
+      }
+    }
+    const double count = static_cast<double>(_edges.size());
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    if (!(extent > 0) || !std::isfinite(extent)) return true;
+    const double cell = std::max(2 * length / count, extent / 1000);
+    struct Entry {
+      std::int32_t column, row, edge;
+      auto operator<=>(const Entry&) const = default;
+    };
+    std::vector<Entry> entries;
+    for (std::size_t e = 0; e < _edges.size(); ++e) {
+      const Vec2 a = _map[_edges[e][0]], b = _map[_edges[e][1]];
+      const auto from = [&](double v, double o) { return static_cast<std::int32_t>((v - o) / cell); };
+      for (std::int32_t i = from(std::min(a.x, b.x), low.x); i <= from(std::max(a.x, b.x), low.x); ++i) {
+        for (std::int32_t j = from(std::min(a.y, b.y), low.y); j <= from(std::max(a.y, b.y), low.y); ++j) {
+          entries.push_back({i, j, static_cast<std::int32_t>(e)});
+        }
+      }
+    }
+    std::sort(entries.begin(), entries.end());
+    for (std::size_t begin = 0; begin < entries.size();) {
+      std::size_t end = begin;
+      while (end < entries.size() && entries[end].column == entries[begin].column &&
+             entries[end].row == entries[begin].row) {
+        ++end;
+      }
+      for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t j = i + 1; j < end; ++j) {
+          if (cross_each_other(_edges[entries[i].edge], _edges[entries[j].edge])) return true;
+        }
+      }
+      begin = end;
+    }
+    return false;
+  }
+
+private:
+  bool cross_each_other(const std::array<std::int32_t, 2>& e, const std::array<std::int32_t, 2>& f) const {
+    if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return false;
+    const Vec2 a = _map[e[0]], b = _map[e[1]], c = _map[f[0]], d = _map[f[1]];
+    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
+        std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y)) {
+      return false;
+    }
+    return geometry::orient2d(a, b, c) * geometry::orient2d(a, b, d) < 0 &&
+           geometry::orient2d(c, d, a) * geometry::orient2d(c, d, b) < 0;
+  }
+
+  const PlaneMap& _map;
+  const std::vector<std::array<std::int32_t, 2>>& _edges;
+};
+
+/// Whether the boundary's image bounds more than one sheet: loops cross, or not exactly one runs
+/// counter-clockwise. With simple loops the number of sheets over a point is its winding number.
+bool boundary_overlaps(const Support& support, const PlaneMap& map) {
+  std::vector<std::array<std::int32_t, 2>> edges;
+  int outer = 0;
+  for (const auto& loop : trace_boundary(support, match_half_edges(support.triangles))) {
+    double area = 0;
+    for (const HalfEdge h : loop) {
+      edges.push_back({start_of(support, h), end_of(support, h)});
+      area += cross(map[edges.back()[0]] - map[0], map[edges.back()[1]] - map[0]);
+    }
+    outer += area > 0;
+  }
+  return outer != 1 || BoundaryCrossings(map, edges).any();
+}
+
+}  // namespace
+
+MapQuality judge_map(const Support& support, const PlaneMap& map) {
+  std::vector<Weighted> stretches, scales;
+  double total = 0, folded = 0;
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    const auto& [a, b, c] = support.triangles[t];
+    const double area = norm(area_vector(support, static_cast<std::int32_t>(t)));
+    total += area;
+    if (geometry::orient2d(map[a], map[b], map[c]) <= 0) {
+      folded += std::max(area, 0.5 * std::abs(cross(map[b] - map[a], map[c] - map[a])));
+      continue;
+    }
+    if (!(area > 0)) continue;
+    const Stretch stretch =
+        triangle_stretch(support.points[b] - support.points[a], support.points[c] - support.points[a],
+                         map[b] - map[a], map[c] - map[a]);
+    stretches.push_back({stretch.small > 0 ? stretch.large / stretch.small : 1e300, area});
+    scales.push_back({std::sqrt(std::max(0.0, stretch.large * stretch.small)), area});
+  }
+  MapQuality quality;
+  quality.folded = total > 0 ? folded / total : 1;
+  quality.stretch = quantile(stretches, 0.99);
+  const double smallest = quantile(scales, 0.005), largest = quantile(scales, 0.995);
+  quality.scale_ratio = smallest > 0 ? largest / smallest : 1e300;
+  quality.overlaps = boundary_overlaps(support, map);
+  return quality;
+}
+
+double normal_spread(const Support& support) {
+  Vec3 mean;
+  for (std::size_t t = 0; t < support.triangles.size(); ++t)
+    mean += area_vector(support, static_cast<std::int32_t>(t));
+  std::vector<Weighted> angles;
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    const Vec3 normal = area_vector(support, static_cast<std::int32_t>(t));
+    angles.push_back({std::atan2(norm(cross(mean, normal)), dot(mean, normal)), norm(normal)});
+  }
+  return quantile(angles, 0.99);
+}
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,60 @@
+/// Facets of a face on their way to a support: open along seams, with the nodes of each passage along an
+/// edge.
+#pragma once
+
+#include "surface/support.hpp"
+#include "surface/support_topology.hpp"
+
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// A triangulated face as the CAD library leaves it: cut open along seams and at poles.
+class OpenFacets {
+public:
+  OpenFacets(const geometry::Model& model, geometry::FaceId face, const geometry::Facets& facets);
+
+  /// Makes every curve vertex a node of the lines along its edge: nodes at (nearly) the same parameter move
+  /// there, the others divide a side of a triangle. Throws SurfaceError where a line is no side of the
+  /// triangles.
+  void insert_curve_vertices(const CurveMesh& curves);
+  /// Gives both passages along each seam nodes at the same parameters.
+  void match_seams();
+  /// Joins what is one point: both passages of a seam, the nodes of a degenerate edge, the ends of lines at a
+  /// CAD vertex, and points at no distance from each other. Triangles that collapse vanish.
+  Support close(const CurveMesh& curves, FaceVertices& vertices);
+
+private:
+  struct Node {
+    double parameter;
+    std::int32_t point;
+    CurveVertex vertex;  // -1: none
+  };
+  struct Line {
+    geometry::EdgeUse use;
+    bool constraining;
+    std::vector<Node> nodes;
+  };
+  /// A node that a line has to get.
+  struct Wanted {
+    double parameter;
+    CurveVertex vertex;
+    geometry::Vec3 point;
+  };
+
+  class SideTable;
+  /// Lets nodes of the line become the wanted ones, or adds nodes; lists where they divide triangles.
+  void plan(Line& line, const std::vector<Wanted>& wanted, double reuse_tolerance, const SideTable& table,
+            std::vector<EdgePoint>& divisions);
+  void divide(std::vector<EdgePoint> divisions);
+  const Line* other_passage(const Line& line) const;
+  std::vector<std::int32_t> join_points() const;
+  void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
+
+  const geometry::Model& _model;
+  Support _support;
+  std::vector<geometry::Vec2> _uv;  // per point
+  std::vector<Line> _lines;
+};
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,205 @@
+#include "surface/chart.hpp"
+
+#include "geometry/domain.hpp"
+#include "geometry/predicates.hpp"
+#include "geometry/primitives.hpp"
+#include "surface/conformal_map.hpp"
+#include "surface/support_topology.hpp"
+#include "tests/surface/face_fixture.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::make_primitive_domain;
+using geometry::Model;
+using geometry::PrimitiveKind;
+using geometry::Vec2;
+using geometry::Vec3;
+using testing::curves_of;
+using testing::facets_of;
+using testing::uniform_field;
+
+struct ChartedFace {
+  Support whole;
+  FaceVertices vertices;
+  std::vector<Chart> charts;
+};
+
+ChartedFace chart_face(const Model& model, geometry::FaceId face, const CurveMesh& curves,
+                       const sizing::SizeField& field) {
+  ChartedFace result;
+  result.whole = build_support(model, face, curves, facets_of(model, face), result.vertices);
+  result.charts = make_charts(model, field, result.whole, {}, result.vertices);
+  return result;
+}
+
+/// Charts cover the face, are one-to-one, and their loops fit each other: every loop edge of the face occurs
+/// once, every cut edge once in each direction.
+void expect_sound(const ChartedFace& face) {
+  double area = 0;
+  std::map<std::array<std::int32_t, 2>, int> edges;
+  for (const Chart& chart : face.charts) {
+    const Support& support = chart.support;
+    area += support_area(support);
+    const MapQuality quality = judge_map(support, chart.plane);
+    EXPECT_LE(quality.folded, 1e-6);
+    EXPECT_FALSE(quality.overlaps);
+    EXPECT_LE(quality.stretch, 1.5);
+    EXPECT_LE(quality.scale_ratio, 8);
+    for (const auto& [a, b] : support.loop_edges) {
+      ASSERT_GE(support.mesh_vertex[a], 0);
+      ASSERT_GE(support.mesh_vertex[b], 0);
+      EXPECT_EQ(support.points[a], face.vertices.points[support.mesh_vertex[a]]);
+      ++edges[{support.mesh_vertex[a], support.mesh_vertex[b]}];
+    }
+  }
+  EXPECT_NEAR(area, support_area(face.whole), 0.02 * area);
+  for (const auto& [a, b] : face.whole.loop_edges) {
+    EXPECT_EQ((edges[{face.whole.mesh_vertex[a], face.whole.mesh_vertex[b]}]--), 1);
+  }
+  for (const auto& [edge, count] : edges) {
+    if (count == 0) continue;
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ((edges.at({edge[1], edge[0]})), 1);
+  }
+}
+
+TEST(Charts, PlaneFaceIsOneIsometricChart) {
+  const Model model = make_primitive_domain(PrimitiveKind::box);
+  const auto field = uniform_field(model, 0.1);
+  const CurveMesh curves = curves_of(model, field);
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    const ChartedFace face = chart_face(model, f, curves, field);
+    ASSERT_EQ(face.charts.size(), 1u);
+    for (const double scale : face.charts.front().scale) EXPECT_NEAR(scale, 1, 1e-12);
+    expect_sound(face);
+  }
+}
+
+TEST(Charts, SphereIsTwoHemispheres) {
+  const Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const auto field = uniform_field(model, 0.05);
+  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  EXPECT_EQ(face.charts.size(), 2u);
+  EXPECT_EQ(face.vertices.curve_count, 0);
+  for (const Vec3 p : face.vertices.points) EXPECT_NEAR(norm(p), 0.25, 1e-9);
+  expect_sound(face);
+}
+
+TEST(Charts, TubeIsCutLengthwise) {
+  for (const double height : {0.1, 1.0, 10.0}) {
+    const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.height = height});
+    const auto field = uniform_field(model, 0.1);
+    const CurveMesh curves = curves_of(model, field);
+    for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+      const ChartedFace face = chart_face(model, f, curves, field);
+      EXPECT_LE(face.charts.size(), 4u);
+      for (const Vec3 p : face.vertices.points) EXPECT_NEAR(std::hypot(p.x, p.y), 0.25, 1e-9);
+      expect_sound(face);
+    }
+  }
+}
+
+TEST(Charts, TorusUnfolds) {
+  for (const double size : {0.03, 0.2, 5.0}) {
+    const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
+    const auto field = uniform_field(model, size);
+    const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+    EXPECT_LE(face.charts.size(), 8u);
+    expect_sound(face);
+  }
+}
+
+TEST(Charts, AreTheSameEveryTime) {
+  const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
+  const auto field = uniform_field(model, 0.1);
+  const CurveMesh curves = curves_of(model, field);
+  const ChartedFace first = chart_face(model, 0, curves, field), second = chart_face(model, 0, curves, field);
+  ASSERT_EQ(first.charts.size(), second.charts.size());
+  for (std::size_t i = 0; i < first.charts.size(); ++i) {
+    EXPECT_EQ(first.charts[i].plane, second.charts[i].plane);
+    EXPECT_EQ(first.charts[i].support.triangles, second.charts[i].support.triangles);
+  }
+}
+
+TEST(ChartLocator, FindsEveryPointAgain) {
+  const Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const auto field = uniform_field(model, 0.1);
+  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  for (const Chart& chart : face.charts) {
+    const ChartLocator locator(chart);
+    std::int32_t hint = -1;
+    for (std::size_t i = 0; i < chart.plane.size(); ++i) {
+      const ChartPoint at = locator.locate(chart.plane[i], hint);
+      EXPECT_LT(distance(at.point, chart.support.points[i]), 1e-9);
+      EXPECT_NEAR(locator.scale(at), chart.scale[i], 1e-6 * chart.scale[i]);
+    }
+    for (std::size_t t = 0; t < chart.support.triangles.size(); ++t) {
+      const auto& [a, b, c] = chart.support.triangles[t];
+      const Vec2 p = 0.5 * chart.plane[a] + 0.3 * chart.plane[b] + 0.2 * chart.plane[c];
+      std::int32_t far = static_cast<std::int32_t>(chart.support.triangles.size() - 1 - t);
+      const ChartPoint at = locator.locate(p, far);
+      EXPECT_EQ(at.triangle, static_cast<std::int32_t>(t));
+      EXPECT_NEAR(at.weights[0], 0.5, 1e-9);
+      EXPECT_NEAR(at.weights[1], 0.3, 1e-9);
+    }
+  }
+}
+
+TEST(ChartLocator, ExtrapolatesBeyondTheEdge) {
+  const Model model = make_primitive_domain(PrimitiveKind::box);
+  const auto field = uniform_field(model, 0.25);
+  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const Chart& chart = face.charts.front();
+  const ChartLocator locator(chart);
+  Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+  for (const Vec2 p : chart.plane) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  std::int32_t hint = 0;
+  const Vec2 outside{high.x + 0.1, 0.5 * (low.y + high.y)};
+  const ChartPoint at = locator.locate(outside, hint);
+  EXPECT_LT(std::min({at.weights[0], at.weights[1], at.weights[2]}), 0);
+  const ChartPoint edge = locator.locate({high.x, outside.y}, hint);
+  EXPECT_NEAR(distance(at.point, edge.point), 0.1, 1e-9);
+}
+
+class RealModel : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(RealModel, EveryFaceGetsCharts) {
+  const auto file = testing::aircraft_folder() / GetParam();
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  geometry::DomainOptions options;
+  options.file = file.string();
+  const Model model = geometry::prepare_domain(options).model;
+  const auto field = uniform_field(model, 0.01 * model.body_bounds().diagonal());
+  const CurveMesh curves = curves_of(model, field);
+  const double start = parallel::cpu_seconds();
+  std::size_t charts = 0;
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    SCOPED_TRACE(fmt::format("face {} {}", f, model.face(f).name));
+    try {
+      const ChartedFace face = chart_face(model, f, curves, field);
+      charts += face.charts.size();
+      expect_sound(face);
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  fmt::print("RESULT model={} faces={} charts={} seconds={:.2f}\n", GetParam(), model.face_count(), charts,
+             parallel::cpu_seconds() - start);
+}
+
+INSTANTIATE_TEST_SUITE_P(Aircraft, RealModel,
+                         ::testing::Values("gmsh_dlr_f6.brep", "gmsh_wing_fuselage.step",
+                                           "tigl_D150_wing.igs", "pyrefine_cev_capsule.igs",
+                                           "gmsh_submarine.stp"));
+
+}  // namespace
+}  // namespace aeroloom::surface

@@ -1,0 +1,50 @@
+/// Faces of small shapes and of real files, ready to be turned into supports and charts.
+#pragma once
+
+#include "geometry/model.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+#include "sizing/size_field.hpp"
+#include "surface/chart.hpp"
+#include "surface/curves.hpp"
+#include "surface/support.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace aeroloom::surface::testing {
+
+/// A field of one size everywhere.
+inline sizing::SizeField uniform_field(const geometry::Model& model, double size) {
+  return sizing::SizeField::build(model.bounds(), {}, {size, size, 12, 1.3});
+}
+
+/// A field that grows with the distance from a point.
+inline sizing::SizeField graded_field(const geometry::Model& model, geometry::Vec3 point, double least,
+                                      double most) {
+  const std::vector<sizing::SizeSource> sources{{point, least}};
+  return sizing::SizeField::build(model.bounds(), sources, {least, most, 12, 1.3});
+}
+
+inline CurveMesh curves_of(const geometry::Model& model, const sizing::SizeField& field) {
+  parallel::StageClock clock;
+  return discretise_curves(parallel::Communicator::world(), model, field, clock);
+}
+
+inline geometry::Facets facets_of(const geometry::Model& model, geometry::FaceId face) {
+  return model.facets(face, 1e-3 * model.body_bounds().diagonal(), 15 * std::numbers::pi / 180);
+}
+
+inline std::filesystem::path aircraft_folder() {
+  const char* set = std::getenv("AEROLOOM_GEOMETRY");
+  const std::filesystem::path root = set != nullptr
+                                         ? std::filesystem::path(set)
+                                         : std::filesystem::path(AEROLOOM_SOURCE_DIR) / "../shared/geometry";
+  return root / "aircraft";
+}
+
+}  // namespace aeroloom::surface::testing

@@ -1,0 +1,167 @@
+#include "surface/support.hpp"
+
+#include "geometry/primitives.hpp"
+#include "surface/support_topology.hpp"
+#include "tests/surface/face_fixture.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::make_primitive_domain;
+using geometry::Model;
+using geometry::PrimitiveKind;
+using geometry::Vec3;
+using testing::curves_of;
+using testing::facets_of;
+using testing::uniform_field;
+
+struct Built {
+  Support support;
+  FaceVertices vertices;
+  std::vector<HalfEdge> twins;
+  std::int64_t euler = 0;
+  std::size_t loops = 0;
+};
+
+Built build(const Model& model, geometry::FaceId face, const CurveMesh& curves) {
+  Built built;
+  built.support = build_support(model, face, curves, facets_of(model, face), built.vertices);
+  built.twins = match_half_edges(built.support.triangles);
+  const auto open = std::count(built.twins.begin(), built.twins.end(), -1);
+  built.euler = static_cast<std::int64_t>(built.support.points.size()) -
+                (static_cast<std::int64_t>(built.twins.size()) + open) / 2 +
+                static_cast<std::int64_t>(built.support.triangles.size());
+  built.loops = trace_boundary(built.support, built.twins).size();
+  return built;
+}
+
+/// What holds for every support: loop edges join mesh vertices, mesh vertices are exact, corners agree with
+/// the surface.
+void expect_sound(const Model& model, const Built& built) {
+  const Support& support = built.support;
+  for (const auto& [a, b] : support.loop_edges) {
+    EXPECT_GE(support.mesh_vertex[a], 0);
+    EXPECT_GE(support.mesh_vertex[b], 0);
+    EXPECT_NE(support.mesh_vertex[a], support.mesh_vertex[b]);
+  }
+  std::set<std::int32_t> met;
+  for (std::size_t i = 0; i < support.points.size(); ++i) {
+    if (support.mesh_vertex[i] < 0) continue;
+    met.insert(support.mesh_vertex[i]);
+    EXPECT_EQ(support.points[i], built.vertices.points[support.mesh_vertex[i]]);
+  }
+  EXPECT_EQ(met.size(), built.vertices.points.size());
+  const double close = 1e-6 * model.bounds().diagonal();
+  for (std::size_t v = 0; v < built.vertices.points.size(); ++v) {
+    EXPECT_LT(distance(model.face_point(support.face, built.vertices.uv[v]), built.vertices.points[v]),
+              close);
+  }
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = support.points[support.triangles[t][i]];
+      EXPECT_LT(distance(model.face_point(support.face, support.corner_uv[t][i]), p), close);
+    }
+  }
+}
+
+TEST(Support, SphereClosesToASphere) {
+  const Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const Built built = build(model, 0, curves_of(model, uniform_field(model, 0.1)));
+  EXPECT_EQ(built.loops, 0u);
+  EXPECT_EQ(built.euler, 2);
+  EXPECT_TRUE(built.support.loop_edges.empty());
+  EXPECT_TRUE(built.vertices.points.empty());
+  expect_sound(model, built);
+}
+
+TEST(Support, TorusClosesToATorus) {
+  const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
+  const Built built = build(model, 0, curves_of(model, uniform_field(model, 0.1)));
+  EXPECT_EQ(built.loops, 0u);
+  EXPECT_EQ(built.euler, 0);
+  expect_sound(model, built);
+}
+
+TEST(Support, CylinderHasATubeAndTwoDisks) {
+  const Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const CurveMesh curves = curves_of(model, uniform_field(model, 0.05));
+  double area = 0;
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    const Built built = build(model, f, curves);
+    EXPECT_EQ(built.loops, model.is_planar(f) ? 1u : 2u);
+    EXPECT_EQ(built.euler, model.is_planar(f) ? 1 : 0);
+    EXPECT_EQ(built.support.loop_edges.size(), 31 * built.loops);
+    expect_sound(model, built);
+    area += support_area(built.support);
+  }
+  EXPECT_NEAR(area, 2 * std::numbers::pi * 0.25 * 1.25, 0.02);
+}
+
+TEST(Support, MeshVerticesDivideCoarseFacets) {
+  // Sizes far below the facets: each side of a box face has two triangles at most and 200 mesh vertices.
+  const Model model = make_primitive_domain(PrimitiveKind::box);
+  const CurveMesh curves = curves_of(model, uniform_field(model, 0.005));
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    const Built built = build(model, f, curves);
+    EXPECT_EQ(built.support.loop_edges.size(), 800u);
+    EXPECT_EQ(built.euler, 1);
+    EXPECT_NEAR(support_area(built.support), 1, 1e-12);
+    expect_sound(model, built);
+  }
+}
+
+TEST(Support, FacetNodesBetweenMeshVerticesRemain) {
+  const Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const CurveMesh curves = curves_of(model, uniform_field(model, 10));
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    const Built built = build(model, f, curves);
+    EXPECT_EQ(built.support.loop_edges.size(), 4 * built.loops);
+    EXPECT_GT(std::count(built.twins.begin(), built.twins.end(), -1), 20 * static_cast<long>(built.loops));
+    expect_sound(model, built);
+  }
+}
+
+TEST(SupportTopology, PinchedBoundaryFallsApartIntoFans) {
+  // Two triangles that touch in point 2 alone.
+  Support support;
+  support.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0}, {2, 2, 0}};
+  support.triangles = {{0, 1, 2}, {2, 3, 4}};
+  support.corner_uv.resize(2);
+  support.mesh_vertex = {0, 1, 2, 3, 4};
+  const Support apart = separate_parts(support, match_half_edges(support.triangles), {0, 0}, 1).front();
+  EXPECT_EQ(apart.points.size(), 6u);
+  EXPECT_EQ(std::count(apart.mesh_vertex.begin(), apart.mesh_vertex.end(), 2), 2);
+  EXPECT_EQ(apart.loop_edges.size(), 6u);
+}
+
+TEST(SupportTopology, DividedEdgesKeepAreaAndConformity) {
+  Support support;
+  support.points = {{0, 0, 0},       {1, 0, 0},       {1, 1, 0},  {0, 1, 0},
+                    {0.25, 0.25, 0}, {0.75, 0.75, 0}, {0.5, 0, 0}};
+  support.triangles = {{0, 1, 2}, {0, 2, 3}};
+  support.corner_uv = {{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {0, 1}}}};
+  support.mesh_vertex.assign(7, -1);
+  const auto former = divide_edges(support, {{2, 0.75, 4, {0.25, 0.25}},
+                                             {2, 0.25, 5, {0.75, 0.75}},
+                                             {3, 0.25, 4, {0.25, 0.25}},
+                                             {3, 0.75, 5, {0.75, 0.75}},
+                                             {0, 0.5, 6, {0.5, 0}}});
+  EXPECT_EQ(support.triangles.size(), 7u);
+  EXPECT_EQ(former.size(), 7u);
+  EXPECT_NEAR(support_area(support), 1, 1e-15);
+  const auto twins = match_half_edges(support.triangles);
+  EXPECT_EQ(std::count(twins.begin(), twins.end(), -1), 5);
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = support.points[support.triangles[t][i]];
+      EXPECT_EQ(support.corner_uv[t][i], (geometry::Vec2{p.x, p.y}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
