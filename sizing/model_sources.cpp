@@ -1,0 +1,204 @@
+#include "sizing/model_sources.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Vec2;
+using geometry::Vec3;
+
+/// How far samples are apart, at most, over the size asked for there.
+constexpr double spacing = 1.0;
+/// Facets that samples start from: a fillet that turns less than this is seen by its neighbours.
+constexpr double facet_angle = 20 * std::numbers::pi / 180;
+constexpr double facet_deflection = 1e-3;  ///< over the diagonal of the body
+/// Bisections of one facet or curve interval, at most: what is still too long then is singular.
+constexpr int deepest_bisection = 40;
+constexpr int first_intervals = 8;  ///< of each smooth part of an edge
+
+double radians_per_element(bool far_field, const SizingOptions& options) {
+  const double degrees =
+      far_field ? std::max(options.curvature_angle, far_field_angle) : options.curvature_angle;
+  return degrees * std::numbers::pi / 180;
+}
+
+double size_for_curvature(double curvature, double angle, double largest, const SizingOptions& options) {
+  const double k = std::abs(curvature);
+  return k * largest > angle ? std::max(angle / k, options.minimum) : largest;
+}
+
+struct FaceSample {
+  Vec2 uv;
+  Vec3 point;
+  double size;
+};
+
+/// Samples one face by bisecting the longest edges of its facets until they are as short as the sizes asked
+/// for.
+class FaceSampler {
+public:
+  FaceSampler(const geometry::Model& model, geometry::FaceId face, bool far_field,
+              const SizingOptions& options)
+      : _model(model),
+        _face(face),
+        _options(options),
+        _planar(model.is_planar(face)),
+        _angle(radians_per_element(far_field, options)),
+        _largest(far_field || options.surface_maximum == 0
+                     ? options.maximum
+                     : std::min(options.maximum, options.surface_maximum)) {}
+
+  std::vector<SizeSource> run() {
+    if (_planar && _largest >= _options.maximum) return {};
+    const geometry::Facets facets =
+        _model.facets(_face, facet_deflection * _model.body_bounds().diagonal(), facet_angle);
+    std::vector<FaceSample> nodes;
+    nodes.reserve(facets.points.size());
+    for (std::size_t i = 0; i < facets.points.size(); ++i)
+      nodes.push_back(sample(facets.uv[i], facets.points[i]));
+    for (const auto& t : facets.triangles) cover({nodes[t[0]], nodes[t[1]], nodes[t[2]]}, 0);
+    return std::move(_sources);
+  }
+
+private:
+  FaceSample sample(Vec2 uv, Vec3 point) {
+    double size = _largest;
+    if (!_planar) {
+      const auto curvatures = _model.face_curvatures(_face, uv);
+      if (curvatures.defined) size = size_for_curvature(curvatures.largest, _angle, _largest, _options);
+    }
+    if (size < _options.maximum) _sources.push_back({point, size});
+    return {uv, point, size};
+  }
+
+  void cover(const std::array<FaceSample, 3>& corners, int depth) {
+    int longest = 0;
+    double length = 0, size = _largest;
+    for (int i = 0; i < 3; ++i) {
+      const double edge = distance(corners[i].point, corners[(i + 1) % 3].point);
+      if (edge > length) length = edge, longest = i;
+      size = std::min(size, corners[i].size);
+    }
+    if (length <= spacing * size || depth >= deepest_bisection) return;
+    const FaceSample &a = corners[longest], &b = corners[(longest + 1) % 3], &c = corners[(longest + 2) % 3];
+    const Vec2 uv = 0.5 * (a.uv + b.uv);
+    const FaceSample middle = sample(uv, _model.face_point(_face, uv));
+    cover({a, middle, c}, depth + 1);
+    cover({middle, b, c}, depth + 1);
+  }
+
+  const geometry::Model& _model;
+  geometry::FaceId _face;
+  const SizingOptions& _options;
+  bool _planar;
+  double _angle, _largest;
+  std::vector<SizeSource> _sources;
+};
+
+struct EdgeSample {
+  double parameter;
+  Vec3 point;
+  double size;
+};
+
+/// Samples one edge by bisection, adds up its length on the way.
+class EdgeSampler {
+public:
+  EdgeSampler(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
+              const SizingOptions& options)
+      : _model(model), _edge(edge), _options(options), _angle(radians_per_element(far_field, options)) {}
+
+  std::vector<SizeSource> run() {
+    const std::vector<double> breaks = _model.edge_breaks(_edge);
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      EdgeSample last = sample(breaks[i]);
+      for (int part = 1; part <= first_intervals; ++part) {
+        const double t = breaks[i] + (breaks[i + 1] - breaks[i]) * part / first_intervals;
+        const EdgeSample next = sample(t);
+        cover(last, next, 0);
+        last = next;
+      }
+    }
+    ask_for_own_length();
+    return std::move(_sources);
+  }
+
+private:
+  EdgeSample sample(double t) {
+    const EdgeSample result{
+        t, _model.edge_point(_edge, t),
+        size_for_curvature(_model.edge_curvature(_edge, t), _angle, _options.maximum, _options)};
+    if (result.size < _options.maximum) _sources.push_back({result.point, result.size});
+    return result;
+  }
+
+  void cover(const EdgeSample& a, const EdgeSample& b, int depth) {
+    const double length = distance(a.point, b.point);
+    if (length <= spacing * std::min(a.size, b.size) || depth >= deepest_bisection) {
+      _length += length;
+      return;
+    }
+    const EdgeSample middle = sample(0.5 * (a.parameter + b.parameter));
+    cover(a, middle, depth + 1);
+    cover(middle, b, depth + 1);
+  }
+
+  void ask_for_own_length() {
+    const geometry::Edge& edge = _model.edge(_edge);
+    if (_length >= _options.maximum) return;
+    const double size = std::max(_length, least_part_of_minimum * _options.minimum);
+    _sources.push_back({_model.edge_point(_edge, 0.5 * (edge.first_parameter + edge.last_parameter)), size});
+  }
+
+  const geometry::Model& _model;
+  geometry::EdgeId _edge;
+  const SizingOptions& _options;
+  double _angle, _length = 0;
+  std::vector<SizeSource> _sources;
+};
+
+/// Whether the face lies in one side of the box.
+bool lies_on_side(const geometry::Facets& facets, const geometry::Box& box) {
+  geometry::Box own;
+  for (const Vec3 p : facets.points) own.add(p);
+  const double tolerance = 1e-6 * box.diagonal();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (own.high[axis] <= box.low[axis] + tolerance || own.low[axis] >= box.high[axis] - tolerance)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> find_far_field(const geometry::Model& model) {
+  std::vector<bool> far(model.face_count(), false);
+  bool flagged = false;
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    far[f] = model.is_far_field(f);
+    flagged = flagged || far[f];
+  }
+  if (flagged) return far;
+  const double deflection = facet_deflection * model.bounds().diagonal();
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    far[f] = model.is_planar(f) && lies_on_side(model.facets(f, deflection, facet_angle), model.bounds());
+  }
+  return far;
+}
+
+std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face, bool far_field,
+                                     const SizingOptions& options, const RootCube& root) {
+  return thin_sources(root, FaceSampler(model, face, far_field, options).run());
+}
+
+std::vector<SizeSource> edge_sources(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
+                                     const SizingOptions& options) {
+  if (model.edge(edge).degenerate) return {};
+  return EdgeSampler(model, edge, far_field, options).run();
+}
+
+}  // namespace aeroloom::sizing

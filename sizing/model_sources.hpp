@@ -1,0 +1,29 @@
+/// What a model asks for: sources on its faces and edges.
+#pragma once
+
+#include "sizing/sources.hpp"
+
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// Degrees an element may turn on the far field where curvature_angle asks for less: enough to stay round.
+inline constexpr double far_field_angle = 20;
+/// Short edges and narrow faces may ask for sizes down to this part of the minimum.
+inline constexpr double least_part_of_minimum = 0.25;
+
+/// Whether the face bounds the far field: as the model says or, in a model that flags none, a planar face on
+/// the box around everything (the side of a wind tunnel).
+std::vector<bool> find_far_field(const geometry::Model& model);
+
+/// Sources that cover the face about as densely as the sizes they ask for: curvature, and surface_maximum off
+/// the far field. None where the face asks for no less than the maximum. Throws CadError.
+std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face, bool far_field,
+                                     const SizingOptions& options, const RootCube& root);
+
+/// Sources along the edge: its curvature, and its own length at its middle, so that no edge is shorter than
+/// the elements around it; the latter down to a quarter of the minimum.
+std::vector<SizeSource> edge_sources(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
+                                     const SizingOptions& options);
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,128 @@
+#include "geometry/primitives.hpp"
+#include "sizing/model_sources.hpp"
+#include "sizing/size_field.hpp"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace aeroloom;
+using geometry::Model;
+using geometry::PrimitiveKind;
+using geometry::Vec3;
+using sizing::SizeField;
+using sizing::SizingOptions;
+
+namespace {
+
+SizeField build(const Model& model, const SizingOptions& options) {
+  parallel::StageClock clock;
+  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+}
+
+Vec3 random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return geometry::normalized(Vec3{normal(random), normal(random), normal(random)});
+}
+
+Model box_with_sphere(double side, double radius) {
+  geometry::PrimitiveDimensions dimensions;
+  dimensions.box = {side, side, side};
+  dimensions.radius = radius;
+  return make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+}
+
+std::int64_t hash(const SizeField& field) {
+  std::mt19937_64 random(5);
+  const Vec3 low = field.domain().low, size = field.domain().size();
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::uint64_t result = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p = low + Vec3{unit(random) * size.x, unit(random) * size.y, unit(random) * size.z};
+    result = std::rotl(result, 7) * 3 ^ std::bit_cast<std::uint64_t>(field(p));
+  }
+  return static_cast<std::int64_t>(result >> 1);
+}
+
+}  // namespace
+
+TEST(ModelField, SphereGetsTheCurvatureAngle) {
+  const SizingOptions options{0.001, 2, 12, 1.3, 0};
+  const SizeField field = build(box_with_sphere(10, 1), options);
+  const double asked = 12 * std::numbers::pi / 180;
+  std::mt19937_64 random(1);
+  double sum = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double h = field(random_direction(random));
+    EXPECT_GT(h, 0.95 * asked);
+    EXPECT_LT(h, 1.1 * asked);
+    sum += h;
+  }
+  EXPECT_NEAR(sum / 5000, asked, 0.03 * asked);
+  EXPECT_GT(field({4.9, 4.9, 4.9}), 1.5);
+}
+
+TEST(ModelField, BoundsRule) {
+  const SizeField coarse = build(box_with_sphere(10, 1), {0.3, 0.5, 12, 1.3, 0});
+  EXPECT_NEAR(coarse({1, 0, 0}), 0.3, 1e-6);
+  EXPECT_NEAR(coarse({5, 5, 5}), 0.5, 1e-6);
+}
+
+TEST(ModelField, SurfaceMaximumCapsTheBodyAlone) {
+  const SizeField field = build(box_with_sphere(40, 1), {0.01, 4, 90, 1.3, 0.1});
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 2000; ++i) EXPECT_NEAR(field(random_direction(random)), 0.1, 0.012);
+  EXPECT_GT(field({20, 20, 20}), 3.9);
+}
+
+TEST(ModelField, CylinderIsCoveredAllAlong) {
+  geometry::PrimitiveDimensions dimensions;
+  dimensions.radius = 0.5;
+  dimensions.height = 8;
+  const SizeField field =
+      build(make_primitive_domain(PrimitiveKind::cylinder, dimensions), {0.001, 5, 15, 1.5, 0});
+  const double asked = 0.5 * 15 * std::numbers::pi / 180;
+  for (int i = 0; i < 2000; ++i) {
+    const double z = -4 + 8 * (i + 0.5) / 2000, angle = 2.4 * i;
+    EXPECT_NEAR(field({0.5 * std::cos(angle), 0.5 * std::sin(angle), z}), asked, 0.1 * asked);
+  }
+}
+
+TEST(ModelField, ShortEdgesAskForTheirLength) {
+  geometry::PrimitiveDimensions dimensions;
+  dimensions.box = {4, 4, 0.05};
+  const Model plate = make_primitive_domain(PrimitiveKind::box, dimensions);
+  EXPECT_NEAR(build(plate, {0.01, 1, 12, 1.3, 0})({2, 2, 0}), 0.05, 1e-6);
+  EXPECT_NEAR(build(plate, {0.1, 1, 12, 1.3, 0})({2, 2, 0}), 0.05, 1e-6);
+  EXPECT_NEAR(build(plate, {0.8, 1, 12, 1.3, 0})({2, 2, 0}), 0.2, 1e-6);
+}
+
+TEST(ModelField, IsTheSameForAnyRankCount) {
+  const SizingOptions options{0.01, 1, 12, 1.3, 0.3};
+  for (const PrimitiveKind kind :
+       {PrimitiveKind::torus, PrimitiveKind::cylinder, PrimitiveKind::box_with_sphere}) {
+    const Model model = geometry::make_primitive_domain(kind);
+    parallel::StageClock clock;
+    const std::int64_t alone =
+        hash(sizing::build_size_field(parallel::Communicator::self(), model, options, clock));
+    const std::int64_t together = hash(build(model, options));
+    EXPECT_EQ(alone, together);
+    const auto world = parallel::Communicator::world();
+    EXPECT_EQ(world.minimum(together), world.maximum(together));
+  }
+}
+
+TEST(ModelField, SidesOfAWindTunnelCountAsFarField) {
+  const Model tunnel = geometry::make_primitive_domain(PrimitiveKind::box);
+  for (const bool far : sizing::find_far_field(tunnel)) EXPECT_TRUE(far);
+  const Model torus = geometry::make_primitive_domain(PrimitiveKind::torus);
+  for (const bool far : sizing::find_far_field(torus)) EXPECT_FALSE(far);
+}
+
+TEST(ModelField, RefusesImpossibleOptionsOnEveryRank) {
+  const Model model = geometry::make_primitive_domain(PrimitiveKind::box);
+  EXPECT_THROW(build(model, {0, 1, 12, 1.3, 0}), std::invalid_argument);
+}
