@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace aeroloom::surface {
 namespace {
@@ -15,7 +14,7 @@ using geometry::Vec2;
 
 /// A triangle needs no further point when its circumradius, in sizes, is at most this; an ideal one has
 /// 0.577.
-constexpr double accepted_radius = 0.85;
+constexpr double accepted_radius = 0.88;
 /// ... and none of its edges is longer than this, in sizes.
 constexpr double accepted_edge = 1.6;
 /// No new point comes closer than this to another one, in sizes.
@@ -64,8 +63,14 @@ private:
   bool place_centre(std::int32_t t, Candidate& best);
   bool insert(const Candidate& candidate, std::int32_t seed);
   bool is_clear(const Candidate& candidate) const;
+  double asked_size(Vec2 point, std::int32_t& hint) const {
+    const double size = _size(point, hint);
+    if (!(size > 0))
+      throw std::invalid_argument("the size function of a chart gives a size that is not positive");
+    return size;
+  }
   double size_at(Vec2 point, double neighbour_size, double distance, std::int32_t& hint) const {
-    return std::min(_size(point, hint), neighbour_size + short_edge_growth * distance);
+    return std::min(asked_size(point, hint), neighbour_size + short_edge_growth * distance);
   }
 
   Delaunay& _plane;
@@ -91,7 +96,7 @@ void Front::measure_boundary(const FrontInput& boundary) {
   _hints.assign(_plane.points.size(), 0);
   std::int32_t hint = 0;
   for (std::size_t v = 0; v < count; ++v) {
-    _sizes[v] = _size(boundary.points[v], hint);
+    _sizes[v] = asked_size(boundary.points[v], hint);
     if (edges[v] > 0) _sizes[v] = std::min(_sizes[v], 2 * length[v] / edges[v]);
     _hints[v] = hint;
   }
@@ -170,7 +175,10 @@ bool Front::place_ideal(HalfEdge edge, Candidate& best) {
   const double edge_size = 0.5 * (_sizes[va] + _sizes[vb]);
   const auto spacing_for = [&](double size) { return std::clamp(size, 0.55 * length, 2 * length); };
   const auto place = [&](double spacing) {
-    const double height = std::min(std::sqrt(spacing * spacing - half * half), reach);
+    // Leaning towards equal areas: where the front's edges have got shorter than wanted, it moves in longer
+    // steps.
+    const double step = std::sqrt((spacing * spacing - half * half) * std::sqrt(spacing / length));
+    const double height = std::min(step, reach);
     best.spacing = spacing;
     best.point = middle + height * normal;
     best.size = size_at(best.point, edge_size, height, best.hint);
