@@ -158,7 +158,7 @@ TEST_F(CommunicatorTest, RefusesImpossibleParcels) {
 }
 
 TEST_F(CommunicatorTest, MovesMessagesOfSeveralParts) {
-  const std::size_t length = 150'000'001;  // no whole number of parts
+  const std::size_t length = 70'000'001;  // no whole number of parts
   const Rank next = (rank + 1) % size, previous = (rank + size - 1) % size;
   std::vector<Parcel> outgoing;
   outgoing.push_back({next, letter(rank, next, length)});

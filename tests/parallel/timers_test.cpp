@@ -1,10 +1,13 @@
 #include "parallel/timers.hpp"
 
 #include <chrono>
+#include <cstring>
 #include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 namespace aeroloom::parallel {
 namespace {
@@ -22,11 +25,34 @@ TEST(TimersTest, CpuTimeDoesNotRunWhileSleeping) {
   EXPECT_LT(cpu_seconds() - cpu, 0.05);
 }
 
+constexpr std::size_t hundred_megabytes = 100'000'000;
+
+/// Uses memory and gives it back to the system, whatever the allocator keeps.
+void use_memory(std::size_t size) {
+  void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  std::memset(memory, 1, size);
+  munmap(memory, size);
+}
+
 TEST(TimersTest, PeakMemoryRemembersWhatWasFreed) {
-  constexpr std::int64_t size = 100'000'000;
-  { const Bytes memory(size, std::byte{1}); }
-  EXPECT_GE(peak_resident_bytes(), size);
-  EXPECT_LT(resident_bytes(), peak_resident_bytes());
+  const std::int64_t before = resident_bytes();
+  use_memory(hundred_megabytes);
+  EXPECT_GE(peak_resident_bytes(), before + 95'000'000);
+  EXPECT_LT(resident_bytes(), peak_resident_bytes() - 90'000'000);
+}
+
+TEST(StageClockTest, PeaksAreThoseOfTheStage) {
+  if (access("/proc/self/clear_refs", W_OK) != 0)
+    GTEST_SKIP() << "the system keeps one peak for the whole run";
+  StageClock clock;
+  clock.begin("large");
+  use_memory(hundred_megabytes);
+  clock.end();
+  clock.begin("small");
+  clock.end();
+  EXPECT_LT(clock.costs()[1].peak_resident_bytes, clock.costs()[0].peak_resident_bytes - 90'000'000);
+  EXPECT_GE(peak_resident_bytes(), clock.costs()[0].peak_resident_bytes);
 }
 
 TEST(StageClockTest, AddsToTheOpenStageOnly) {
