@@ -27,7 +27,7 @@ struct Scale {
 constexpr Scale angle_scale{180, 100, 200};
 constexpr Scale ratio_scale{1, 10000, 200};
 
-enum Measure { min_angle, max_angle, mean, radius, measures };
+enum Measure { min_angle, max_angle, shape, radii, measures };
 constexpr Scale scales[measures] = {angle_scale, angle_scale, ratio_scale, ratio_scale};
 
 /// One measure over the cells seen so far.
@@ -111,8 +111,9 @@ LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbe
         local.measure[m].add(values.of[m], scales[m]);
         sum.of[m] += values.of[m];
       }
-      if (local.worst.size() < worst_kept || values.of[min_angle] <= local.worst.back().value) {
-        local.worst.push_back({values.of[min_angle], numbering.first_cell[i] + c, center_of(piece, c)});
+      const WorstCell candidate{values.of[min_angle], numbering.first_cell[i] + c, {}};
+      if (local.worst.size() < worst_kept || worse(candidate, local.worst.back())) {
+        local.worst.push_back({candidate.value, candidate.cell, center_of(piece, c)});
         keep_worst(local.worst);
       }
     }
@@ -192,8 +193,8 @@ QualitySummary summarise_quality(const parallel::Communicator& communicator, con
   QualitySummary summary;
   summary.min_dihedral = distribution(min_angle);
   summary.max_dihedral = distribution(max_angle);
-  summary.mean_ratio = distribution(mean);
-  if (mesh.kind == CellKind::tetrahedron) summary.radius_ratio = distribution(radius);
+  summary.mean_ratio = distribution(shape);
+  if (mesh.kind == CellKind::tetrahedron) summary.radius_ratio = distribution(radii);
   summary.worst = communicator.all_gather_items(std::span<const WorstCell>(local.worst));
   keep_worst(summary.worst);
   return summary;

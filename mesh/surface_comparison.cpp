@@ -6,7 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -61,6 +61,9 @@ Offender offender_of(const BitTriangle& triangle) {
 
 void check_same_triangles(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                           const DistributedMesh& surface, Findings& in_mesh, Findings& in_surface) {
+  parallel::agree(communicator, [&] {
+    for (const Piece& piece : surface.pieces) require_consistent_arrays(piece);
+  });
   std::vector<BitTriangle> triangles;
   add_triangles(mesh, Side::mesh, triangles);
   add_triangles(surface, Side::surface, triangles);

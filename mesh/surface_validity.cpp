@@ -56,7 +56,7 @@ void check_repeated(const parallel::Communicator& communicator, const Distribute
 
 ValidityReport check_surface_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                   const Numbering& numbering) {
-  require_checkable(communicator, mesh, numbering);
+  require_checkable(communicator, mesh, CellKind::triangle, numbering);
   ValidityReport report;
   Findings findings;
   check_finite_coordinates(mesh, numbering, findings);

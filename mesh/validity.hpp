@@ -21,13 +21,13 @@ struct ValidityReport {
 /// cells, closed boundary, no orphan vertices, identical coordinates of shared vertices, equal volumes
 /// (1e-10), a patch and a CAD face for every boundary triangle, and, when `surface` is given, that the
 /// boundary triangles are exactly its triangles (by coordinate bits). Memory per rank is bounded by its share
-/// of the faces. Collective.
+/// of the faces. Throws CollectiveError when arrays or numbering do not fit the mesh. Collective.
 ValidityReport check_volume_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                  const Numbering& numbering, const DistributedMesh* surface);
 
 /// Checks a surface mesh: every edge in exactly two triangles with opposite directions (an even number, half
 /// each way, where sheets touch), no degenerate or repeated triangle, no orphan vertices, positive enclosed
-/// volume, a patch for every triangle. Collective.
+/// volume, a patch and a CAD face for every triangle. Throws as check_volume_mesh. Collective.
 ValidityReport check_surface_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                   const Numbering& numbering);
 

@@ -39,14 +39,14 @@ std::optional<Violation> judge_edge(std::span<const Member> members) {
 
 }  // namespace
 
-void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh, CellKind kind,
                        const Numbering& numbering) {
   parallel::agree(communicator, [&] {
-    bool fits =
-        numbering.vertices.size() == mesh.pieces.size() && numbering.first_cell.size() == mesh.pieces.size();
+    if (mesh.kind != kind) throw std::logic_error("the mesh has cells of another kind");
+    bool fits = numbering.vertices.size() == mesh.pieces.size();
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
       require_consistent_arrays(mesh.pieces[i]);
-      fits = fits && mesh.pieces[i].kind == mesh.kind &&
+      fits = fits && mesh.pieces[i].kind == kind &&
              numbering.vertices[i].size() == static_cast<std::size_t>(mesh.pieces[i].vertex_count());
     }
     if (!fits) throw std::logic_error("the numbering does not belong to the mesh");

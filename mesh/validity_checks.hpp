@@ -8,9 +8,9 @@
 
 namespace aeroloom::mesh {
 
-/// Throws CollectiveError when the arrays of a piece do not fit together or the numbering belongs to another
-/// mesh: then nothing else can be checked. Collective.
-void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+/// Throws CollectiveError when the arrays of a piece do not fit together, cells are of another kind, or the
+/// numbering belongs to another mesh: then nothing else can be checked. Collective.
+void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh, CellKind kind,
                        const Numbering& numbering);
 
 /// Every coordinate is a finite number. Not collective.

@@ -103,7 +103,7 @@ bool volumes_agree(const ValidityReport& report) {
 
 ValidityReport check_volume_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                  const Numbering& numbering, const DistributedMesh* surface) {
-  require_checkable(communicator, mesh, numbering);
+  require_checkable(communicator, mesh, CellKind::tetrahedron, numbering);
   ValidityReport report;
   Findings in_mesh, in_surface;
   check_finite_coordinates(mesh, numbering, in_mesh);
@@ -118,6 +118,7 @@ ValidityReport check_volume_mesh(const parallel::Communicator& communicator, con
   if (surface != nullptr) {
     for (auto& sentence : in_surface.sentences(communicator, *surface)) report.violations.push_back(sentence);
   }
+  if (numbering.cell_count == 0) report.violations.push_back("the mesh has no tetrahedra");
   if (!volumes_agree(report)) {
     report.violations.push_back(fmt::format("the tetrahedra fill {:.17g}, but the boundary encloses {:.17g}",
                                             report.volume, report.surface_volume));

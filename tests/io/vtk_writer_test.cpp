@@ -197,6 +197,7 @@ TEST_F(VtkWriter, CutsALargeSurfaceIntoPartsThatReadTogether) {
   vtkPolyData& whole = *reader->GetOutput();
   EXPECT_EQ(whole.GetNumberOfCells(), pieces * 2 * n * n);
   EXPECT_EQ(whole.GetNumberOfPoints(), (pieces * n + 3) * (n + 1));  // the columns between parts twice
+  EXPECT_EQ(whole.GetFieldData()->GetAbstractArray("face_names")->GetNumberOfValues(), pieces);
   auto& face = *whole.GetCellData()->GetArray("face");
   for (vtkIdType t = 0; t < whole.GetNumberOfCells(); t += 997) EXPECT_EQ(face.GetTuple1(t), t / (2 * n * n));
 }

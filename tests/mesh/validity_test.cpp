@@ -273,6 +273,19 @@ TEST(VolumeValidity, RefusesANumberingOfAnotherMesh) {
   EXPECT_THROW(check_volume_mesh(world, mesh, other, nullptr), parallel::CollectiveError);
 }
 
+TEST(VolumeValidity, FindsAMeshWithoutTetrahedra) {
+  const auto world = Communicator::world();
+  const DistributedMesh mesh;
+  const auto report = check_volume_mesh(world, mesh, number_mesh(world, mesh), nullptr);
+  EXPECT_EQ(joined(report.violations), "the mesh has no tetrahedra\n");
+}
+
+TEST(VolumeValidity, RefusesASurfaceMesh) {
+  const auto world = Communicator::world();
+  const auto mesh = examples::cube_surface(world, 2, 2);
+  EXPECT_THROW(check_volume_mesh(world, mesh, number_mesh(world, mesh), nullptr), parallel::CollectiveError);
+}
+
 TEST(SurfaceValidity, AcceptsSoundMeshesHoweverTheyAreCut) {
   const auto world = Communicator::world();
   for (const int cuts : {1, 2, 7}) {
