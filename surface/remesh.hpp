@@ -20,9 +20,10 @@ struct FaceMesh {
 };
 
 /// Smooths and reconnects the interior: edges longer than 1.4 times the local size are divided, shorter than 0.65 times
-/// contracted (where that makes no fold and no worse angle), edges flip where that raises the smaller angle, free vertices
-/// move and return to the CAD surface by projection. A change that would fold the surface or lower the worst mean ratio
-/// around it is not made. Edges between fixed vertices on the boundary stay. Deterministic.
+/// contracted, edges flip where that raises the smaller angle, free vertices move and return to the CAD surface by
+/// projection. A change that would fold the surface is not made, nor one that lowers the worst mean ratio around it,
+/// unless that stays above 0.75. Edges used by one triangle stay, and so do vertices on them and the first `fixed`
+/// ones. After the first sweep only places that changed are looked at again. Deterministic.
 void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps, FaceMesh& mesh);
 
 }  // namespace aeroloom::surface

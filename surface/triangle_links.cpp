@@ -100,4 +100,73 @@ HalfEdge TriangleLinks::flip(HalfEdge edge) {
   return half_edge(t, 1);
 }
 
+std::int32_t TriangleLinks::divide(HalfEdge edge) {
+  const HalfEdge other = mate(edge);
+  const std::int32_t t = triangle_of(edge), u = triangle_of(other);
+  const int i = corner_of(edge), j = corner_of(other);
+  const LinkedTriangle left = triangles[t], right = triangles[u];
+  const std::int32_t a = left.vertices[i], b = left.vertices[next_corner(i)], c = left.vertices[previous_corner(i)];
+  const std::int32_t d = right.vertices[j];
+  const auto middle = static_cast<std::int32_t>(triangle_at.size());
+  const auto t2 = static_cast<std::int32_t>(triangles.size()), u2 = t2 + 1;
+  triangles.resize(triangles.size() + 2);
+  triangles[t].vertices = {a, b, middle};
+  triangles[t2].vertices = {a, middle, c};
+  triangles[u].vertices = {d, c, middle};
+  triangles[u2].vertices = {d, middle, b};
+  join(half_edge(t, 0), half_edge(u2, 0));
+  join(half_edge(t2, 0), half_edge(u, 0));
+  join(half_edge(t, 1), half_edge(t2, 2));
+  join(half_edge(u, 1), half_edge(u2, 2));
+  join(half_edge(t, 2), left.links[previous_corner(i)]);
+  join(half_edge(t2, 1), left.links[next_corner(i)]);
+  join(half_edge(u, 2), right.links[previous_corner(j)]);
+  join(half_edge(u2, 1), right.links[next_corner(j)]);
+  triangle_at.push_back(t);
+  triangle_at[a] = triangle_at[b] = t;
+  triangle_at[c] = triangle_at[d] = u;
+  return middle;
+}
+
+void TriangleLinks::contract(HalfEdge edge) {
+  const std::int32_t gone = origin(edge), kept = target(edge);
+  std::vector<std::int32_t> fan;
+  gather_fan(gone, fan);
+  const std::int32_t removed[2] = {triangle_of(edge), triangle_of(mate(edge))};
+  for (const std::int32_t t : fan) triangles[t].vertices[corner(t, gone)] = kept;
+  for (const HalfEdge e : {edge, mate(edge)}) {
+    // The triangle's other two edges become one; that which was the vanished vertex's has a triangle beyond.
+    auto& triangle = triangles[triangle_of(e)];
+    HalfEdge first = triangle.links[next_corner(corner_of(e))], second = triangle.links[previous_corner(corner_of(e))];
+    if (first == no_half_edge) std::swap(first, second);
+    join(first, second);
+    triangle_at[apex(e)] = triangle_of(first);
+    triangle_at[kept] = triangle_of(first);
+  }
+  triangle_at[gone] = -1;
+  for (const std::int32_t t : removed) triangles[t] = {{-1, -1, -1}, {no_half_edge, no_half_edge, no_half_edge}};
+}
+
+bool TriangleLinks::gather_fan(std::int32_t vertex, std::vector<std::int32_t>& fan) const {
+  fan.clear();
+  const std::int32_t start = triangle_at[vertex];
+  for (std::int32_t t = start;;) {
+    fan.push_back(t);
+    const HalfEdge across = triangles[t].links[next_corner(corner(t, vertex))];
+    if (across == no_half_edge) break;
+    t = triangle_of(across);
+    if (t == start) return true;
+  }
+  const auto counter_clockwise = static_cast<std::ptrdiff_t>(fan.size());
+  for (std::int32_t t = start;;) {  // the fan is open: look at its other part
+    const HalfEdge across = triangles[t].links[previous_corner(corner(t, vertex))];
+    if (across == no_half_edge) break;
+    t = triangle_of(across);
+    fan.push_back(t);
+  }
+  std::reverse(fan.begin() + counter_clockwise, fan.end());
+  std::rotate(fan.begin(), fan.begin() + counter_clockwise, fan.end());
+  return false;
+}
+
 }  // namespace aeroloom::surface

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+
+#include "surface/face_remesher.hpp"
+
+namespace aeroloom::surface {
+
+using geometry::Vec3;
+
+/// Squared sine of the smallest angle: that between the two longest sides.
+double FaceRemesher::smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  const Vec3 u = _mesh.points[b] - _mesh.points[a], v = _mesh.points[c] - _mesh.points[a], w = v - u;
+  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  const Vec3 area = cross(u, v);
+  const double shortest = std::min({uu, vv, ww});
+  const double sides = shortest == uu ? vv * ww : shortest == vv ? uu * ww : uu * vv;
+  return sides > 0 ? dot(area, area) / sides : 0;
+}
+
+/// Flips where the smaller angle of the two triangles gets larger and nothing else worse.
+bool FaceRemesher::flip_if_better(HalfEdge edge) {
+  const HalfEdge other = _links.mate(edge);
+  if (other == no_half_edge) return false;
+  const std::int32_t a = _links.apex(edge), b = _links.origin(edge), c = _links.target(edge), d = _links.apex(other);
+  const double sine = std::min(smallest_sine(a, b, c), smallest_sine(d, c, b));
+  const double flipped_sine = std::min(smallest_sine(a, b, d), smallest_sine(d, c, a));
+  if (!(flipped_sine > sine * (1 + 1e-6)) || a == d) return false;
+  PatchShape before = shape(a, b, c), after = shape(a, b, d);
+  before.add(shape(d, c, b));
+  after.add(shape(d, c, a));
+  if (after.mean_ratio < before.mean_ratio || !is_acceptable(before, after)) return false;
+  if (_links.find(a, d) != no_half_edge || _links.find(d, a) != no_half_edge) return false;
+  _links.flip(edge);
+  for (const std::int32_t v : {a, b, c, d}) _next[v] = 1;
+  return true;
+}
+
+void FaceRemesher::flip_edges() {
+  for (std::int32_t start = 0; start < static_cast<std::int32_t>(_links.triangles.size()); ++start) {
+    if (!is_live(start)) continue;
+    for (int i = 0; i < 3; ++i) {
+      const HalfEdge edge = half_edge(start, i);
+      if (_links.mate(edge) > edge && is_edge_active(edge)) _stack.push_back(edge);
+      while (!_stack.empty()) {
+        const HalfEdge next = _stack.back();
+        _stack.pop_back();
+        const HalfEdge other = _links.mate(next);
+        if (!flip_if_better(next)) continue;
+        const std::int32_t t = triangle_of(next), u = triangle_of(other);
+        _stack.insert(_stack.end(), {half_edge(t, 0), half_edge(t, 2), half_edge(u, 0), half_edge(u, 2)});
+      }
+    }
+  }
+}
+
+}  // namespace aeroloom::surface

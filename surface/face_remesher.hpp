@@ -1,0 +1,95 @@
+/// The local operations of remesh_interior on one face, each over all places that still change.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "surface/remesh.hpp"
+#include "surface/triangle_links.hpp"
+
+namespace aeroloom::surface {
+
+/// The worst of a set of triangles, in two respects.
+struct PatchShape {
+  double mean_ratio = 1;  ///< smallest
+  /// Smallest squared cosine, with its sign, between a triangle's normal and those of the surface at its vertices.
+  double facing = 1;
+  double energy = 0;      ///< sum of inverse mean ratios
+  void add(const PatchShape& other) {
+    mean_ratio = std::min(mean_ratio, other.mean_ratio);
+    facing = std::min(facing, other.facing);
+    energy += other.energy;
+  }
+};
+
+/// A triangulation of the face under change.
+class FaceRemesher {
+ public:
+  FaceRemesher(const geometry::Model& model, const sizing::SizeField& field, FaceMesh& mesh);
+
+  void contract_short_edges();
+  void divide_long_edges();
+  void flip_edges();
+  void smooth();
+  /// Ends a sweep: the next one looks only at what this one changed.
+  void settle();
+  /// Writes back triangles and vertices without those that vanished.
+  void finish();
+
+ private:
+  /// A vertex as it is or could be.
+  struct Place {
+    geometry::Vec3 point, normal;
+    geometry::Vec2 uv;
+    double size = 0;
+  };
+
+  void measure_vertices();
+  geometry::Vec3 fan_normal(std::int32_t vertex);
+  Place place_of(std::int32_t vertex) const;
+  void put(std::int32_t vertex, const Place& place);
+  /// The nearest place on the CAD surface; false when that is further off than `reach`.
+  bool project(geometry::Vec3 point, std::int32_t guess, double reach, Place& place) const;
+
+  PatchShape shape(const std::array<Place, 3>& corners) const;
+  PatchShape shape(std::int32_t triangle) const;
+  PatchShape shape(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  /// The triangle with its corner at `vertex` moved.
+  PatchShape shape_with(std::int32_t triangle, std::int32_t vertex, const Place& moved) const;
+
+  bool is_free(std::int32_t vertex) const { return _movable[vertex] != 0; }
+  bool is_live(std::int32_t triangle) const { return _links.triangles[triangle].vertices[0] >= 0; }
+  bool is_edge_active(HalfEdge edge) const {
+    return _active[_links.origin(edge)] || _active[_links.target(edge)];
+  }
+  double edge_length(HalfEdge edge) const;
+  double edge_size(HalfEdge edge) const { return 0.5 * (_sizes[_links.origin(edge)] + _sizes[_links.target(edge)]); }
+  void note_change(std::int32_t vertex);
+
+  bool is_contraction_wanted(HalfEdge edge) const;
+  bool contract(HalfEdge edge);
+  bool try_contraction(HalfEdge edge, const Place& place);
+  bool keeps_topology(HalfEdge edge);
+  void divide(HalfEdge edge);
+  bool flip_if_better(HalfEdge edge);
+  double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  geometry::Vec3 ideal_place(std::int32_t vertex) const;
+  void smooth_vertex(std::int32_t vertex);
+
+  const geometry::Model& _model;
+  const sizing::SizeField& _field;
+  FaceMesh& _mesh;
+  TriangleLinks _links;
+  std::vector<geometry::Vec3> _normals;      // per vertex, of the surface
+  std::vector<double> _sizes;                // per vertex
+  std::vector<std::uint8_t> _movable;        // per vertex
+  std::vector<std::uint8_t> _active, _next;  // per vertex: looked at in this sweep, in the next
+  std::vector<std::int32_t> _fan, _other_fan;
+  std::vector<HalfEdge> _stack;
+};
+
+/// Whether a change is allowed: nothing folds, and nothing gets worse than it was, unless it is still good.
+bool is_acceptable(const PatchShape& before, const PatchShape& after);
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,20 @@
+#include "surface/remesh.hpp"
+
+#include "surface/face_remesher.hpp"
+
+namespace aeroloom::surface {
+
+void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps, FaceMesh& mesh) {
+  FaceRemesher remesher(model, field, mesh);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    remesher.contract_short_edges();
+    remesher.divide_long_edges();
+    remesher.flip_edges();
+    remesher.smooth();
+    remesher.flip_edges();
+    remesher.settle();
+  }
+  remesher.finish();
+}
+
+}  // namespace aeroloom::surface
