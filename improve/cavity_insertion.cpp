@@ -7,6 +7,7 @@ namespace aeroloom::improve {
 namespace {
 
 constexpr int rounds = 3;            // of growing the cavity and placing the point
+constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
 
 }  // namespace
@@ -15,56 +16,56 @@ bool CavityInsertion::contains(LocalIndex t) const {
   return std::find(_tets.begin(), _tets.end(), t) != _tets.end();
 }
 
-double CavityInsertion::cone_quality(const TetMesh& mesh, const std::array<LocalIndex, 3>& corners) const {
-  return mesh.measure()(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]), _point);
-}
-
-void CavityInsertion::collect_walls(const TetMesh& mesh) {
-  _walls.clear();
-  for (const LocalIndex t : _tets) {
-    for (int f = 0; f < 4; ++f) {
-      const HalfFace side = 4 * t + f, other = mesh.mate(side);
-      if (other >= 0 && contains(other >> 2)) continue;
-      const auto& face = mesh::tetrahedron_faces[f];
-      const Corners& c = mesh.corners(t);
-      const std::array<LocalIndex, 3> corners{c[face[0]], c[face[2]], c[face[1]]};
-      _walls.push_back({corners, side, cone_quality(mesh, corners)});
-    }
-  }
-}
-
-// The neighbour behind a wall joins when all walls it brings are better than that wall.
-bool CavityInsertion::swallow_neighbour(const TetMesh& mesh, std::size_t wall) {
-  const double floor = _walls[wall].quality;
-  const HalfFace entry = mesh.mate(_walls[wall].side);
-  if (entry < 0) return false;
-  const LocalIndex t = entry >> 2;
-  _grown.clear();
+void CavityInsertion::add_walls(const TetMesh& mesh, LocalIndex t) {
   for (int f = 0; f < 4; ++f) {
     const HalfFace side = 4 * t + f, other = mesh.mate(side);
     if (other >= 0 && contains(other >> 2)) continue;
     const auto& face = mesh::tetrahedron_faces[f];
     const Corners& c = mesh.corners(t);
     const std::array<LocalIndex, 3> corners{c[face[0]], c[face[2]], c[face[1]]};
-    const double quality = cone_quality(mesh, corners);
-    if (quality <= floor) return false;
-    _grown.push_back({corners, side, quality});
+    const double quality =
+        mesh.measure()(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]), _point);
+    _walls.push_back({corners, side, quality});
   }
-  std::erase_if(_walls, [&](const Wall& w) {
-    const HalfFace other = mesh.mate(w.side);
-    return other >= 0 && other >> 2 == t;
-  });
-  _walls.insert(_walls.end(), _grown.begin(), _grown.end());
-  _tets.push_back(t);
-  return true;
 }
 
+void CavityInsertion::collect_walls(const TetMesh& mesh) {
+  _walls.clear();
+  for (const LocalIndex t : _tets) add_walls(mesh, t);
+}
+
+void CavityInsertion::swallow(const TetMesh& mesh, LocalIndex t) {
+  std::erase_if(_walls, [&](const Wall& w) { return mesh.mate(w.side) >= 0 && mesh.mate(w.side) >> 2 == t; });
+  _tets.push_back(t);
+  add_walls(mesh, t);
+}
+
+// The neighbour behind the worst wall that has one joins, whether that helps at once or not: where a wall
+// runs through the point, only the tetrahedra on both sides of it together help. The best state on the way is
+// kept.
 void CavityInsertion::grow(const TetMesh& mesh) {
-  while (static_cast<int>(_tets.size()) < most_tets) {
-    const auto worst = std::min_element(_walls.begin(), _walls.end(),
-                                        [](const Wall& a, const Wall& b) { return a.quality < b.quality; });
-    if (worst == _walls.end() || !swallow_neighbour(mesh, worst - _walls.begin())) return;
+  std::size_t best_size = _tets.size();
+  double best = -std::numeric_limits<double>::max();
+  while (true) {
+    const Wall* worst_open = nullptr;
+    double worst = std::numeric_limits<double>::max();
+    for (const Wall& w : _walls) {
+      worst = std::min(worst, w.quality);
+      const bool is_open = mesh.mate(w.side) >= 0 && w.quality < mesh.measure().target();
+      if (is_open && (worst_open == nullptr || w.quality < worst_open->quality)) worst_open = &w;
+    }
+    if (worst > best) {
+      best = worst;
+      best_size = _tets.size();
+    }
+    if (worst_open == nullptr || static_cast<int>(_tets.size()) >= most_tets ||
+        _tets.size() >= best_size + patience) {
+      break;
+    }
+    swallow(mesh, mesh.mate(worst_open->side) >> 2);
   }
+  _tets.resize(best_size);
+  collect_walls(mesh);
 }
 
 // A fixed vertex must stay on the cavity's walls.

@@ -35,13 +35,13 @@ private:
   bool propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity);
   void collect_walls(const TetMesh& mesh);
   void grow(const TetMesh& mesh);
-  bool swallow_neighbour(const TetMesh& mesh, std::size_t wall);
+  void add_walls(const TetMesh& mesh, LocalIndex t);
+  void swallow(const TetMesh& mesh, LocalIndex t);
   bool keeps_fixed_vertices(const TetMesh& mesh) const;
   bool contains(LocalIndex t) const;
-  double cone_quality(const TetMesh& mesh, const std::array<LocalIndex, 3>& corners) const;
 
   std::vector<LocalIndex> _tets;
-  std::vector<Wall> _walls, _grown;
+  std::vector<Wall> _walls;
   ConeOptimiser _cones;
   Vec3 _point;
 };

@@ -1,0 +1,89 @@
+#include "improve/improver.hpp"
+
+#include "tests/improve/shaken.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::improve {
+namespace {
+
+using examples::examine;
+using examples::expect_valid;
+using mesh::DistributedMesh;
+
+TEST(ImproveMesh, RemovesAPlantedSliver) {
+  const auto self = parallel::Communicator::self();
+  int planted = 0;
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    mesh::examples::WholeMesh whole = mesh::examples::whole_cube(4, 1);
+    examples::flip_at_random(whole, 1, random);
+    DistributedMesh mesh = mesh::examples::distribute(self, whole, 1);
+    if (examine(mesh.pieces, 15).angle > 6) continue;
+    ++planted;
+    parallel::StageClock clock;
+    EXPECT_EQ(improve_mesh(self, mesh, {}, clock).bad_after, 0);
+    expect_valid(self, mesh);
+  }
+  EXPECT_GT(planted, 2);
+}
+
+TEST(ImproveMesh, DependsOnThePiecesAlone) {
+  const auto world = parallel::Communicator::world();
+  const auto self = parallel::Communicator::self();
+  const auto improved_hash = [](const parallel::Communicator& communicator, ImproveReport& report) {
+    DistributedMesh mesh = mesh::examples::distribute(communicator, examples::shaken_cube(5, 5, 30, 3), 5);
+    parallel::StageClock clock;
+    report = improve_mesh(communicator, mesh, {}, clock);
+    expect_valid(communicator, mesh);
+    return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
+  };
+  ImproveReport spread, alone, again;
+  const std::string hash = improved_hash(self, alone);
+  EXPECT_EQ(improved_hash(world, spread), hash);
+  EXPECT_EQ(improved_hash(self, again), hash);
+  EXPECT_EQ(spread.bad_before, alone.bad_before);
+  EXPECT_EQ(spread.bad_after, alone.bad_after);
+  EXPECT_EQ(spread.smoothed, alone.smoothed);
+  EXPECT_EQ(spread.swaps, alone.swaps);
+  EXPECT_EQ(spread.min_angle_before, alone.min_angle_before);
+  EXPECT_EQ(spread.min_angle_after, alone.min_angle_after);
+}
+
+TEST(ImproveMesh, OnlyLooksWhenDisabled) {
+  const auto world = parallel::Communicator::world();
+  DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(4, 3, 10, 5), 3);
+  const std::string hash = mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh));
+  ImproveOptions options;
+  options.enabled = false;
+  parallel::StageClock clock;
+  const ImproveReport report = improve_mesh(world, mesh, options, clock);
+  EXPECT_GT(report.bad_before, 0);
+  EXPECT_EQ(report.bad_after, report.bad_before);
+  EXPECT_EQ(report.min_angle_after, report.min_angle_before);
+  EXPECT_EQ(mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh)), hash);
+}
+
+TEST(ImproveMesh, WorksOnAFewRanksWithoutPieces) {
+  const auto world = parallel::Communicator::world();
+  DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(4, 1, 10, 6), 1);
+  parallel::StageClock clock;
+  const ImproveReport report = improve_mesh(world, mesh, {}, clock);
+  EXPECT_GT(report.min_angle_after, report.min_angle_before);
+  expect_valid(world, mesh);
+}
+
+TEST(ImproveMesh, RefusesWhatItCannotDoOnAllRanks) {
+  const auto world = parallel::Communicator::world();
+  DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(3, 1, 0, 7), 1);
+  ImproveOptions options;
+  options.target_angle = 80;
+  parallel::StageClock clock;
+  EXPECT_THROW(improve_mesh(world, mesh, options, clock), std::runtime_error);
+  DistributedMesh surface;
+  surface.kind = mesh::CellKind::triangle;
+  EXPECT_THROW(improve_mesh(world, surface, {}, clock), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace aeroloom::improve
