@@ -24,17 +24,22 @@ HullComparison compare(const NamedShape& solids) {
                            volume_of(solids.shape));
 }
 
-KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids) {
+/// `hull` receives the comparison where one was made.
+KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
+                         std::optional<HullComparison>& hull) {
   if (options.kind != DomainKind::automatic) return {options.kind, "as requested"};
   if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
-  return decide_kind(compare(solids));
+  hull = compare(solids);
+  return decide_kind(*hull);
 }
 
-Model build_fluid(NamedShape solids, std::vector<std::string>& changes) {
+/// `hull` compares the solids as they are; joined ones have other faces.
+Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, std::vector<std::string>& changes) {
+  const bool single = solids_of(solids.shape).size() == 1;
   const NamedShape fluid = join_regions(std::move(solids), changes);
-  const HullComparison hull = compare(fluid);
-  return build_model(fluid, tag_faces(fluid, DomainKind::fluid, &hull));
+  if (!hull || !single) hull = compare(fluid);
+  return build_model(fluid, tag_faces(fluid, DomainKind::fluid, &*hull));
 }
 
 Model build_around_bodies(NamedShape solids, const FarFieldOptions& far_field,
@@ -50,11 +55,12 @@ double largest_extent(Vec3 size) {
 Domain prepare(const DomainOptions& options) {
   DomainReport report;
   NamedShape solids = make_solids(read_source(options), report.changes);
-  const KindDecision decision = choose_kind(options, solids);
+  std::optional<HullComparison> hull;
+  const KindDecision decision = choose_kind(options, solids, hull);
   report.kind = decision.kind;
   report.reason = decision.reason;
   Model model = report.kind == DomainKind::fluid
-                    ? build_fluid(std::move(solids), report.changes)
+                    ? build_fluid(std::move(solids), hull, report.changes)
                     : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
                                           report.changes);
   report.reference_length = largest_extent(model.body_bounds().size());

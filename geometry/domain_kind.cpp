@@ -16,7 +16,8 @@ namespace {
 
 constexpr int direction_count = 200;
 constexpr double fluid_fill = 0.85;
-constexpr double inner_depth_wanted = 0.01;
+constexpr double hull_tolerance = 0.02;
+constexpr double inner_depth_wanted = 0.04;
 
 /// Directions spread evenly over the sphere (Fibonacci's spiral), the axes first: boxes are common.
 std::vector<Vec3> spread_directions() {
@@ -124,7 +125,7 @@ HullComparison compare_with_hull(const Model& solids, double volume) {
   HullComparison result;
   result.fill = volume / hull.volume(solids.bounds());
   for (const Facets& face : facets) {
-    result.on_hull.push_back(distance_to_hull(face, hull) <= 0.01 * diagonal);
+    result.on_hull.push_back(distance_to_hull(face, hull) <= hull_tolerance * diagonal);
     const double depth = deepest(face, hull) / diagonal;
     if (result.on_hull.back() || depth < inner_depth_wanted) continue;
     ++result.inner_faces;

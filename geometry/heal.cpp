@@ -1,6 +1,7 @@
 #include "geometry/heal.hpp"
 
 #include "geometry/model_data.hpp"
+#include "geometry/repair_edges.hpp"
 #include "geometry/shells.hpp"
 
 #include <algorithm>
@@ -9,14 +10,10 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
-#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom2d_Curve.hxx>
-#include <Geom_Curve.hxx>
-#include <ShapeFix_Edge.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -188,29 +185,6 @@ void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
   }
 }
 
-/// Edges need a curve in space and one on each face.
-void complete_edges(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
-  int curves = 0, parameter_curves = 0;
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
-    for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
-      const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
-      double first, last;
-      if (!BRep_Tool::Degenerated(edge) && BRep_Tool::Curve(edge, first, last).IsNull()) {
-        curves += BRepLib::BuildCurve3d(edge);
-      }
-      if (BRep_Tool::CurveOnSurface(edge, face, first, last).IsNull()) {
-        parameter_curves += ShapeFix_Edge().FixAddPCurve(edge, face, BRep_Tool::IsClosed(edge, face));
-      }
-    }
-  }
-  if (curves > 0) changes.push_back(fmt::format("{} edges got the curve they lacked", curves));
-  if (parameter_curves > 0) {
-    changes.push_back(
-        fmt::format("{} edges got the parameter curve they lacked on a face", parameter_curves));
-  }
-}
-
 void require_volume(const std::vector<TopoDS_Solid>& solids) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Box box = tight_box(solids[i]);
@@ -269,7 +243,7 @@ NamedShape make_solids(NamedShape named, std::vector<std::string>& changes) {
   if (solids.empty()) throw CadError("there are no faces to make a solid of");
   drop_faces(parts.loose_faces, solids, changes);
   named.shape = make_compound(solids);
-  complete_edges(named.shape, changes);
+  repair_edges(named.shape, changes);
   require_volume(solids);
   return named;
 }

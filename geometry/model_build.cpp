@@ -6,11 +6,9 @@
 #include <cstring>
 #include <sstream>
 
-#include <BRepBndLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <Bnd_Box.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -132,16 +130,6 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
 }
 
 }  // namespace
-
-Box tight_box(const TopoDS_Shape& shape) {
-  Bnd_Box bounds;
-  BRepBndLib::AddOptimal(shape, bounds, false, false);
-  bounds.SetGap(0);
-  Box box;
-  if (bounds.IsVoid()) return box;
-  bounds.Get(box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
-  return box;
-}
 
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
   return guarded("building the model", [&] {

@@ -64,6 +64,9 @@ struct FaceEvaluator {
   const UseCurve& use(const EdgeUse& wanted) const;
 };
 
+/// Parameters of a point that lies on the face, from parameters near it.
+Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
+
 struct Model::Data {
   std::vector<std::byte> bytes;
   TopoDS_Shape shape;

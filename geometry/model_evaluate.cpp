@@ -97,16 +97,22 @@ double Model::edge_curvature(EdgeId id, double parameter) const {
   return std::isfinite(curvature) ? curvature : 0;
 }
 
+// Curve and parameter curve of an edge trace the same line, in many files not at the same pace: the parameter
+// curve gives a guess, the point of the edge decides.
 Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
-  const UseCurve& on_face = _data->face_evaluators.at(face).use(use);
+  const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
+  const UseCurve& on_face = evaluator.use(use);
   const Edge& edge = _data->edges[use.edge];
   double at = parameter;
   if (on_face.first != edge.first_parameter || on_face.last != edge.last_parameter) {
     const double share = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
     at = on_face.first + share * (on_face.last - on_face.first);
   }
-  const gp_Pnt2d uv = on_face.curve.Value(at);
-  return {uv.X(), uv.Y()};
+  const gp_Pnt2d guess = on_face.curve.Value(at);
+  const bool is_end = parameter == edge.first_parameter || parameter == edge.last_parameter;
+  if (edge.degenerate || is_end) return {guess.X(), guess.Y()};
+  return settle_on_face(evaluator, edge_point(use.edge, parameter), {guess.X(), guess.Y()},
+                        1e-10 * _data->bounds.diagonal());
 }
 
 std::vector<double> Model::edge_breaks(EdgeId id) const {

@@ -7,13 +7,21 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_2 to_cgal(Vec2 p) { return {p.x, p.y}; }
-Kernel::Point_3 to_cgal(Vec3 p) { return {p.x, p.y, p.z}; }
-Kernel::Triangle_3 to_cgal(const Vec3 (&t)[3]) { return {to_cgal(t[0]), to_cgal(t[1]), to_cgal(t[2])}; }
+Kernel::Point_2 to_cgal(Vec2 p) {
+  return {p.x, p.y};
+}
+Kernel::Point_3 to_cgal(Vec3 p) {
+  return {p.x, p.y, p.z};
+}
+Kernel::Triangle_3 to_cgal(const Vec3 (&t)[3]) {
+  return {to_cgal(t[0]), to_cgal(t[1]), to_cgal(t[2])};
+}
 
 }  // namespace
 
-int orient2d(Vec2 a, Vec2 b, Vec2 c) { return CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c)); }
+int orient2d(Vec2 a, Vec2 b, Vec2 c) {
+  return CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c));
+}
 
 int orient3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d));

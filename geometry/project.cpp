@@ -45,6 +45,14 @@ public:
     return {wrap(at.uv), {at.point.X(), at.point.Y(), at.point.Z()}, converged};
   }
 
+  /// Nearest point of the same sheet around the guess: neither wrapped nor moved to another end.
+  Vec2 settle(Vec2 guess) const {
+    Distance at = evaluate(clamp(guess));
+    for (int step = 0; step < 8 && at.value > 0.5 * _tolerance * _tolerance && descend(at); ++step) {
+    }
+    return at.uv;
+  }
+
   double distance(const Projection& found) const {
     return _target.Distance(gp_Pnt(found.point.x, found.point.y, found.point.z));
   }
@@ -110,7 +118,8 @@ private:
 
   Vec2 extent() const { return _face.uv_high - _face.uv_low; }
 
-  /// At a pole all directions but one look alike to derivatives: tries the others. False when none leads closer.
+  /// At a pole all directions but one look alike to derivatives: tries the others. False when none leads
+  /// closer.
   bool leave_pole(Distance& at) const {
     constexpr int directions = 16;
     const double along_u = at.guu * extent().x * extent().x, along_v = at.gvv * extent().y * extent().y;
@@ -120,8 +129,8 @@ private:
     Distance best = at;
     for (int i = 0; i < directions; ++i) {
       const Vec2 swept = _face.uv_low + (i + 0.5) / directions * extent();
-      const Distance there =
-          evaluate(clamp(u_collapses ? Vec2{swept.x, at.uv.y + inward.y} : Vec2{at.uv.x + inward.x, swept.y}));
+      const Distance there = evaluate(
+          clamp(u_collapses ? Vec2{swept.x, at.uv.y + inward.y} : Vec2{at.uv.x + inward.x, swept.y}));
       if (there.value < best.value) best = there;
     }
     const bool closer = best.value < at.value;
@@ -202,6 +211,10 @@ Projection search(const FaceEvaluator& face, Vec3 target, const Projection& best
 }
 
 }  // namespace
+
+Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
+  return Projector(face, point, tolerance).settle(guess);
+}
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
   const FaceEvaluator& face = _data->face_evaluators.at(id);

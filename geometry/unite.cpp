@@ -17,6 +17,9 @@
 namespace aeroloom::geometry {
 namespace {
 
+/// What the CAD library's volumes of trimmed spline solids are good for; a union gone wrong is off by a body.
+constexpr double integration_error = 2e-3;
+
 /// Groups solids whose boxes touch, each group ascending.
 std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_Solid>& solids) {
   std::vector<Box> boxes;
@@ -89,7 +92,7 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, FaceLabe
     const TopoDS_Shape before = make_compound(united);
     const double parts = volume_of(before) + volume_of(group[i]);
     const double whole = volume_of(fuse.Shape());
-    const double tolerance = 1e-6 * parts;
+    const double tolerance = integration_error * parts;
     if (std::abs(parts - whole) > tolerance &&
         std::abs(parts - common_volume(before, group[i]) - whole) > tolerance) {
       throw CadError(fmt::format("uniting bodies went wrong: parts of volume {:.9g} gave a union of {:.9g}",
@@ -136,7 +139,7 @@ NamedShape join_regions(NamedShape regions, std::vector<std::string>& changes) {
     const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
     double whole = 0;
     for (const TopoDS_Solid& solid : joined) whole += volume_of(solid);
-    if (joined.size() != group.size() || std::abs(whole - parts) > 1e-6 * parts) {
+    if (joined.size() != group.size() || std::abs(whole - parts) > integration_error * parts) {
       throw CadError(fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}", group.size(),
                                  whole, parts));
     }
