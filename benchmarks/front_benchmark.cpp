@@ -90,6 +90,6 @@ int main(int argc, char** argv) {
   run("disk_uniform", circle, [&](Vec2) { return h; });
   run("square_uniform", square, [&](Vec2) { return h / std::sqrt(std::numbers::pi); });
   run("disk_graded", circle, [&](Vec2 p) { return h * (0.2 + 2.5 * distance(p, {0.3, 0.2})); });
-  run("square_graded", square, [&](Vec2 p) { return 1e-4 + 0.15 * distance(p, {0, 0}); });
-  run("square_coarse_border", square, [&](Vec2 p) { return 5e-4 + 0.2 * distance(p, {0.5, 0.5}); });
+  run("square_graded", square, [&](Vec2 p) { return 0.6 * h + 2 * h * distance(p, {0, 0}); });
+  run("square_thousandfold", square, [&](Vec2 p) { return 5e-5 + 12 * h * distance(p, {0.5, 0.5}); });
 }

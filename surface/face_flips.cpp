@@ -1,7 +1,7 @@
+#include "surface/face_remesher.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "surface/face_remesher.hpp"
 
 namespace aeroloom::surface {
 
@@ -21,7 +21,12 @@ double FaceRemesher::smallest_sine(std::int32_t a, std::int32_t b, std::int32_t 
 bool FaceRemesher::flip_if_better(HalfEdge edge) {
   const HalfEdge other = _links.mate(edge);
   if (other == no_half_edge) return false;
-  const std::int32_t a = _links.apex(edge), b = _links.origin(edge), c = _links.target(edge), d = _links.apex(other);
+  const std::int32_t a = _links.apex(edge), b = _links.origin(edge), c = _links.target(edge),
+                     d = _links.apex(other);
+  // Two acute angles face the edge: they add up to less than 180 degrees, and the edge is the better
+  // diagonal.
+  const Vec3 pa = _mesh.points[a], pb = _mesh.points[b], pc = _mesh.points[c], pd = _mesh.points[d];
+  if (dot(pb - pa, pc - pa) > 0 && dot(pb - pd, pc - pd) > 0) return false;
   const double sine = std::min(smallest_sine(a, b, c), smallest_sine(d, c, b));
   const double flipped_sine = std::min(smallest_sine(a, b, d), smallest_sine(d, c, a));
   if (!(flipped_sine > sine * (1 + 1e-6)) || a == d) return false;

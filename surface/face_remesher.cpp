@@ -14,7 +14,7 @@ namespace {
 /// Triangles may turn from the surface by 45 degrees; what is further off must not get worse.
 constexpr double facing_limit = 0.5;
 /// A mean ratio that needs no protection.
-constexpr double good_mean_ratio = 0.75;
+constexpr double good_mean_ratio = 0.65;
 
 }  // namespace
 

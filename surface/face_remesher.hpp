@@ -1,21 +1,22 @@
 /// The local operations of remesh_interior on one face, each over all places that still change.
 #pragma once
 
+#include "surface/remesh.hpp"
+#include "surface/triangle_links.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "surface/remesh.hpp"
-#include "surface/triangle_links.hpp"
 
 namespace aeroloom::surface {
 
 /// The worst of a set of triangles, in two respects.
 struct PatchShape {
   double mean_ratio = 1;  ///< smallest
-  /// Smallest squared cosine, with its sign, between a triangle's normal and those of the surface at its vertices.
+  /// Smallest squared cosine, with its sign, between a triangle's normal and those of the surface at its
+  /// vertices.
   double facing = 1;
-  double energy = 0;      ///< sum of inverse mean ratios
+  double energy = 0;  ///< sum of inverse mean ratios
   void add(const PatchShape& other) {
     mean_ratio = std::min(mean_ratio, other.mean_ratio);
     facing = std::min(facing, other.facing);
@@ -25,7 +26,7 @@ struct PatchShape {
 
 /// A triangulation of the face under change.
 class FaceRemesher {
- public:
+public:
   FaceRemesher(const geometry::Model& model, const sizing::SizeField& field, FaceMesh& mesh);
 
   void contract_short_edges();
@@ -37,12 +38,18 @@ class FaceRemesher {
   /// Writes back triangles and vertices without those that vanished.
   void finish();
 
- private:
+private:
   /// A vertex as it is or could be.
   struct Place {
     geometry::Vec3 point, normal;
     geometry::Vec2 uv;
     double size = 0;
+  };
+
+  /// An edge of the ring around a vertex to come, which will be on its left, and what is on its right.
+  struct StarEdge {
+    std::int32_t origin, target;
+    HalfEdge outside;
   };
 
   void measure_vertices();
@@ -64,7 +71,9 @@ class FaceRemesher {
     return _active[_links.origin(edge)] || _active[_links.target(edge)];
   }
   double edge_length(HalfEdge edge) const;
-  double edge_size(HalfEdge edge) const { return 0.5 * (_sizes[_links.origin(edge)] + _sizes[_links.target(edge)]); }
+  double edge_size(HalfEdge edge) const {
+    return 0.5 * (_sizes[_links.origin(edge)] + _sizes[_links.target(edge)]);
+  }
   void note_change(std::int32_t vertex);
 
   bool is_contraction_wanted(HalfEdge edge) const;
@@ -72,6 +81,7 @@ class FaceRemesher {
   bool try_contraction(HalfEdge edge, const Place& place);
   bool keeps_topology(HalfEdge edge);
   void divide(HalfEdge edge);
+  void plan_star(HalfEdge edge, const Place& middle, PatchShape& before, PatchShape& after);
   bool flip_if_better(HalfEdge edge);
   double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;
   geometry::Vec3 ideal_place(std::int32_t vertex) const;
@@ -87,6 +97,7 @@ class FaceRemesher {
   std::vector<std::uint8_t> _active, _next;  // per vertex: looked at in this sweep, in the next
   std::vector<std::int32_t> _fan, _other_fan;
   std::vector<HalfEdge> _stack;
+  std::vector<StarEdge> _star, _replaced;
 };
 
 /// Whether a change is allowed: nothing folds, and nothing gets worse than it was, unless it is still good.

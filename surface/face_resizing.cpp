@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include "surface/face_remesher.hpp"
+
+#include <algorithm>
 
 namespace aeroloom::surface {
 namespace {
@@ -24,7 +24,8 @@ void FaceRemesher::contract_short_edges() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
     for (int i = 0; i < 3 && is_live(t); ++i) {
       const HalfEdge edge = half_edge(t, i);
-      if (_links.mate(edge) != no_half_edge && is_edge_active(edge) && is_contraction_wanted(edge)) contract(edge);
+      if (_links.mate(edge) != no_half_edge && is_edge_active(edge) && is_contraction_wanted(edge))
+        contract(edge);
     }
   }
 }
@@ -36,11 +37,13 @@ bool FaceRemesher::contract(HalfEdge edge) {
   if (is_free(a) && is_free(b)) {
     Place middle;
     const double length = edge_length(edge);
-    if (project(0.5 * (_mesh.points[a] + _mesh.points[b]), b, 0.5 * length, middle) && try_contraction(edge, middle)) {
+    if (project(0.5 * (_mesh.points[a] + _mesh.points[b]), b, 0.5 * length, middle) &&
+        try_contraction(edge, middle)) {
       return true;
     }
   }
-  return (is_free(a) && try_contraction(edge, place_of(b))) || (is_free(b) && try_contraction(other, place_of(a)));
+  return (is_free(a) && try_contraction(edge, place_of(b))) ||
+         (is_free(b) && try_contraction(other, place_of(a)));
 }
 
 /// Contracts the edge's origin into its target, both coming to lie at `place`, if that is acceptable.
@@ -72,8 +75,8 @@ bool FaceRemesher::try_contraction(HalfEdge edge, const Place& place) {
   return true;
 }
 
-/// Whether the surface stays a manifold: the ends have no common neighbours but the two apexes. Leaves the origin's
-/// fan in `_fan`.
+/// Whether the surface stays a manifold: the ends have no common neighbours but the two apexes. Leaves the
+/// origin's fan in `_fan`.
 bool FaceRemesher::keeps_topology(HalfEdge edge) {
   const std::int32_t gone = _links.origin(edge), kept = _links.target(edge);
   const std::int32_t c = _links.apex(edge), d = _links.apex(_links.mate(edge));
@@ -100,19 +103,16 @@ void FaceRemesher::divide_long_edges() {
   }
 }
 
-/// Puts a vertex on the surface next to the middle of the edge. The guess is one end's parameters, not the mean of
-/// both: they may lie on different sides of a seam.
+/// Puts a vertex on the surface next to the middle of the edge, and joins it to what lies around if that is
+/// better than the edge's own two triangles divided. The guess is one end's parameters, not the mean of both:
+/// they may lie on different sides of a seam.
 void FaceRemesher::divide(HalfEdge edge) {
-  const HalfEdge other = _links.mate(edge);
-  const std::int32_t a = _links.apex(edge), b = _links.origin(edge), c = _links.target(edge), d = _links.apex(other);
+  const std::int32_t b = _links.origin(edge), c = _links.target(edge);
   Place middle;
   if (!project(0.5 * (_mesh.points[b] + _mesh.points[c]), b, 0.5 * edge_length(edge), middle)) return;
-  PatchShape before = shape(a, b, c), after;
-  before.add(shape(d, c, b));
-  const Place pa = place_of(a), pb = place_of(b), pc = place_of(c), pd = place_of(d);
-  for (const auto& corners : {std::array{pa, pb, middle}, {pa, middle, pc}, {pd, pc, middle}, {pd, middle, pb}}) {
-    after.add(shape(corners));
-  }
+  PatchShape before = shape(triangle_of(edge)), after;
+  before.add(shape(triangle_of(_links.mate(edge))));
+  plan_star(edge, middle, before, after);
   if (!is_acceptable(before, after)) return;
   const std::int32_t vertex = _links.divide(edge);
   _mesh.points.emplace_back();
@@ -123,7 +123,52 @@ void FaceRemesher::divide(HalfEdge edge) {
   _active.push_back(1);
   _next.push_back(1);
   put(vertex, middle);
+  for (const StarEdge& replaced : _replaced) _links.flip(_links.find(replaced.origin, replaced.target));
   note_change(vertex);
+}
+
+/// Starts from the four triangles of the divided edge and takes in those beyond as long as that makes better
+/// ones.
+void FaceRemesher::plan_star(HalfEdge edge, const Place& middle, PatchShape& before, PatchShape& after) {
+  _replaced.clear();
+  _star.clear();
+  for (const HalfEdge side : {edge, _links.mate(edge)}) {
+    const std::int32_t t = triangle_of(side);
+    for (const int i : {next_corner(corner_of(side)), previous_corner(corner_of(side))}) {
+      const HalfEdge e = half_edge(t, i);
+      _star.push_back({_links.origin(e), _links.target(e), _links.mate(e)});
+    }
+  }
+  const auto triangle = [&](std::int32_t a, std::int32_t b) {
+    return shape({place_of(a), place_of(b), middle});
+  };
+  const auto is_in_star = [&](std::int32_t v) {
+    return std::any_of(_star.begin(), _star.end(), [&](const StarEdge& e) { return e.origin == v; });
+  };
+  for (std::size_t k = 0; k < _star.size() && _star.size() < 10;) {
+    const StarEdge e = _star[k];
+    const std::int32_t w = e.outside == no_half_edge ? -1 : _links.apex(e.outside);
+    if (w < 0 || is_in_star(w)) {
+      ++k;
+      continue;
+    }
+    const PatchShape beyond = shape(triangle_of(e.outside));
+    PatchShape old = beyond, joined = triangle(e.origin, w);
+    old.add(triangle(e.origin, e.target));
+    joined.add(triangle(w, e.target));
+    if (!(joined.mean_ratio > old.mean_ratio && is_acceptable(old, joined))) {
+      ++k;
+      continue;
+    }
+    before.add(beyond);
+    // From beyond, the edge runs from its target to its origin, then to w.
+    const std::int32_t t = triangle_of(e.outside);
+    const int j = corner_of(e.outside);
+    _replaced.push_back(e);
+    _star[k] = {e.origin, w, _links.triangles[t].links[next_corner(j)]};
+    _star.push_back({w, e.target, _links.triangles[t].links[previous_corner(j)]});
+  }
+  for (const StarEdge& e : _star) after.add(triangle(e.origin, e.target));
 }
 
 }  // namespace aeroloom::surface

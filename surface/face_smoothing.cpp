@@ -1,7 +1,7 @@
+#include "surface/face_remesher.hpp"
+
 #include <cmath>
 #include <numbers>
-
-#include "surface/face_remesher.hpp"
 
 namespace aeroloom::surface {
 
@@ -10,7 +10,7 @@ using geometry::Vec3;
 namespace {
 
 /// Shorter moves, in sizes, are not worth a projection.
-constexpr double smallest_move = 0.04;
+constexpr double smallest_move = 0.03;
 
 }  // namespace
 

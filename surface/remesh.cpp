@@ -4,7 +4,8 @@
 
 namespace aeroloom::surface {
 
-void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps, FaceMesh& mesh) {
+void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps,
+                     FaceMesh& mesh) {
   FaceRemesher remesher(model, field, mesh);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     remesher.contract_short_edges();

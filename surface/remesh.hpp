@@ -1,12 +1,13 @@
-/// Local operations on the mesh of one face in space: flips, smoothing, contraction of short and division of long edges.
+/// Local operations on the mesh of one face in space: flips, smoothing, contraction of short and division of
+/// long edges.
 #pragma once
+
+#include "geometry/model.hpp"
+#include "sizing/size_field.hpp"
 
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "geometry/model.hpp"
-#include "sizing/size_field.hpp"
 
 namespace aeroloom::surface {
 
@@ -14,16 +15,18 @@ namespace aeroloom::surface {
 struct FaceMesh {
   geometry::FaceId face = geometry::no_entity;
   std::vector<geometry::Vec3> points;
-  std::vector<geometry::Vec2> uv;                           ///< parameters of each point on the CAD surface
-  std::vector<std::array<std::int32_t, 3>> triangles;       ///< counter-clockwise seen against the outward normal
-  std::int32_t fixed = 0;                                   ///< the first `fixed` vertices lie on CAD curves and stay
+  std::vector<geometry::Vec2> uv;                      ///< parameters of each point on the CAD surface
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
+  std::int32_t fixed = 0;  ///< the first `fixed` vertices lie on CAD curves and stay
 };
 
-/// Smooths and reconnects the interior: edges longer than 1.4 times the local size are divided, shorter than 0.65 times
-/// contracted, edges flip where that raises the smaller angle, free vertices move and return to the CAD surface by
-/// projection. A change that would fold the surface is not made, nor one that lowers the worst mean ratio around it,
-/// unless that stays above 0.75. Edges used by one triangle stay, and so do vertices on them and the first `fixed`
-/// ones. After the first sweep only places that changed are looked at again. Deterministic.
-void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps, FaceMesh& mesh);
+/// Smooths and reconnects the interior: edges longer than 1.4 times the local size are divided, shorter than
+/// 0.65 times contracted, edges flip where that raises the smaller angle, free vertices move and return to
+/// the CAD surface by projection. A change that would fold the surface is not made, nor one that lowers the
+/// worst mean ratio around it, unless that stays above 0.65. Edges used by one triangle stay, and so do
+/// vertices on them and the first `fixed` ones. After the first sweep only places that changed are looked at
+/// again. Deterministic.
+void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps,
+                     FaceMesh& mesh);
 
 }  // namespace aeroloom::surface

@@ -1,6 +1,7 @@
 #include "surface/triangle_links.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace aeroloom::surface {
 namespace {
@@ -17,31 +18,42 @@ constexpr std::uint32_t all_edge_bits = 0b111111u;
 void TriangleLinks::build(const std::vector<std::array<std::int32_t, 3>>& triples,
                           std::int32_t vertex_count) {
   struct Side {
-    std::int32_t low, high;
+    std::int32_t high;
     HalfEdge edge;
   };
   triangles.assign(triples.size(), {});
   triangle_at.assign(vertex_count, -1);
-  std::vector<Side> sides;
-  sides.reserve(3 * triples.size());
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(triples.size()); ++t) {
+  std::vector<std::int32_t> begin(vertex_count + 1,
+                                  0);  // of the sides at each vertex, which is their lower end
+  const auto lower = [&](std::int32_t t, int i) {
+    return std::min(triples[t][next_corner(i)], triples[t][previous_corner(i)]);
+  };
+  const auto count = static_cast<std::int32_t>(triples.size());
+  for (std::int32_t t = 0; t < count; ++t) {
     triangles[t].vertices = triples[t];
     for (int i = 0; i < 3; ++i) {
       triangle_at[triples[t][i]] = t;
-      const auto [low, high] = std::minmax(triples[t][next_corner(i)], triples[t][previous_corner(i)]);
-      sides.push_back({low, high, half_edge(t, i)});
+      ++begin[lower(t, i) + 1];
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.edge < b.edge;
-  });
-  for (std::size_t first = 0, last; first < sides.size(); first = last) {
-    for (last = first + 1; last < sides.size() && sides[last].low == sides[first].low &&
-                           sides[last].high == sides[first].high;) {
-      ++last;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Side> sides(3 * triples.size());
+  std::vector<std::int32_t> end(begin.begin(), begin.end() - 1);
+  for (std::int32_t t = 0; t < count; ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t high = std::max(triples[t][next_corner(i)], triples[t][previous_corner(i)]);
+      sides[end[lower(t, i)]++] = {high, half_edge(t, i)};
     }
-    if (last == first + 2 && origin(sides[first].edge) != origin(sides[first + 1].edge)) {
-      join(sides[first].edge, sides[first + 1].edge);
+  }
+  for (std::int32_t v = 0; v < vertex_count; ++v) {
+    const auto first = sides.begin() + begin[v], last = sides.begin() + begin[v + 1];
+    std::sort(first, last, [](const Side& a, const Side& b) {
+      return a.high != b.high ? a.high < b.high : a.edge < b.edge;
+    });
+    for (auto at = first; at != last;) {
+      const auto next = std::find_if(at, last, [&](const Side& side) { return side.high != at->high; });
+      if (next - at == 2 && origin(at->edge) != origin(at[1].edge)) join(at->edge, at[1].edge);
+      at = next;
     }
   }
 }
@@ -105,7 +117,8 @@ std::int32_t TriangleLinks::divide(HalfEdge edge) {
   const std::int32_t t = triangle_of(edge), u = triangle_of(other);
   const int i = corner_of(edge), j = corner_of(other);
   const LinkedTriangle left = triangles[t], right = triangles[u];
-  const std::int32_t a = left.vertices[i], b = left.vertices[next_corner(i)], c = left.vertices[previous_corner(i)];
+  const std::int32_t a = left.vertices[i], b = left.vertices[next_corner(i)],
+                     c = left.vertices[previous_corner(i)];
   const std::int32_t d = right.vertices[j];
   const auto middle = static_cast<std::int32_t>(triangle_at.size());
   const auto t2 = static_cast<std::int32_t>(triangles.size()), u2 = t2 + 1;
@@ -137,14 +150,16 @@ void TriangleLinks::contract(HalfEdge edge) {
   for (const HalfEdge e : {edge, mate(edge)}) {
     // The triangle's other two edges become one; that which was the vanished vertex's has a triangle beyond.
     auto& triangle = triangles[triangle_of(e)];
-    HalfEdge first = triangle.links[next_corner(corner_of(e))], second = triangle.links[previous_corner(corner_of(e))];
+    HalfEdge first = triangle.links[next_corner(corner_of(e))],
+             second = triangle.links[previous_corner(corner_of(e))];
     if (first == no_half_edge) std::swap(first, second);
     join(first, second);
     triangle_at[apex(e)] = triangle_of(first);
     triangle_at[kept] = triangle_of(first);
   }
   triangle_at[gone] = -1;
-  for (const std::int32_t t : removed) triangles[t] = {{-1, -1, -1}, {no_half_edge, no_half_edge, no_half_edge}};
+  for (const std::int32_t t : removed)
+    triangles[t] = {{-1, -1, -1}, {no_half_edge, no_half_edge, no_half_edge}};
 }
 
 bool TriangleLinks::gather_fan(std::int32_t vertex, std::vector<std::int32_t>& fan) const {

@@ -78,14 +78,14 @@ public:
   /// apex across the edge to the edge's own apex. Flags of the four outer edges and the users' bits of both
   /// triangles are kept.
   HalfEdge flip(HalfEdge edge);
-  /// Puts a new vertex, numbered after the last one, on an edge with two triangles, which become four. The new ones are
-  /// the last two triangles. Returns the vertex.
+  /// Puts a new vertex, numbered after the last one, on an edge with two triangles, which become four. The
+  /// new ones are the last two triangles. Returns the vertex.
   std::int32_t divide(HalfEdge edge);
-  /// Contracts an edge with two triangles: its origin, which must have a closed fan, vanishes into its target. The two
-  /// triangles stay in the list with vertices of -1.
+  /// Contracts an edge with two triangles: its origin, which must have a closed fan, vanishes into its
+  /// target. The two triangles stay in the list with vertices of -1.
   void contract(HalfEdge edge);
-  /// The triangles around a vertex in counter-clockwise order, from border to border where the fan is open. Returns
-  /// whether it is closed.
+  /// The triangles around a vertex in counter-clockwise order, from border to border where the fan is open.
+  /// Returns whether it is closed.
   bool gather_fan(std::int32_t vertex, std::vector<std::int32_t>& fan) const;
 
 private:
