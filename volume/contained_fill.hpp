@@ -1,0 +1,40 @@
+/// One try at filling a surface, in a contained child.
+#pragma once
+
+#include "geometry/vec.hpp"
+#include "parallel/contained.hpp"
+#include "volume/filling.hpp"
+#include "volume/tetgen_run.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// What one try is given.
+struct FillRequest {
+  std::vector<geometry::Vec3> points;  ///< of the surface, then interior ones
+  std::size_t surface_points = 0;
+  std::vector<Triangle> triangles;
+  InteriorPoints interior = InteriorPoints::at_once;
+  VolumeOptions::Sabotage sabotage = VolumeOptions::Sabotage::none;
+};
+
+/// What came of it. The filling is checked.
+struct FillReply {
+  bool filled = false;
+  std::string failure;  ///< why not, one line or more
+  FilledVolume volume;  ///< cost and memory are set in either case
+};
+
+/// Runs TetGen in a child under limits that follow from the predicted count. Nothing the child does harms the
+/// caller.
+FillReply fill_contained(const FillRequest& request);
+
+/// Tetrahedra to expect of a surface and interior points: six per point of a body-centred lattice, and the
+/// layer next to the boundary.
+std::int64_t predict_tetrahedra(std::size_t surface_triangles, std::size_t interior_points);
+
+}  // namespace aeroloom::volume
