@@ -3,6 +3,7 @@
 #include "geometry/predicates.hpp"
 #include "mesh/quality.hpp"
 #include "surface/delaunay.hpp"
+#include "surface/edge_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -353,6 +354,34 @@ TEST(FrontErrors, FindsEveryCrossingOfAComb) {
   const Pairs pairs = crossings_of(input);
   EXPECT_EQ(pairs.size(), 40u);  // twenty sides of teeth, two edges each
 }
+
+/// Random polygons on a small grid, full of collinear, touching and coinciding edges: either the boundary is
+/// valid and is filled, or the error says where it is not.
+class GridPolygon : public testing::TestWithParam<int> {};
+
+TEST_P(GridPolygon, IsFilledOrExplained) {
+  std::mt19937 random(GetParam());
+  for (int trial = 0; trial < 200; ++trial) {
+    const int count = 3 + static_cast<int>(random() % 6);
+    FrontInput input;
+    std::vector<Vec2> loop;
+    for (int i = 0; i < count; ++i) {
+      loop.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
+    }
+    add_loop(input, loop);
+    if (boundary_area(input) < 0) std::reverse(loop.begin(), loop.end());
+    input = {};
+    add_loop(input, loop);
+    try {
+      expect_valid(input, fill(input, [](Vec2) { return 0.7; }));
+      EXPECT_TRUE(find_edge_crossings(input).empty());
+    } catch (const FrontError& error) {
+      EXPECT_FALSE(error.crossings().empty());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GridPolygon, testing::Range(0, 20));
 
 TEST(FrontErrors, RefusesOpenAndInconsistentLoops) {
   FrontInput open;
