@@ -1,5 +1,6 @@
 #include "surface/open_facets.hpp"
 
+#include "surface/support_flips.hpp"
 #include "surface/surface_mesher.hpp"
 
 #include <algorithm>
@@ -24,6 +25,10 @@ constexpr double reuse_part = 1e-4;
 constexpr double same_parameter_part = 1e-7;
 /// Points closer than this part of the face's extent are one, unless both are mesh vertices.
 constexpr double no_distance = 1e-10;
+
+/// Edges between points whose normals differ by more (20 degrees) are divided, in so many rounds.
+constexpr double turning_cosine = 0.94;
+constexpr int dividing_rounds = 4;
 
 class Joining {
 public:
@@ -177,6 +182,40 @@ void OpenFacets::divide(std::vector<EdgePoint> divisions) {
   for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) _support.corner_uv[t][i] = _uv[_support.triangles[t][i]];
   }
+}
+
+void OpenFacets::fit_to_surface() {
+  std::vector<geometry::SurfaceFrame> frames;
+  for (int round = 0; round <= dividing_rounds; ++round) {
+    for (std::size_t i = frames.size(); i < _uv.size(); ++i)
+      frames.push_back(_model.face_frame(_support.face, _uv[i]));
+    std::vector<SurfaceMetric> metrics;
+    for (const auto& frame : frames) {
+      metrics.push_back({dot(frame.du, frame.du), dot(frame.du, frame.dv), dot(frame.dv, frame.dv)});
+    }
+    flip_in_parameters(_support, metrics, join_points());
+    if (round == dividing_rounds || !divide_turning_edges(frames)) return;
+  }
+}
+
+bool OpenFacets::divide_turning_edges(std::vector<geometry::SurfaceFrame>& frames) {
+  const std::vector<HalfEdge> twins = match_half_edges(_support.triangles);
+  std::vector<EdgePoint> divisions;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
+    if (twins[h] < h) continue;
+    const Vec3 first = frames[start_of(_support, h)].normal, second = frames[end_of(_support, h)].normal;
+    // Normals are zero at singular points.
+    if (norm(first) == 0 || norm(second) == 0 || dot(first, second) >= turning_cosine) continue;
+    const auto index = static_cast<std::int32_t>(_support.points.size());
+    const Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
+    divisions.push_back({h, 0.5, index, uv});
+    divisions.push_back({twins[h], 0.5, index, uv});
+    _support.points.push_back(_model.face_point(_support.face, uv));
+    _uv.push_back(uv);
+  }
+  const bool any = !divisions.empty();
+  divide(std::move(divisions));
+  return any;
 }
 
 std::vector<std::int32_t> OpenFacets::join_points() const {

@@ -20,6 +20,9 @@ public:
   void insert_curve_vertices(const CurveMesh& curves);
   /// Gives both passages along each seam nodes at the same parameters.
   void match_seams();
+  /// Connects the points as they lie on the surface, whatever the facets were before curve vertices came in,
+  /// and adds points where the surface turns more than a facet should.
+  void fit_to_surface();
   /// Joins what is one point: both passages of a seam, the nodes of a degenerate edge, the ends of lines at a
   /// CAD vertex, and points at no distance from each other. Triangles that collapse vanish.
   Support close(const CurveMesh& curves, FaceVertices& vertices);
@@ -49,6 +52,7 @@ private:
   void divide(std::vector<EdgePoint> divisions);
   const Line* other_passage(const Line& line) const;
   std::vector<std::int32_t> join_points() const;
+  bool divide_turning_edges(std::vector<geometry::SurfaceFrame>& frames);
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 
   const geometry::Model& _model;

@@ -62,6 +62,7 @@ Support build_support(const geometry::Model& model, geometry::FaceId face, const
   OpenFacets open(model, face, facets);
   open.insert_curve_vertices(curves);
   open.match_seams();
+  open.fit_to_surface();
   Support support = open.close(curves, vertices);
   flip_to_delaunay(support);
   support.loop_edges = trace_loop_edges(support, match_half_edges(support.triangles));

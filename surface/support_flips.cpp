@@ -1,5 +1,6 @@
 #include "surface/support_flips.hpp"
 
+#include "geometry/predicates.hpp"
 #include "surface/support_topology.hpp"
 
 #include <algorithm>
@@ -13,10 +14,32 @@ using geometry::Vec3;
 
 /// Triangles that turn by more than this (10 degrees) are not merged into one plane for a flip.
 constexpr double coplanar_cosine = 0.985;
+/// Angles that sum to 180 degrees but for rounding do not ask for a flip.
+constexpr double angle_tolerance = 1e-9;
 
+/// Two triangles (a,b,c) and (b,a,d) on either side of the half-edges ab and ba.
+struct Diamond {
+  HalfEdge ab, ba;
+
+  HalfEdge bc() const { return next_half_edge(ab); }
+  HalfEdge ca() const { return previous_half_edge(ab); }
+  HalfEdge ad() const { return next_half_edge(ba); }
+  HalfEdge db() const { return previous_half_edge(ba); }
+};
+
+/// Whether the angles at c and d, opposite the edge ab, sum to more than 180 degrees.
+bool is_not_delaunay(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 ca = a - c, cb = b - c, da = a - d, db = b - d;
+  const double sine = norm(cross(ca, cb)) * dot(da, db) + norm(cross(da, db)) * dot(ca, cb);
+  return sine < -angle_tolerance * norm(ca) * norm(cb) * norm(da) * norm(db);
+}
+
+/// Flips edges for as long as `wants(diamond)` holds for any.
+template <class Wants>
 class Flipper {
 public:
-  explicit Flipper(Support& support) : _support(support), _twins(match_half_edges(support.triangles)) {}
+  Flipper(Support& support, Wants wants)
+      : _support(support), _wants(wants), _twins(match_half_edges(support.triangles)) {}
 
   void run() {
     const HalfEdge count = static_cast<HalfEdge>(_twins.size());
@@ -30,52 +53,19 @@ public:
       const HalfEdge h = queue.back();
       queue.pop_back();
       queued[h] = 0;
-      if (_twins[h] < 0 || !should_flip(h)) continue;
-      flip(h);
-      for (const HalfEdge around : {next_half_edge(h), previous_half_edge(h), next_half_edge(_twins[h]),
-                                    previous_half_edge(_twins[h])}) {
+      if (_twins[h] < 0 || !may_flip({h, _twins[h]})) continue;
+      const Diamond diamond{h, _twins[h]};
+      flip(diamond);
+      for (const HalfEdge around : {diamond.bc(), diamond.ca(), diamond.ad(), diamond.db()}) {
         if (!queued[around]) queue.push_back(around), queued[around] = 1;
       }
     }
   }
 
 private:
-  Vec3 point(HalfEdge h) const { return _support.points[start_of(_support, h)]; }
-
-  bool should_flip(HalfEdge h) const {
-    const HalfEdge g = _twins[h];
-    const HalfEdge apex = previous_half_edge(h), nadir = previous_half_edge(g);
-    const std::int32_t c = start_of(_support, apex), d = start_of(_support, nadir);
-    if (c == d || start_of(_support, h) != end_of(_support, g)) return false;
-    return is_not_delaunay(point(h), point(g), point(apex), point(nadir)) && keeps_space(h, g) &&
-           keeps_plane(h, g) && !are_joined(apex, d);
-  }
-
-  /// Whether the angles at c and d, opposite the edge ab, sum to more than 180 degrees.
-  static bool is_not_delaunay(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-    const Vec3 ca = a - c, cb = b - c, da = a - d, db = b - d;
-    const double sine = norm(cross(ca, cb)) * dot(da, db) + norm(cross(da, db)) * dot(ca, cb);
-    return sine < -1e-9 * norm(ca) * norm(cb) * norm(da) * norm(db);
-  }
-
-  bool keeps_space(HalfEdge h, HalfEdge g) const {
-    const Vec3 a = point(h), b = point(g), c = point(previous_half_edge(h)), d = point(previous_half_edge(g));
-    const Vec3 old_first = cross(b - a, c - a), old_second = cross(a - b, d - b);
-    const Vec3 normal = normalized(old_first + old_second);
-    for (const Vec3 old : {old_first, old_second}) {
-      if (dot(old, normal) < coplanar_cosine * norm(old)) return false;
-    }
-    for (const Vec3 now : {cross(d - a, c - a), cross(b - d, c - d)}) {
-      if (!(dot(now, normal) > 0) || dot(now, normal) < coplanar_cosine * norm(now)) return false;
-    }
-    return true;
-  }
-
-  bool keeps_plane(HalfEdge h, HalfEdge g) const {
-    const Vec2 a = start_uv(_support, h), b = end_uv(_support, h);
-    if (!(a == end_uv(_support, g) && b == start_uv(_support, g))) return false;
-    const Vec2 c = start_uv(_support, previous_half_edge(h)), d = start_uv(_support, previous_half_edge(g));
-    return cross(d - a, c - a) * cross(b - d, c - d) > 0;
+  bool may_flip(const Diamond& diamond) const {
+    const std::int32_t c = start_of(_support, diamond.ca()), d = start_of(_support, diamond.db());
+    return c != d && _wants(diamond) && !are_joined(diamond.ca(), d);
   }
 
   /// Whether the point at the start of half-edge `from` has an edge to `to`.
@@ -96,21 +86,20 @@ private:
     return false;
   }
 
-  /// Triangles (a,b,c), (b,a,d) become (a,d,c) and (d,b,c); half-edge h becomes the new diagonal d to c.
-  void flip(HalfEdge h) {
-    const HalfEdge g = _twins[h];
-    const HalfEdge bc = next_half_edge(h), ca = previous_half_edge(h);
-    const HalfEdge ad = next_half_edge(g), db = previous_half_edge(g);
+  /// Triangles (a,b,c), (b,a,d) become (d,c,a) and (c,d,b): the half-edges ab, bc, ca become dc, ca, ad, and
+  /// ba, ad, db become cd, db, bc.
+  void flip(const Diamond& diamond) {
+    const auto [ab, ba] = diamond;
+    const HalfEdge bc = diamond.bc(), ca = diamond.ca(), ad = diamond.ad(), db = diamond.db();
+    const std::int32_t a = start_of(_support, ab), b = start_of(_support, ba);
     const std::int32_t c = start_of(_support, ca), d = start_of(_support, db);
+    const Vec2 a_uv = start_uv(_support, ab), b_uv = start_uv(_support, ba);
     const Vec2 c_uv = start_uv(_support, ca), d_uv = start_uv(_support, db);
-    const HalfEdge outside_ad = _twins[ad], outside_bc = _twins[bc];
-    // The slots of the first triangle become d->c, c->a, a->d, those of the second c->d, d->b, b->c.
-    const std::int32_t a = start_of(_support, h), b = start_of(_support, g);
-    const Vec2 a_uv = start_uv(_support, h), b_uv = start_uv(_support, g);
-    const HalfEdge outside_ca = _twins[ca], outside_db = _twins[db];
-    set(h, d, d_uv), set(bc, c, c_uv), set(ca, a, a_uv);
-    set(g, c, c_uv), set(ad, d, d_uv), set(db, b, b_uv);
-    link(bc, outside_ca), link(ca, outside_ad), link(ad, outside_db), link(db, outside_bc);
+    const HalfEdge beyond_bc = _twins[bc], beyond_ca = _twins[ca], beyond_ad = _twins[ad],
+                   beyond_db = _twins[db];
+    set(ab, d, d_uv), set(bc, c, c_uv), set(ca, a, a_uv);
+    set(ba, c, c_uv), set(ad, d, d_uv), set(db, b, b_uv);
+    link(bc, beyond_ca), link(ca, beyond_ad), link(ad, beyond_db), link(db, beyond_bc);
   }
 
   void set(HalfEdge h, std::int32_t point, Vec2 uv) {
@@ -124,13 +113,100 @@ private:
   }
 
   Support& _support;
+  Wants _wants;
   std::vector<HalfEdge> _twins;
+};
+
+/// The rule of flip_to_delaunay().
+class SpaceRule {
+public:
+  explicit SpaceRule(const Support& support) : _support(support) {}
+
+  bool operator()(const Diamond& diamond) const {
+    const Vec3 a = point(diamond.ab), b = point(diamond.ba), c = point(diamond.ca()), d = point(diamond.db());
+    return is_not_delaunay(a, b, c, d) && keeps_space(a, b, c, d) && keeps_plane(diamond);
+  }
+
+private:
+  Vec3 point(HalfEdge h) const { return _support.points[start_of(_support, h)]; }
+
+  static bool keeps_space(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+    const Vec3 old_first = cross(b - a, c - a), old_second = cross(a - b, d - b);
+    const Vec3 normal = normalized(old_first + old_second);
+    for (const Vec3 old : {old_first, old_second}) {
+      if (dot(old, normal) < coplanar_cosine * norm(old)) return false;
+    }
+    for (const Vec3 now : {cross(d - a, c - a), cross(b - d, c - d)}) {
+      if (!(dot(now, normal) > 0) || dot(now, normal) < coplanar_cosine * norm(now)) return false;
+    }
+    return true;
+  }
+
+  bool keeps_plane(const Diamond& diamond) const {
+    const Vec2 a = start_uv(_support, diamond.ab), b = end_uv(_support, diamond.ab);
+    if (!(a == end_uv(_support, diamond.ba) && b == start_uv(_support, diamond.ba))) return false;
+    const Vec2 c = start_uv(_support, diamond.ca()), d = start_uv(_support, diamond.db());
+    return cross(d - a, c - a) * cross(b - d, c - d) > 0;
+  }
+
+  const Support& _support;
+};
+
+/// The rule of flip_in_parameters().
+class ParameterRule {
+public:
+  ParameterRule(const Support& support, const std::vector<SurfaceMetric>& metrics,
+                const std::vector<std::int32_t>& same, int orientation)
+      : _support(support), _metrics(metrics), _same(same), _orientation(orientation) {}
+
+  bool operator()(const Diamond& diamond) const {
+    const std::int32_t ia = start_of(_support, diamond.ab), ib = start_of(_support, diamond.ba);
+    const std::int32_t ic = start_of(_support, diamond.ca()), id = start_of(_support, diamond.db());
+    if (_same[ic] == _same[id]) return false;
+    const Vec2 a = start_uv(_support, diamond.ab), b = start_uv(_support, diamond.ba);
+    const Vec2 c = start_uv(_support, diamond.ca()), d = start_uv(_support, diamond.db());
+    if (geometry::orient2d(a, d, c) != _orientation || geometry::orient2d(d, b, c) != _orientation)
+      return false;
+    if (geometry::orient2d(a, b, c) != _orientation || geometry::orient2d(b, a, d) != _orientation)
+      return true;
+    const SurfaceMetric metric = mean({ia, ib, ic, id});
+    const double determinant = metric.uu * metric.vv - metric.uv * metric.uv;
+    if (!(determinant > 1e-12 * metric.uu * metric.vv)) {
+      return is_not_delaunay(_support.points[ia], _support.points[ib], _support.points[ic],
+                             _support.points[id]);
+    }
+    // Lengths in this plane are lengths on the surface.
+    const double root = std::sqrt(metric.uu), height = std::sqrt(determinant) / root;
+    const auto flat = [&](Vec2 p) { return Vec3{root * p.x + metric.uv / root * p.y, height * p.y, 0}; };
+    return is_not_delaunay(flat(a), flat(b), flat(c), flat(d));
+  }
+
+private:
+  SurfaceMetric mean(const std::array<std::int32_t, 4>& corners) const {
+    SurfaceMetric sum;
+    for (const std::int32_t p : corners) {
+      sum.uu += 0.25 * _metrics[p].uu, sum.uv += 0.25 * _metrics[p].uv, sum.vv += 0.25 * _metrics[p].vv;
+    }
+    return sum;
+  }
+
+  const Support& _support;
+  const std::vector<SurfaceMetric>& _metrics;
+  const std::vector<std::int32_t>& _same;
+  int _orientation;
 };
 
 }  // namespace
 
 void flip_to_delaunay(Support& support) {
-  Flipper(support).run();
+  Flipper(support, SpaceRule(support)).run();
+}
+
+void flip_in_parameters(Support& support, const std::vector<SurfaceMetric>& metrics,
+                        const std::vector<std::int32_t>& same) {
+  double area = 0;
+  for (const auto& [a, b, c] : support.corner_uv) area += cross(b - a, c - a);
+  Flipper(support, ParameterRule(support, metrics, same, area >= 0 ? 1 : -1)).run();
 }
 
 }  // namespace aeroloom::surface

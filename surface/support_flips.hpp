@@ -10,4 +10,16 @@ namespace aeroloom::surface {
 /// space or parameter plane.
 void flip_to_delaunay(Support& support);
 
+/// The first fundamental form of a surface at a point: lengths of parameter differences.
+struct SurfaceMetric {
+  double uu = 0, uv = 0, vv = 0;
+};
+
+/// The same in the parameter plane, where a triangulation that is open along seams cannot fold: triangles of
+/// the wrong orientation are flipped away where possible, the others are made Delaunay in the metric of the
+/// surface. Neither position nor flatness in space matters. `metrics` per point; `same` per point: a name
+/// that points share which are one in space (no edge may join them).
+void flip_in_parameters(Support& support, const std::vector<SurfaceMetric>& metrics,
+                        const std::vector<std::int32_t>& same);
+
 }  // namespace aeroloom::surface
