@@ -39,22 +39,29 @@ inline void shake(WholeMesh& whole, double amplitude, std::mt19937& random) {
   }
 }
 
+/// One side of a face: its cell, and the cell's vertex opposite to it.
+struct FaceSide {
+  int cell, apex;
+};
+
+inline std::map<std::array<int, 3>, std::vector<FaceSide>> find_face_sides(const WholeMesh& whole) {
+  std::map<std::array<int, 3>, std::vector<FaceSide>> sides;
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    for (int f = 0; f < 4; ++f) {
+      std::array<int, 3> face;
+      for (int i = 0; i < 3; ++i) face[i] = whole.cells[c][mesh::tetrahedron_faces[f][i]];
+      std::sort(face.begin(), face.end());
+      sides[face].push_back({static_cast<int>(c), whole.cells[c][f]});
+    }
+  }
+  return sides;
+}
+
 /// Replaces the two tetrahedra at a random interior face of one piece by three, where those are valid;
 /// `flips` times.
 inline void flip_at_random(WholeMesh& whole, int flips, std::mt19937& random) {
-  struct Side {
-    int cell, apex;
-  };
+  auto sides = find_face_sides(whole);
   for (int tries = 0; flips > 0 && tries < 1000; ++tries) {
-    std::map<std::array<int, 3>, std::vector<Side>> sides;
-    for (std::size_t c = 0; c < whole.cells.size(); ++c) {
-      for (int f = 0; f < 4; ++f) {
-        std::array<int, 3> face;
-        for (int i = 0; i < 3; ++i) face[i] = whole.cells[c][mesh::tetrahedron_faces[f][i]];
-        std::sort(face.begin(), face.end());
-        sides[face].push_back({static_cast<int>(c), whole.cells[c][f]});
-      }
-    }
     const auto& [face, around] = *std::next(sides.begin(), random() % sides.size());
     if (around.size() != 2 || whole.piece_of_cell[around[0].cell] != whole.piece_of_cell[around[1].cell])
       continue;
@@ -70,6 +77,7 @@ inline void flip_at_random(WholeMesh& whole, int flips, std::mt19937& random) {
     whole.cells[around[1].cell] = fresh[1];
     whole.cells.push_back(fresh[2]);
     whole.piece_of_cell.push_back(whole.piece_of_cell[around[0].cell]);
+    sides = find_face_sides(whole);
     --flips;
   }
 }
