@@ -14,17 +14,21 @@ struct ImproveOptions {
   bool enabled = true;
   double target_angle = 15;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
                              ///< minus 1.5 times this, are worked on
-  int sweeps = 12;  ///< at most; ends earlier when a sweep gains nothing
+  int sweeps = 12;           ///< at most; ends earlier when a sweep gains nothing
 };
 
 struct ImproveReport {
   std::int64_t bad_before = 0, bad_after = 0;        ///< tetrahedra that miss the target
   double min_angle_before = 0, min_angle_after = 0;  ///< degrees
-  std::int64_t smoothed = 0, swaps = 0;
+  std::int64_t smoothed = 0;                         ///< vertices moved
+  std::int64_t swaps = 0;                            ///< cavities filled anew
 };
 
 /// Improves one tetrahedral piece in place: boundary, interface and shared vertices stay, the boundary
-/// triangles stay, the worst element of any changed cavity never gets worse. Deterministic. Not collective.
+/// triangles stay, the worst element of any changed cavity gets better. Vertices inside may move, few are
+/// added (at the end) or removed (the others keep their order); cells keep their order, new ones stand where
+/// those they replace stood. Deterministic. Not collective. Throws std::invalid_argument when the target
+/// angle is not within (0, 50] degrees, std::logic_error when three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options);
 
 /// Improves all pieces of a mesh. Collective.
