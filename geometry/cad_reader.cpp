@@ -90,8 +90,18 @@ NamedShape read_brep(const std::string& file, bool binary) {
   return named;
 }
 
+/// STEP files may begin with comments.
+std::string without_comments(std::string text) {
+  text = trimmed(text);
+  while (text.starts_with("/*")) {
+    const std::size_t end = text.find("*/");
+    text = end == std::string::npos ? std::string() : trimmed(text.substr(end + 2));
+  }
+  return text;
+}
+
 NamedShape read_by_content(const std::string& file, const Ends& ends) {
-  if (trimmed(ends.head).starts_with("ISO-10303-21")) {
+  if (without_comments(ends.head).starts_with("ISO-10303-21")) {
     require(contains(ends.tail, "END-ISO-10303-21"), file,
             "a STEP file that ends too early: no END-ISO-10303-21");
     return read_step(file);

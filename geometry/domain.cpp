@@ -19,32 +19,34 @@ NamedShape read_source(const DomainOptions& options) {
   return read_cad_file(options.file);
 }
 
-HullComparison compare(const NamedShape& solids) {
+HullComparison compare(const NamedShape& solids, Volumes& volumes) {
   return compare_with_hull(build_model(solids, tag_faces(solids, DomainKind::body, nullptr)),
-                           volume_of(solids.shape));
+                           volumes.of(solids.shape));
 }
 
 /// `hull` receives the comparison where one was made.
-KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
+KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids, Volumes& volumes,
                          std::optional<HullComparison>& hull) {
   if (options.kind != DomainKind::automatic) return {options.kind, "as requested"};
   if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
-  hull = compare(solids);
+  hull = compare(solids, volumes);
   return decide_kind(*hull);
 }
 
 /// `hull` compares the solids as they are; joined ones have other faces.
-Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, std::vector<std::string>& changes) {
+Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, Volumes& volumes,
+                  std::vector<std::string>& changes) {
   const bool single = solids_of(solids.shape).size() == 1;
-  const NamedShape fluid = join_regions(std::move(solids), changes);
-  if (!hull || !single) hull = compare(fluid);
+  const NamedShape fluid = join_regions(std::move(solids), volumes, changes);
+  if (!hull || !single) hull = compare(fluid, volumes);
   return build_model(fluid, tag_faces(fluid, DomainKind::fluid, &*hull));
 }
 
-Model build_around_bodies(NamedShape solids, const FarFieldOptions& far_field,
+Model build_around_bodies(NamedShape solids, const FarFieldOptions& far_field, Volumes& volumes,
                           std::vector<std::string>& changes) {
-  const NamedShape fluid = surround(unite_bodies(std::move(solids), changes), far_field, changes);
+  const NamedShape fluid =
+      surround(unite_bodies(std::move(solids), volumes, changes), far_field, volumes, changes);
   return build_model(fluid, tag_faces(fluid, DomainKind::body, nullptr));
 }
 
@@ -54,15 +56,16 @@ double largest_extent(Vec3 size) {
 
 Domain prepare(const DomainOptions& options) {
   DomainReport report;
-  NamedShape solids = make_solids(read_source(options), report.changes);
+  Volumes volumes;
+  NamedShape solids = make_solids(read_source(options), volumes, report.changes);
   std::optional<HullComparison> hull;
-  const KindDecision decision = choose_kind(options, solids, hull);
+  const KindDecision decision = choose_kind(options, solids, volumes, hull);
   report.kind = decision.kind;
   report.reason = decision.reason;
   Model model = report.kind == DomainKind::fluid
-                    ? build_fluid(std::move(solids), hull, report.changes)
+                    ? build_fluid(std::move(solids), hull, volumes, report.changes)
                     : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
-                                          report.changes);
+                                          volumes, report.changes);
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};
 }
@@ -93,7 +96,8 @@ Domain prepare_domain(const DomainOptions& options) {
 void export_step(const DomainOptions& options, const std::string& file) {
   with_source(options, [&] {
     std::vector<std::string> changes;
-    write_step(make_solids(read_source(options), changes), file);
+    Volumes volumes;
+    write_step(make_solids(read_source(options), volumes, changes), file);
   });
 }
 

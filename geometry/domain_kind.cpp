@@ -17,7 +17,7 @@ namespace {
 constexpr int direction_count = 200;
 constexpr double fluid_fill = 0.85;
 constexpr double hull_tolerance = 0.02;
-constexpr double inner_depth_wanted = 0.04;
+constexpr double inner_reach = 0.1;
 
 /// Directions spread evenly over the sphere (Fibonacci's spiral), the axes first: boxes are common.
 std::vector<Vec3> spread_directions() {
@@ -95,12 +95,6 @@ double distance_to_hull(const Facets& facets, const Polytope& hull) {
   return largest;
 }
 
-double deepest(const Facets& facets, const Polytope& hull) {
-  double depth = 0;
-  for (const Vec3 p : facets.points) depth = std::max(depth, hull.depth(p));
-  return depth;
-}
-
 /// "xmin" and so on for a flat face on the box; empty otherwise.
 std::string side_of_box(const Box& face, const Box& all) {
   static const char* const names[3][2] = {{"xmin", "xmax"}, {"ymin", "ymax"}, {"zmin", "zmax"}};
@@ -125,20 +119,18 @@ HullComparison compare_with_hull(const Model& solids, double volume) {
   HullComparison result;
   result.fill = volume / hull.volume(solids.bounds());
   for (const Facets& face : facets) {
-    result.on_hull.push_back(distance_to_hull(face, hull) <= hull_tolerance * diagonal);
-    const double depth = deepest(face, hull) / diagonal;
-    if (result.on_hull.back() || depth < inner_depth_wanted) continue;
-    ++result.inner_faces;
-    result.inner_depth = std::max(result.inner_depth, depth);
+    const double reach = distance_to_hull(face, hull) / diagonal;
+    result.on_hull.push_back(reach <= hull_tolerance);
+    result.inner_faces += reach > inner_reach;
   }
   return result;
 }
 
 KindDecision decide_kind(const HullComparison& hull) {
   const bool fluid = hull.fill > fluid_fill && hull.inner_faces > 0;
-  const std::string figures =
-      fmt::format("the solid fills {:.0f} % of its convex hull and {} faces lie well inside it",
-                  100 * hull.fill, hull.inner_faces);
+  const std::string figures = fmt::format(
+      "it fills {:.0f} % of its convex hull, and {} of its faces have much of the hull in front of them",
+      100 * hull.fill, hull.inner_faces);
   if (fluid) return {DomainKind::fluid, "taken as the fluid: " + figures + ", as around an obstacle"};
   return {DomainKind::body,
           "taken as a body: " + figures +

@@ -13,8 +13,8 @@ namespace aeroloom::geometry {
 struct HullComparison {
   double fill = 0;            ///< volume of the solids over that of the hull
   std::vector<char> on_hull;  ///< per face: it is part of the hull's surface
-  double inner_depth = 0;     ///< how deep the deepest face lies inside the hull, over the hull's diagonal
-  int inner_faces = 0;        ///< faces that lie well inside
+  int inner_faces =
+      0;  ///< faces with much of the hull in front of them, as around an obstacle or in a cavity
 };
 
 /// Compares by coarse facets and a polytope of some 200 half spaces around them. `volume` is that of all

@@ -45,7 +45,8 @@ void require_clearance(const FarFieldOptions& options, const Box& body, double r
 
 /// The shells that face the fluid. A body's cavities hold no outside fluid; a body in another's cavity never
 /// meets it.
-std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, std::vector<std::string>& changes) {
+std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volumes,
+                                       std::vector<std::string>& changes) {
   std::vector<TopoDS_Shell> shells;
   for (const TopoDS_Solid& solid : solids_of(bodies)) {
     const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
@@ -57,12 +58,13 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, std::vector<s
       changes.push_back(
           fmt::format("{} closed cavities inside a body do not reach the fluid: left out", voids));
   }
-  const std::vector<TopoDS_Solid> nested = nest_shells(shells);
+  const std::vector<TopoDS_Solid> nested = nest_shells(shells, volumes);
   std::vector<TopoDS_Shell> outermost;
   for (const TopoDS_Solid& solid : nested) {
     const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
     const bool buried = std::any_of(nested.begin(), nested.end(), [&](const TopoDS_Solid& other) {
-      return !other.IsSame(solid) && nest_shells({BRepClass3d::OuterShell(other), outer}).size() == 1;
+      return !other.IsSame(solid) &&
+             nest_shells({BRepClass3d::OuterShell(other), outer}, volumes).size() == 1;
     });
     if (!buried) outermost.push_back(outer);
   }
@@ -87,7 +89,8 @@ void require_volume(double far_field, double body, double fluid) {
 
 }  // namespace
 
-NamedShape surround(NamedShape bodies, const FarFieldOptions& options, std::vector<std::string>& changes) {
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes,
+                    std::vector<std::string>& changes) {
   const Box box = tight_box(bodies.shape);
   const double reference = largest_extent(box);
   require_clearance(options, box, reference);
@@ -97,17 +100,18 @@ NamedShape surround(NamedShape bodies, const FarFieldOptions& options, std::vect
   builder.MakeSolid(fluid);
   builder.Add(fluid, TopExp_Explorer(outer, TopAbs_SHELL).Current());
   double body_volume = 0;
-  for (const TopoDS_Shell& shell : outer_shells(bodies.shape, changes)) {
-    const TopoDS_Solid body = solid_of(shell);
-    body_volume += volume_of(body);
+  for (const TopoDS_Shell& shell : outer_shells(bodies.shape, volumes, changes)) {
+    const TopoDS_Solid body = solid_of(shell, volumes);
+    body_volume += volumes.of(body);
     builder.Add(fluid, TopExp_Explorer(body, TopAbs_SHELL).Current().Reversed());
   }
-  require_volume(volume_of(outer), body_volume, volume_of(fluid));
+  require_volume(volumes.of(outer), body_volume, volumes.of(fluid));
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(outer, TopAbs_FACE, faces);
   for (int i = 1; i <= faces.Extent(); ++i) {
     FaceLabel label;
     label.name = faces.Extent() == 1 ? std::string("farfield") : fmt::format("farfield_{}", i);
+    label.solid = "fluid";
     label.far_field = true;
     bodies.labels.Bind(faces(i), label);
   }

@@ -9,11 +9,9 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -74,16 +72,16 @@ Parts take_apart(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
 }
 
 /// One solid may hold shells that are no voids but bodies of their own.
-void split_solid(const TopoDS_Solid& solid, std::size_t index, std::vector<TopoDS_Solid>& result,
-                 std::vector<std::string>& changes) {
+void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
+                 std::vector<TopoDS_Solid>& result, std::vector<std::string>& changes) {
   const std::vector<TopoDS_Shell> shells = shells_of(solid);
   if (shells.size() == 1) {
-    const double volume = volume_of(solid);
+    const double volume = volumes.of(solid);
     if (volume >= 0) return result.push_back(solid);
     changes.push_back(fmt::format("solid {} was inside out: turned", index));
-    return result.push_back(solid_of(shells.front()));
+    return result.push_back(solid_of(shells.front(), volumes));
   }
-  const std::vector<TopoDS_Solid> split = nest_shells(shells);
+  const std::vector<TopoDS_Solid> split = nest_shells(shells, volumes);
   if (split.size() > 1) {
     changes.push_back(fmt::format("solid {} held {} separate bodies: one solid each", index, split.size()));
   }
@@ -185,18 +183,17 @@ void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
   }
 }
 
-void require_volume(const std::vector<TopoDS_Solid>& solids) {
+void require_volume(const std::vector<TopoDS_Solid>& solids, Volumes& volumes) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Box box = tight_box(solids[i]);
-    GProp_GProps surface;
-    BRepGProp::SurfaceProperties(solids[i], surface);
-    const double volume = volume_of(solids[i]);
-    if (volume > 1e-8 * surface.Mass() * box.diagonal()) continue;
+    const double volume = volumes.of(solids[i]);
+    if (volume > 1e-9 * std::pow(box.diagonal(), 3)) continue;
     const Vec3 at = box.center();
     throw CadError(
-        fmt::format("solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses no volume ({:.3g}, surface {:.3g}): a "
-                    "sheet is no body",
-                    i, at.x, at.y, at.z, volume, surface.Mass()));
+        fmt::format("solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses no volume ({:.3g} in a box of "
+                    "diagonal {:.6g}): a sheet "
+                    "is no body",
+                    i, at.x, at.y, at.z, volume, box.diagonal()));
   }
 }
 
@@ -218,16 +215,11 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
   return compound;
 }
 
-double volume_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  return properties.Mass();
-}
-
-NamedShape make_solids(NamedShape named, std::vector<std::string>& changes) {
+NamedShape make_solids(NamedShape named, Volumes& volumes, std::vector<std::string>& changes) {
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
-  for (std::size_t i = 0; i < parts.solids.size(); ++i) split_solid(parts.solids[i], i, solids, changes);
+  for (std::size_t i = 0; i < parts.solids.size(); ++i)
+    split_solid(parts.solids[i], i, volumes, solids, changes);
   std::vector<TopoDS_Shell> shells = parts.closed_shells;
   if (!shells.empty()) changes.push_back(fmt::format("{} closed shells promoted to solids", shells.size()));
   if (solids.empty() && shells.empty()) {
@@ -238,13 +230,13 @@ NamedShape make_solids(NamedShape named, std::vector<std::string>& changes) {
     const std::vector<TopoDS_Shell> sewn = sew(parts.open_faces, named.labels, changes);
     shells.insert(shells.end(), sewn.begin(), sewn.end());
   }
-  const std::vector<TopoDS_Solid> promoted = nest_shells(shells);
+  const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);
   solids.insert(solids.end(), promoted.begin(), promoted.end());
   if (solids.empty()) throw CadError("there are no faces to make a solid of");
   drop_faces(parts.loose_faces, solids, changes);
   named.shape = make_compound(solids);
   repair_edges(named.shape, changes);
-  require_volume(solids);
+  require_volume(solids, volumes);
   return named;
 }
 

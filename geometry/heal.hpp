@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/named_shape.hpp"
+#include "geometry/volumes.hpp"
 
 #include <string>
 #include <vector>
@@ -13,13 +14,11 @@ namespace aeroloom::geometry {
 /// The solids of a shape, in order.
 std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape);
 TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids);
-/// Volume by Gauss integration over the faces; negative when they are turned inside out.
-double volume_of(const TopoDS_Shape& shape);
 
 /// A compound of closed, outward solids: the shape's own; closed shells promoted; what remains, when there
 /// are no solids, sewn with tolerances from 1e-7 to 1e-5 of its diagonal. Labels follow. Every change is
 /// appended to `changes`. Throws CadError listing open edges where no closed solid comes out, and for solids
 /// without volume.
-NamedShape make_solids(NamedShape named, std::vector<std::string>& changes);
+NamedShape make_solids(NamedShape named, Volumes& volumes, std::vector<std::string>& changes);
 
 }  // namespace aeroloom::geometry

@@ -1,14 +1,15 @@
 /// Curves that edges lack. Seen by this folder only.
 #pragma once
 
-#include <TopoDS_Shape.hxx>
 #include <string>
 #include <vector>
 
+#include <TopoDS_Shape.hxx>
+
 namespace aeroloom::geometry {
 
-/// Gives every edge a curve in space and a parameter curve on each of its faces where it has none. Changes the shape in place
-/// and says what in `changes`.
+/// Gives every edge a curve in space and a parameter curve on each of its faces where it has none. Changes
+/// the shape in place and says what in `changes`.
 void repair_edges(const TopoDS_Shape& shape, std::vector<std::string>& changes);
 
 }  // namespace aeroloom::geometry

@@ -1,6 +1,5 @@
 #include "geometry/shells.hpp"
 
-#include "geometry/heal.hpp"
 #include "geometry/model_data.hpp"
 
 #include <cstddef>
@@ -63,21 +62,21 @@ bool is_closed(const TopoDS_Shell& shell) {
   return !users.IsEmpty();
 }
 
-TopoDS_Solid solid_of(const TopoDS_Shell& shell) {
+TopoDS_Solid solid_of(const TopoDS_Shell& shell, Volumes& volumes) {
   TopoDS_Shell closed = TopoDS::Shell(shell.Oriented(TopAbs_FORWARD));
   closed.Closed(true);
   TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(closed).Solid();
-  if (volume_of(solid) < 0) {
+  if (volumes.of(solid) < 0) {
     solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(closed.Reversed())).Solid();
   }
   return solid;
 }
 
-std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells) {
+std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, Volumes& volumes) {
   std::vector<Body> bodies;
   Box all;
   for (const TopoDS_Shell& shell : shells) {
-    const TopoDS_Solid solid = solid_of(shell);
+    const TopoDS_Solid solid = solid_of(shell, volumes);
     bodies.push_back({solid, tight_box(solid)});
     all.add(bodies.back().box);
   }

@@ -1,6 +1,8 @@
 /// Closed shells and which of them lies in which. Seen by this folder only.
 #pragma once
 
+#include "geometry/volumes.hpp"
+
 #include <vector>
 
 #include <TopoDS_Shell.hxx>
@@ -12,10 +14,10 @@ namespace aeroloom::geometry {
 bool is_closed(const TopoDS_Shell& shell);
 
 /// A solid of one closed shell, turned outward.
-TopoDS_Solid solid_of(const TopoDS_Shell& shell);
+TopoDS_Solid solid_of(const TopoDS_Shell& shell, Volumes& volumes);
 
 /// Solids from closed shells: each shell at even nesting depth becomes a solid, the shells directly inside it
 /// become its voids.
-std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells);
+std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, Volumes& volumes);
 
 }  // namespace aeroloom::geometry

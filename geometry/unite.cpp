@@ -64,7 +64,7 @@ void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing) {
   throw CadError(fmt::format("{} failed in the CAD library: repair the solids in the CAD program", doing));
 }
 
-double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second) {
+double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, Volumes& volumes) {
   TopTools_ListOfShape arguments, tools;
   arguments.Append(first);
   tools.Append(second);
@@ -72,11 +72,12 @@ double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second) {
   common.SetArguments(arguments);
   common.SetTools(tools);
   perform(common, "intersecting two bodies");
-  return common.Shape().IsNull() ? 0 : std::abs(volume_of(common.Shape()));
+  return common.Shape().IsNull() ? 0 : std::abs(volumes.of(common.Shape()));
 }
 
 /// One after the other, so that each union's volume can be checked against its two parts.
-std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, FaceLabels& labels) {
+std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes& volumes,
+                                FaceLabels& labels) {
   std::vector<TopoDS_Solid> united{group.front()};
   for (std::size_t i = 1; i < group.size(); ++i) {
     TopTools_ListOfShape arguments, tools;
@@ -90,11 +91,11 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, FaceLabe
     inputs.push_back(group[i]);
     follow_labels(fuse, inputs, labels);
     const TopoDS_Shape before = make_compound(united);
-    const double parts = volume_of(before) + volume_of(group[i]);
-    const double whole = volume_of(fuse.Shape());
+    const double parts = volumes.of(before) + volumes.of(group[i]);
+    const double whole = volumes.of(fuse.Shape());
     const double tolerance = integration_error * parts;
     if (std::abs(parts - whole) > tolerance &&
-        std::abs(parts - common_volume(before, group[i]) - whole) > tolerance) {
+        std::abs(parts - common_volume(before, group[i], volumes) - whole) > tolerance) {
       throw CadError(fmt::format("uniting bodies went wrong: parts of volume {:.9g} gave a union of {:.9g}",
                                  parts, whole));
     }
@@ -106,10 +107,10 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, FaceLabe
 
 }  // namespace
 
-NamedShape unite_bodies(NamedShape bodies, std::vector<std::string>& changes) {
+NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, std::vector<std::string>& changes) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(bodies.shape))) {
-    const std::vector<TopoDS_Solid> united = group.size() > 1 ? unite(group, bodies.labels) : group;
+    const std::vector<TopoDS_Solid> united = group.size() > 1 ? unite(group, volumes, bodies.labels) : group;
     if (group.size() > united.size()) {
       changes.push_back(fmt::format("{} touching bodies united to {}", group.size(), united.size()));
     }
@@ -119,7 +120,7 @@ NamedShape unite_bodies(NamedShape bodies, std::vector<std::string>& changes) {
   return bodies;
 }
 
-NamedShape join_regions(NamedShape regions, std::vector<std::string>& changes) {
+NamedShape join_regions(NamedShape regions, Volumes& volumes, std::vector<std::string>& changes) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(regions.shape))) {
     if (group.size() == 1) {
@@ -130,7 +131,7 @@ NamedShape join_regions(NamedShape regions, std::vector<std::string>& changes) {
     double parts = 0;
     for (const TopoDS_Solid& solid : group) {
       arguments.Append(solid);
-      parts += volume_of(solid);
+      parts += volumes.of(solid);
     }
     BRepAlgoAPI_BuilderAlgo join;
     join.SetArguments(arguments);
@@ -138,7 +139,7 @@ NamedShape join_regions(NamedShape regions, std::vector<std::string>& changes) {
     follow_labels(join, group, regions.labels);
     const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
     double whole = 0;
-    for (const TopoDS_Solid& solid : joined) whole += volume_of(solid);
+    for (const TopoDS_Solid& solid : joined) whole += volumes.of(solid);
     if (joined.size() != group.size() || std::abs(whole - parts) > integration_error * parts) {
       throw CadError(fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}", group.size(),
                                  whole, parts));
