@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include <BRepTools.hxx>
@@ -77,16 +78,37 @@ void require(bool condition, const std::string& file, const std::string& found) 
   if (!condition) throw CadError(fmt::format("'{}': {}", file, found));
 }
 
+/// The CAD library's BREP readers print to standard output when they stumble.
+class SilentOutput {
+ public:
+  SilentOutput() : _buffer(std::cout.rdbuf(nullptr)) {}
+  ~SilentOutput() {
+    std::cout.rdbuf(_buffer);
+    std::cout.clear();
+  }
+  SilentOutput(const SilentOutput&) = delete;
+  SilentOutput& operator=(const SilentOutput&) = delete;
+
+ private:
+  std::streambuf* _buffer;
+};
+
+/// The stream throws where the file ends too early: the readers would go round in circles for ever.
 NamedShape read_brep(const std::string& file, bool binary) {
   NamedShape named;
-  std::ifstream stream(file, std::ios::binary);
-  if (binary) {
-    BinTools::Read(named.shape, stream);
-  } else {
-    BRepTools::Read(named.shape, stream, BRep_Builder());
+  try {
+    const SilentOutput silent;
+    std::ifstream stream(file, std::ios::binary);
+    stream.exceptions(std::ios::failbit | std::ios::badbit);
+    if (binary) {
+      BinTools::Read(named.shape, stream);
+    } else {
+      BRepTools::Read(named.shape, stream, BRep_Builder());
+    }
+  } catch (const std::ios_base::failure&) {
+    throw CadError(fmt::format("'{}': a BREP file that is damaged or ends too early", file));
   }
-  require(!named.shape.IsNull(), file,
-          "a BREP file that is damaged or ends too early: no shape could be read");
+  require(!named.shape.IsNull(), file, "a BREP file that is damaged: no shape could be read");
   return named;
 }
 

@@ -163,12 +163,9 @@ TEST(Domain, TouchingBodiesLeaveNoDoubleFace) {
   if (!real::has("aircraft/gmsh_wing_fuselage.step")) GTEST_SKIP() << "no real geometry here";
   const Domain domain = prepare("aircraft/gmsh_wing_fuselage.step");
   for (FaceId f = 0; f < domain.model.face_count(); ++f) {
-    const Box box = [&] {
-      Box all;
-      for (const Vec3 p : domain.model.facets(f, 0.01, 0.5).points) all.add(p);
-      return all;
-    }();
-    EXPECT_GT(box.size().y, 1e-9) << "face " << f << " lies in the plane between the halves";
+    double away = 0;
+    for (const Vec3 p : domain.model.facets(f, 0.01, 0.5).points) away = std::max(away, std::abs(p.y));
+    EXPECT_GT(away, 1e-6) << "face " << f << " lies in the plane between the halves";
   }
 }
 
