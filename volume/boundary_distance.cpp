@@ -52,29 +52,48 @@ double solid_angle(Vec3 a, Vec3 b, Vec3 c) {
 }  // namespace
 
 BoundaryDistance::BoundaryDistance(std::span<const Vec3> points, std::span<const Triangle> triangles)
-    : _points(points), _triangles(triangles), _mean_edges(triangles.size()), _order(triangles.size()) {
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto i = static_cast<std::int32_t>(t);
-    _mean_edges[t] = (distance(corner(i, 0), corner(i, 1)) + distance(corner(i, 1), corner(i, 2)) +
-                      distance(corner(i, 2), corner(i, 0))) /
-                     3.0;
+    : _points(points), _triangles(triangles), _order(triangles.size()), _slot(triangles.size()) {
+  const auto count = static_cast<std::int32_t>(triangles.size());
+  _mean_edges.reserve(triangles.size());
+  for (std::int32_t t = 0; t < count; ++t) {
+    const Vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    _mean_edges.push_back((distance(a, b) + distance(b, c) + distance(c, a)) / 3.0);
   }
   std::iota(_order.begin(), _order.end(), 0);
   _nodes.reserve(triangles.size());
-  build(0, static_cast<std::int32_t>(triangles.size()));
+  _dipoles.reserve(triangles.size());
+  build(0, count);
+  _corners.reserve(triangles.size());
+  for (std::int32_t slot = 0; slot < count; ++slot) {
+    const std::int32_t t = _order[slot];
+    _slot[t] = slot;
+    _corners.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
+  }
+  list_neighbours();
+}
+
+void BoundaryDistance::list_neighbours() {
+  _first_around.assign(_points.size() + 1, 0);
+  for (const Triangle& t : _triangles) {
+    for (const auto v : t) ++_first_around[v + 1];
+  }
+  std::partial_sum(_first_around.begin(), _first_around.end(), _first_around.begin());
+  _around.resize(3 * _triangles.size());
+  std::vector<std::int32_t> next(_first_around.begin(), _first_around.end() - 1);
+  for (std::size_t slot = 0; slot < _order.size(); ++slot) {
+    for (const auto v : _triangles[_order[slot]]) _around[next[v]++] = static_cast<std::int32_t>(slot);
+  }
 }
 
 std::int32_t BoundaryDistance::build(std::int32_t first, std::int32_t last) {
   const auto index = static_cast<std::int32_t>(_nodes.size());
-  Node node;
-  summarise(node, first, last);
-  _nodes.push_back(node);
+  summarise(first, last);
   if (last - first <= leaf_size) {
     _nodes[index].first = first;
     _nodes[index].count = last - first;
     return index;
   }
-  const Vec3 size = node.box.size();
+  const Vec3 size = _nodes[index].box.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const auto place = [&](std::int32_t t) {
     return corner(t, 0)[axis] + corner(t, 1)[axis] + corner(t, 2)[axis];
@@ -91,36 +110,45 @@ std::int32_t BoundaryDistance::build(std::int32_t first, std::int32_t last) {
   return index;
 }
 
-void BoundaryDistance::summarise(Node& node, std::int32_t first, std::int32_t last) const {
+void BoundaryDistance::summarise(std::int32_t first, std::int32_t last) {
+  Node& node = _nodes.emplace_back();
+  Dipole& dipole = _dipoles.emplace_back();
   double area_sum = 0;
   Vec3 moment;
   for (std::int32_t i = first; i < last; ++i) {
     const Vec3 a = corner(_order[i], 0), b = corner(_order[i], 1), c = corner(_order[i], 2);
     node.box.add(a), node.box.add(b), node.box.add(c);
     const Vec3 area = 0.5 * cross(b - a, c - a);
-    node.normal += area;
+    dipole.normal += area;
     area_sum += norm(area);
     moment += (norm(area) / 3.0) * (a + b + c);
   }
-  node.center = area_sum > 0 ? moment / area_sum : node.box.center();
+  dipole.center = area_sum > 0 ? moment / area_sum : node.box.center();
   for (std::int32_t i = first; i < last; ++i) {
-    for (int k = 0; k < 3; ++k)
-      node.radius = std::max(node.radius, distance(node.center, corner(_order[i], k)));
+    for (int k = 0; k < 3; ++k) {
+      dipole.radius = std::max(dipole.radius, distance(dipole.center, corner(_order[i], k)));
+    }
   }
 }
 
-double BoundaryDistance::squared_distance(Vec3 p, std::int32_t triangle, bool& in_face) const {
-  const Vec3 foot = foot_point(p, corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), in_face);
+double BoundaryDistance::squared_distance(Vec3 p, const Corners& triangle, bool& in_face) {
+  const Vec3 foot = foot_point(p, triangle.a, triangle.b, triangle.c, in_face);
   return dot(p - foot, p - foot);
 }
 
-BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess) const {
+BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess, double range) const {
   Nearest best;
-  double best_squared = 1e300;
-  if (guess >= 0) {
-    best.triangle = guess;
-    best_squared = squared_distance(p, guess, best.in_face);
-  }
+  double best_squared = range * range;
+  const auto look_at = [&](std::int32_t slot) {
+    bool in_face = false;
+    const double squared = squared_distance(p, _corners[slot], in_face);
+    if (squared < best_squared) {
+      best_squared = squared;
+      best.triangle = _order[slot];
+      best.in_face = in_face;
+    }
+  };
+  if (guess >= 0) look_at(_slot[guess]);
   struct Entry {
     std::int32_t node;
     double squared;
@@ -140,17 +168,9 @@ BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess) 
       if (near.squared < best_squared) stack[depth++] = near;
       continue;
     }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      bool in_face = false;
-      const double squared = squared_distance(p, _order[i], in_face);
-      if (squared < best_squared) {
-        best_squared = squared;
-        best.triangle = _order[i];
-        best.in_face = in_face;
-      }
-    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) look_at(i);
   }
-  best.distance = std::sqrt(best_squared);
+  best.distance = best.triangle < 0 ? range : std::sqrt(best_squared);
   return best;
 }
 
@@ -159,13 +179,32 @@ bool BoundaryDistance::inside(Vec3 p) const {
 }
 
 bool BoundaryDistance::inside(Vec3 p, const Nearest& nearest) const {
-  // Nothing lies between p and a foot point inside a face, so that face's side decides.
-  if (nearest.in_face) {
-    const int side = geometry::orient3d(corner(nearest.triangle, 0), corner(nearest.triangle, 1),
-                                        corner(nearest.triangle, 2), p);
+  if (nearest.triangle >= 0) {
+    const int side =
+        nearest.in_face ? side_of(p, nearest.triangle) : side_of_neighbourhood(p, nearest.triangle);
     if (side != 0) return side < 0;
   }
   return inside(p);
+}
+
+/// Nothing lies between p and a foot point inside a face, so that face's side decides.
+int BoundaryDistance::side_of(Vec3 p, std::int32_t triangle) const {
+  const Corners& corners = _corners[_slot[triangle]];
+  return geometry::orient3d(corners.a, corners.b, corners.c, p);
+}
+
+/// The side p is on of all triangles that share a point with its nearest one, 0 if not of all the same. With
+/// the foot point on an edge or point of the surface, one of the triangles there decides; when all agree it
+/// is known.
+int BoundaryDistance::side_of_neighbourhood(Vec3 p, std::int32_t triangle) const {
+  const int side = side_of(p, triangle);
+  for (const auto v : _triangles[triangle]) {
+    for (std::int32_t i = _first_around[v]; i < _first_around[v + 1]; ++i) {
+      const Corners& corners = _corners[_around[i]];
+      if (geometry::orient3d(corners.a, corners.b, corners.c, p) != side) return 0;
+    }
+  }
+  return side;
 }
 
 double BoundaryDistance::winding_number(Vec3 p) const {
@@ -176,16 +215,17 @@ double BoundaryDistance::winding_number(Vec3 p) const {
   while (depth > 0) {
     const std::int32_t index = stack[--depth];
     const Node& node = _nodes[index];
-    const Vec3 away = node.center - p;
+    const Dipole& dipole = _dipoles[index];
+    const Vec3 away = dipole.center - p;
     const double range = norm(away);
-    if (range > far_ratio * node.radius) {
-      solid += dot(away, node.normal) / (range * range * range);
+    if (range > far_ratio * dipole.radius) {
+      solid += dot(away, dipole.normal) / (range * range * range);
     } else if (node.count == 0) {
       stack[depth++] = node.right;
       stack[depth++] = index + 1;
     } else {
       for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-        solid += solid_angle(corner(_order[i], 0) - p, corner(_order[i], 1) - p, corner(_order[i], 2) - p);
+        solid += solid_angle(_corners[i].a - p, _corners[i].b - p, _corners[i].c - p);
       }
     }
   }
@@ -212,7 +252,7 @@ void BoundaryDistance::for_each_overlapping_pair(
       visit_leaves(a, b, i == j);
     } else if (i == j) {
       stack.insert(stack.end(), {{i + 1, i + 1}, {a.right, a.right}, {i + 1, a.right}});
-    } else if (b.count > 0 || (a.count == 0 && a.radius >= b.radius)) {
+    } else if (b.count > 0 || (a.count == 0 && _dipoles[i].radius >= _dipoles[j].radius)) {
       stack.insert(stack.end(), {{i + 1, j}, {a.right, j}});
     } else {
       stack.insert(stack.end(), {{i, j + 1}, {i, b.right}});

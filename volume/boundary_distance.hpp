@@ -26,8 +26,9 @@ public:
     std::int32_t triangle = -1;
     bool in_face = false;  ///< the foot point lies inside the triangle, on none of its edges
   };
-  /// `guess` is a triangle thought to be near, -1 for none; it changes the speed, not the distance.
-  Nearest nearest(geometry::Vec3 p, std::int32_t guess = -1) const;
+  /// `guess` is a triangle thought to be near, -1 for none; it changes the speed, not the distance. Triangles
+  /// not nearer than `range` are not seen: with none nearer, the triangle is -1 and the distance `range`.
+  Nearest nearest(geometry::Vec3 p, std::int32_t guess = -1, double range = 1e150) const;
 
   /// Whether a triangle lies nearer to p than its own limit; `limit(t)` is at most `largest_limit`.
   template <class Limit>
@@ -35,7 +36,7 @@ public:
 
   /// Whether p is enclosed, in the sense of the winding number; right wherever p is off the surface.
   bool inside(geometry::Vec3 p) const;
-  /// The same, knowing the nearest triangle, which often decides it alone.
+  /// The same, knowing the nearest triangle (or -1), which often decides it alone.
   bool inside(geometry::Vec3 p, const Nearest& nearest) const;
 
   /// How often the surface winds around p (1 inside, 0 outside); far triangles are summed as dipoles (Barill,
@@ -53,24 +54,40 @@ public:
 private:
   struct Node {
     geometry::Box box;
-    geometry::Vec3 center;              ///< area-weighted
-    geometry::Vec3 normal;              ///< sum of area vectors
-    double radius = 0;                  ///< of the ball around `center` that holds the triangles
-    std::int32_t first = 0, count = 0;  ///< triangles of a leaf, in _order; count 0: inner node
+    std::int32_t first = 0, count = 0;  ///< slots of a leaf; count 0: inner node
     std::int32_t right = 0;             ///< second child of an inner node; the first one follows the node
+  };
+  /// What a node looks like from far.
+  struct Dipole {
+    geometry::Vec3 center;  ///< area-weighted
+    geometry::Vec3 normal;  ///< sum of area vectors
+    double radius = 0;      ///< of the ball around `center` that holds the triangles
+  };
+  /// Corners of the triangles in the order of the leaves (slots).
+  struct Corners {
+    geometry::Vec3 a, b, c;
   };
 
   std::int32_t build(std::int32_t first, std::int32_t last);
-  void summarise(Node& node, std::int32_t first, std::int32_t last) const;
-  double squared_distance(geometry::Vec3 p, std::int32_t triangle, bool& in_face) const;
+  void list_neighbours();
+  int side_of(geometry::Vec3 p, std::int32_t triangle) const;
+  int side_of_neighbourhood(geometry::Vec3 p, std::int32_t triangle) const;
+  void summarise(std::int32_t first, std::int32_t last);
+  static double squared_distance(geometry::Vec3 p, const Corners& triangle, bool& in_face);
   static double squared_distance(geometry::Vec3 p, const geometry::Box& box);
   geometry::Vec3 corner(std::int32_t triangle, int k) const { return _points[_triangles[triangle][k]]; }
 
   std::span<const geometry::Vec3> _points;
   std::span<const Triangle> _triangles;
   std::vector<double> _mean_edges;
-  std::vector<std::int32_t> _order;
+  std::vector<std::int32_t> _order;  ///< triangle of each slot
+  std::vector<std::int32_t> _slot;   ///< slot of each triangle
+  std::vector<Corners> _corners;
+  std::vector<std::int32_t>
+      _first_around;  ///< (points + 1) where the slots of the triangles around each point start
+  std::vector<std::int32_t> _around;
   std::vector<Node> _nodes;
+  std::vector<Dipole> _dipoles;
 };
 
 template <class Limit>
@@ -90,7 +107,7 @@ bool BoundaryDistance::any_nearer(geometry::Vec3 p, double largest_limit, const 
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
       const double allowed = limit(_order[i]);
       bool in_face = false;
-      if (squared_distance(p, _order[i], in_face) < allowed * allowed) return true;
+      if (squared_distance(p, _corners[i], in_face) < allowed * allowed) return true;
     }
   }
   return false;

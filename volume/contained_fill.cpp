@@ -64,6 +64,7 @@ FillRequest unpack_request(std::span<const std::byte> input) {
   request.sabotage = unpacker.value<VolumeOptions::Sabotage>();
   request.interior = unpacker.value<InteriorPoints>();
   request.surface_points = unpacker.value<std::uint64_t>();
+  request.interior_points = unpacker.value<std::uint64_t>();
   request.points = unpacker.array<Vec3>();
   request.triangles = unpacker.array<Triangle>();
   return request;
@@ -74,6 +75,7 @@ Bytes pack_request(const FillRequest& request) {
   packer.value(request.sabotage);
   packer.value(request.interior);
   packer.value(static_cast<std::uint64_t>(request.surface_points));
+  packer.value(static_cast<std::uint64_t>(request.interior_points));
   packer.array(request.points);
   packer.array(request.triangles);
   return packer.take();
@@ -105,12 +107,14 @@ Bytes fill_task(std::span<const std::byte> input) {
     cells = cells_inside(mesh, request.triangles);
   }
   const auto used = drop_unused_points(points, cells, request.surface_points);
+  const auto first_scaffold =
+      used.begin() + static_cast<std::ptrdiff_t>(request.surface_points + request.interior_points);
   const auto first_added = used.begin() + static_cast<std::ptrdiff_t>(given);
   check_filling(points, cells, request.triangles);
   sort_along_curve(points, cells);
   parallel::Packer packer;
   packer.value(static_cast<std::int64_t>(std::count(first_added, used.end(), 1)));
-  packer.value(static_cast<std::int64_t>(std::count(used.begin(), first_added, 0)));
+  packer.value(static_cast<std::int64_t>(std::count(used.begin(), first_scaffold, 0)));
   packer.array(points);
   packer.array(cells);
   return packer.take();
@@ -146,13 +150,13 @@ std::string describe(const parallel::ContainedResult& result) {
 
 }  // namespace
 
-std::int64_t predict_tetrahedra(std::size_t surface_triangles, std::size_t interior_points) {
-  return 6 * static_cast<std::int64_t>(interior_points) + 2 * static_cast<std::int64_t>(surface_triangles);
+std::int64_t predict_tetrahedra(const FillRequest& request) {
+  return tetrahedra_per_point * static_cast<std::int64_t>(request.interior_points) +
+         tetrahedra_per_triangle * static_cast<std::int64_t>(request.triangles.size());
 }
 
 FillReply fill_contained(const FillRequest& request) {
-  const std::int64_t predicted =
-      predict_tetrahedra(request.triangles.size(), request.points.size() - request.surface_points);
+  const std::int64_t predicted = predict_tetrahedra(request);
   const parallel::ContainedLimits limits{
       base_cpu_seconds + cpu_seconds_per_tetrahedron * static_cast<double>(predicted),
       base_bytes + bytes_per_tetrahedron * predicted};

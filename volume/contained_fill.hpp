@@ -15,8 +15,8 @@ namespace aeroloom::volume {
 
 /// What one try is given.
 struct FillRequest {
-  std::vector<geometry::Vec3> points;  ///< of the surface, then interior ones
-  std::size_t surface_points = 0;
+  std::vector<geometry::Vec3> points;  ///< of the surface, interior ones, then a scaffold outside
+  std::size_t surface_points = 0, interior_points = 0;
   std::vector<Triangle> triangles;
   InteriorPoints interior = InteriorPoints::at_once;
   VolumeOptions::Sabotage sabotage = VolumeOptions::Sabotage::none;
@@ -33,8 +33,9 @@ struct FillReply {
 /// caller.
 FillReply fill_contained(const FillRequest& request);
 
-/// Tetrahedra to expect of a surface and interior points: six per point of a body-centred lattice, and the
-/// layer next to the boundary.
-std::int64_t predict_tetrahedra(std::size_t surface_triangles, std::size_t interior_points);
+/// Tetrahedra around a lattice point, and next to the boundary, per triangle.
+inline constexpr std::int64_t tetrahedra_per_point = 6, tetrahedra_per_triangle = 2;
+/// Tetrahedra to expect.
+std::int64_t predict_tetrahedra(const FillRequest& request);
 
 }  // namespace aeroloom::volume

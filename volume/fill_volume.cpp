@@ -47,16 +47,24 @@ void refuse_above(const VolumeOptions& options, std::int64_t predicted) {
 FillRequest prepare(const ClosedSurface& surface, const BoundaryDistance& boundary,
                     const sizing::SizeField& field, const VolumeOptions& options, int attempt) {
   const Rung& rung = ladder[attempt];
-  FillRequest request{surface.points, surface.points.size(), surface.triangles, rung.interior,
-                      options.sabotage};
+  FillRequest request;
+  request.points = surface.points;
+  request.surface_points = surface.points.size();
+  request.triangles = surface.triangles;
+  request.interior = rung.interior;
+  request.sabotage = options.sabotage;
   if (rung.lattice) {
-    const auto lattice = body_centred_lattice(boundary, field,
-                                              {rung.clearance_factor * options.lattice_clearance,
-                                               options.perturbation, attempt, options.largest_piece / 6 + 1});
-    request.points.insert(request.points.end(), lattice.begin(), lattice.end());
+    const auto lattice =
+        body_centred_lattice(boundary, field,
+                             {rung.clearance_factor * options.lattice_clearance, options.perturbation,
+                              attempt, options.largest_piece / tetrahedra_per_point + 1});
+    request.interior_points = lattice.points.size();
+    request.points.insert(request.points.end(), lattice.points.begin(), lattice.points.end());
+    if (rung.interior == InteriorPoints::at_once) {
+      request.points.insert(request.points.end(), lattice.scaffold.begin(), lattice.scaffold.end());
+    }
   }
-  refuse_above(options,
-               predict_tetrahedra(request.triangles.size(), request.points.size() - request.surface_points));
+  refuse_above(options, predict_tetrahedra(request));
   return request;
 }
 

@@ -2,6 +2,7 @@
 
 #include "volume/volume_mesher.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -19,6 +20,8 @@ constexpr double mean_edge_of_cell = (6.0 + 8.0 * 0.5 * std::numbers::sqrt3) / 1
 /// The size of boundary triangles counts in the clearance as far as it is within these bounds, in local
 /// sizes.
 constexpr double smallest_edge = 0.3, largest_edge = 1.5;
+/// Balls without boundary the walk remembers.
+constexpr std::size_t remembered_balls = 32;
 /// Samples of the field that choose the scale of the lattice.
 constexpr std::int64_t scale_samples = 4096;
 /// Trilinear interpolation may be steeper than the growth limit by this factor.
@@ -59,7 +62,7 @@ public:
         _coarsest_edge(reference_size(field) / mean_edge_of_cell),
         _slope(slope_margin * std::log(field.options().growth)) {}
 
-  std::vector<Vec3> run() {
+  Lattice run() {
     const Box& box = _boundary.box();
     double reach = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -70,7 +73,7 @@ public:
     for (int octant = 0; octant < 8; ++octant) {
       visit({level, {(octant & 1) - 1, (octant >> 1 & 1) - 1, (octant >> 2) - 1}}, {});
     }
-    return std::move(_points);
+    return std::move(_lattice);
   }
 
 private:
@@ -100,15 +103,16 @@ private:
         _anchor + edge * Vec3{double(cell.index[0]), double(cell.index[1]), double(cell.index[2])};
     const Vec3 center = low + Vec3{0.5 * edge, 0.5 * edge, 0.5 * edge};
     if (!_boundary.box().overlaps({low, low + Vec3{edge, edge, edge}})) return;
-    const double size = _field(center);
-    const double variation = _slope * half_diagonal;
-    if (!around.clear && !explore(center, half_diagonal, size + variation, around)) return;
-    if (edge * mean_edge_of_cell <= std::numbers::sqrt2 * (size + variation)) {
+    const double size = _field(center), variation = _slope * half_diagonal;
+    const double smallest = std::max(size - variation, _field.minimum()), largest = size + variation;
+    const bool has_children = edge * mean_edge_of_cell > std::numbers::sqrt2 * smallest;
+    // A cell without children has two points at most, which is no more work than to explore it.
+    if (has_children && !around.clear && !explore(center, half_diagonal, largest, around)) return;
+    if (edge * mean_edge_of_cell <= std::numbers::sqrt2 * largest) {
       offer(low, cell, 0, _field(low), around);
       offer(center, cell, 1, size, around);
     }
-    const double smallest = std::max(size - variation, _field.minimum());
-    if (edge * mean_edge_of_cell > std::numbers::sqrt2 * smallest) descend(cell, around);
+    if (has_children) descend(cell, around);
   }
 
   void descend(const CellIndex& cell, const Surroundings& around) {
@@ -121,21 +125,37 @@ private:
   }
 
   /// Looks for the boundary around a cell. False when the cell is wholly outside.
-  bool explore(Vec3 center, double half_diagonal, double largest_size, Surroundings& around) const {
-    const auto nearest = _boundary.nearest(center, around.nearest);
-    around.nearest = nearest.triangle;
-    const double margin = (largest_edge * _options.clearance + _options.perturbation) * largest_size;
-    if (nearest.distance > half_diagonal + margin) {
-      if (!_boundary.inside(center, nearest)) return false;
-      around.clear = true;
+  bool explore(Vec3 center, double half_diagonal, double largest_size, Surroundings& around) {
+    const double range =
+        half_diagonal + (largest_edge * _options.clearance + _options.perturbation) * largest_size;
+    const auto nearest = _boundary.nearest(center, around.nearest, range);
+    if (nearest.triangle >= 0) {
+      around.nearest = nearest.triangle;
+      return true;
     }
-    return true;
+    around.clear = is_inside(center, nearest);
+    return around.clear;
+  }
+
+  /// On which side a point is. No boundary lies in the balls around the points asked about last, so a point
+  /// in such a ball is on its side; the walk goes from neighbour to neighbour, which makes this the rule.
+  bool is_inside(Vec3 p, const BoundaryDistance::Nearest& nearest) {
+    const auto ball = std::find_if(_empty_balls.begin(), _empty_balls.end(), [&](const EmptyBall& b) {
+      return dot(p - b.center, p - b.center) < b.radius * b.radius;
+    });
+    const bool inside = ball != _empty_balls.end() ? ball->inside : _boundary.inside(p, nearest);
+    _empty_balls[_next_ball++ % _empty_balls.size()] = {p, nearest.distance, inside};
+    return inside;
   }
 
   void offer(Vec3 place, const CellIndex& cell, int center, double size, const Surroundings& around) {
     if (!is_wanted(cell.level, size)) return;
     const Vec3 p = place + perturbation(cell, center, size);
-    if (around.clear || is_inside_and_off(p, size, around.nearest)) _points.push_back(p);
+    if (around.clear) {
+      _lattice.points.push_back(p);
+    } else {
+      offer_near_boundary(p, size, around.nearest);
+    }
   }
 
   Vec3 perturbation(const CellIndex& cell, int center, double size) const {
@@ -150,19 +170,24 @@ private:
     return shift;
   }
 
-  bool is_inside_and_off(Vec3 p, double size, std::int32_t guess) const {
+  void offer_near_boundary(Vec3 p, double size, std::int32_t guess) {
     const auto limit = [&](std::int32_t triangle) {
       return _options.clearance *
              std::clamp(_boundary.mean_edge(triangle), smallest_edge * size, largest_edge * size);
     };
-    const auto nearest = _boundary.nearest(p, guess);
-    if (nearest.distance < limit(nearest.triangle)) return false;
     const double largest_limit = _options.clearance * largest_edge * size;
-    if (nearest.distance < largest_limit && _boundary.any_nearer(p, largest_limit, limit)) return false;
-    return _boundary.inside(p, nearest);
+    const auto nearest = _boundary.nearest(p, guess, 1.2 * largest_limit);
+    if (nearest.triangle >= 0 && nearest.distance < limit(nearest.triangle)) return;
+    const bool inside = is_inside(p, nearest), near = nearest.distance < largest_limit;
+    if (near && _boundary.any_nearer(p, largest_limit, limit)) return;
+    if (inside) {
+      _lattice.points.push_back(p);
+    } else if (near && _boundary.box().contains(p)) {
+      _lattice.scaffold.push_back(p);
+    }
   }
 
-  bool full() const { return static_cast<std::int64_t>(_points.size()) > _options.largest_count; }
+  bool full() const { return static_cast<std::int64_t>(_lattice.points.size()) > _options.largest_count; }
 
   const BoundaryDistance& _boundary;
   const sizing::SizeField& _field;
@@ -170,21 +195,28 @@ private:
   Vec3 _anchor;
   double _coarsest_edge;
   double _slope;
-  std::vector<Vec3> _points;
+  /// A ball without boundary in it.
+  struct EmptyBall {
+    Vec3 center;
+    double radius = 0;
+    bool inside = false;
+  };
+  std::array<EmptyBall, remembered_balls> _empty_balls;
+  std::size_t _next_ball = 0;
+  Lattice _lattice;
 };
 
 }  // namespace
 
-std::vector<Vec3> body_centred_lattice(const BoundaryDistance& boundary, const sizing::SizeField& field,
-                                       const LatticeOptions& options) {
+Lattice body_centred_lattice(const BoundaryDistance& boundary, const sizing::SizeField& field,
+                             const LatticeOptions& options) {
   return LatticeWalk(boundary, field, options).run();
 }
 
 std::vector<Vec3> lattice_points(const ClosedSurface& surface, const sizing::SizeField& field,
                                  const VolumeOptions& options) {
   const BoundaryDistance boundary(surface.points, surface.triangles);
-  return body_centred_lattice(boundary, field,
-                              {options.lattice_clearance, options.perturbation, 0, options.largest_piece});
+  return body_centred_lattice(boundary, field, {options.lattice_clearance, options.perturbation}).points;
 }
 
 }  // namespace aeroloom::volume

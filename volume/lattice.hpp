@@ -17,15 +17,22 @@ struct LatticeOptions {
   std::int64_t largest_count = INT64_MAX;  ///< give up above this many points
 };
 
-/// The points inside the boundary, or one more than `largest_count` of them.
+struct Lattice {
+  std::vector<geometry::Vec3> points;  ///< inside the boundary and off it
+  /// Outside of the boundary, close to it. Given to the mesher with the others they shorten the tetrahedra
+  /// that it must first build in voids, where points of the surface alone may all lie on one sphere: the
+  /// slowest case of exact arithmetic. Nothing of them stays in the mesh.
+  std::vector<geometry::Vec3> scaffold;
+};
+
+/// The lattice of one piece; stops at one more than `largest_count` points.
 ///
 /// One octree of cubic cells covers space, anchored at the centre of the field's domain. The corners and
 /// centres of all its cells of one level are a body-centred lattice, and a level's lattice is part of the
 /// next finer one. At a point the level is wanted whose mean edge is nearest to h on a logarithmic scale; a
 /// lattice point enters when it belongs to the level wanted at its own place. So points are a function of
 /// position alone, and never nearer to each other than the finer lattice has them.
-std::vector<geometry::Vec3> body_centred_lattice(const BoundaryDistance& boundary,
-                                                 const sizing::SizeField& field,
-                                                 const LatticeOptions& options);
+Lattice body_centred_lattice(const BoundaryDistance& boundary, const sizing::SizeField& field,
+                             const LatticeOptions& options);
 
 }  // namespace aeroloom::volume

@@ -102,6 +102,7 @@ TEST(FillVolume, fills_a_box_with_a_ball_cut_out) {
   expect_sound(surface, filled);
   EXPECT_EQ(filled.attempts, 1);
   EXPECT_EQ(filled.steiner_points, 0);
+  EXPECT_EQ(filled.dropped_points, 0);
   EXPECT_GT(filled.cpu_seconds, 0);
   EXPECT_GT(filled.child_peak_bytes, 0);
   const Quality quality = quality_of(filled, field);

@@ -14,7 +14,7 @@ using geometry::Vec3;
 
 std::vector<Vec3> lattice(const ClosedSurface& surface, const sizing::SizeField& field,
                           LatticeOptions options = {}) {
-  return body_centred_lattice(BoundaryDistance(surface.points, surface.triangles), field, options);
+  return body_centred_lattice(BoundaryDistance(surface.points, surface.triangles), field, options).points;
 }
 
 bool lies_before(Vec3 a, Vec3 b) {
@@ -44,9 +44,13 @@ TEST(Lattice, stays_inside_and_off_the_boundary) {
   const ClosedSurface surface = surfaces::cube_with_ball(14, 12);
   const auto field = fields::around_unit_sphere(0.08, 0.3);
   const BoundaryDistance boundary(surface.points, surface.triangles);
-  const auto points = body_centred_lattice(boundary, field, {});
-  ASSERT_GT(points.size(), 1000u);
-  for (const Vec3& p : points) {
+  const Lattice lattice = body_centred_lattice(boundary, field, {});
+  ASSERT_GT(lattice.points.size(), 1000u);
+  for (const Vec3& p : lattice.scaffold) {
+    EXPECT_FALSE(boundary.inside(p));
+    EXPECT_LT(norm(p), 1);
+  }
+  for (const Vec3& p : lattice.points) {
     const auto nearest = boundary.nearest(p);
     EXPECT_TRUE(boundary.inside(p));
     EXPECT_GE(nearest.distance, 0.75 * std::min(boundary.mean_edge(nearest.triangle), 0.9 * field(p)));

@@ -37,11 +37,20 @@ INSTANTIATE_TEST_SUITE_P(all, Containment,
                          testing::Values(Sabotage::throws, Sabotage::aborts, Sabotage::hangs,
                                          Sabotage::exhausts_memory));
 
+FillRequest request_without_lattice(const ClosedSurface& surface) {
+  FillRequest request;
+  request.points = surface.points;
+  request.surface_points = surface.points.size();
+  request.triangles = surface.triangles;
+  return request;
+}
+
 TEST(Ladder, inserts_points_after_the_boundary) {
   const ClosedSurface surface = surfaces::cube_with_ball(8, 4);
-  FillRequest request{surface.points, surface.points.size(), surface.triangles,
-                      InteriorPoints::after_recovery, Sabotage::none};
+  FillRequest request = request_without_lattice(surface);
+  request.interior = InteriorPoints::after_recovery;
   const auto lattice = lattice_points(surface, fields::uniform(0.4), {});
+  request.interior_points = lattice.size();
   request.points.insert(request.points.end(), lattice.begin(), lattice.end());
   const FillReply reply = fill_contained(request);
   ASSERT_TRUE(reply.filled) << reply.failure;
@@ -60,17 +69,14 @@ TEST(Ladder, inserts_points_after_the_boundary) {
 }
 
 TEST(Ladder, fills_without_interior_points) {
-  const ClosedSurface surface = surfaces::cube_with_ball(8, 4);
-  const FillReply reply = fill_contained(
-      {surface.points, surface.points.size(), surface.triangles, InteriorPoints::at_once, Sabotage::none});
+  const FillReply reply = fill_contained(request_without_lattice(surfaces::cube_with_ball(8, 4)));
   EXPECT_TRUE(reply.filled) << reply.failure;
 }
 
 TEST(Ladder, reports_what_the_mesher_said) {
   ClosedSurface surface = surfaces::cube({0, 0, 0}, 1, 2);
   surfaces::append(surface, surfaces::cube({0.7, 0.1, 0.2}, 1, 2));
-  const FillReply reply = fill_contained(
-      {surface.points, surface.points.size(), surface.triangles, InteriorPoints::at_once, Sabotage::none});
+  const FillReply reply = fill_contained(request_without_lattice(surface));
   EXPECT_FALSE(reply.filled);
   EXPECT_FALSE(reply.failure.empty());
 }
