@@ -15,7 +15,8 @@ using geometry::Vec3;
 constexpr double spacing = 1.0;
 /// Facets that samples start from: a fillet that turns less than this is seen by its neighbours.
 constexpr double facet_angle = 20 * std::numbers::pi / 180;
-constexpr double facet_deflection = 1e-3;  ///< over the diagonal of the body
+constexpr double facet_deflection = 1e-3;      ///< over the diagonal of the body
+constexpr double far_facet_deflection = 5e-3;  ///< over the diagonal of everything
 /// Bisections of one facet or curve interval, at most: what is still too long then is singular.
 constexpr int deepest_bisection = 40;
 constexpr int first_intervals = 8;  ///< of each smooth part of an edge
@@ -52,10 +53,8 @@ public:
                      ? options.maximum
                      : std::min(options.maximum, options.surface_maximum)) {}
 
-  std::vector<SizeSource> run() {
+  std::vector<SizeSource> run(const geometry::Facets& facets) {
     if (_planar && _largest >= _options.maximum) return {};
-    const geometry::Facets facets =
-        _model.facets(_face, facet_deflection * _model.body_bounds().diagonal(), facet_angle);
     std::vector<FaceSample> nodes;
     nodes.reserve(facets.points.size());
     for (std::size_t i = 0; i < facets.points.size(); ++i)
@@ -183,16 +182,25 @@ std::vector<bool> find_far_field(const geometry::Model& model) {
     flagged = flagged || far[f];
   }
   if (flagged) return far;
-  const double deflection = facet_deflection * model.bounds().diagonal();
   for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
-    far[f] = model.is_planar(f) && lies_on_side(model.facets(f, deflection, facet_angle), model.bounds());
+    far[f] = model.is_planar(f) && lies_on_side(sampling_facets(model, f, true), model.bounds());
   }
   return far;
 }
 
-std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face, bool far_field,
-                                     const SizingOptions& options, const RootCube& root) {
-  return thin_sources(root, FaceSampler(model, face, far_field, options).run());
+geometry::Facets sampling_facets(const geometry::Model& model, geometry::FaceId face, bool far_field) {
+  const double deflection = far_field ? far_facet_deflection * model.bounds().diagonal()
+                                      : facet_deflection * model.body_bounds().diagonal();
+  return model.facets(face, deflection, facet_angle);
+}
+
+std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face,
+                                     const geometry::Facets& facets, bool far_field,
+                                     const SizingOptions& options) {
+  std::vector<SizeSource> sources = FaceSampler(model, face, far_field, options).run(facets);
+  const std::vector<SizeSource> strips = strip_sources(model, facets, options);
+  sources.insert(sources.end(), strips.begin(), strips.end());
+  return sources;
 }
 
 std::vector<SizeSource> edge_sources(const geometry::Model& model, geometry::EdgeId edge, bool far_field,

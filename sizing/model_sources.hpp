@@ -12,14 +12,23 @@ inline constexpr double far_field_angle = 20;
 /// Short edges and narrow faces may ask for sizes down to this part of the minimum.
 inline constexpr double least_part_of_minimum = 0.25;
 
-/// Whether the face bounds the far field: as the model says or, in a model that flags none, a planar face on
+/// Whether each face bounds the far field: as the model says or, in a model that flags none, a planar face on
 /// the box around everything (the side of a wind tunnel).
 std::vector<bool> find_far_field(const geometry::Model& model);
 
-/// Sources that cover the face about as densely as the sizes they ask for: curvature, and surface_maximum off
-/// the far field. None where the face asks for no less than the maximum. Throws CadError.
-std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face, bool far_field,
-                                     const SizingOptions& options, const RootCube& root);
+/// The triangulation of a face that samples and predictions start from.
+geometry::Facets sampling_facets(const geometry::Model& model, geometry::FaceId face, bool far_field);
+
+/// Sources that cover the face about as densely as the sizes they ask for: curvature, surface_maximum off the
+/// far field, and the width where opposite edges come close. Nowhere the maximum or more. Throws CadError.
+std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face,
+                                     const geometry::Facets& facets, bool far_field,
+                                     const SizingOptions& options);
+
+/// The part of face_sources that comes from narrow strips: between two edges of the face that share no
+/// vertex, elements are at most as large as the distance; down to a quarter of the minimum.
+std::vector<SizeSource> strip_sources(const geometry::Model& model, const geometry::Facets& facets,
+                                      const SizingOptions& options);
 
 /// Sources along the edge: its curvature, and its own length at its middle, so that no edge is shorter than
 /// the elements around it; the latter down to a quarter of the minimum.

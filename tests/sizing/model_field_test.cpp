@@ -100,6 +100,20 @@ TEST(ModelField, ShortEdgesAskForTheirLength) {
   EXPECT_NEAR(build(plate, {0.8, 1, 12, 1.3, 0})({2, 2, 0}), 0.2, 1e-6);
 }
 
+TEST(ModelField, NarrowFacesAskForTheirWidth) {
+  geometry::PrimitiveDimensions dimensions;
+  dimensions.box = {4, 4, 0.05};
+  const SizeField field = build(make_primitive_domain(PrimitiveKind::box, dimensions), {0.04, 1, 12, 1.3, 0});
+  for (double x = -2; x <= 2; x += 0.01) EXPECT_NEAR(field({x, 2, 0.025}), 0.05, 1e-6);
+  EXPECT_GT(field({0, 0, 0.025}), 0.3);
+  // A disc with opposite edges far apart is not narrow.
+  dimensions.radius = 1;
+  dimensions.height = 2;
+  const SizeField round =
+      build(make_primitive_domain(PrimitiveKind::cylinder, dimensions), {0.01, 0.5, 60, 1.3, 0});
+  EXPECT_NEAR(round({1, 0, 0}), 0.5, 1e-6);
+}
+
 TEST(ModelField, IsTheSameForAnyRankCount) {
   const SizingOptions options{0.01, 1, 12, 1.3, 0.3};
   for (const PrimitiveKind kind :

@@ -1,0 +1,62 @@
+#include "sizing/model_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::sizing {
+namespace {
+
+// What the preset fixes; one length, the size on the body, follows from the target.
+constexpr double preset_curvature_angle = 15;
+constexpr double preset_growth = 1.3;
+constexpr double body_size_over_minimum = 10;
+constexpr double domain_over_maximum = 20;  // diagonal of everything
+constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
+constexpr double body_over_finest = 5000;
+constexpr int most_rounds = 8;
+constexpr double close_enough = 0.04;  // of the target
+
+SizingOptions sizes_for(double body_size, double maximum) {
+  SizingOptions options;
+  options.maximum = std::max(maximum, body_size);
+  options.surface_maximum = body_size;
+  options.minimum = body_size / body_size_over_minimum;
+  options.curvature_angle = preset_curvature_angle;
+  options.growth = preset_growth;
+  return options;
+}
+
+double largest_extent(const geometry::Box& box) {
+  return std::max({box.size().x, box.size().y, box.size().z});
+}
+
+}  // namespace
+
+SizingOptions choose_sizes(const parallel::Communicator& communicator, const geometry::Model& model,
+                           double target_tetrahedra, parallel::StageClock& clock) {
+  if (!(target_tetrahedra >= 1)) {
+    throw std::invalid_argument(
+        fmt::format("sizing: the target must be at least 1 tetrahedron, but it is {}", target_tetrahedra));
+  }
+  const ModelSampler sampler(communicator, model, clock);
+  const double maximum = model.bounds().diagonal() / domain_over_maximum,
+               extent = largest_extent(sampler.body_box());
+  const double target = std::log(target_tetrahedra);
+  double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
+  double size = std::log(extent / 60), best_error = 1e300, best = size;
+  for (int round = 0; round < most_rounds && best_error > close_enough; ++round) {
+    const SizeField field = sampler.build_field(sizes_for(std::exp(size), maximum));
+    const double error = std::log(std::max(sampler.predict(field).tetrahedra, 1.0)) - target;
+    if (std::abs(error) < best_error) best_error = std::abs(error), best = size;
+    (error > 0 ? finest : coarsest) = size;
+    // Counts fall about with the second power of the size: the surface rules.
+    size += 0.5 * error;
+    if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
+  }
+  return sizes_for(std::exp(best), maximum);
+}
+
+}  // namespace aeroloom::sizing

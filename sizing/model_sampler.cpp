@@ -1,0 +1,125 @@
+#include "sizing/model_sampler.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/schedule.hpp"
+#include "sizing/field_builder.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::FaceId;
+using parallel::ScopedCpu;
+
+/// Areas of all faces, each measured by one rank.
+std::vector<double> measure_faces(const parallel::Communicator& communicator, const geometry::Model& model) {
+  std::vector<double> mine, areas(model.face_count());
+  parallel::agree(communicator, [&] {
+    for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
+      mine.push_back(model.face_area(f));
+    }
+  });
+  const std::vector<double> all = communicator.all_gather_items<double>(mine);
+  std::size_t next = 0;
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    for (FaceId f = rank; f < model.face_count(); f += communicator.size()) areas[f] = all[next++];
+  }
+  return areas;
+}
+
+/// What sampling a face costs: a share for each face, and its share of the body's area.
+std::vector<double> predict_sampling_loads(const std::vector<bool>& far_field,
+                                           const std::vector<double>& areas) {
+  double body_area = 0;
+  for (std::size_t f = 0; f < areas.size(); ++f) body_area += far_field[f] ? 0 : areas[f];
+  std::vector<double> loads(areas.size(), 1);
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    if (!far_field[f] && body_area > 0)
+      loads[f] += 100 * static_cast<double>(areas.size()) * areas[f] / body_area;
+  }
+  return loads;
+}
+
+bool only_far_field(const geometry::Edge& edge, const std::vector<bool>& far_field) {
+  return std::all_of(edge.faces.begin(), edge.faces.end(), [&](FaceId f) { return far_field[f]; });
+}
+
+struct FaceTriangle {
+  FaceId face;
+  Triangle corners;
+};
+
+}  // namespace
+
+ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
+                           parallel::StageClock& clock)
+    : _communicator(communicator),
+      _model(model),
+      _clock(clock),
+      _root(model.bounds()),
+      _areas(measure_faces(communicator, model)) {
+  parallel::agree(communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    _far_field = find_far_field(model);
+    const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
+    const auto owners = parallel::assign_largest_first(loads, communicator.size());
+    _faces = parallel::tasks_of_rank(owners, loads, communicator.rank());
+    std::sort(_faces.begin(), _faces.end());
+    for (const FaceId f : _faces) _facets.push_back(sampling_facets(model, f, _far_field[f]));
+  });
+  gather_triangles();
+}
+
+void ModelSampler::gather_triangles() {
+  std::vector<FaceTriangle> mine;
+  for (std::size_t i = 0; i < _faces.size(); ++i) {
+    if (_model.face(_faces[i]).back != geometry::no_entity && !_far_field[_faces[i]]) continue;
+    const auto& points = _facets[i].points;
+    for (const auto& t : _facets[i].triangles)
+      mine.push_back({_faces[i], {points[t[0]], points[t[1]], points[t[2]]}});
+  }
+  std::vector<FaceTriangle> all = _communicator.all_gather_items<FaceTriangle>(mine);
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
+  for (const FaceTriangle& t : all) {
+    if (!_far_field[t.face]) {
+      for (const geometry::Vec3 p : t.corners) _body_box.add(p);
+    }
+    if (_model.face(t.face).back == geometry::no_entity) _boundary.push_back(t.corners);
+  }
+  if (_body_box.empty()) _body_box = _model.bounds();
+}
+
+std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options) const {
+  std::vector<SizeSource> mine;
+  const auto keep = [&](const std::vector<SizeSource>& more) {
+    mine.insert(mine.end(), more.begin(), more.end());
+  };
+  for (std::size_t i = 0; i < _faces.size(); ++i) {
+    keep(thin_sources(_root, face_sources(_model, _faces[i], _facets[i], _far_field[_faces[i]], options)));
+  }
+  for (geometry::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
+    keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), options));
+  }
+  return mine;
+}
+
+SizeField ModelSampler::build_field(const SizingOptions& options) const {
+  check_options(options);
+  std::vector<SizeSource> mine;
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    mine = sample(options);
+  });
+  const std::vector<SizeSource> all = _communicator.all_gather_items<SizeSource>(mine);
+  ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+  return FieldBuilder(_model.bounds(), options).build(all);
+}
+
+SizeField build_size_field(const parallel::Communicator& communicator, const geometry::Model& model,
+                           const SizingOptions& options, parallel::StageClock& clock) {
+  check_options(options);
+  return ModelSampler(communicator, model, clock).build_field(options);
+}
+
+}  // namespace aeroloom::sizing

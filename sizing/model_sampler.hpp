@@ -1,0 +1,47 @@
+/// A model dealt to the ranks for sampling: what does not depend on sizes is done once.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+#include "sizing/model_sources.hpp"
+#include "sizing/triangle_tree.hpp"
+
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// Faces are dealt to ranks by area, edges one by one; each rank triangulates its faces. Whatever comes out
+/// is the same for any number of ranks.
+class ModelSampler {
+public:
+  /// Collective. Throws parallel::CollectiveError where the CAD library fails on a face.
+  ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
+               parallel::StageClock& clock);
+
+  /// The field under these options. Collective.
+  SizeField build_field(const SizingOptions& options) const;
+  /// As predict_counts. Collective.
+  PredictedCounts predict(const SizeField& field) const;
+
+  /// The box of all faces that are not far field; of everything where there are none.
+  const geometry::Box& body_box() const { return _body_box; }
+
+private:
+  void gather_triangles();
+  std::vector<SizeSource> sample(const SizingOptions& options) const;
+  double count_triangles(const SizeField& field) const;
+  double count_tetrahedra(const SizeField& field) const;
+
+  parallel::Communicator _communicator;
+  const geometry::Model& _model;
+  parallel::StageClock& _clock;
+  RootCube _root;
+  std::vector<bool> _far_field;
+  std::vector<double> _areas;
+  std::vector<geometry::FaceId> _faces;   // of this rank, ascending
+  std::vector<geometry::Facets> _facets;  // of those
+  std::vector<Triangle> _boundary;        // facets of all faces that bound the domain, in the order of faces
+  geometry::Box _body_box;
+};
+
+}  // namespace aeroloom::sizing

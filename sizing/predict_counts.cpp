@@ -1,0 +1,176 @@
+#include "sizing/model_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double triangles_per_area = 4 / std::numbers::sqrt3;     // times 1/h^2
+constexpr double tetrahedra_per_volume = 6 * std::numbers::sqrt2;  // times 1/h^3
+constexpr double facet_per_size = 3;  // edge of a part of a facet that one value of h stands for
+constexpr double cell_per_size = 1;   // edge of a cube on the boundary whose eighths count by their centres
+constexpr int deepest_bisection = 40;
+constexpr int deepest_subdivision = 8;
+constexpr std::size_t many_facets = 64;  // in a cube: sides are then told by rays
+constexpr std::int64_t leaves_per_task = 1024;
+
+/// Integral of 1/h^2 over one facet.
+double integrate(const SizeField& field, const Triangle& t, int depth) {
+  int longest = 0;
+  double length = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double edge = distance(t[i], t[(i + 1) % 3]);
+    if (edge > length) length = edge, longest = i;
+  }
+  const double h = field((t[0] + t[1] + t[2]) / 3.0);
+  if (length <= facet_per_size * h || depth >= deepest_bisection) {
+    return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0])) / (h * h);
+  }
+  const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
+  return integrate(field, {a, middle, c}, depth + 1) + integrate(field, {middle, b, c}, depth + 1);
+}
+
+/// Whether the leaves share a piece of a face.
+bool share_face(const SizeField::Leaf& a, const SizeField::Leaf& b) {
+  int overlapping = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gap =
+        std::max(a.low[axis], b.low[axis]) - std::min(a.low[axis] + a.edge, b.low[axis] + b.edge);
+    if (gap > 1e-6 * std::min(a.edge, b.edge)) return false;
+    overlapping += gap < -0.5 * std::min(a.edge, b.edge);
+  }
+  return overlapping >= 2;
+}
+
+/// Integral of 1/h^3 over the part of leaves that lies inside the boundary.
+class VolumeIntegral {
+public:
+  VolumeIntegral(const SizeField& field, const TriangleTree& boundary) : _field(field), _boundary(boundary) {}
+
+  double over_leaves(std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    bool follows = false,
+         inside = false;  // whether the leaf before is clear of the boundary, and on which side
+    for (std::int64_t i = first; i < last; ++i) {
+      const SizeField::Leaf leaf = _field.leaf(i);
+      const std::vector<std::int32_t> touching = find_touching(leaf.low, leaf.edge);
+      if (!touching.empty()) {
+        sum += over_cut_cube(leaf.low, leaf.edge, touching, 0);
+        follows = false;
+        continue;
+      }
+      if (!follows || !share_face(_field.leaf(i - 1), leaf)) {
+        inside = _boundary.contains(leaf.low + 0.5 * leaf.edge * Vec3{1, 1, 1});
+      }
+      follows = true;
+      if (inside) sum += cube(leaf.edge / leaf.size);
+    }
+    return sum;
+  }
+
+private:
+  static double cube(double x) { return x * x * x; }
+
+  /// Facets in the closed cube: a side of the domain may coincide with sides of leaves.
+  std::vector<std::int32_t> find_touching(Vec3 low, double edge) const {
+    std::vector<std::int32_t> found;
+    const double margin = 1e-9 * edge;
+    _boundary.find_overlapping(low - margin * Vec3{1, 1, 1}, edge + 2 * margin, found);
+    return found;
+  }
+
+  bool is_inside(Vec3 point, const std::vector<std::int32_t>& touching) const {
+    const bool by_rays = touching.empty() || touching.size() > many_facets;
+    return by_rays ? _boundary.contains(point) : _boundary.is_behind(point, touching);
+  }
+
+  /// A cube that the boundary passes, eighth by eighth.
+  double over_cut_cube(Vec3 low, double edge, const std::vector<std::int32_t>& touching, int depth) const {
+    const bool small =
+        edge <= cell_per_size * _field(low + 0.5 * edge * Vec3{1, 1, 1}) || depth >= deepest_subdivision;
+    const double half = 0.5 * edge;
+    double sum = 0;
+    for (int child = 0; child < 8; ++child) {
+      const Vec3 child_low = low + half * Vec3{double(child & 1), double(child >> 1 & 1), double(child >> 2)};
+      const Vec3 center = child_low + 0.5 * half * Vec3{1, 1, 1};
+      const std::vector<std::int32_t> own =
+          small ? std::vector<std::int32_t>{} : find_touching(child_low, half);
+      const std::vector<std::int32_t>& inner = small ? touching : own;
+      if (!small && !inner.empty()) {
+        sum += over_cut_cube(child_low, half, inner, depth + 1);
+      } else if (is_inside(center, inner)) {
+        sum += cube(half / _field(center));
+      }
+    }
+    return sum;
+  }
+
+  const SizeField& _field;
+  const TriangleTree& _boundary;
+};
+
+}  // namespace
+
+double ModelSampler::count_triangles(const SizeField& field) const {
+  struct FaceCount {
+    geometry::FaceId face;
+    double count;
+  };
+  std::vector<FaceCount> mine;
+  const double start = parallel::cpu_seconds();
+  for (std::size_t i = 0; i < _faces.size(); ++i) {
+    double sum = 0, area = 0;
+    const auto& points = _facets[i].points;
+    for (const auto& t : _facets[i].triangles) {
+      const Triangle corners{points[t[0]], points[t[1]], points[t[2]]};
+      area += 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
+      sum += integrate(field, corners, 0);
+    }
+    // Facets cut corners: the exact area makes up for it.
+    if (area > 0) mine.push_back({_faces[i], triangles_per_area * sum * _areas[_faces[i]] / area});
+  }
+  _clock.add_task_cpu(parallel::cpu_seconds() - start);
+  std::vector<FaceCount> all = _communicator.all_gather_items<FaceCount>(mine);
+  std::sort(all.begin(), all.end(), [](const FaceCount& a, const FaceCount& b) { return a.face < b.face; });
+  double total = 0;
+  for (const FaceCount& face : all) total += face.count;
+  return total;
+}
+
+double ModelSampler::count_tetrahedra(const SizeField& field) const {
+  const double start = parallel::cpu_seconds();
+  const TriangleTree boundary(_boundary);
+  VolumeIntegral integral(field, boundary);
+  const std::int64_t tasks = (field.leaf_count() + leaves_per_task - 1) / leaves_per_task;
+  std::vector<double> mine;
+  for (std::int64_t task = _communicator.rank(); task < tasks; task += _communicator.size()) {
+    const std::int64_t first = task * leaves_per_task;
+    mine.push_back(integral.over_leaves(first, std::min(first + leaves_per_task, field.leaf_count())));
+  }
+  _clock.add_task_cpu(parallel::cpu_seconds() - start);
+  const std::vector<double> all = _communicator.all_gather_items<double>(mine);
+  // Summed in the order of tasks, whatever the number of ranks.
+  std::vector<double> sums(tasks);
+  std::size_t next = 0;
+  for (int rank = 0; rank < _communicator.size(); ++rank) {
+    for (std::int64_t task = rank; task < tasks; task += _communicator.size()) sums[task] = all[next++];
+  }
+  double total = 0;
+  for (const double sum : sums) total += sum;
+  return tetrahedra_per_volume * total;
+}
+
+PredictedCounts ModelSampler::predict(const SizeField& field) const {
+  return {count_triangles(field), count_tetrahedra(field)};
+}
+
+PredictedCounts predict_counts(const parallel::Communicator& communicator, const geometry::Model& model,
+                               const SizeField& field, parallel::StageClock& clock) {
+  return ModelSampler(communicator, model, clock).predict(field);
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,113 @@
+// Narrow faces: where two edges of a face come closer than its elements are large.
+#include "sizing/model_sources.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Facets;
+using geometry::Vec3;
+
+constexpr int deepest_bisection = 40;
+
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double square = dot(along, along);
+  const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
+  return distance(p, a + t * along);
+}
+
+/// The boundary lines of one face, which of them lie opposite each other, and how far apart.
+class Strips {
+public:
+  Strips(const geometry::Model& model, const Facets& facets, const SizingOptions& options)
+      : _model(model), _facets(facets), _options(options) {}
+
+  std::vector<SizeSource> run() {
+    for (const auto& [from, to] : facing_lines()) {
+      const auto& nodes = _facets.boundary[from].nodes;
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
+        cover(a, width(a, to), b, width(b, to), to, 0);
+      }
+    }
+    return std::move(_sources);
+  }
+
+private:
+  /// Pairs of lines without a common vertex that some facet joins, in both orders.
+  std::set<std::pair<int, int>> facing_lines() const {
+    std::vector<std::vector<int>> lines_of(_facets.points.size());
+    for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
+      for (const std::int32_t node : _facets.boundary[line].nodes)
+        lines_of[node].push_back(static_cast<int>(line));
+    }
+    std::set<std::pair<int, int>> pairs;
+    for (const auto& t : _facets.triangles) {
+      for (int i = 0; i < 3; ++i) {
+        for (const int a : lines_of[t[i]]) {
+          for (const int b : lines_of[t[(i + 1) % 3]]) {
+            if (a != b && !share_vertex(a, b)) pairs.insert({a, b}), pairs.insert({b, a});
+          }
+        }
+      }
+    }
+    return pairs;
+  }
+
+  bool share_vertex(int a, int b) const {
+    const auto& edge_a = _model.edge(_facets.boundary[a].use.edge);
+    const auto& edge_b = _model.edge(_facets.boundary[b].use.edge);
+    return edge_a.first == edge_b.first || edge_a.first == edge_b.last || edge_a.last == edge_b.first ||
+           edge_a.last == edge_b.last;
+  }
+
+  double width(Vec3 p, int line) const {
+    const auto& nodes = _facets.boundary[line].nodes;
+    double nearest = _options.maximum;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      nearest =
+          std::min(nearest, distance_to_segment(p, _facets.points[nodes[i]], _facets.points[nodes[i + 1]]));
+    }
+    return nearest;
+  }
+
+  double size_of(double width) const { return std::max(width, least_part_of_minimum * _options.minimum); }
+
+  void cover(Vec3 a, double width_a, Vec3 b, double width_b, int line, int depth) {
+    const double length = distance(a, b);
+    // Widths change no faster than the place: on the whole segment they are at least this.
+    const double least = 0.5 * (width_a + width_b - length);
+    if (least >= _options.maximum || depth >= deepest_bisection) return;
+    if (length <= size_of(std::min(width_a, width_b))) {
+      add(a, width_a);
+      add(b, width_b);
+      return;
+    }
+    const Vec3 middle = 0.5 * (a + b);
+    const double width_middle = width(middle, line);
+    cover(a, width_a, middle, width_middle, line, depth + 1);
+    cover(middle, width_middle, b, width_b, line, depth + 1);
+  }
+
+  void add(Vec3 point, double width) {
+    if (width < _options.maximum) _sources.push_back({point, size_of(width)});
+  }
+
+  const geometry::Model& _model;
+  const Facets& _facets;
+  const SizingOptions& _options;
+  std::vector<SizeSource> _sources;
+};
+
+}  // namespace
+
+std::vector<SizeSource> strip_sources(const geometry::Model& model, const Facets& facets,
+                                      const SizingOptions& options) {
+  return Strips(model, facets, options).run();
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,173 @@
+#include "sizing/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Box;
+using geometry::Vec3;
+
+constexpr std::int32_t triangles_per_leaf = 4;
+
+Vec3 centroid(const Triangle& t) {
+  return (t[0] + t[1] + t[2]) / 3.0;
+}
+
+Box box_of(const Triangle& t) {
+  Box box;
+  for (const Vec3 p : t) box.add(p);
+  return box;
+}
+
+/// Whether the plane of the triangle passes through the open cube.
+bool plane_cuts(const Triangle& t, Vec3 center, double half_edge) {
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const double reach = half_edge * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+  return std::abs(dot(normal, center - t[0])) < reach;
+}
+
+bool boxes_overlap_inside(const Box& box, Vec3 low, double edge) {
+  return box.low.x < low.x + edge && box.high.x > low.x && box.low.y < low.y + edge && box.high.y > low.y &&
+         box.low.z < low.z + edge && box.high.z > low.z;
+}
+
+/// Whether the ray meets the box (slabs).
+bool ray_meets(const Box& box, Vec3 point, Vec3 inverse) {
+  double enter = 0, leave = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (box.low[axis] - point[axis]) * inverse[axis],
+                 b = (box.high[axis] - point[axis]) * inverse[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
+/// Whether the ray crosses the triangle (Moeller and Trumbore, J. Graphics Tools 2, 1997,
+/// doi:10.1080/10867651.1997.10487468).
+bool ray_crosses(const Triangle& t, Vec3 point, Vec3 direction) {
+  const Vec3 edge1 = t[1] - t[0], edge2 = t[2] - t[0], p = cross(direction, edge2);
+  const double determinant = dot(edge1, p);
+  if (determinant == 0) return false;
+  const Vec3 s = point - t[0], q = cross(s, edge1);
+  const double u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 && dot(edge2, q) / determinant > 0;
+}
+
+double squared_distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double square = dot(along, along);
+  const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
+  const Vec3 d = p - a - t * along;
+  return dot(d, d);
+}
+
+double squared_distance(Vec3 p, const Triangle& t) {
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const double square = dot(normal, normal);
+  bool inside = square > 0;
+  for (int i = 0; i < 3 && inside; ++i) inside = dot(cross(t[(i + 1) % 3] - t[i], p - t[i]), normal) >= 0;
+  if (inside) {
+    const double height = dot(normal, p - t[0]);
+    return height * height / square;
+  }
+  return std::min({squared_distance_to_segment(p, t[0], t[1]), squared_distance_to_segment(p, t[1], t[2]),
+                   squared_distance_to_segment(p, t[2], t[0])});
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(std::vector<Triangle> triangles) : _triangles(std::move(triangles)) {
+  _nodes.push_back({});
+  split(0, 0, static_cast<std::int32_t>(_triangles.size()));
+}
+
+void TriangleTree::split(std::int32_t node, std::int32_t first, std::int32_t last) {
+  Box box, centers;
+  for (std::int32_t i = first; i < last; ++i) {
+    box.add(box_of(_triangles[i]));
+    centers.add(centroid(_triangles[i]));
+  }
+  if (last - first <= triangles_per_leaf) {
+    _nodes[node] = {box, first, last - first};
+    return;
+  }
+  const Vec3 size = centers.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const std::int32_t middle = (first + last) / 2;
+  std::nth_element(
+      _triangles.begin() + first, _triangles.begin() + middle, _triangles.begin() + last,
+      [&](const Triangle& a, const Triangle& b) { return centroid(a)[axis] < centroid(b)[axis]; });
+  const auto child = static_cast<std::int32_t>(_nodes.size());
+  _nodes[node] = {box, child, 0};
+  _nodes.resize(_nodes.size() + 2);
+  split(child, first, middle);
+  split(child + 1, middle, last);
+}
+
+void TriangleTree::find_overlapping(Vec3 low, double edge, std::vector<std::int32_t>& found) const {
+  found.clear();
+  const Vec3 center = low + 0.5 * edge * Vec3{1, 1, 1};
+  std::array<std::int32_t, 128> stack{};
+  for (int depth = 1; depth > 0;) {
+    const Node& node = _nodes[stack[--depth]];
+    if (!boxes_overlap_inside(node.box, low, edge)) continue;
+    if (node.count == 0 && !_triangles.empty()) {
+      stack[depth++] = node.first;
+      stack[depth++] = node.first + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      if (boxes_overlap_inside(box_of(_triangles[i]), low, edge) &&
+          plane_cuts(_triangles[i], center, 0.5 * edge)) {
+        found.push_back(i);
+      }
+    }
+  }
+}
+
+bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {
+  const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
+  std::array<std::int32_t, 128> stack{};
+  bool odd = false;
+  for (int depth = 1; depth > 0;) {
+    const Node& node = _nodes[stack[--depth]];
+    if (!ray_meets(node.box, point, inverse)) continue;
+    if (node.count == 0 && !_triangles.empty()) {
+      stack[depth++] = node.first;
+      stack[depth++] = node.first + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      if (ray_crosses(_triangles[i], point, direction)) odd = !odd;
+    }
+  }
+  return odd;
+}
+
+bool TriangleTree::contains(Vec3 point) const {
+  // No direction is likely to run along facets.
+  const int votes = int{odd_crossings(point, {0.8191, 0.4271, 0.3829})} +
+                    int{odd_crossings(point, {-0.3137, 0.7873, -0.5308})} +
+                    int{odd_crossings(point, {0.2719, -0.6133, -0.7416})};
+  return votes >= 2;
+}
+
+bool TriangleTree::is_behind(Vec3 point, std::span<const std::int32_t> triangles) const {
+  double nearest = 1e300, side = 0;
+  for (const std::int32_t i : triangles) {
+    const Triangle& t = _triangles[i];
+    const double square = squared_distance(point, t);
+    const Vec3 normal = geometry::normalized(cross(t[1] - t[0], t[2] - t[0]));
+    const double height = dot(normal, point - t[0]);
+    // Where two facets meet at the nearest place, the one seen more directly tells the side.
+    const bool tie = square <= nearest * (1 + 1e-9) && square >= nearest * (1 - 1e-9);
+    if (tie ? std::abs(height) > std::abs(side) : square < nearest) side = height;
+    nearest = std::min(nearest, square);
+  }
+  return side < 0;
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,111 @@
+#include "geometry/primitives.hpp"
+#include "parallel/collective_error.hpp"
+#include "sizing/size_field.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+using namespace aeroloom;
+using geometry::Model;
+using geometry::PrimitiveDimensions;
+using geometry::PrimitiveKind;
+using sizing::PredictedCounts;
+using sizing::SizeField;
+using sizing::SizingOptions;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+PredictedCounts predict(const Model& model, const SizingOptions& options,
+                        const parallel::Communicator& communicator = parallel::Communicator::world()) {
+  parallel::StageClock clock;
+  const SizeField field = sizing::build_size_field(communicator, model, options, clock);
+  return sizing::predict_counts(communicator, model, field, clock);
+}
+
+/// The prediction for one size everywhere, with the constants of the integrals.
+void expect_uniform(const PredictedCounts& counts, double h, double area, double volume, double tolerance) {
+  const double triangles = 4 / std::sqrt(3.0) * area / (h * h),
+               tetrahedra = 6 * std::sqrt(2.0) * volume / (h * h * h);
+  EXPECT_NEAR(counts.triangles, triangles, tolerance * triangles);
+  EXPECT_NEAR(counts.tetrahedra, tetrahedra, tolerance * tetrahedra);
+}
+
+}  // namespace
+
+TEST(PredictCounts, MatchesUniformSizesInBoxes) {
+  PrimitiveDimensions dimensions;
+  dimensions.box = {3, 2, 1.3};
+  const Model box = make_primitive_domain(PrimitiveKind::box, dimensions);
+  expect_uniform(predict(box, {0.1, 0.1, 12, 1.3, 0}), 0.1, 2 * (3 * 2 + 3 * 1.3 + 2 * 1.3), 3 * 2 * 1.3,
+                 0.02);
+  dimensions.box = {1, 2, 1};
+  const Model aligned = make_primitive_domain(PrimitiveKind::box, dimensions);
+  expect_uniform(predict(aligned, {0.05, 0.05, 12, 1.3, 0}), 0.05, 10, 2, 0.02);
+}
+
+TEST(PredictCounts, MatchesUniformSizesInCurvedDomains) {
+  PrimitiveDimensions dimensions;
+  dimensions.radius = 1;
+  const Model sphere = make_primitive_domain(PrimitiveKind::sphere, dimensions);
+  expect_uniform(predict(sphere, {0.1, 0.1, 12, 1.3, 0}), 0.1, 4 * pi, 4 * pi / 3, 0.03);
+  dimensions.radius = 0.3;
+  dimensions.major_radius = 1;
+  const Model torus = make_primitive_domain(PrimitiveKind::torus, dimensions);
+  expect_uniform(predict(torus, {0.05, 0.05, 12, 1.3, 0}), 0.05, 4 * pi * pi * 0.3, 2 * pi * pi * 0.09, 0.03);
+}
+
+TEST(PredictCounts, LeavesOutTheBody) {
+  PrimitiveDimensions dimensions;
+  dimensions.box = {2, 2, 2};
+  dimensions.radius = 0.9;
+  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  expect_uniform(predict(model, {0.06, 0.06, 12, 1.3, 0}), 0.06, 24 + 4 * pi * 0.81, 8 - 4 * pi / 3 * 0.729,
+                 0.03);
+}
+
+TEST(PredictCounts, IsTheSameForAnyRankCount) {
+  const Model model = geometry::make_primitive_domain(PrimitiveKind::box_with_sphere);
+  const SizingOptions options{0.01, 0.2, 12, 1.3, 0};
+  const PredictedCounts alone = predict(model, options, parallel::Communicator::self());
+  const PredictedCounts together = predict(model, options);
+  EXPECT_EQ(alone.triangles, together.triangles);
+  EXPECT_EQ(alone.tetrahedra, together.tetrahedra);
+}
+
+TEST(ChooseSizes, HitsTheTarget) {
+  PrimitiveDimensions dimensions;
+  dimensions.box = {20, 20, 20};
+  dimensions.radius = 0.5;
+  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  const auto world = parallel::Communicator::world();
+  for (const double target : {3e4, 2e5}) {
+    parallel::StageClock clock;
+    const SizingOptions options = sizing::choose_sizes(world, model, target, clock);
+    EXPECT_NEAR(predict(model, options).tetrahedra, target, 0.1 * target);
+    EXPECT_GT(options.surface_maximum, options.minimum);
+    EXPECT_LE(options.surface_maximum, options.maximum);
+    EXPECT_EQ(options.minimum, world.maximum(options.minimum));
+    parallel::StageClock own;
+    EXPECT_EQ(options.minimum,
+              sizing::choose_sizes(parallel::Communicator::self(), model, target, own).minimum);
+  }
+}
+
+TEST(ChooseSizes, WorksWithoutFarField) {
+  PrimitiveDimensions dimensions;
+  dimensions.radius = 0.2;
+  const Model torus = make_primitive_domain(PrimitiveKind::torus, dimensions);
+  parallel::StageClock clock;
+  const SizingOptions options = sizing::choose_sizes(parallel::Communicator::world(), torus, 1e5, clock);
+  EXPECT_NEAR(predict(torus, options).tetrahedra, 1e5, 1e4);
+}
+
+TEST(ChooseSizes, RefusesImpossibleTargets) {
+  const Model box = geometry::make_primitive_domain(PrimitiveKind::box);
+  parallel::StageClock clock;
+  EXPECT_THROW(sizing::choose_sizes(parallel::Communicator::world(), box, 0, clock), std::invalid_argument);
+}

@@ -1,0 +1,81 @@
+#include "sizing/triangle_tree.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace aeroloom::sizing;
+using aeroloom::geometry::Vec3;
+
+namespace {
+
+/// The unit sphere by latitude and longitude, outward.
+std::vector<Triangle> sphere(int n) {
+  const auto point = [&](int i, int j) {
+    const double a = std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / (2 * n);
+    return Vec3{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
+  };
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < 2 * n; ++j) {
+      if (i > 0) triangles.push_back({point(i, j), point(i + 1, j), point(i, j + 1)});
+      if (i + 1 < n) triangles.push_back({point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
+    }
+  }
+  return triangles;
+}
+
+Vec3 random_point(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  return {uniform(random), uniform(random), uniform(random)};
+}
+
+}  // namespace
+
+TEST(TriangleTree, TellsInsideFromOutside) {
+  const auto triangles = sphere(30);
+  const TriangleTree tree(triangles);
+  std::vector<std::int32_t> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p = random_point(random);
+    if (std::abs(norm(p) - 1) < 0.01) continue;
+    EXPECT_EQ(tree.contains(p), norm(p) < 1);
+    EXPECT_EQ(tree.is_behind(p, all), norm(p) < 1);
+  }
+}
+
+TEST(TriangleTree, FindsWhatOverlapsACube) {
+  const TriangleTree tree(sphere(30));
+  std::mt19937_64 random(2);
+  std::vector<std::int32_t> found;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 low = random_point(random);
+    const double edge = 0.2;
+    tree.find_overlapping(low, edge, found);
+    double nearest = 1e300, farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const double r =
+          norm(low + edge * Vec3{double(corner & 1), double(corner >> 1 & 1), double(corner >> 2)});
+      nearest = std::min(nearest, r), farthest = std::max(farthest, r);
+    }
+    if (nearest < 0.99 && farthest > 1.01) {
+      EXPECT_FALSE(found.empty());
+    }
+    if (farthest < 0.98 || nearest > 1.3) {
+      EXPECT_TRUE(found.empty());
+    }
+  }
+}
+
+TEST(TriangleTree, EmptyContainsNothing) {
+  const TriangleTree tree({});
+  std::vector<std::int32_t> found;
+  tree.find_overlapping({0, 0, 0}, 1, found);
+  EXPECT_TRUE(found.empty());
+  EXPECT_FALSE(tree.contains({0, 0, 0}));
+}
