@@ -55,8 +55,13 @@ Parts take_apart(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
       TopExp::MapShapes(solids(i), TopAbs_FACE, parts.open_faces);
     }
   }
-  for (TopExp_Explorer each(shape, TopAbs_SHELL, TopAbs_SOLID); each.More(); each.Next())
-    shells.Add(each.Current());
+  // A compound may list the shells and faces of its solids once more.
+  TopTools_IndexedMapOfShape of_solids;
+  for (int i = 1; i <= solids.Extent(); ++i) TopExp::MapShapes(solids(i), TopAbs_FACE, of_solids);
+  for (TopExp_Explorer each(shape, TopAbs_SHELL, TopAbs_SOLID); each.More(); each.Next()) {
+    const TopExp_Explorer first(each.Current(), TopAbs_FACE);
+    if (first.More() && !of_solids.Contains(first.Current())) shells.Add(each.Current());
+  }
   for (int i = 1; i <= shells.Extent(); ++i) {
     const TopoDS_Shell shell = TopoDS::Shell(shells(i));
     if (is_closed(shell)) {

@@ -169,10 +169,9 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
 
 std::string Model::Data::describe_face(FaceId id) const {
   const FaceEvaluator& face = face_evaluators.at(id);
-  const gp_Pnt at =
-      face.surface.Value(0.5 * (face.uv_low.x + face.uv_high.x), 0.5 * (face.uv_low.y + face.uv_high.y));
+  const Vec3 at = face.surface.point(0.5 * (face.uv_low + face.uv_high));
   const std::string& name = static_cast<std::size_t>(id) < faces.size() ? faces[id].name : std::string();
-  return fmt::format("face {} '{}' near ({:.6g}, {:.6g}, {:.6g})", id, name, at.X(), at.Y(), at.Z());
+  return fmt::format("face {} '{}' near ({:.6g}, {:.6g}, {:.6g})", id, name, at.x, at.y, at.z);
 }
 
 }  // namespace aeroloom::geometry

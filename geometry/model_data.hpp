@@ -3,6 +3,7 @@
 
 #include "geometry/model.hpp"
 #include "geometry/named_shape.hpp"
+#include "geometry/surface_evaluator.hpp"
 
 #include <cstddef>
 #include <string>
@@ -10,7 +11,6 @@
 
 #include <Geom2dAdaptor_Curve.hxx>
 #include <GeomAdaptor_Curve.hxx>
-#include <GeomAdaptor_Surface.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
@@ -55,7 +55,7 @@ struct FaceEvaluator {
   TopoDS_Face shape;      ///< oriented forward
   bool reversed = false;  ///< the normal out of the front region is opposite to du x dv
   bool planar = false;
-  GeomAdaptor_Surface surface;
+  SurfaceEvaluator surface;
   ParameterRange u, v;
   Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
   std::vector<UseCurve> uses;  ///< by (edge, use)

@@ -130,15 +130,13 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
-  return to_vec(_data->face_evaluators.at(id).surface.Value(uv.x, uv.y));
+  return _data->face_evaluators.at(id).surface.point(uv);
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
   const FaceEvaluator& face = _data->face_evaluators.at(id);
-  gp_Pnt point;
-  gp_Vec du, dv;
-  face.surface.D1(uv.x, uv.y, point, du, dv);
-  SurfaceFrame frame{to_vec(point), to_vec(du), to_vec(dv), {}};
+  const SurfaceJet jet = face.surface.jet(uv, 1);
+  SurfaceFrame frame{jet.point, jet.du, jet.dv, {}};
   const Vec3 normal = cross(frame.du, frame.dv);
   // Below this the angle between the derivatives is rounding error: the direction would be noise.
   if (norm(normal) > 1e-12 * std::max(dot(frame.du, frame.du), dot(frame.dv, frame.dv))) {
@@ -150,14 +148,13 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {0, 0, true};
-  gp_Pnt point;
-  gp_Vec du, dv, duu, dvv, duv;
-  face.surface.D2(uv.x, uv.y, point, du, dv, duu, dvv, duv);
-  const double e = du.Dot(du), f = du.Dot(dv), g = dv.Dot(dv);
-  const gp_Vec normal = du.Crossed(dv);
-  const double area = normal.Magnitude();
+  const SurfaceJet jet = face.surface.jet(uv, 2);
+  const double e = dot(jet.du, jet.du), f = dot(jet.du, jet.dv), g = dot(jet.dv, jet.dv);
+  const Vec3 normal = cross(jet.du, jet.dv);
+  const double area = norm(normal);
   if (!(area > 1e-12 * std::max(e, g))) return {};
-  const double l = duu.Dot(normal) / area, m = duv.Dot(normal) / area, n = dvv.Dot(normal) / area;
+  const double l = dot(jet.duu, normal) / area, m = dot(jet.duv, normal) / area,
+               n = dot(jet.dvv, normal) / area;
   const double determinant = area * area;
   const double mean = 0.5 * (e * n - 2 * f * m + g * l) / determinant;
   const double gauss = (l * n - m * m) / determinant;

@@ -115,9 +115,9 @@ FaceEvaluator make_evaluator(const TopoDS_Shape& shape, double planar_tolerance)
   face.shape = TopoDS::Face(shape.Oriented(TopAbs_FORWARD));
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.shape);
   if (surface.IsNull()) throw CadError("a face has no surface (a bare triangulation)");
-  face.surface.Load(surface);
+  face.surface = SurfaceEvaluator(surface);
   BRepTools::UVBounds(face.shape, face.uv_low.x, face.uv_high.x, face.uv_low.y, face.uv_high.y);
-  const GeomAdaptor_Surface& s = face.surface;
+  const GeomAdaptor_Surface& s = face.surface.adaptor();
   face.u = parameter_range(s.FirstUParameter(), s.LastUParameter(), s.IsUPeriodic() ? s.UPeriod() : 0,
                            s.IsUClosed(), face.uv_low.x);
   face.v = parameter_range(s.FirstVParameter(), s.LastVParameter(), s.IsVPeriodic() ? s.VPeriod() : 0,
@@ -214,11 +214,15 @@ void add_regions(const Maps& maps, Model::Data& data) {
       if (!bounds_material(faces.Current())) continue;
       const int id = maps.faces.FindIndex(faces.Current()) - 1;
       Face& face = data.faces[id];
+      const bool reversed = faces.Current().Orientation() == TopAbs_REVERSED;
       if (face.front == no_entity) {
         face.front = region - 1;
-        data.face_evaluators[id].reversed = faces.Current().Orientation() == TopAbs_REVERSED;
-      } else {
+        data.face_evaluators[id].reversed = reversed;
+      } else if (face.back == no_entity && reversed != data.face_evaluators[id].reversed) {
         face.back = region - 1;
+      } else {
+        throw CadError(fmt::format("regions {} and {} lie on the same side of {}: the solids overlap",
+                                   face.front, region - 1, data.describe_face(id)));
       }
     }
   }
@@ -265,6 +269,9 @@ void index_topology(Model::Data& data) {
     }
   }
   add_regions(maps, data);
+  for (FaceId id = 0; id < static_cast<FaceId>(data.faces.size()); ++id) {
+    if (data.faces[id].front == no_entity) throw CadError(data.describe_face(id) + " bounds no solid");
+  }
   orient_loops(data);
 }
 

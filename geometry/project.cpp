@@ -8,7 +8,6 @@
 
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <gp_Pnt.hxx>
-#include <gp_Vec.hxx>
 
 namespace aeroloom::geometry {
 namespace {
@@ -19,7 +18,7 @@ constexpr int halvings = 12;
 /// Half the squared distance from the target to the surface, and its derivatives.
 struct Distance {
   Vec2 uv;
-  gp_Pnt point;
+  Vec3 point;
   double value = 0;  // half the squared distance
   Vec2 gradient;
   double huu = 0, huv = 0, hvv = 0;  // Hessian
@@ -29,7 +28,7 @@ struct Distance {
 class Projector {
 public:
   Projector(const FaceEvaluator& face, Vec3 target, double tolerance)
-      : _face(face), _target(target.x, target.y, target.z), _tolerance(tolerance) {}
+      : _face(face), _target(target), _tolerance(tolerance) {}
 
   Projection from(Vec2 guess) const {
     Distance at = evaluate(clamp(guess));
@@ -42,7 +41,7 @@ public:
       }
       converged = !descend(at) && !leave_pole(at);
     }
-    return {wrap(at.uv), {at.point.X(), at.point.Y(), at.point.Z()}, converged};
+    return {wrap(at.uv), at.point, converged};
   }
 
   /// Nearest point of the same sheet around the guess: neither wrapped nor moved to another end.
@@ -53,21 +52,21 @@ public:
     return at.uv;
   }
 
-  double distance(const Projection& found) const {
-    return _target.Distance(gp_Pnt(found.point.x, found.point.y, found.point.z));
-  }
+  double distance(const Projection& found) const { return geometry::distance(_target, found.point); }
 
 private:
   Distance evaluate(Vec2 uv) const {
     Distance at;
     at.uv = uv;
-    gp_Vec du, dv, duu, dvv, duv;
-    _face.surface.D2(uv.x, uv.y, at.point, du, dv, duu, dvv, duv);
-    const gp_Vec offset(_target, at.point);
-    at.value = 0.5 * offset.SquareMagnitude();
-    at.gradient = {offset.Dot(du), offset.Dot(dv)};
-    at.guu = du.SquareMagnitude(), at.guv = du.Dot(dv), at.gvv = dv.SquareMagnitude();
-    at.huu = at.guu + offset.Dot(duu), at.huv = at.guv + offset.Dot(duv), at.hvv = at.gvv + offset.Dot(dvv);
+    const SurfaceJet jet = _face.surface.jet(uv, 2);
+    at.point = jet.point;
+    const Vec3 offset = jet.point - _target;
+    at.value = 0.5 * dot(offset, offset);
+    at.gradient = {dot(offset, jet.du), dot(offset, jet.dv)};
+    at.guu = dot(jet.du, jet.du), at.guv = dot(jet.du, jet.dv), at.gvv = dot(jet.dv, jet.dv);
+    at.huu = at.guu + dot(offset, jet.duu);
+    at.huv = at.guv + dot(offset, jet.duv);
+    at.hvv = at.gvv + dot(offset, jet.dvv);
     return at;
   }
 
@@ -173,20 +172,19 @@ private:
   }
 
   const FaceEvaluator& _face;
-  gp_Pnt _target;
+  Vec3 _target;
   double _tolerance;
 };
 
 Vec2 nearest_sample(const FaceEvaluator& face, Vec3 target) {
   constexpr int samples = 12;
-  const gp_Pnt point(target.x, target.y, target.z);
   Vec2 best;
   double least = std::numeric_limits<double>::max();
   for (int i = 0; i <= samples; ++i) {
     for (int j = 0; j <= samples; ++j) {
       const Vec2 uv{face.uv_low.x + (face.uv_high.x - face.uv_low.x) * i / samples,
                     face.uv_low.y + (face.uv_high.y - face.uv_low.y) * j / samples};
-      const double away = point.SquareDistance(face.surface.Value(uv.x, uv.y));
+      const double away = distance(target, face.surface.point(uv));
       if (away < least) least = away, best = uv;
     }
   }
@@ -196,7 +194,7 @@ Vec2 nearest_sample(const FaceEvaluator& face, Vec3 target) {
 /// The CAD library's global search: slow, for points where Newton's method finds nothing.
 Projection search(const FaceEvaluator& face, Vec3 target, const Projection& best) {
   try {
-    GeomAPI_ProjectPointOnSurf search(gp_Pnt(target.x, target.y, target.z), face.surface.Surface(),
+    GeomAPI_ProjectPointOnSurf search(gp_Pnt(target.x, target.y, target.z), face.surface.adaptor().Surface(),
                                       face.uv_low.x, face.uv_high.x, face.uv_low.y, face.uv_high.y);
     if (search.NbPoints() == 0 || search.LowerDistance() > distance(best.point, target)) return best;
     Projection found;
