@@ -17,6 +17,8 @@ constexpr double spacing = 1.0;
 constexpr double facet_angle = 20 * std::numbers::pi / 180;
 constexpr double facet_deflection = 1e-3;      ///< over the diagonal of the body
 constexpr double far_facet_deflection = 5e-3;  ///< over the diagonal of everything
+/// Distance of a sensible middle of two points from both, at most, over their distance.
+constexpr double farthest_middle = 0.9;
 /// Bisections of one facet or curve interval, at most: what is still too long then is singular.
 constexpr int deepest_bisection = 40;
 constexpr int first_intervals = 8;  ///< of each smooth part of an edge
@@ -74,6 +76,17 @@ private:
     return {uv, point, size};
   }
 
+  FaceSample sample_between(const FaceSample& a, const FaceSample& b, double length) {
+    const Vec2 uv = 0.5 * (a.uv + b.uv);
+    const Vec3 point = _model.face_point(_face, uv);
+    if (std::max(distance(point, a.point), distance(point, b.point)) < farthest_middle * length)
+      return sample(uv, point);
+    // The parameters jump or are singular between the two: follow the facet instead.
+    const FaceSample middle{a.uv, 0.5 * (a.point + b.point), std::min(a.size, b.size)};
+    if (middle.size < _options.maximum) _sources.push_back({middle.point, middle.size});
+    return middle;
+  }
+
   void cover(const std::array<FaceSample, 3>& corners, int depth) {
     int longest = 0;
     double length = 0, size = _largest;
@@ -84,8 +97,7 @@ private:
     }
     if (length <= spacing * size || depth >= deepest_bisection) return;
     const FaceSample &a = corners[longest], &b = corners[(longest + 1) % 3], &c = corners[(longest + 2) % 3];
-    const Vec2 uv = 0.5 * (a.uv + b.uv);
-    const FaceSample middle = sample(uv, _model.face_point(_face, uv));
+    const FaceSample middle = sample_between(a, b, length);
     cover({a, middle, c}, depth + 1);
     cover({middle, b, c}, depth + 1);
   }
