@@ -112,7 +112,6 @@ void add_case_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--set", arguments.overrides,
                   "override a key of the case, as section.key=value; repeatable")
-      ->expected(1)
       ->allow_extra_args(false);
   command.add_flag("-v,--verbose", arguments.verbose, "say more");
   command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");

@@ -26,7 +26,7 @@ class Run:
         case_file.write_text(case)
         self.output = self.folder / "out"
         command = [SOURCE / "scripts" / "mpirun_local.sh", str(ranks), program, "run", case_file]
-        for override in (*overrides, f"output.directory={self.output}"):
+        for override in (f"output.directory={self.output}", *overrides):
             command += ["--set", override]
         start = time.monotonic()
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, cwd=self.folder)
