@@ -1,7 +1,8 @@
 #include "volume/filling.hpp"
 
 #include "geometry/predicates.hpp"
-#include "volume/space_filling_curve.hpp"
+#include "mesh/mixing.hpp"
+#include "sizing/morton.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -32,19 +33,11 @@ SortedTriangle sorted_face(const Cell& cell, int face) {
   return sorted(cell[corner[0]], cell[corner[1]], cell[corner[2]]);
 }
 
-/// Finalizer of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014, doi:10.1145/2660193.2660195).
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
 /// Opposite orientations give opposite values, so the two sides of a face cancel.
 std::uint64_t oriented_hash(const SortedTriangle& face) {
   const auto& v = face.vertices;
-  const auto low = static_cast<std::uint64_t>(v[0]) << 32 | static_cast<std::uint32_t>(v[1]);
-  const std::uint64_t hash = mix(mix(low) ^ static_cast<std::uint64_t>(v[2]));
+  std::uint64_t hash = 0;
+  for (const mesh::LocalIndex vertex : v) hash = mesh::mix_in(hash, static_cast<std::uint64_t>(vertex));
   return face.odd ? 0 - hash : hash;
 }
 
@@ -150,12 +143,18 @@ std::vector<std::uint8_t> drop_unused_points(std::vector<Vec3>& points, std::vec
 void sort_along_curve(std::span<const Vec3> points, std::vector<Cell>& cells) {
   geometry::Box box;
   for (const Vec3& p : points) box.add(p);
-  const SpaceFillingCurve curve(box);
+  const Vec3 size = box.size();
+  const double scale = (sizing::grid_size - 1) / std::max({size.x, size.y, size.z});
+  const auto key = [&](Vec3 p) {
+    const Vec3 q = scale * (p - box.low);
+    return sizing::morton_key(
+        {static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y), static_cast<std::uint32_t>(q.z)});
+  };
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& c = cells[i];
     const Vec3 centroid = 0.25 * (points[c[0]] + points[c[1]] + points[c[2]] + points[c[3]]);
-    order[i] = {curve.key(centroid), static_cast<std::uint32_t>(i)};
+    order[i] = {key(centroid), static_cast<std::uint32_t>(i)};
   }
   std::sort(order.begin(), order.end());
   std::vector<Cell> result(cells.size());

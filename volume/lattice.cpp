@@ -1,5 +1,6 @@
 #include "volume/lattice.hpp"
 
+#include "mesh/mixing.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <algorithm>
@@ -26,13 +27,6 @@ constexpr std::size_t remembered_balls = 32;
 constexpr std::int64_t scale_samples = 4096;
 /// Trilinear interpolation may be steeper than the growth limit by this factor.
 constexpr double slope_margin = std::numbers::sqrt3;
-
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
 
 /// The size the coarsest lattice is scaled to: maximum, or up to half an octave off, so that the levels suit
 /// the sizes at which most of the mesh will have its elements (circular mean of log2 h, weighted by predicted
@@ -159,12 +153,13 @@ private:
   }
 
   Vec3 perturbation(const CellIndex& cell, int center, double size) const {
-    std::uint64_t state = mix(static_cast<std::uint64_t>(_options.variant) << 8 | center);
-    state = mix(state ^ static_cast<std::uint64_t>(cell.level));
-    for (const std::int64_t i : cell.index) state = mix(state ^ static_cast<std::uint64_t>(i));
+    std::uint64_t state =
+        mesh::mix_in(static_cast<std::uint64_t>(_options.variant), static_cast<std::uint64_t>(center));
+    state = mesh::mix_in(state, static_cast<std::uint64_t>(cell.level));
+    for (const std::int64_t i : cell.index) state = mesh::mix_in(state, static_cast<std::uint64_t>(i));
     Vec3 shift;
     for (int axis = 0; axis < 3; ++axis) {
-      state = mix(state);
+      state = mesh::mix_in(state, 0);
       shift[axis] = _options.perturbation * size * (static_cast<double>(state >> 11) * 0x1p-53 - 0.5);
     }
     return shift;

@@ -25,7 +25,7 @@ struct Lattice {
   std::vector<geometry::Vec3> scaffold;
 };
 
-/// The lattice of one piece; stops at one more than `largest_count` points.
+/// The lattice of one piece; stops as soon as it has more than `largest_count` points.
 ///
 /// One octree of cubic cells covers space, anchored at the centre of the field's domain. The corners and
 /// centres of all its cells of one level are a body-centred lattice, and a level's lattice is part of the

@@ -3,7 +3,6 @@
 #define TETLIBRARY
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -60,23 +59,6 @@ std::string explain(int code) {
   }
 }
 
-/// The order of tetrahedralize(), without its pass recoverdelaunay(): after the points were given at once
-/// hardly anything is left to do for it, and it nearly doubles time and memory.
-void fill_at_once(tetgenmesh& mesh) {
-  clock_t unused = 0;
-  mesh.incrementaldelaunay(unused);
-  mesh.meshsurface();
-  mesh.recoverboundary(unused);
-  mesh.carveholes();
-  if (mesh.subvertstack->objects > 0) mesh.suppresssteinerpoints();
-}
-
-void start(tetgenmesh& mesh) {
-  mesh.initializepools();
-  mesh.transfernodes();
-  exactinit(0, 0, 0, mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
-}
-
 /// Numbers the points from 0: the given surface points, `inserted` ones by their place there, and what TetGen
 /// added. Pool slots of removed points are reused, so inserted points are told by their coordinates.
 std::vector<double> number_points(tetgenmesh& mesh, std::size_t first_given,
@@ -131,40 +113,49 @@ void collect_cells(tetgenmesh& mesh, TetgenMesh& result) {
   }
 }
 
-TetgenMesh run_phases(std::span<const double> coordinates, std::size_t surface_points,
-                      std::span<const std::array<mesh::LocalIndex, 3>> triangles, InteriorPoints interior) {
-  const auto split = interior == InteriorPoints::at_once ? coordinates.size() : 3 * surface_points;
-  Input input(coordinates.first(split), triangles);
-  const auto later = coordinates.subspan(split);
-  tetgenbehavior behaviour;
-  char switches[] = "pYO0Q";
-  behaviour.parse_commandline(switches);
-  tetgenmesh mesh;
-  mesh.b = &behaviour;
-  mesh.in = &input.io();
-  start(mesh);
-  fill_at_once(mesh);
-  if (!later.empty()) {
-    tetgenio extra;
-    Input::set_points(extra, later);
-    mesh.recoverdelaunay();
-    mesh.insertconstrainedpoints(&extra);
-  }
-  TetgenMesh result;
-  result.added = number_points(mesh, split / 3, later);
-  collect_cells(mesh, result);
-  return result;
+/// The order of tetrahedralize(), without its pass recoverdelaunay() where all points were given at once:
+/// hardly anything is left to do for it then, and it nearly doubles time and memory.
+void run_phases(tetgenmesh& mesh, std::span<const double> later) {
+  clock_t unused = 0;
+  mesh.initializepools();
+  mesh.transfernodes();
+  exactinit(0, 0, 0, mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
+  mesh.incrementaldelaunay(unused);
+  mesh.meshsurface();
+  mesh.recoverboundary(unused);
+  mesh.carveholes();
+  if (mesh.subvertstack->objects > 0) mesh.suppresssteinerpoints();
+  if (later.empty()) return;
+  tetgenio extra;
+  Input::set_points(extra, later);
+  mesh.recoverdelaunay();
+  mesh.insertconstrainedpoints(&extra);
 }
 
 }  // namespace
 
 TetgenMesh run_tetgen(std::span<const double> coordinates, std::size_t surface_points,
                       std::span<const std::array<mesh::LocalIndex, 3>> triangles, InteriorPoints interior) {
+  const auto split = interior == InteriorPoints::at_once ? coordinates.size() : 3 * surface_points;
+  const auto later = coordinates.subspan(split);
+  Input input(coordinates.first(split), triangles);
+  tetgenbehavior behaviour;
+  char switches[] = "pYO0Q";
+  behaviour.parse_commandline(switches);
+  auto mesh = std::make_unique<tetgenmesh>();
+  mesh->b = &behaviour;
+  mesh->in = &input.io();
   try {
-    return run_phases(coordinates, surface_points, triangles, interior);
+    run_phases(*mesh, later);
   } catch (int code) {
+    // Before it throws, TetGen frees what the destructor would free again.
+    static_cast<void>(mesh.release());
     throw std::runtime_error(explain(code));
   }
+  TetgenMesh result;
+  result.added = number_points(*mesh, split / 3, later);
+  collect_cells(*mesh, result);
+  return result;
 }
 
 }  // namespace aeroloom::volume

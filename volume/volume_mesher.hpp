@@ -64,8 +64,9 @@ struct FilledVolume {
 std::vector<geometry::Vec3> lattice_points(const ClosedSurface& surface, const sizing::SizeField& field,
                                            const VolumeOptions& options);
 
-/// Fills one closed surface; the boundary is never altered. TetGen runs contained; failures climb the
-/// ladder of retries (perturb, fewer lattice points, none). Not collective. Throws VolumeError.
+/// Fills one closed surface; the boundary is never altered. TetGen runs contained; failures climb the ladder
+/// of retries (other perturbations, lattice points inserted after the boundary, none). Not collective. Throws
+/// VolumeError.
 FilledVolume fill_volume(const ClosedSurface& surface, const sizing::SizeField& field,
                          const VolumeOptions& options);
 

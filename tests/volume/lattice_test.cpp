@@ -96,7 +96,8 @@ TEST(Lattice, variants_differ_slightly) {
 TEST(Lattice, gives_up_above_the_largest_count) {
   const auto points =
       lattice(surfaces::cube({0, 0, 0}, 1.9, 20), fields::uniform(0.1), {.largest_count = 1000});
-  EXPECT_EQ(points.size(), 1001u);
+  EXPECT_GT(points.size(), 1000u);
+  EXPECT_LT(points.size(), 1010u);
 }
 
 }  // namespace
