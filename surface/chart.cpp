@@ -21,6 +21,9 @@ constexpr double projection_spread = 20 * degree;
 /// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,
 /// and one that is the best to be had.
 constexpr double acceptable_fold = 1e-6, bearable_fold = 1e-3;
+/// The same for parts that lie over others: chords of curves that meet at a sharp angle cross near their
+/// meeting point.
+constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
 constexpr int rigid_steps = 15;
 constexpr int deepest_split = 14;
 
@@ -30,12 +33,12 @@ struct Candidate {
 };
 
 bool is_acceptable(const MapQuality& quality, const ChartLimits& limits) {
-  return !quality.overlaps && quality.folded <= acceptable_fold && quality.stretch <= limits.stretch &&
-         quality.scale_ratio <= limits.scale_ratio;
+  return quality.overlap <= acceptable_overlap && quality.folded <= acceptable_fold &&
+         quality.stretch <= limits.stretch && quality.scale_ratio <= limits.scale_ratio;
 }
 
 bool is_bearable(const MapQuality& quality) {
-  return !quality.overlaps && quality.folded <= bearable_fold;
+  return quality.overlap <= bearable_overlap && quality.folded <= bearable_fold;
 }
 
 /// Whether a is nearer to the limits than b.

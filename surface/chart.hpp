@@ -6,6 +6,7 @@
 
 #include "geometry/model.hpp"
 #include "sizing/size_field.hpp"
+#include "surface/plane_grid.hpp"
 #include "surface/support.hpp"
 
 #include <vector>
@@ -50,12 +51,8 @@ private:
 
   const Chart& _chart;
   std::vector<std::int32_t> _twins;  // opposite half-edges, -1 outside
-  std::vector<double> _areas;        // twice the triangles' areas in the plane; 0 where folded
-  geometry::Vec2 _grid_low;
-  double _grid_cell = 1;
-  std::int32_t _grid_columns = 1, _grid_rows = 1;
-  std::vector<std::int32_t> _cell_begin;  // (cells + 1) into _cell_triangles
-  std::vector<std::int32_t> _cell_triangles;
+  std::vector<double> _areas;        // twice the triangles' areas in the plane; not positive where folded
+  PlaneGrid _grid;
 };
 
 struct ChartLimits {

@@ -21,80 +21,14 @@ double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
   return distance(p, a + t * ab);
 }
 
-/// Visits the cells a triangle meets: row by row, between its least and largest x there.
-template <class Visit>
-void for_each_cell(const std::array<Vec2, 3>& corners, Vec2 low, double cell, std::int32_t columns,
-                   std::int32_t rows, Visit visit) {
-  const auto index = [cell](double v, double origin, std::int32_t count) {
-    return std::clamp(static_cast<std::int32_t>(std::floor((v - origin) / cell)), 0, count - 1);
-  };
-  const double bottom = std::min({corners[0].y, corners[1].y, corners[2].y});
-  const double top = std::max({corners[0].y, corners[1].y, corners[2].y});
-  for (std::int32_t row = index(bottom, low.y, rows); row <= index(top, low.y, rows); ++row) {
-    // A little more than the row, so that rounding loses no cell.
-    const double from = low.y + (row - 1e-6) * cell, to = low.y + (row + 1 + 1e-6) * cell;
-    double left = 1e300, right = -1e300;
-    for (int i = 0; i < 3; ++i) {
-      const Vec2 a = corners[i], b = corners[(i + 1) % 3];
-      if (std::max(a.y, b.y) < from || std::min(a.y, b.y) > to) continue;
-      for (const double y : {std::clamp(from, std::min(a.y, b.y), std::max(a.y, b.y)),
-                             std::clamp(to, std::min(a.y, b.y), std::max(a.y, b.y))}) {
-        const double t = a.y != b.y ? (y - a.y) / (b.y - a.y) : 0.0;
-        for (const double x :
-             {a.y != b.y ? a.x + t * (b.x - a.x) : a.x, a.y != b.y ? a.x + t * (b.x - a.x) : b.x}) {
-          left = std::min(left, x), right = std::max(right, x);
-        }
-      }
-    }
-    if (left > right) continue;
-    for (std::int32_t column = index(left - 1e-6 * cell, low.x, columns);
-         column <= index(right + 1e-6 * cell, low.x, columns); ++column) {
-      visit(row * columns + column);
-    }
-  }
-}
-
 }  // namespace
 
 ChartLocator::ChartLocator(const Chart& chart)
-    : _chart(chart), _twins(match_half_edges(chart.support.triangles)) {
-  const auto& triangles = chart.support.triangles;
-  Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
-  for (const Vec2 p : chart.plane) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  for (const auto& [a, b, c] : triangles) {
-    _areas.push_back(std::max(0.0, cross(chart.plane[b] - chart.plane[a], chart.plane[c] - chart.plane[a])));
-  }
-  const double width = std::max(high.x - low.x, 1e-300), height = std::max(high.y - low.y, 1e-300);
-  const double cells = 2.0 * static_cast<double>(triangles.size()) + 1;
-  _grid_low = low;
-  _grid_cell = std::max(std::sqrt(width * height / cells), std::max(width, height) / cells);
-  _grid_columns = static_cast<std::int32_t>(width / _grid_cell) + 1;
-  _grid_rows = static_cast<std::int32_t>(height / _grid_cell) + 1;
-  _cell_begin.assign(static_cast<std::size_t>(_grid_columns) * _grid_rows + 1, 0);
-  // Count, then fill.
-  for (const bool fill : {false, true}) {
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (!(_areas[t] > 0)) continue;
-      const auto& [a, b, c] = triangles[t];
-      for_each_cell({chart.plane[a], chart.plane[b], chart.plane[c]}, _grid_low, _grid_cell, _grid_columns,
-                    _grid_rows, [&](std::int32_t cell) {
-                      if (fill) {
-                        _cell_triangles[_cell_begin[cell]++] = static_cast<std::int32_t>(t);
-                      } else {
-                        ++_cell_begin[cell + 1];
-                      }
-                    });
-    }
-    if (!fill) {
-      for (std::size_t i = 1; i < _cell_begin.size(); ++i) _cell_begin[i] += _cell_begin[i - 1];
-      _cell_triangles.resize(_cell_begin.back());
-    } else {
-      for (std::size_t i = _cell_begin.size() - 1; i > 0; --i) _cell_begin[i] = _cell_begin[i - 1];
-      _cell_begin[0] = 0;
-    }
+    : _chart(chart),
+      _twins(match_half_edges(chart.support.triangles)),
+      _grid(chart.plane, chart.support.triangles) {
+  for (const auto& [a, b, c] : chart.support.triangles) {
+    _areas.push_back(cross(chart.plane[b] - chart.plane[a], chart.plane[c] - chart.plane[a]));
   }
 }
 
@@ -132,25 +66,19 @@ double ChartLocator::distance_to(std::int32_t triangle, Vec2 point) const {
 }
 
 std::int32_t ChartLocator::nearest(Vec2 point) const {
-  const auto index = [this](double v, double origin, std::int32_t count) {
-    return static_cast<std::int32_t>(std::clamp(std::floor((v - origin) / _grid_cell), 0.0, count - 1.0));
-  };
-  const std::int32_t column = index(point.x, _grid_low.x, _grid_columns),
-                     row = index(point.y, _grid_low.y, _grid_rows);
+  const auto [column, row] = _grid.cell_of(point);
   std::int32_t best = -1;
   double least = 1e300;
-  for (std::int32_t ring = 0; ring <= std::max(_grid_columns, _grid_rows); ++ring) {
+  for (std::int32_t ring = 0; ring <= std::max(_grid.columns(), _grid.rows()); ++ring) {
     // Cells of this ring and beyond are at least ring - 1 cells away, also from a point outside the grid.
-    if (best >= 0 && least <= (ring - 1) * _grid_cell) break;
-    for (std::int32_t j = std::max(0, row - ring); j <= std::min(_grid_rows - 1, row + ring); ++j) {
+    if (best >= 0 && least <= (ring - 1) * _grid.cell_size()) break;
+    for (std::int32_t j = std::max(0, row - ring); j <= std::min(_grid.rows() - 1, row + ring); ++j) {
       const bool whole_row = j == row - ring || j == row + ring;
-      const std::int32_t step = whole_row || ring == 0 ? 1 : 2 * ring;
-      for (std::int32_t i = column - ring; i <= column + ring; i += step) {
-        if (i < 0 || i >= _grid_columns) continue;
-        const std::int32_t cell = j * _grid_columns + i;
-        for (std::int32_t k = _cell_begin[cell]; k < _cell_begin[cell + 1]; ++k) {
-          const double away = distance_to(_cell_triangles[k], point);
-          if (away < least) least = away, best = _cell_triangles[k];
+      for (std::int32_t i = column - ring; i <= column + ring; i += whole_row ? 1 : 2 * ring) {
+        if (i < 0 || i >= _grid.columns()) continue;
+        for (const std::int32_t t : _grid.triangles_in(i, j)) {
+          const double away = distance_to(t, point);
+          if (away < least) least = away, best = t;
         }
       }
     }

@@ -32,7 +32,7 @@ struct MapQuality {
   double folded = 1;           ///< share of the area in triangles that turn over or collapse (exact signs)
   double stretch = 1e300;      ///< largest ratio of singular values, on all but 1 % of the area
   double scale_ratio = 1e300;  ///< largest ratio of scales, 0.5 % of the area left out at either end
-  bool overlaps = true;        ///< the boundary crosses itself, or lies around itself
+  double overlap = 1;          ///< share of the area that lies over other parts of the map, about
 };
 MapQuality judge_map(const Support& support, const PlaneMap& map);
 

@@ -1,5 +1,6 @@
 #include "geometry/predicates.hpp"
 #include "surface/conformal_map.hpp"
+#include "surface/plane_grid.hpp"
 #include "surface/support_topology.hpp"
 
 #include <algorithm>
@@ -113,9 +114,9 @@ private:
   const std::vector<std::array<std::int32_t, 2>>& _edges;
 };
 
-/// Whether the boundary's image bounds more than one sheet: loops cross, or not exactly one runs
+/// Whether the boundary's image may bound more than one sheet: loops cross, or not exactly one runs
 /// counter-clockwise. With simple loops the number of sheets over a point is its winding number.
-bool boundary_overlaps(const Support& support, const PlaneMap& map) {
+bool may_overlap(const Support& support, const PlaneMap& map) {
   std::vector<std::array<std::int32_t, 2>> edges;
   int outer = 0;
   for (const auto& loop : trace_boundary(support, match_half_edges(support.triangles))) {
@@ -127,6 +128,31 @@ bool boundary_overlaps(const Support& support, const PlaneMap& map) {
     outer += area > 0;
   }
   return outer != 1 || BoundaryCrossings(map, edges).any();
+}
+
+/// The share of triangles (by area in space) whose centre lies in another triangle as well. Near sharp
+/// corners chords of curves may cross where the curves do not: that is little.
+double overlap_share(const Support& support, const PlaneMap& map) {
+  const PlaneGrid grid(map, support.triangles);
+  const auto is_inside = [&](Vec2 p, std::int32_t triangle) {
+    const auto& [a, b, c] = support.triangles[triangle];
+    return geometry::orient2d(map[a], map[b], p) > 0 && geometry::orient2d(map[b], map[c], p) > 0 &&
+           geometry::orient2d(map[c], map[a], p) > 0;
+  };
+  double total = 0, covered = 0;
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    const auto& [a, b, c] = support.triangles[t];
+    const double area = norm(area_vector(support, static_cast<std::int32_t>(t)));
+    const Vec2 center = (map[a] + map[b] + map[c]) / 3;
+    const auto [column, row] = grid.cell_of(center);
+    const auto near = grid.triangles_in(column, row);
+    total += area;
+    const bool twice = std::any_of(near.begin(), near.end(), [&](std::int32_t other) {
+      return other != static_cast<std::int32_t>(t) && is_inside(center, other);
+    });
+    if (twice) covered += area;
+  }
+  return total > 0 ? covered / total : 1;
 }
 
 }  // namespace
@@ -154,7 +180,7 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
   quality.stretch = quantile(stretches, 0.99);
   const double smallest = quantile(scales, 0.005), largest = quantile(scales, 0.995);
   quality.scale_ratio = smallest > 0 ? largest / smallest : 1e300;
-  quality.overlaps = boundary_overlaps(support, map);
+  quality.overlap = may_overlap(support, map) ? overlap_share(support, map) : 0;
   return quality;
 }
 

@@ -1,6 +1,5 @@
 #include "surface/open_facets.hpp"
 
-#include "surface/support_flips.hpp"
 #include "surface/surface_mesher.hpp"
 
 #include <algorithm>
@@ -26,10 +25,6 @@ constexpr double same_parameter_part = 1e-7;
 /// Points closer than this part of the face's extent are one, unless both are mesh vertices.
 constexpr double no_distance = 1e-10;
 
-/// Edges between points whose normals differ by more (20 degrees) are divided, in so many rounds.
-constexpr double turning_cosine = 0.94;
-constexpr int dividing_rounds = 4;
-
 class Joining {
 public:
   explicit Joining(std::size_t count) : _parent(count) { std::iota(_parent.begin(), _parent.end(), 0); }
@@ -45,6 +40,41 @@ public:
 private:
   std::vector<std::int32_t> _parent;
 };
+
+/// Two triangles with the same corners in opposite order enclose nothing: they are left where a narrow part
+/// collapsed.
+void drop_opposite_pairs(Support& support) {
+  struct Row {
+    std::array<std::int32_t, 3> sorted;
+    bool odd;  // order of the corners
+    std::size_t triangle;
+    auto operator<=>(const Row&) const = default;
+  };
+  std::vector<Row> rows;
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    auto [a, b, c] = support.triangles[t];
+    bool odd = false;
+    if (a > b) std::swap(a, b), odd = !odd;
+    if (b > c) std::swap(b, c), odd = !odd;
+    if (a > b) std::swap(a, b), odd = !odd;
+    rows.push_back({{a, b, c}, odd, t});
+  }
+  std::sort(rows.begin(), rows.end());
+  std::vector<char> drop(support.triangles.size(), 0);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].sorted != rows[i - 1].sorted || rows[i].odd == rows[i - 1].odd || drop[rows[i - 1].triangle])
+      continue;
+    drop[rows[i].triangle] = drop[rows[i - 1].triangle] = 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    if (drop[t]) continue;
+    support.triangles[kept] = support.triangles[t];
+    support.corner_uv[kept++] = support.corner_uv[t];
+  }
+  support.triangles.resize(kept);
+  support.corner_uv.resize(kept);
+}
 
 [[noreturn]] void fail(const Model& model, geometry::FaceId face, const EdgeUse& use, Vec3 at) {
   throw SurfaceError(fmt::format(
@@ -95,6 +125,32 @@ OpenFacets::OpenFacets(const Model& model, geometry::FaceId face, const geometry
     }
     _lines.push_back(std::move(line));
   }
+  settle_line_ends();
+}
+
+void OpenFacets::settle_line_ends() {
+  struct End {
+    geometry::VertexId vertex;
+    std::int32_t point;
+  };
+  std::vector<End> ends;
+  for (const Line& line : _lines) {
+    if (line.nodes.empty()) continue;
+    ends.push_back({_model.edge(line.use.edge).first, line.nodes.front().point});
+    ends.push_back({_model.edge(line.use.edge).last, line.nodes.back().point});
+  }
+  const auto settle = [&](const Line& line, geometry::VertexId vertex, Node& node) {
+    const Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
+    for (const End& end : ends) {
+      if (end.vertex != vertex) continue;
+      if (distance(_uv[end.point], expected) < distance(_uv[node.point], expected)) node.point = end.point;
+    }
+  };
+  for (Line& line : _lines) {
+    if (line.nodes.empty()) continue;
+    settle(line, _model.edge(line.use.edge).first, line.nodes.front());
+    settle(line, _model.edge(line.use.edge).last, line.nodes.back());
+  }
 }
 
 void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
@@ -113,8 +169,8 @@ void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
   divide(std::move(divisions));
 }
 
-const OpenFacets::Line* OpenFacets::other_passage(const Line& line) const {
-  for (const Line& other : _lines) {
+OpenFacets::Line* OpenFacets::other_passage(const Line& line) {
+  for (Line& other : _lines) {
     if (&other != &line && other.use.edge == line.use.edge) return &other;
   }
   return nullptr;
@@ -182,40 +238,6 @@ void OpenFacets::divide(std::vector<EdgePoint> divisions) {
   for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) _support.corner_uv[t][i] = _uv[_support.triangles[t][i]];
   }
-}
-
-void OpenFacets::fit_to_surface() {
-  std::vector<geometry::SurfaceFrame> frames;
-  for (int round = 0; round <= dividing_rounds; ++round) {
-    for (std::size_t i = frames.size(); i < _uv.size(); ++i)
-      frames.push_back(_model.face_frame(_support.face, _uv[i]));
-    std::vector<SurfaceMetric> metrics;
-    for (const auto& frame : frames) {
-      metrics.push_back({dot(frame.du, frame.du), dot(frame.du, frame.dv), dot(frame.dv, frame.dv)});
-    }
-    flip_in_parameters(_support, metrics, join_points());
-    if (round == dividing_rounds || !divide_turning_edges(frames)) return;
-  }
-}
-
-bool OpenFacets::divide_turning_edges(std::vector<geometry::SurfaceFrame>& frames) {
-  const std::vector<HalfEdge> twins = match_half_edges(_support.triangles);
-  std::vector<EdgePoint> divisions;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
-    if (twins[h] < h) continue;
-    const Vec3 first = frames[start_of(_support, h)].normal, second = frames[end_of(_support, h)].normal;
-    // Normals are zero at singular points.
-    if (norm(first) == 0 || norm(second) == 0 || dot(first, second) >= turning_cosine) continue;
-    const auto index = static_cast<std::int32_t>(_support.points.size());
-    const Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
-    divisions.push_back({h, 0.5, index, uv});
-    divisions.push_back({twins[h], 0.5, index, uv});
-    _support.points.push_back(_model.face_point(_support.face, uv));
-    _uv.push_back(uv);
-  }
-  const bool any = !divisions.empty();
-  divide(std::move(divisions));
-  return any;
 }
 
 std::vector<std::int32_t> OpenFacets::join_points() const {
@@ -300,6 +322,7 @@ Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
     joined.triangles.push_back(triangle);
     joined.corner_uv.push_back(_support.corner_uv[t]);
   }
+  drop_opposite_pairs(joined);
   const std::vector<std::int32_t> all_one(joined.triangles.size(), 0);
   return separate_parts(joined, match_half_edges(joined.triangles), all_one, 1).front();
 }

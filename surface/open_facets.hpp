@@ -50,9 +50,17 @@ private:
   void plan(Line& line, const std::vector<Wanted>& wanted, double reuse_tolerance, const SideTable& table,
             std::vector<EdgePoint>& divisions);
   void divide(std::vector<EdgePoint> divisions);
-  const Line* other_passage(const Line& line) const;
+  /// Where the triangulator mixed up the two sides of a seam at a CAD vertex, lines get the end nodes that
+  /// lie where the edge's parameter curve ends.
+  void settle_line_ends();
+  Line* other_passage(const Line& line);
   std::vector<std::int32_t> join_points() const;
-  bool divide_turning_edges(std::vector<geometry::SurfaceFrame>& frames);
+  /// 1 where the loops run counter-clockwise in the parameter plane, else -1.
+  int parameter_orientation() const;
+  void flip(const std::vector<geometry::SurfaceFrame>& frames);
+  bool is_folded() const;
+  void triangulate_again(const std::vector<geometry::SurfaceFrame>& frames);
+  bool divide_turning_edges(const std::vector<geometry::SurfaceFrame>& frames);
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 
   const geometry::Model& _model;

@@ -203,10 +203,8 @@ void flip_to_delaunay(Support& support) {
 }
 
 void flip_in_parameters(Support& support, const std::vector<SurfaceMetric>& metrics,
-                        const std::vector<std::int32_t>& same) {
-  double area = 0;
-  for (const auto& [a, b, c] : support.corner_uv) area += cross(b - a, c - a);
-  Flipper(support, ParameterRule(support, metrics, same, area >= 0 ? 1 : -1)).run();
+                        const std::vector<std::int32_t>& same, int orientation) {
+  Flipper(support, ParameterRule(support, metrics, same, orientation)).run();
 }
 
 }  // namespace aeroloom::surface

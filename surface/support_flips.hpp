@@ -18,8 +18,9 @@ struct SurfaceMetric {
 /// The same in the parameter plane, where a triangulation that is open along seams cannot fold: triangles of
 /// the wrong orientation are flipped away where possible, the others are made Delaunay in the metric of the
 /// surface. Neither position nor flatness in space matters. `metrics` per point; `same` per point: a name
-/// that points share which are one in space (no edge may join them).
+/// that points share which are one in space (no edge may join them); `orientation`: 1 where triangles are
+/// counter-clockwise in this plane, else -1.
 void flip_in_parameters(Support& support, const std::vector<SurfaceMetric>& metrics,
-                        const std::vector<std::int32_t>& same);
+                        const std::vector<std::int32_t>& same, int orientation);
 
 }  // namespace aeroloom::surface

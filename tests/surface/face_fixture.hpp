@@ -36,7 +36,8 @@ inline CurveMesh curves_of(const geometry::Model& model, const sizing::SizeField
 }
 
 inline geometry::Facets facets_of(const geometry::Model& model, geometry::FaceId face) {
-  return model.facets(face, 1e-3 * model.body_bounds().diagonal(), 15 * std::numbers::pi / 180);
+  const double extent = (model.is_far_field(face) ? model.bounds() : model.body_bounds()).diagonal();
+  return model.facets(face, 1e-3 * extent, 15 * std::numbers::pi / 180);
 }
 
 inline std::filesystem::path aircraft_folder() {
