@@ -3,6 +3,7 @@
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -31,23 +32,27 @@ bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
          geometry::orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
-SurfaceDefect find_bad_triangles(const ClosedSurface& surface) {
-  std::vector<std::int32_t> out_of_range, flat;
+SurfaceDefect find_wild_indices(const ClosedSurface& surface) {
+  std::vector<std::int32_t> wild;
   const auto count = static_cast<LocalIndex>(surface.points.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
-    const auto index = static_cast<std::int32_t>(t);
-    if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= count) {
-      out_of_range.push_back(index);
-    } else if (has_no_area(surface.points[a], surface.points[b], surface.points[c])) {
-      flat.push_back(index);
-    }
+    if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= count) wild.push_back(static_cast<std::int32_t>(t));
   }
-  if (!out_of_range.empty()) return {"triangles refer to points that do not exist", out_of_range};
+  return made("triangles refer to points that do not exist", wild);
+}
+
+SurfaceDefect find_flat_triangles(const ClosedSurface& surface) {
+  std::vector<std::int32_t> flat;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    if (has_no_area(surface.points[a], surface.points[b], surface.points[c]))
+      flat.push_back(static_cast<std::int32_t>(t));
+  }
   return made("triangles have no area", flat);
 }
 
-/// Marks the triangles that have a marked point.
+/// The triangles that have a marked point.
 std::vector<std::int32_t> triangles_at(const ClosedSurface& surface,
                                        const std::vector<std::uint8_t>& marked) {
   std::vector<std::int32_t> found;
@@ -56,6 +61,15 @@ std::vector<std::int32_t> triangles_at(const ClosedSurface& surface,
     if (marked[a] || marked[b] || marked[c]) found.push_back(static_cast<std::int32_t>(t));
   }
   return found;
+}
+
+SurfaceDefect find_infinite_points(const ClosedSurface& surface) {
+  std::vector<std::uint8_t> infinite(surface.points.size(), 0);
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    const Vec3 p = surface.points[v];
+    infinite[v] = !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  }
+  return made("coordinates are not finite", triangles_at(surface, infinite));
 }
 
 SurfaceDefect find_bad_points(const ClosedSurface& surface) {
@@ -150,7 +164,8 @@ bool meet_improperly(const ClosedSurface& surface, const Indices& s, const Indic
 
 SurfaceDefect find_defect(const ClosedSurface& surface) {
   if (surface.triangles.size() < 4) return {"there are fewer than four triangles", {}};
-  for (const auto find : {find_bad_triangles, find_bad_points, find_open_edges}) {
+  for (const auto find :
+       {find_wild_indices, find_infinite_points, find_flat_triangles, find_bad_points, find_open_edges}) {
     if (SurfaceDefect defect = find(surface); !defect.what.empty()) return defect;
   }
   return {};

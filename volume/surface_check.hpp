@@ -16,8 +16,8 @@ struct SurfaceDefect {
   std::vector<std::int32_t> triangles;  ///< ascending, each once
 };
 
-/// Indices out of range, triangles without area, points used by no triangle or coincident, edges whose
-/// triangles do not match up in pairs of opposite direction.
+/// Indices out of range, coordinates that are not finite, triangles without area, points used by no triangle
+/// or coincident, edges whose triangles do not match up in pairs of opposite direction.
 SurfaceDefect find_defect(const ClosedSurface& surface);
 
 /// Triangles that meet elsewhere than in common vertices and edges. Exact.

@@ -47,6 +47,10 @@ TEST(SurfaceCheck, finds_bad_points_and_triangles) {
   loose.points.push_back({0, 0, 0});
   EXPECT_NE(find_defect(loose).what.find("no triangle"), std::string::npos);
 
+  ClosedSurface infinite = surfaces::cube({0, 0, 0}, 1, 3);
+  infinite.points[infinite.triangles[8][0]].y = std::nan("");
+  EXPECT_NE(find_defect(infinite).what.find("finite"), std::string::npos);
+
   ClosedSurface wild = surfaces::cube({0, 0, 0}, 1, 3);
   wild.triangles[5][1] = 1000000;
   EXPECT_EQ(find_defect(wild).triangles, std::vector<std::int32_t>{5});
