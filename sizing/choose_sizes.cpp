@@ -16,7 +16,12 @@ constexpr double body_size_over_minimum = 10;
 constexpr double domain_over_maximum = 20;  // diagonal of everything
 constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
 constexpr double body_over_finest = 5000;
+constexpr double body_over_first = 60;
 constexpr int most_rounds = 8;
+// Of the logarithm of the count over that of the size: near -2 where the surface rules, flatter where small
+// features do.
+constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
+constexpr double largest_step = 1.4;   // of the logarithm of the size
 constexpr double close_enough = 0.04;  // of the target
 
 SizingOptions sizes_for(double body_size, double maximum) {
@@ -46,14 +51,18 @@ SizingOptions choose_sizes(const parallel::Communicator& communicator, const geo
                extent = largest_extent(sampler.body_box());
   const double target = std::log(target_tetrahedra);
   double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
-  double size = std::log(extent / 60), best_error = 1e300, best = size;
+  double size = std::log(extent / body_over_first), best_error = 1e300, best = size, last_size = 0,
+         last_error = 0;
+  double slope = first_slope;
   for (int round = 0; round < most_rounds && best_error > close_enough; ++round) {
     const SizeField field = sampler.build_field(sizes_for(std::exp(size), maximum));
     const double error = std::log(std::max(sampler.predict(field).tetrahedra, 1.0)) - target;
     if (std::abs(error) < best_error) best_error = std::abs(error), best = size;
+    if (round > 0)
+      slope = std::clamp((error - last_error) / (size - last_size), steepest_slope, flattest_slope);
     (error > 0 ? finest : coarsest) = size;
-    // Counts fall about with the second power of the size: the surface rules.
-    size += 0.5 * error;
+    last_size = size, last_error = error;
+    size -= std::clamp(error / slope, -largest_step, largest_step);
     if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
   }
   return sizes_for(std::exp(best), maximum);

@@ -1,8 +1,10 @@
 #include "sizing/model_sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace aeroloom::sizing {
 namespace {
@@ -53,26 +55,34 @@ public:
 
   double over_leaves(std::int64_t first, std::int64_t last) {
     double sum = 0;
-    bool follows = false,
-         inside = false;  // whether the leaf before is clear of the boundary, and on which side
+    std::array<Side, remembered_leaves> recent{};
+    std::size_t clear_leaves = 0;
     for (std::int64_t i = first; i < last; ++i) {
       const SizeField::Leaf leaf = _field.leaf(i);
       const std::vector<std::int32_t> touching = find_touching(leaf.low, leaf.edge);
       if (!touching.empty()) {
         sum += over_cut_cube(leaf.low, leaf.edge, touching, 0);
-        follows = false;
         continue;
       }
-      if (!follows || !share_face(_field.leaf(i - 1), leaf)) {
-        inside = _boundary.contains(leaf.low + 0.5 * leaf.edge * Vec3{1, 1, 1});
-      }
-      follows = true;
+      // No boundary runs between leaves that are clear of it and share a face.
+      const auto known = std::span(recent).first(std::min(clear_leaves, remembered_leaves));
+      const auto next =
+          std::find_if(known.begin(), known.end(), [&](const Side& s) { return share_face(s.leaf, leaf); });
+      const bool inside =
+          next != known.end() ? next->inside : _boundary.contains(leaf.low + 0.5 * leaf.edge * Vec3{1, 1, 1});
+      recent[clear_leaves++ % remembered_leaves] = {leaf, inside};
       if (inside) sum += cube(leaf.edge / leaf.size);
     }
     return sum;
   }
 
 private:
+  struct Side {
+    SizeField::Leaf leaf;
+    bool inside;
+  };
+  static constexpr std::size_t remembered_leaves = 16;
+
   static double cube(double x) { return x * x * x; }
 
   /// Facets in the closed cube: a side of the domain may coincide with sides of leaves.
@@ -84,8 +94,7 @@ private:
   }
 
   bool is_inside(Vec3 point, const std::vector<std::int32_t>& touching) const {
-    const bool by_rays = touching.empty() || touching.size() > many_facets;
-    return by_rays ? _boundary.contains(point) : _boundary.is_behind(point, touching);
+    return touching.size() > many_facets ? _boundary.contains(point) : _boundary.is_behind(point, touching);
   }
 
   /// A cube that the boundary passes, eighth by eighth.
@@ -97,14 +106,14 @@ private:
     for (int child = 0; child < 8; ++child) {
       const Vec3 child_low = low + half * Vec3{double(child & 1), double(child >> 1 & 1), double(child >> 2)};
       const Vec3 center = child_low + 0.5 * half * Vec3{1, 1, 1};
-      const std::vector<std::int32_t> own =
-          small ? std::vector<std::int32_t>{} : find_touching(child_low, half);
-      const std::vector<std::int32_t>& inner = small ? touching : own;
-      if (!small && !inner.empty()) {
-        sum += over_cut_cube(child_low, half, inner, depth + 1);
-      } else if (is_inside(center, inner)) {
-        sum += cube(half / _field(center));
+      if (!small) {
+        const std::vector<std::int32_t> inner = find_touching(child_low, half);
+        if (!inner.empty()) {
+          sum += over_cut_cube(child_low, half, inner, depth + 1);
+          continue;
+        }
       }
+      if (is_inside(center, touching)) sum += cube(half / _field(center));
     }
     return sum;
   }
