@@ -22,7 +22,8 @@ private:
   std::vector<sizing::SizeSource> _remedy;
 };
 
-/// The facets a face's support is made of: they turn by at most options.support_angle.
+/// The facets a face's support is made of: they turn by at most options.support_angle and leave the surface
+/// by a small part of the model and of the face's width.
 geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId face,
                                 const SurfaceOptions& options);
 

@@ -13,10 +13,10 @@ using Edge = std::array<std::int32_t, 2>;
   auto crossings = find_edge_crossings(boundary);
   if (crossings.empty()) throw FrontError(fallback, {});
   const geometry::Vec2 at = boundary.points[boundary.edges[crossings.front().first][0]];
-  throw FrontError("the boundary of a face meets itself in " + std::to_string(crossings.size()) +
-                       " pairs of edges, first near chart point (" + std::to_string(at.x) + ", " +
-                       std::to_string(at.y) + ")",
-                   std::move(crossings));
+  const std::string text = "the boundary of a face meets itself in " + std::to_string(crossings.size()) +
+                           " pairs of edges, first near chart point (" + std::to_string(at.x) + ", " +
+                           std::to_string(at.y) + ")";
+  throw FrontError(text, std::move(crossings));
 }
 
 void check_edges(const FrontInput& boundary, const std::vector<Edge>& sorted) {
