@@ -20,25 +20,18 @@ bool is_corner(GridPoint p, std::uint32_t edge) {
   return ((p.x | p.y | p.z) & (edge - 1)) == 0;
 }
 
-/// The leaves in the eight octants around a node, -1 outside.
-std::array<std::int32_t, 8> leaves_around(GridPoint p, const LeafTable& table) {
-  std::array<std::int32_t, 8> around{};
+/// Finds the leaves in the eight octants around a corner of `leaf`, -1 outside, until an earlier leaf turns
+/// up that has the node as a corner too: then returns that octant, else -1.
+int find_leaves_around(GridPoint p, std::int32_t leaf, const SplitCells::Leaves& leaves,
+                       const LeafTable& table, std::array<std::int32_t, 8>& around) {
   for (int octant = 0; octant < 8; ++octant) {
     const GridPoint cell{p.x - (octant & 1 ? 0 : 1), p.y - (octant & 2 ? 0 : 1), p.z - (octant & 4 ? 0 : 1)};
     const bool inside = cell.x < grid_size && cell.y < grid_size && cell.z < grid_size;
-    around[octant] = inside ? table.find(morton_key(cell)) : -1;
+    const std::int32_t found = inside ? table.find(morton_key(cell)) : -1;
+    around[octant] = found;
+    if (found >= 0 && found < leaf && is_corner(p, grid_size >> leaves.levels[found])) return octant;
   }
-  return around;
-}
-
-/// The octant of the first leaf that has the node as a corner: the leaf that numbers the node.
-int owning_octant(GridPoint p, const std::array<std::int32_t, 8>& around, const SplitCells::Leaves& leaves) {
-  int owner = -1;
-  for (int octant = 0; octant < 8; ++octant) {
-    if (around[octant] < 0 || !is_corner(p, grid_size >> leaves.levels[around[octant]])) continue;
-    if (owner < 0 || around[octant] < around[owner]) owner = octant;
-  }
-  return owner;
+  return -1;
 }
 
 /// Appends the masters of a node that lies on an edge or face of the given leaf.
@@ -126,11 +119,11 @@ OctreeNodes collect_nodes(const SplitCells::Leaves& leaves, const LeafTable& tab
     const GridPoint low = grid_point(leaves.keys[leaf]);
     for (int corner = 0; corner < 8; ++corner) {
       const GridPoint p = corner_point(low, grid_size >> leaves.levels[leaf], corner);
-      const std::array<std::int32_t, 8> around = leaves_around(p, table);
-      const int owner = owning_octant(p, around, leaves);
+      std::array<std::int32_t, 8> around{};
+      const int earlier = find_leaves_around(p, static_cast<std::int32_t>(leaf), leaves, table, around);
       std::int32_t& node = nodes.corners[8 * leaf + corner];
-      if (around[owner] < static_cast<std::int32_t>(leaf)) {
-        node = nodes.corners[8 * static_cast<std::size_t>(around[owner]) + (7 ^ owner)];
+      if (earlier >= 0) {
+        node = nodes.corners[8 * static_cast<std::size_t>(around[earlier]) + (7 ^ earlier)];
         continue;
       }
       node = static_cast<std::int32_t>(nodes.points.size());
