@@ -1,0 +1,121 @@
+/// The whole surface stage on analytic shapes, on any number of ranks.
+#include "surface/surface_mesher.hpp"
+
+#include "geometry/domain.hpp"
+#include "geometry/primitives.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "surface/curves.hpp"
+#include "surface/face_mesher.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::PrimitiveKind;
+using parallel::Communicator;
+
+/// A model with its surface meshed at `angle` degrees per element.
+struct Meshed {
+  geometry::Model model;
+  sizing::SizeField field;
+  SurfaceMesh surface;
+  mesh::Numbering numbering;
+};
+
+Meshed mesh_model(const Communicator& communicator, const geometry::Model& model, double angle,
+                  double maximum) {
+  parallel::StageClock clock;
+  const sizing::SizingOptions sizes{
+      .minimum = 1e-3, .maximum = maximum, .curvature_angle = angle, .growth = 1.3};
+  sizing::SizeField field = sizing::build_size_field(communicator, model, sizes, clock);
+  SurfaceMesh surface = mesh_surface(communicator, model, field, {}, clock);
+  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  return {model, std::move(field), std::move(surface), std::move(numbering)};
+}
+
+/// Areas of the triangles by CAD face.
+std::vector<double> face_areas(const Communicator& communicator, const Meshed& meshed) {
+  struct Row {
+    std::int32_t face;
+    double area;
+  };
+  std::vector<Row> mine;
+  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+    double area = 0;
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      area += 0.5 * norm(cross(piece.point(v[1]) - piece.point(v[0]), piece.point(v[2]) - piece.point(v[0])));
+    }
+    mine.push_back({piece.id, area});
+  }
+  std::vector<double> areas(meshed.model.face_count());
+  for (const Row& row : communicator.all_gather_items<Row>(mine)) areas[row.face] = row.area;
+  return areas;
+}
+
+TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
+  const Communicator world = Communicator::world();
+  const geometry::Model model = geometry::make_primitive_domain(PrimitiveKind::sphere, {.radius = 0.5});
+  const double exact = std::numbers::pi / 6;
+  for (const double degrees : {12.0, 8.0, 5.0}) {
+    const Meshed meshed = mesh_model(world, model, degrees, 1);
+    const auto report = mesh::check_surface_mesh(world, meshed.surface.mesh, meshed.numbering);
+    ASSERT_TRUE(report.valid()) << report.violations.front();
+    const double theta = degrees * std::numbers::pi / 180, expected = 3 * theta * theta / 8;
+    EXPECT_NEAR((exact - report.volume) / exact, expected, 0.2 * expected) << degrees << " degrees";
+  }
+}
+
+class SurfaceShapes : public testing::TestWithParam<PrimitiveKind> {};
+
+TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
+  const Communicator world = Communicator::world();
+  const Meshed meshed = mesh_model(world, geometry::make_primitive_domain(GetParam()), 5, 0.1);
+  const auto report = mesh::check_surface_mesh(world, meshed.surface.mesh, meshed.numbering);
+  ASSERT_TRUE(report.valid()) << report.violations.front();
+  const std::vector<double> areas = face_areas(world, meshed);
+  for (geometry::FaceId f = 0; f < meshed.model.face_count(); ++f) {
+    const double exact = meshed.model.face_area(f);
+    bool straight = meshed.model.is_planar(f);
+    for (const auto& loop : meshed.model.face(f).loops) {
+      for (const geometry::EdgeUse& use : loop)
+        straight = straight && meshed.model.edge_curvature(use.edge, 0.5) == 0;
+    }
+    EXPECT_NEAR(areas[f], exact, (straight ? 1e-12 : 5e-3) * exact) << meshed.model.face(f).name;
+  }
+  const auto quality = mesh::summarise_quality(world, meshed.surface.mesh, meshed.numbering);
+  EXPECT_GT(quality.min_dihedral.minimum, 20);
+  EXPECT_GT(quality.mean_ratio.mean, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapes,
+                         testing::Values(PrimitiveKind::box, PrimitiveKind::sphere, PrimitiveKind::cylinder,
+                                         PrimitiveKind::torus, PrimitiveKind::box_with_sphere));
+
+/// The same pieces come out alone, in another order, and in the run of all: no piece knows of any other.
+TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  const Meshed meshed = mesh_model(world, geometry::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
+  parallel::StageClock clock;
+  const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field, clock);
+  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+    const mesh::Piece alone = mesh_face(meshed.model, piece.id, curves, meshed.field, {});
+    EXPECT_EQ(pack_piece(piece), pack_piece(alone)) << "face " << piece.id;
+  }
+}
+
+TEST(SurfaceMesher, HashDoesNotDependOnRanks) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  const geometry::Model model = geometry::make_primitive_domain(PrimitiveKind::box_with_sphere);
+  const Meshed together = mesh_model(world, model, 8, 0.1), alone = mesh_model(self, model, 8, 0.1);
+  EXPECT_EQ(mesh::hash_mesh(world, together.surface.mesh, together.numbering),
+            mesh::hash_mesh(self, alone.surface.mesh, alone.numbering));
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
