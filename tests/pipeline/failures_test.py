@@ -4,9 +4,9 @@ import pathlib
 import sys
 import tempfile
 
-from program import COARSE_TRANSPORT, Run
+from program import COARSE_TRANSPORT, SOURCE, Run
 
-OPEN_SHELL = """ISO-10303-21;
+STEP_HEADER = """ISO-10303-21;
 HEADER;FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;
 DATA;
 """
@@ -32,7 +32,7 @@ def main():
     program = sys.argv[1]
     folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_bad_"))
     corrupt = folder / "corrupt.step"
-    corrupt.write_text(OPEN_SHELL + "#1=ADVANCED_FACE('',(#2,#3),#4,.T.);\n#2=FACE_BOUND(\n")
+    corrupt.write_text(STEP_HEADER + "#1=ADVANCED_FACE('',(#2,#3),#4,.T.);\n#2=FACE_BOUND(\n")
     empty = folder / "empty.step"
     empty.write_text("")
     checks = []
@@ -44,6 +44,7 @@ def main():
             expect("missing file", Run(program, file_case(folder / "absent.step"), ranks), 7, "absent.step"),
             expect("corrupt file", Run(program, file_case(corrupt), ranks), 3, "corrupt.step"),
             expect("empty file", Run(program, file_case(empty), ranks), 3, "empty.step"),
+            expect("open shell", Run(program, file_case(SOURCE / "tests/data/open_shell.step"), ranks), 3, "open"),
             expect("abort in TetGen", Run(program, COARSE_TRANSPORT, ranks, ["volume.inject=aborts"]), 5, "SIGABRT"),
         ]
     checks.append(expect("far field cuts the body", Run(program, COARSE_TRANSPORT, 3, ["farfield.extent=0.4"]), 3,
