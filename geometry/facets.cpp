@@ -1,7 +1,11 @@
+#include "geometry/facet_refinement.hpp"
 #include "geometry/model_data.hpp"
 #include "geometry/occ_guard.hpp"
+#include "geometry/pole_facets.hpp"
+#include "geometry/predicates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -76,7 +80,6 @@ Facets extract(const Model::Data& data, FaceId id, const MeshedFace& meshed) {
   for (int i = 1; i <= mesh.NbTriangles(); ++i) {
     int a, b, c;
     mesh.Triangle(i).Get(a, b, c);
-    if (evaluator.reversed) std::swap(b, c);
     facets.triangles.push_back({a - 1, b - 1, c - 1});
   }
   for (const UseCurve& use : evaluator.uses) {
@@ -87,11 +90,25 @@ Facets extract(const Model::Data& data, FaceId id, const MeshedFace& meshed) {
 }
 
 /// Boundary nodes lie on their edges' curves; their parameters on the face come from there too, not from the
-/// parameter curves, which may run at another pace.
+/// parameter curves, which may run at another pace. Where that would turn a triangle over, they stay.
 void settle_boundary(const Model& model, FaceId id, Facets& facets) {
+  const std::vector<Vec2> before = facets.uv;
   for (const Facets::BoundaryLine& line : facets.boundary) {
     for (std::size_t i = 1; i + 1 < line.nodes.size(); ++i) {
       facets.uv[line.nodes[i]] = model.edge_uv(id, line.use, line.parameters[i]);
+    }
+  }
+  const auto positive = [](const std::vector<Vec2>& uv, const std::array<std::int32_t, 3>& t) {
+    return orient2d(uv[t[0]], uv[t[1]], uv[t[2]]) > 0;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& t : facets.triangles) {
+      if (positive(facets.uv, t) || !positive(before, t)) continue;
+      for (const std::int32_t node : t) {
+        changed |= facets.uv[node] != before[node];
+        facets.uv[node] = before[node];
+      }
     }
   }
 }
@@ -159,6 +176,11 @@ Facets Model::facets(FaceId id, double deflection, double angle) const {
       if (defect.empty() && folded_share(facets) > 1e-3) defect = "facets folded over each other";
       if (!defect.empty()) continue;
       settle_boundary(*this, id, facets);
+      if (!evaluator.planar) refine_facets(*this, id, deflection, angle, facets);
+      spread_poles(*this, id, facets);
+      if (evaluator.reversed) {
+        for (auto& t : facets.triangles) std::swap(t[1], t[2]);
+      }
       return facets;
     }
     throw CadError(

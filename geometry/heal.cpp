@@ -240,7 +240,7 @@ NamedShape make_solids(NamedShape named, Volumes& volumes, std::vector<std::stri
   if (solids.empty()) throw CadError("there are no faces to make a solid of");
   drop_faces(parts.loose_faces, solids, changes);
   named.shape = make_compound(solids);
-  repair_edges(named.shape, changes);
+  repair_edges(named.shape, 1e-6 * tight_box(named.shape).diagonal(), changes);
   require_volume(solids, volumes);
   return named;
 }

@@ -110,22 +110,6 @@ ParameterRange parameter_range(double low, double high, double period, bool clos
   return {low, high, 0, closed};
 }
 
-FaceEvaluator make_evaluator(const TopoDS_Shape& shape, double planar_tolerance) {
-  FaceEvaluator face;
-  face.shape = TopoDS::Face(shape.Oriented(TopAbs_FORWARD));
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.shape);
-  if (surface.IsNull()) throw CadError("a face has no surface (a bare triangulation)");
-  face.surface = SurfaceEvaluator(surface);
-  BRepTools::UVBounds(face.shape, face.uv_low.x, face.uv_high.x, face.uv_low.y, face.uv_high.y);
-  const GeomAdaptor_Surface& s = face.surface.adaptor();
-  face.u = parameter_range(s.FirstUParameter(), s.LastUParameter(), s.IsUPeriodic() ? s.UPeriod() : 0,
-                           s.IsUClosed(), face.uv_low.x);
-  face.v = parameter_range(s.FirstVParameter(), s.LastVParameter(), s.IsVPeriodic() ? s.VPeriod() : 0,
-                           s.IsVClosed(), face.uv_low.y);
-  face.planar = s.GetType() == GeomAbs_Plane || GeomLib_IsPlanarSurface(surface, planar_tolerance).IsPlanar();
-  return face;
-}
-
 /// One use with where it starts and ends in the loop's direction.
 struct LoopPart {
   EdgeUse use;
@@ -242,6 +226,22 @@ void orient_loops(Model::Data& data) {
 }
 
 }  // namespace
+
+FaceEvaluator make_evaluator(const TopoDS_Shape& shape, double planar_tolerance) {
+  FaceEvaluator face;
+  face.shape = TopoDS::Face(shape.Oriented(TopAbs_FORWARD));
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.shape);
+  if (surface.IsNull()) throw CadError("a face has no surface (a bare triangulation)");
+  face.surface = SurfaceEvaluator(surface);
+  BRepTools::UVBounds(face.shape, face.uv_low.x, face.uv_high.x, face.uv_low.y, face.uv_high.y);
+  const GeomAdaptor_Surface& s = face.surface.adaptor();
+  face.u = parameter_range(s.FirstUParameter(), s.LastUParameter(), s.IsUPeriodic() ? s.UPeriod() : 0,
+                           s.IsUClosed(), face.uv_low.x);
+  face.v = parameter_range(s.FirstVParameter(), s.LastVParameter(), s.IsVPeriodic() ? s.VPeriod() : 0,
+                           s.IsVClosed(), face.uv_low.y);
+  face.planar = s.GetType() == GeomAbs_Plane || GeomLib_IsPlanarSurface(surface, planar_tolerance).IsPlanar();
+  return face;
+}
 
 const UseCurve& FaceEvaluator::use(const EdgeUse& wanted) const {
   const auto found =

@@ -1,4 +1,4 @@
-/// Curves that edges lack. Seen by this folder only.
+/// Curves that edges lack, or that contradict each other. Seen by this folder only.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace aeroloom::geometry {
 
-/// Gives every edge a curve in space and a parameter curve on each of its faces where it has none. Changes
-/// the shape in place and says what in `changes`.
-void repair_edges(const TopoDS_Shape& shape, std::vector<std::string>& changes);
+/// Gives every edge a curve in space and a parameter curve on each of its faces where it has none, and
+/// replaces parameter curves that leave their edge by more than `tolerance` because they run at another pace.
+/// Changes the shape in place and says what in `changes`.
+void repair_edges(const TopoDS_Shape& shape, double tolerance, std::vector<std::string>& changes);
 
 }  // namespace aeroloom::geometry

@@ -159,6 +159,67 @@ TEST(Domain, RefusesFarFieldsThatCutTheBody) {
   }
 }
 
+TEST(Domain, TheFluidIsTheFarFieldWithoutTheBody) {
+  for (const char* name : {"aircraft/pyrefine_cev_capsule.igs", "aircraft/tigl_D150_wing.igs"}) {
+    if (!real::has(name)) GTEST_SKIP() << "no real geometry here";
+    const Model body = prepare(name, DomainKind::fluid).model;
+    DomainOptions options;
+    options.file = real::file(name);
+    options.kind = DomainKind::body;
+    options.far_field = FarFieldOptions{FarFieldShape::box, 2};
+    const Domain around = prepare_domain(options);
+    const double deflection = 1e-3 * body.bounds().diagonal();
+    const double inside = checks::facets_volume(body, deflection, 0.3);
+    const double outside = checks::facets_volume(around.model, deflection, 0.3);
+    const double whole = std::pow(4 * around.report.reference_length, 3);
+    EXPECT_GT(inside, 0);
+    EXPECT_NEAR(inside + outside, whole, 1e-9 * whole) << name;
+  }
+}
+
+TEST(Domain, SeparateShellsOfOneSolidBecomeSolids) {
+  const char* name = "aircraft/tigl_D150_fused_aircraft_mirrored.brep";
+  if (!real::has(name)) GTEST_SKIP() << "no real geometry here";
+  const Domain domain = prepare(name);
+  EXPECT_EQ(domain.report.kind, DomainKind::body);
+  EXPECT_EQ(domain.model.face_count(), 273);
+  checks::expect_watertight(domain.model);
+  const auto& changes = domain.report.changes;
+  EXPECT_TRUE(std::any_of(changes.begin(), changes.end(), [](const std::string& change) {
+    return change.find("2 separate bodies") != std::string::npos;
+  }));
+}
+
+TEST(Domain, LooseFacesAreSewn) {
+  const char* name = "aircraft/dealii_wing.igs";
+  if (!real::has(name)) GTEST_SKIP() << "no real geometry here";
+  const Domain domain = prepare(name);
+  EXPECT_EQ(domain.model.face_count(), 5);
+  checks::expect_watertight(domain.model);
+}
+
+TEST(Domain, RegionsShareTheirCommonFaces) {
+  const char* name = "parts/gmsh_ellipses.brep";
+  if (!real::has(name)) GTEST_SKIP() << "no real geometry here";
+  const Domain domain = prepare(name, DomainKind::fluid);
+  const Model& model = domain.model;
+  EXPECT_EQ(model.region_count(), 15);
+  std::vector<double> volumes(model.region_count(), 0);
+  int shared = 0;
+  for (FaceId f = 0; f < model.face_count(); ++f) {
+    const Facets facets = model.facets(f, 1e-3 * model.bounds().diagonal(), 0.2);
+    const Face& face = model.face(f);
+    for (const auto& t : facets.triangles) {
+      const double part = dot(facets.points[t[0]], cross(facets.points[t[1]], facets.points[t[2]])) / 6;
+      volumes[face.front] += part;
+      if (face.back != no_entity) volumes[face.back] -= part;
+    }
+    shared += face.back != no_entity;
+  }
+  EXPECT_GT(shared, 0);
+  for (const double volume : volumes) EXPECT_GT(volume, 0);
+}
+
 TEST(Domain, TouchingBodiesLeaveNoDoubleFace) {
   if (!real::has("aircraft/gmsh_wing_fuselage.step")) GTEST_SKIP() << "no real geometry here";
   const Domain domain = prepare("aircraft/gmsh_wing_fuselage.step");

@@ -50,6 +50,40 @@ TEST_P(Primitives, HaveSoundFacets) {
   for (FaceId f = 0; f < model.face_count(); ++f) checks::expect_sound_facets(model, f, 1e-3, 0.2, 1e-6);
 }
 
+TEST_P(Primitives, FacetsStayCloseAndTurnLittle) {
+  constexpr double deflection = 2e-3, angle = 0.25;
+  for (FaceId f = 0; f < model.face_count(); ++f) {
+    const Facets facets = model.facets(f, deflection, angle);
+    std::map<std::pair<int, int>, Vec3> normals;
+    for (const auto& t : facets.triangles) {
+      const Vec3 a = facets.points[t[0]], b = facets.points[t[1]], c = facets.points[t[2]];
+      const Vec2 uv = (facets.uv[t[0]] + facets.uv[t[1]] + facets.uv[t[2]]) / 3.0;
+      EXPECT_LT(distance((a + b + c) / 3.0, model.face_point(f, uv)), 2 * deflection);
+      const Vec3 normal = cross(b - a, c - a);
+      if (norm(normal) < 1e-12) continue;  // between two passages of a pole
+      for (int i = 0; i < 3; ++i) {
+        const auto across = normals.find({t[(i + 1) % 3], t[i]});
+        if (across != normals.end()) {
+          EXPECT_GT(dot(across->second, normalized(normal)), std::cos(angle)) << "face " << f;
+        }
+        normals[{t[i], t[(i + 1) % 3]}] = normalized(normal);
+      }
+    }
+  }
+}
+
+TEST_P(Primitives, BothPassagesOfASeamCarryTheSameNodes) {
+  for (FaceId f = 0; f < model.face_count(); ++f) {
+    const Facets facets = model.facets(f, 1e-3, 0.2);
+    for (const auto& line : facets.boundary) {
+      for (const auto& other : facets.boundary) {
+        if (line.use.edge != other.use.edge) continue;
+        EXPECT_EQ(line.parameters, other.parameters) << "edge " << line.use.edge;
+      }
+    }
+  }
+}
+
 TEST_P(Primitives, FacetsDoNotDependOnWhatWasTriangulatedBefore) {
   const Model fresh = Model::from_bytes(model.serialise());
   for (FaceId f = 0; f < model.face_count(); ++f) model.facets(f, 0.05, 0.8);
