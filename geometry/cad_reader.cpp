@@ -80,7 +80,7 @@ void require(bool condition, const std::string& file, const std::string& found) 
 
 /// The CAD library's BREP readers print to standard output when they stumble.
 class SilentOutput {
- public:
+public:
   SilentOutput() : _buffer(std::cout.rdbuf(nullptr)) {}
   ~SilentOutput() {
     std::cout.rdbuf(_buffer);
@@ -89,7 +89,7 @@ class SilentOutput {
   SilentOutput(const SilentOutput&) = delete;
   SilentOutput& operator=(const SilentOutput&) = delete;
 
- private:
+private:
   std::streambuf* _buffer;
 };
 

@@ -1,12 +1,12 @@
 /// From a file or a built-in shape to the fluid domain to mesh.
 #pragma once
 
+#include "geometry/model.hpp"
+#include "geometry/transport.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "geometry/model.hpp"
-#include "geometry/transport.hpp"
 
 namespace aeroloom::geometry {
 
@@ -18,15 +18,15 @@ enum class FarFieldShape { sphere, box };
 /// The far field around a body. Its reference length is the largest extent of the body's box.
 struct FarFieldOptions {
   FarFieldShape shape = FarFieldShape::sphere;
-  double extent = 10;  ///< distance from the body's centre to the far field, in reference lengths; for the box: from the
-                       ///< centre to each side
+  double extent = 10;  ///< distance from the body's centre to the far field, in reference lengths; for the
+                       ///< box: from the centre to each side
 };
 
 struct DomainOptions {
-  std::string file;                               ///< STEP, IGES or BREP, by content and extension; empty for `transport`
-  std::optional<TransportDimensions> transport;   ///< the built-in aircraft
+  std::string file;  ///< STEP, IGES or BREP, by content and extension; empty for `transport`
+  std::optional<TransportDimensions> transport;  ///< the built-in aircraft
   DomainKind kind = DomainKind::automatic;
-  std::optional<FarFieldOptions> far_field;       ///< given by the user; bodies get the default where it is absent
+  std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
 };
 
 /// What was read and what was done with it, for log and report.

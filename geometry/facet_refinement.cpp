@@ -179,8 +179,8 @@ private:
     return orient2d(uv(a), uv(b), uv(c)) > 0;
   }
 
-  /// Such triangles stay as they are: at a pole the parameters of the middle of a side say nothing of where it
-  /// is.
+  /// Such triangles stay as they are: at a pole the parameters of the middle of a side say nothing of where
+  /// it is.
   bool touches_pole(std::int32_t t) const {
     return is_pole(corner(t, 0)) || is_pole(corner(t, 1)) || is_pole(corner(t, 2));
   }

@@ -1,8 +1,10 @@
 /// The CAD model behind the project's own interface: topology as ids, evaluation, projection, facets.
 ///
-/// Lengths are in the model's unit, which is the unit the input file declares (BREP: as stored). Angles are in
-/// radians. A model is immutable; every rank builds its own from the same bytes, so ids agree everywhere.
+/// Lengths are in the model's unit, which is the unit the input file declares (BREP: as stored). Angles are
+/// in radians. A model is immutable; every rank builds its own from the same bytes, so ids agree everywhere.
 #pragma once
+
+#include "geometry/vec.hpp"
 
 #include <array>
 #include <cstddef>
@@ -12,8 +14,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "geometry/vec.hpp"
 
 namespace aeroloom::geometry {
 
@@ -25,7 +25,7 @@ inline constexpr std::int32_t no_entity = -1;
 
 /// Anything that is wrong with CAD input. The message names file, entity, place and remedy.
 class CadError : public std::runtime_error {
- public:
+public:
   using std::runtime_error::runtime_error;
 };
 
@@ -37,9 +37,10 @@ struct EdgeUse {
 };
 
 struct Edge {
-  VertexId first = no_entity, last = no_entity;  ///< at first_parameter and last_parameter; equal on a closed edge
+  VertexId first = no_entity,
+           last = no_entity;  ///< at first_parameter and last_parameter; equal on a closed edge
   double first_parameter = 0, last_parameter = 0;
-  bool degenerate = false;  ///< collapsed to a point of space (a pole); first == last
+  bool degenerate = false;    ///< collapsed to a point of space (a pole); first == last
   std::vector<FaceId> faces;  ///< every face that uses it, ascending, each once
 };
 
@@ -47,15 +48,16 @@ struct Face {
   std::vector<std::vector<EdgeUse>> loops;  ///< material on the left, seen against the outward normal
   std::int32_t patch = 0;                   ///< index into patches()
   std::string name;                         ///< as in the file; "face_<id>" where it has none
-  /// Region on the inner side of the oriented face and beyond it; `back` is no_entity on the domain's boundary.
+  /// Region on the inner side of the oriented face and beyond it; `back` is no_entity on the domain's
+  /// boundary.
   RegionId front = no_entity, back = no_entity;
 };
 
 /// A parametric point of a face with what a mesher needs to know there.
 struct SurfaceFrame {
   Vec3 point;
-  Vec3 du, dv;    ///< first derivatives
-  Vec3 normal;    ///< unit, out of the face's `front` region; zero where the surface is singular
+  Vec3 du, dv;  ///< first derivatives
+  Vec3 normal;  ///< unit, out of the face's `front` region; zero where the surface is singular
 };
 
 struct PrincipalCurvatures {
@@ -81,12 +83,12 @@ struct Facets {
   std::vector<Vec3> points;
   std::vector<Vec2> uv;  ///< per point; points on a seam or pole occur once per passage
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
-  std::vector<BoundaryLine> boundary;  ///< one per edge use of the face
+  std::vector<BoundaryLine> boundary;                  ///< one per edge use of the face
 };
 
 /// Immutable CAD model of the domain to mesh.
 class Model {
- public:
+public:
   /// Rebuilds the model from what serialise() wrote. Throws CadError.
   static Model from_bytes(std::span<const std::byte> bytes);
   /// The model as bytes: geometry, topology, labels, unit.
@@ -108,13 +110,14 @@ class Model {
   const Box& body_bounds() const;
   /// Whether the face belongs to the far field that the program added (size `maximum` applies there).
   bool is_far_field(FaceId id) const;
-  /// Unit name as declared ("m", "mm", "in", "ft", ...), empty when the file declares none, and its length in metres.
+  /// Unit name as declared ("m", "mm", "in", "ft", ...), empty when the file declares none, and its length in
+  /// metres.
   const std::string& unit_name() const;
   double unit_in_metres() const;
 
   /// Point and derivatives of the edge's curve. Not for degenerate edges.
   Vec3 edge_point(EdgeId id, double parameter) const;
-  Vec3 edge_tangent(EdgeId id, double parameter) const;   ///< first derivative
+  Vec3 edge_tangent(EdgeId id, double parameter) const;      ///< first derivative
   double edge_curvature(EdgeId id, double parameter) const;  ///< 1/length; 0 on a line or where undefined
   /// Parameters of the edge's point on the surface of a face that uses it.
   Vec2 edge_uv(FaceId face, const EdgeUse& use, double parameter) const;
@@ -126,22 +129,22 @@ class Model {
   PrincipalCurvatures face_curvatures(FaceId id, Vec2 uv) const;
   bool is_planar(FaceId id) const;
   /// Nearest point of the face's surface, by Newton's method from `guess`; cheap when the guess is near.
-  /// Stays within the surface's parameter range (periodic directions wrap). When it does not converge, returns
-  /// the best point met with converged = false.
+  /// Stays within the surface's parameter range (periodic directions wrap). When it does not converge,
+  /// returns the best point met with converged = false.
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
   /// Exact area by Gauss integration.
   double face_area(FaceId id) const;
 
-  /// Triangulates one face so that neighbouring facets turn by at most `angle` (radians) and stay within `deflection`
-  /// of the surface. A function of the face and the arguments alone: never of what else was triangulated
-  /// before. Throws CadError naming the face when the CAD library fails on it.
+  /// Triangulates one face so that neighbouring facets turn by at most `angle` (radians) and stay within
+  /// `deflection` of the surface. A function of the face and the arguments alone: never of what else was
+  /// triangulated before. Throws CadError naming the face when the CAD library fails on it.
   Facets facets(FaceId id, double deflection, double angle) const;
 
   struct Data;  ///< hidden from everyone but this folder
   explicit Model(std::shared_ptr<const Data> data) : _data(std::move(data)) {}
   const Data& data() const { return *_data; }
 
- private:
+private:
   std::shared_ptr<const Data> _data;
 };
 

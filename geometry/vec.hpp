@@ -10,9 +10,18 @@ namespace aeroloom::geometry {
 struct Vec2 {
   double x = 0, y = 0;
 
-  Vec2& operator+=(Vec2 b) { x += b.x, y += b.y; return *this; }
-  Vec2& operator-=(Vec2 b) { x -= b.x, y -= b.y; return *this; }
-  Vec2& operator*=(double s) { x *= s, y *= s; return *this; }
+  Vec2& operator+=(Vec2 b) {
+    x += b.x, y += b.y;
+    return *this;
+  }
+  Vec2& operator-=(Vec2 b) {
+    x -= b.x, y -= b.y;
+    return *this;
+  }
+  Vec2& operator*=(double s) {
+    x *= s, y *= s;
+    return *this;
+  }
   friend Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
   friend Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
   friend Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
@@ -22,18 +31,35 @@ struct Vec2 {
   friend bool operator==(Vec2, Vec2) = default;
 };
 
-inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
-inline double distance(Vec2 a, Vec2 b) { return norm(a - b); }
+inline double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double norm(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
+inline double distance(Vec2 a, Vec2 b) {
+  return norm(a - b);
+}
 
 /// A point or direction of space.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
-  Vec3& operator+=(Vec3 b) { x += b.x, y += b.y, z += b.z; return *this; }
-  Vec3& operator-=(Vec3 b) { x -= b.x, y -= b.y, z -= b.z; return *this; }
-  Vec3& operator*=(double s) { x *= s, y *= s, z *= s; return *this; }
+  Vec3& operator+=(Vec3 b) {
+    x += b.x, y += b.y, z += b.z;
+    return *this;
+  }
+  Vec3& operator-=(Vec3 b) {
+    x -= b.x, y -= b.y, z -= b.z;
+    return *this;
+  }
+  Vec3& operator*=(double s) {
+    x *= s, y *= s, z *= s;
+    return *this;
+  }
   double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -45,12 +71,18 @@ struct Vec3 {
   friend bool operator==(Vec3, Vec3) = default;
 };
 
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(Vec3 a, Vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
-inline double distance(Vec3 a, Vec3 b) { return norm(a - b); }
+inline double norm(Vec3 a) {
+  return std::sqrt(dot(a, a));
+}
+inline double distance(Vec3 a, Vec3 b) {
+  return norm(a - b);
+}
 /// The unit vector along a; the zero vector stays zero.
 inline Vec3 normalized(Vec3 a) {
   const double length = norm(a);
@@ -58,7 +90,9 @@ inline Vec3 normalized(Vec3 a) {
 }
 /// Six times the signed volume of (a,b,c,d), in floating point: positive when d lies on the side of
 /// triangle (a,b,c) that its counter-clockwise normal points to.
-inline double volume6(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return dot(cross(b - a, c - a), d - a); }
+inline double volume6(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  return dot(cross(b - a, c - a), d - a);
+}
 
 /// An axis-aligned box; empty until something is added.
 struct Box {
