@@ -20,10 +20,14 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double projection_spread = 20 * degree;
 /// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,
 /// and one that is the best to be had.
-constexpr double acceptable_fold = 1e-6, bearable_fold = 1e-3;
+constexpr double acceptable_fold = 1e-4, bearable_fold = 1e-3;
 /// The same for parts that lie over others: chords of curves that meet at a sharp angle cross near their
 /// meeting point.
 constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
+/// A flat patch may exceed the limits of stretch and scale so often before it is split.
+constexpr double endurable_excess = 2;
+/// A patch below this area, in squares of the size, is not split any further.
+constexpr double few_elements = 4;
 constexpr int rigid_steps = 15;
 constexpr int deepest_split = 14;
 
@@ -41,13 +45,14 @@ bool is_bearable(const MapQuality& quality) {
   return quality.overlap <= bearable_overlap && quality.folded <= bearable_fold;
 }
 
-/// Whether a is nearer to the limits than b.
+/// How often a map exceeds its limits.
+double excess(const MapQuality& quality, const ChartLimits& limits) {
+  return std::max(quality.stretch / limits.stretch, quality.scale_ratio / limits.scale_ratio);
+}
+
 bool is_better(const MapQuality& a, const MapQuality& b, const ChartLimits& limits) {
   if (is_bearable(a) != is_bearable(b)) return is_bearable(a);
-  const auto excess = [&](const MapQuality& q) {
-    return std::max(q.stretch / limits.stretch, q.scale_ratio / limits.scale_ratio);
-  };
-  return excess(a) < excess(b);
+  return excess(a, limits) < excess(b, limits);
 }
 
 /// Tries maps from the cheapest to the most patient; the first acceptable one, or the best of all.
@@ -74,6 +79,7 @@ Candidate choose_map(const Support& support, const ChartLimits& limits, double s
 struct Patch {
   Support support;
   int depth;
+  std::optional<Candidate> best = {};  ///< of the maps tried
 };
 
 class ChartMaker {
@@ -87,7 +93,7 @@ public:
       _joined.insert({std::min(whole.mesh_vertex[a], whole.mesh_vertex[b]),
                       std::max(whole.mesh_vertex[a], whole.mesh_vertex[b])});
     }
-    const std::vector<HalfEdge> twins = match_half_edges(whole.triangles);
+    const std::vector<SupportHalfEdge> twins = match_half_edges(whole.triangles);
     std::vector<std::int32_t> component;
     const std::vector<std::int32_t> alike(whole.triangles.size(), 0);
     const std::int32_t count = label_components(twins, alike, component);
@@ -102,7 +108,7 @@ public:
 
 private:
   void push(std::vector<Support> parts, int depth) {
-    for (std::size_t i = parts.size(); i-- > 0;) _waiting.push_back({std::move(parts[i]), depth});
+    for (std::size_t i = parts.size(); i-- > 0;) _waiting.push_back({std::move(parts[i]), depth, {}});
   }
 
   void accept(Support support, PlaneMap map) {
@@ -111,7 +117,7 @@ private:
     _charts.push_back(std::move(chart));
   }
 
-  /// Maps the patch to one chart if it fits the limits, or is flat enough not to be split any further.
+  /// Maps the patch to one chart if it fits the limits, or is not worth being split any further.
   bool map_whole(Patch& patch) {
     const Support& support = patch.support;
     if (_model.is_planar(support.face)) {
@@ -121,11 +127,19 @@ private:
     }
     if (!is_planar_domain(support, match_half_edges(support.triangles))) return false;
     const double spread = normal_spread(support);
-    Candidate best = choose_map(support, _limits, spread);
-    const bool flat = spread <= _limits.spread * degree || patch.depth >= deepest_split;
-    if (!is_acceptable(best.quality, _limits) && !(flat && is_bearable(best.quality))) return false;
-    accept(std::move(patch.support), std::move(best.map));
+    patch.best = choose_map(support, _limits, spread);
+    const MapQuality& quality = patch.best->quality;
+    const bool flat = spread <= _limits.spread * degree && excess(quality, _limits) <= endurable_excess;
+    const bool is_final = flat || patch.depth >= deepest_split || is_small(patch);
+    if (!is_acceptable(quality, _limits) && !(is_final && is_bearable(quality))) return false;
+    accept(std::move(patch.support), std::move(patch.best->map));
     return true;
+  }
+
+  /// Whether a part of a face has room for a few elements only.
+  bool is_small(const Patch& patch) const {
+    const double size = _field(patch.support.points.front());
+    return patch.depth > 0 && support_area(patch.support) < few_elements * size * size;
   }
 
   void split(Patch patch) {
@@ -138,7 +152,8 @@ private:
       push(std::move(parts), patch.depth + 1);
       return;
     }
-    fail(patch.support);
+    if (!patch.best || !is_bearable(patch.best->quality)) fail(patch.support);
+    accept(std::move(patch.support), std::move(patch.best->map));
   }
 
   [[noreturn]] void fail(const Support& support) const {

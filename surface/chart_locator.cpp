@@ -46,7 +46,7 @@ std::int32_t ChartLocator::walk(Vec2 point, std::int32_t from) const {
     const auto w = weights(t, point);
     const auto least = std::min_element(w.begin(), w.end()) - w.begin();
     if (w[least] >= -inside_tolerance) return t;
-    const HalfEdge across = _twins[next_half_edge(static_cast<HalfEdge>(3 * t + least))];
+    const SupportHalfEdge across = _twins[next_half_edge(static_cast<SupportHalfEdge>(3 * t + least))];
     if (across < 0) return -1;
     t = across / 3;
   }

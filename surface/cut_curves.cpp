@@ -17,14 +17,14 @@ using geometry::Vec3;
 constexpr double snap_part = 0.03;
 
 /// One stretch of the cut between mesh vertices, or a closed one: half-edges of side 1, side 1 on their left.
-using Chain = std::vector<HalfEdge>;
+using Chain = std::vector<SupportHalfEdge>;
 
-std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<HalfEdge>& twins) {
+std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<SupportHalfEdge>& twins) {
   const Support& support = cut.support;
   std::vector<std::int32_t> leaving(support.points.size(), 0);
-  std::vector<HalfEdge> next(support.points.size(), -1);
-  std::vector<HalfEdge> all;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
+  std::vector<SupportHalfEdge> next(support.points.size(), -1);
+  std::vector<SupportHalfEdge> all;
+  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
     if (twins[h] < 0 || cut.side[h / 3] != 1 || cut.side[twins[h] / 3] != 0) continue;
     all.push_back(h);
     ++leaving[start_of(support, h)];
@@ -33,19 +33,19 @@ std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<HalfEdg
   const auto is_end = [&](std::int32_t p) { return support.mesh_vertex[p] >= 0 || leaving[p] != 1; };
   std::vector<char> done(twins.size(), 0);
   std::vector<Chain> chains;
-  const auto follow = [&](HalfEdge start) {
+  const auto follow = [&](SupportHalfEdge start) {
     Chain chain;
-    for (HalfEdge h = start; !done[h]; h = next[end_of(support, h)]) {
+    for (SupportHalfEdge h = start; !done[h]; h = next[end_of(support, h)]) {
       chain.push_back(h);
       done[h] = 1;
       if (is_end(end_of(support, h))) break;
     }
     chains.push_back(std::move(chain));
   };
-  for (const HalfEdge h : all) {
+  for (const SupportHalfEdge h : all) {
     if (is_end(start_of(support, h))) follow(h);
   }
-  for (const HalfEdge h : all) {
+  for (const SupportHalfEdge h : all) {
     if (!done[h]) follow(h);
   }
   return chains;
@@ -79,7 +79,7 @@ private:
     if (_support.mesh_vertex[first] < 0) promote(first, start_uv(_support, chain.front()));
     if (_support.mesh_vertex[last] < 0) promote(last, end_uv(_support, chain.back()));
     std::vector<double> arc{0};
-    for (const HalfEdge h : chain) arc.push_back(arc.back() + distance(start(h), end(h)));
+    for (const SupportHalfEdge h : chain) arc.push_back(arc.back() + distance(start(h), end(h)));
     const MetricLength length(
         [&](double s) {
           const std::size_t k = locate(arc, s);
@@ -98,8 +98,8 @@ private:
     join(before, _support.mesh_vertex[last]);
   }
 
-  Vec3 start(HalfEdge h) const { return _support.points[start_of(_support, h)]; }
-  Vec3 end(HalfEdge h) const { return _support.points[end_of(_support, h)]; }
+  Vec3 start(SupportHalfEdge h) const { return _support.points[start_of(_support, h)]; }
+  Vec3 end(SupportHalfEdge h) const { return _support.points[end_of(_support, h)]; }
 
   static std::size_t locate(const std::vector<double>& arc, double s) {
     return static_cast<std::size_t>(std::upper_bound(arc.begin() + 1, arc.end() - 1, s) - arc.begin()) - 1;
@@ -124,7 +124,7 @@ private:
   void join(std::int32_t a, std::int32_t b) { _joined.insert({std::min(a, b), std::max(a, b)}); }
 
   /// The support point for a vertex on the half-edge: one of its ends where that is near, else a new one.
-  std::int32_t place(HalfEdge h, double part, double spacing) {
+  std::int32_t place(SupportHalfEdge h, double part, double spacing) {
     const double length = distance(start(h), end(h));
     if (part * length < snap_part * spacing && _support.mesh_vertex[start_of(_support, h)] < 0) {
       promote(start_of(_support, h), start_uv(_support, h));
@@ -134,7 +134,7 @@ private:
       promote(end_of(_support, h), end_uv(_support, h));
       return end_of(_support, h);
     }
-    const HalfEdge twin = _twins[h];
+    const SupportHalfEdge twin = _twins[h];
     const auto point = static_cast<std::int32_t>(_support.points.size());
     const Vec2 uv = (1 - part) * start_uv(_support, h) + part * end_uv(_support, h);
     _divisions.push_back({h, part, point, uv});
@@ -164,7 +164,7 @@ private:
   Support& _support;
   FaceVertices& _vertices;
   JoinedVertices& _joined;
-  std::vector<HalfEdge> _twins;
+  std::vector<SupportHalfEdge> _twins;
   std::vector<EdgePoint> _divisions;
 };
 
@@ -173,7 +173,7 @@ private:
 std::vector<Support> separate_at_cut(const geometry::Model& model, const sizing::SizeField& field,
                                      CutSupport cut, FaceVertices& vertices, JoinedVertices& joined) {
   CutDiscretiser(model, field, cut, vertices, joined).run();
-  const std::vector<HalfEdge> twins = match_half_edges(cut.support.triangles);
+  const std::vector<SupportHalfEdge> twins = match_half_edges(cut.support.triangles);
   std::vector<std::int32_t> component;
   const std::int32_t count = label_components(twins, cut.side, component);
   return separate_parts(cut.support, twins, component, count);

@@ -13,8 +13,9 @@ using geometry::SurfaceFrame;
 using geometry::Vec2;
 using geometry::Vec3;
 
-/// Edges between points whose normals differ by more (20 degrees) are divided, in so many rounds.
-constexpr double turning_cosine = 0.94;
+/// Edges between points whose normals differ by more (20 degrees) are divided, and so is the longest edge of
+/// a triangle that leans away from the normals of its corners (30 degrees), in so many rounds.
+constexpr double turning_cosine = 0.94, leaning_cosine = 0.87;
 constexpr int dividing_rounds = 4;
 
 SurfaceMetric metric_of(const SurfaceFrame& frame) {
@@ -109,14 +110,40 @@ void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {
   }
 }
 
-bool OpenFacets::divide_turning_edges(const std::vector<SurfaceFrame>& frames) {
-  const std::vector<HalfEdge> twins = match_half_edges(_support.triangles);
-  std::vector<EdgePoint> divisions;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
-    if (twins[h] < h) continue;
+std::vector<char> OpenFacets::find_turning_edges(const std::vector<SupportHalfEdge>& twins,
+                                                 const std::vector<SurfaceFrame>& frames) const {
+  std::vector<char> marked(twins.size(), 0);
+  const auto mark = [&](SupportHalfEdge h) {
+    if (twins[h] >= 0) marked[std::min(h, twins[h])] = 1;
+  };
+  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
     const Vec3 first = frames[start_of(_support, h)].normal, second = frames[end_of(_support, h)].normal;
     // Normals are zero at singular points.
-    if (norm(first) == 0 || norm(second) == 0 || dot(first, second) >= turning_cosine) continue;
+    if (norm(first) > 0 && norm(second) > 0 && dot(first, second) < turning_cosine) mark(h);
+  }
+  for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
+    const auto& [a, b, c] = _support.triangles[t];
+    const Vec3 expected = frames[a].normal + frames[b].normal + frames[c].normal;
+    const Vec3 found = area_vector(_support, static_cast<std::int32_t>(t));
+    if (dot(expected, found) >= leaning_cosine * norm(expected) * norm(found)) continue;
+    SupportHalfEdge longest = static_cast<SupportHalfEdge>(3 * t);
+    const auto length = [&](SupportHalfEdge h) {
+      return distance(_support.points[start_of(_support, h)], _support.points[end_of(_support, h)]);
+    };
+    for (const SupportHalfEdge h : {longest + 1, longest + 2}) {
+      if (length(h) > length(longest)) longest = h;
+    }
+    mark(longest);
+  }
+  return marked;
+}
+
+bool OpenFacets::divide_turning_edges(const std::vector<SurfaceFrame>& frames) {
+  const std::vector<SupportHalfEdge> twins = match_half_edges(_support.triangles);
+  const std::vector<char> marked = find_turning_edges(twins, frames);
+  std::vector<EdgePoint> divisions;
+  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+    if (!marked[h]) continue;
     const auto index = static_cast<std::int32_t>(_support.points.size());
     const Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
     divisions.push_back({h, 0.5, index, uv});

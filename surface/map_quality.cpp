@@ -121,7 +121,7 @@ bool may_overlap(const Support& support, const PlaneMap& map) {
   int outer = 0;
   for (const auto& loop : trace_boundary(support, match_half_edges(support.triangles))) {
     double area = 0;
-    for (const HalfEdge h : loop) {
+    for (const SupportHalfEdge h : loop) {
       edges.push_back({start_of(support, h), end_of(support, h)});
       area += cross(map[edges.back()[0]] - map[0], map[edges.back()[1]] - map[0]);
     }

@@ -90,21 +90,21 @@ void drop_opposite_pairs(Support& support) {
 class OpenFacets::SideTable {
 public:
   explicit SideTable(const Support& support) : _twins(match_half_edges(support.triangles)) {
-    for (HalfEdge h = 0; h < static_cast<HalfEdge>(_twins.size()); ++h) {
+    for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(_twins.size()); ++h) {
       _rows.push_back({{start_of(support, h), end_of(support, h)}, h});
     }
     std::sort(_rows.begin(), _rows.end());
   }
-  HalfEdge find(std::int32_t from, std::int32_t to) const {
+  SupportHalfEdge find(std::int32_t from, std::int32_t to) const {
     const Row key{{from, to}, -1};
     const auto row = std::lower_bound(_rows.begin(), _rows.end(), key);
     return row != _rows.end() && row->first == key.first ? row->second : -1;
   }
-  HalfEdge twin(HalfEdge h) const { return _twins[h]; }
+  SupportHalfEdge twin(SupportHalfEdge h) const { return _twins[h]; }
 
 private:
-  using Row = std::pair<std::array<std::int32_t, 2>, HalfEdge>;
-  std::vector<HalfEdge> _twins;
+  using Row = std::pair<std::array<std::int32_t, 2>, SupportHalfEdge>;
+  std::vector<SupportHalfEdge> _twins;
   std::vector<Row> _rows;
 };
 
@@ -219,7 +219,7 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
     }
     const auto index = static_cast<std::int32_t>(_support.points.size());
     const double fraction = std::clamp((t - old[k].parameter) / part, 0.0, 1.0);
-    HalfEdge h = table.find(old[k].point, old[k + 1].point);
+    SupportHalfEdge h = table.find(old[k].point, old[k + 1].point);
     const bool along = h >= 0;
     if (!along) h = table.find(old[k + 1].point, old[k].point);
     if (h < 0) fail(_model, _support.face, line.use, point);

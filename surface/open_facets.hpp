@@ -60,6 +60,9 @@ private:
   void flip(const std::vector<geometry::SurfaceFrame>& frames);
   bool is_folded() const;
   void triangulate_again(const std::vector<geometry::SurfaceFrame>& frames);
+  /// Per half-edge, whether its edge is to be divided; marked on the lower half-edge of the two.
+  std::vector<char> find_turning_edges(const std::vector<SupportHalfEdge>& twins,
+                                       const std::vector<geometry::SurfaceFrame>& frames) const;
   bool divide_turning_edges(const std::vector<geometry::SurfaceFrame>& frames);
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 

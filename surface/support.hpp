@@ -19,7 +19,7 @@ struct Support {
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
   std::vector<std::array<geometry::Vec2, 3>> corner_uv;  ///< per triangle corner
   /// Vertex of the face's mesh at this support point, -1 where there is none. Numbers run over the face:
-  /// those of `FaceVertices` below.
+  /// those of `FaceVertices` below. Where the boundary touches itself, several points share a vertex.
   std::vector<std::int32_t> mesh_vertex;
   /// Boundary edges of the mesh as directed pairs of support points, the patch on the left: chords between
   /// consecutive mesh vertices. Empty on a closed surface.
@@ -36,8 +36,9 @@ struct FaceVertices {
 };
 
 /// Builds the support of a whole face from its facets: closes seams and poles, splits boundary edges at the
-/// curve vertices, and improves it by Delaunay flips. `vertices` receives the curve vertices of the face in a
-/// fixed order.
+/// curve vertices, and reconnects and refines it in the parameter plane until it follows the surface, however
+/// coarse the facets are next to the sizes. `vertices` receives the curve vertices of the face, ascending.
+/// Throws SurfaceError where the facets do not fit the loops of the face.
 Support build_support(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
                       const geometry::Facets& facets, FaceVertices& vertices);
 

@@ -54,25 +54,25 @@ void emit(const Division& division, Support& out) {
 
 }  // namespace
 
-std::vector<HalfEdge> match_half_edges(const std::vector<std::array<std::int32_t, 3>>& triangles) {
+std::vector<SupportHalfEdge> match_half_edges(const std::vector<std::array<std::int32_t, 3>>& triangles) {
   struct Side {
     std::int32_t low, high;
     bool backward;
-    HalfEdge half_edge;
+    SupportHalfEdge half_edge;
   };
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const std::int32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), a > b, static_cast<HalfEdge>(3 * t + i)});
+      sides.push_back({std::min(a, b), std::max(a, b), a > b, static_cast<SupportHalfEdge>(3 * t + i)});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::tie(a.low, a.high, a.backward, a.half_edge) <
            std::tie(b.low, b.high, b.backward, b.half_edge);
   });
-  std::vector<HalfEdge> twins(3 * triangles.size(), -1);
+  std::vector<SupportHalfEdge> twins(3 * triangles.size(), -1);
   for (std::size_t begin = 0; begin < sides.size();) {
     std::size_t end = begin, middle = begin;
     while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high)
@@ -87,18 +87,18 @@ std::vector<HalfEdge> match_half_edges(const std::vector<std::array<std::int32_t
   return twins;
 }
 
-std::vector<std::vector<HalfEdge>> trace_boundary(const Support& support,
-                                                  const std::vector<HalfEdge>& twins) {
-  std::vector<HalfEdge> outgoing(support.points.size(), -1);
-  const HalfEdge count = static_cast<HalfEdge>(twins.size());
-  for (HalfEdge h = 0; h < count; ++h) {
+std::vector<std::vector<SupportHalfEdge>> trace_boundary(const Support& support,
+                                                         const std::vector<SupportHalfEdge>& twins) {
+  std::vector<SupportHalfEdge> outgoing(support.points.size(), -1);
+  const SupportHalfEdge count = static_cast<SupportHalfEdge>(twins.size());
+  for (SupportHalfEdge h = 0; h < count; ++h) {
     if (twins[h] < 0) outgoing[start_of(support, h)] = h;
   }
-  std::vector<std::vector<HalfEdge>> loops;
-  for (HalfEdge h = 0; h < count; ++h) {
+  std::vector<std::vector<SupportHalfEdge>> loops;
+  for (SupportHalfEdge h = 0; h < count; ++h) {
     if (twins[h] >= 0 || outgoing[start_of(support, h)] != h) continue;
-    std::vector<HalfEdge> loop;
-    for (HalfEdge at = h; at >= 0;) {
+    std::vector<SupportHalfEdge> loop;
+    for (SupportHalfEdge at = h; at >= 0;) {
       loop.push_back(at);
       outgoing[start_of(support, at)] = -1;
       at = outgoing[end_of(support, at)];
@@ -109,11 +109,11 @@ std::vector<std::vector<HalfEdge>> trace_boundary(const Support& support,
 }
 
 std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support,
-                                                          const std::vector<HalfEdge>& twins) {
+                                                          const std::vector<SupportHalfEdge>& twins) {
   std::vector<std::array<std::int32_t, 2>> edges;
   for (const auto& loop : trace_boundary(support, twins)) {
     std::int32_t first = -1, last = -1;
-    for (const HalfEdge h : loop) {
+    for (const SupportHalfEdge h : loop) {
       const std::int32_t point = start_of(support, h);
       if (support.mesh_vertex[point] < 0) continue;
       if (first < 0) first = point;
@@ -125,12 +125,12 @@ std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support
   return edges;
 }
 
-std::vector<Support> separate_parts(const Support& support, const std::vector<HalfEdge>& twins,
+std::vector<Support> separate_parts(const Support& support, const std::vector<SupportHalfEdge>& twins,
                                     const std::vector<std::int32_t>& part, std::int32_t parts) {
   // Corners joined across edges inside a part are one point of it.
   std::vector<std::int32_t> fan(3 * support.triangles.size());
   std::iota(fan.begin(), fan.end(), 0);
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(twins.size()); ++h) {
+  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
     if (twins[h] < h || part[h / 3] != part[twins[h] / 3]) continue;
     unite(fan, h, next_half_edge(twins[h]));
     unite(fan, next_half_edge(h), twins[h]);
@@ -160,8 +160,8 @@ std::vector<Support> separate_parts(const Support& support, const std::vector<Ha
   return result;
 }
 
-std::int32_t label_components(const std::vector<HalfEdge>& twins, const std::vector<std::int32_t>& label,
-                              std::vector<std::int32_t>& component) {
+std::int32_t label_components(const std::vector<SupportHalfEdge>& twins,
+                              const std::vector<std::int32_t>& label, std::vector<std::int32_t>& component) {
   component.assign(label.size(), -1);
   std::int32_t count = 0;
   std::vector<std::int32_t> stack;
@@ -173,7 +173,7 @@ std::int32_t label_components(const std::vector<HalfEdge>& twins, const std::vec
       const std::int32_t t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        const HalfEdge twin = twins[3 * t + i];
+        const SupportHalfEdge twin = twins[3 * t + i];
         if (twin < 0 || component[twin / 3] >= 0 || label[twin / 3] != label[t]) continue;
         component[twin / 3] = count;
         stack.push_back(twin / 3);
@@ -184,7 +184,7 @@ std::int32_t label_components(const std::vector<HalfEdge>& twins, const std::vec
   return count;
 }
 
-bool is_planar_domain(const Support& support, const std::vector<HalfEdge>& twins) {
+bool is_planar_domain(const Support& support, const std::vector<SupportHalfEdge>& twins) {
   const auto boundary_edges = std::count(twins.begin(), twins.end(), -1);
   const auto edges = (static_cast<std::int64_t>(twins.size()) + boundary_edges) / 2;
   const auto euler = static_cast<std::int64_t>(support.points.size()) - edges +
@@ -204,7 +204,7 @@ std::vector<std::int32_t> divide_edges(Support& support, std::vector<EdgePoint> 
     Division division{support.triangles[t], support.corner_uv[t], {}};
     for (int i = 0; i < 3; ++i) {
       const std::size_t begin = at;
-      while (at < points.size() && points[at].half_edge == static_cast<HalfEdge>(3 * t + i)) ++at;
+      while (at < points.size() && points[at].half_edge == static_cast<SupportHalfEdge>(3 * t + i)) ++at;
       division.inserts[i] = std::span<const EdgePoint>(points).subspan(begin, at - begin);
     }
     emit(division, divided);

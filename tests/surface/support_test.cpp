@@ -22,7 +22,7 @@ using testing::uniform_field;
 struct Built {
   Support support;
   FaceVertices vertices;
-  std::vector<HalfEdge> twins;
+  std::vector<SupportHalfEdge> twins;
   std::int64_t euler = 0;
   std::size_t loops = 0;
 };
@@ -111,6 +111,24 @@ TEST(Support, MeshVerticesDivideCoarseFacets) {
     EXPECT_EQ(built.euler, 1);
     EXPECT_NEAR(support_area(built.support), 1, 1e-12);
     expect_sound(model, built);
+  }
+}
+
+TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
+  // Mesh vertices lie on the circles, well outside the chords of the facets: no triangle may turn over for
+  // it.
+  const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.radius = 0.25, .height = 0.004});
+  const CurveMesh curves = curves_of(model, uniform_field(model, 0.002));
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    const geometry::Facets coarse = model.facets(f, 0.05, 1.2);
+    FaceVertices vertices;
+    const Support support = build_support(model, f, curves, coarse, vertices);
+    for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+      const auto& uv = support.corner_uv[t];
+      const Vec3 normal = model.face_frame(f, (uv[0] + uv[1] + uv[2]) / 3).normal;
+      const Vec3 area = area_vector(support, static_cast<std::int32_t>(t));
+      EXPECT_GT(dot(area, normal), 0.8 * norm(area)) << "face " << f << " triangle " << t;
+    }
   }
 }
 
