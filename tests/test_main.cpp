@@ -1,15 +1,15 @@
 /// Entry of every test program: GoogleTest under the parallel environment, on any number of ranks. Rank 0
 /// prints; the others print only what fails on them.
-#include <gtest/gtest.h>
-
 #include "parallel/communicator.hpp"
 #include "parallel/environment.hpp"
+
+#include <gtest/gtest.h>
 
 namespace {
 
 /// Prints the failures of a rank other than 0.
 class FailuresOnly : public testing::EmptyTestEventListener {
- public:
+public:
   explicit FailuresOnly(int rank) : _rank(rank) {}
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (result.failed()) {
@@ -18,7 +18,7 @@ class FailuresOnly : public testing::EmptyTestEventListener {
     }
   }
 
- private:
+private:
   int _rank;
 };
 
