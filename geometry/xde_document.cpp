@@ -1,7 +1,8 @@
 #include "geometry/xde_document.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <cctype>
+#include <iterator>
 
 #include <BRep_Builder.hxx>
 #include <Quantity_Color.hxx>
@@ -95,7 +96,7 @@ private:
   }
 
   void describe_by_entities(const TopoDS_Shape& part, const TopLoc_Location& place) {
-    for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_SHELL, TopAbs_FACE}) {
+    for (const TopAbs_ShapeEnum kind : {TopAbs_SHELL, TopAbs_SOLID, TopAbs_FACE}) {
       for (TopExp_Explorer parts(part, kind); parts.More(); parts.Next()) {
         const std::string* name = _names.Seek(parts.Current().Located(TopLoc_Location()));
         if (!name || is_placeholder(*name)) continue;
@@ -150,11 +151,13 @@ NamedShape collect_parts(const Handle(TDocStd_Document) & document, const Entity
 }
 
 bool is_placeholder(const std::string& name) {
-  static const char* const made_up[] = {"NONE", "UNNAMED",  "SOLID",     "SHELL",
-                                        "FACE", "COMPOUND", "COMPSOLID", "SHAPE"};
+  static const char* const made_up[] = {"NONE",     "UNNAMED",   "SOLID", "SHELL",        "FACE",
+                                        "COMPOUND", "COMPSOLID", "SHAPE", "CLOSED SHELL", "OPEN SHELL"};
   const bool blank = std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isspace(c); });
+  std::string upper = name;
+  std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
   return blank || name.starts_with("Open CASCADE") || name.starts_with("=>[") ||
-         std::find(std::begin(made_up), std::end(made_up), name) != std::end(made_up);
+         std::find(std::begin(made_up), std::end(made_up), upper) != std::end(made_up);
 }
 
 }  // namespace aeroloom::geometry
