@@ -172,7 +172,7 @@ NamedShape unite(const std::vector<Part>& parts) {
       }
     }
   }
-  result.unit_name = "m";
+  result.unit_name.assign(1, 'm');
   result.unit_in_metres = 1;
   return result;
 }
