@@ -44,9 +44,10 @@ auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work w
     throw StageFailure(name, code_of(error, code), error.what());
   } catch (const std::bad_alloc&) {
     throw StageFailure(name, ExitCode::resources, "out of memory");
+  } catch (const std::invalid_argument& error) {
+    throw StageFailure(name, ExitCode::usage, error.what());
   } catch (const std::logic_error& error) {
-    throw StageFailure(name, dynamic_cast<const std::invalid_argument*>(&error) ? code : ExitCode::bug,
-                       error.what());
+    throw StageFailure(name, ExitCode::bug, error.what());
   } catch (const std::exception& error) {
     throw StageFailure(name, code, error.what());
   }
@@ -236,7 +237,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     refuse_inner_faces(loaded);
     return loaded;
   });
-  const sizing::SizeField field = run_stage(record, "sizing", ExitCode::usage,
+  const sizing::SizeField field = run_stage(record, "sizing", ExitCode::cad,
                                             [&] { return build_sizes(communicator, model, input, record); });
   run_stage(record, "decompose", ExitCode::resources,
             [&] { decompose(communicator, model, field, input, record); });
