@@ -35,8 +35,7 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
 }
 
 /// `hull` compares the solids as they are; joined ones have other faces.
-Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, Volumes& volumes,
-                  std::vector<std::string>& changes) {
+Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, Volumes& volumes, Changes& changes) {
   const bool single = solids_of(solids.shape).size() == 1;
   const NamedShape fluid = join_regions(std::move(solids), volumes, changes);
   if (!hull || !single) hull = compare(fluid, volumes);
@@ -44,7 +43,7 @@ Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, Volumes
 }
 
 Model build_around_bodies(NamedShape solids, const FarFieldOptions& far_field, Volumes& volumes,
-                          std::vector<std::string>& changes) {
+                          Changes& changes) {
   const NamedShape fluid =
       surround(unite_bodies(std::move(solids), volumes, changes), far_field, volumes, changes);
   return build_model(fluid, tag_faces(fluid, DomainKind::body, nullptr));
@@ -95,7 +94,7 @@ Domain prepare_domain(const DomainOptions& options) {
 
 void export_step(const DomainOptions& options, const std::string& file) {
   with_source(options, [&] {
-    std::vector<std::string> changes;
+    Changes changes;
     Volumes volumes;
     write_step(make_solids(read_source(options), volumes, changes), file);
   });

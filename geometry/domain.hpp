@@ -1,6 +1,7 @@
 /// From a file or a built-in shape to the fluid domain to mesh.
 #pragma once
 
+#include "geometry/change.hpp"
 #include "geometry/model.hpp"
 #include "geometry/transport.hpp"
 
@@ -34,7 +35,7 @@ struct DomainReport {
   DomainKind kind = DomainKind::automatic;  ///< as decided
   std::string reason;                       ///< why, when it was decided here
   double reference_length = 0;              ///< of the body (or the domain)
-  std::vector<std::string> changes;         ///< every repair: what, where, how much
+  Changes changes;                          ///< every repair: what, where, how much
 };
 
 struct Domain {

@@ -45,8 +45,7 @@ void require_clearance(const FarFieldOptions& options, const Box& body, double r
 
 /// The shells that face the fluid. A body's cavities hold no outside fluid; a body in another's cavity never
 /// meets it.
-std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volumes,
-                                       std::vector<std::string>& changes) {
+std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volumes, Changes& changes) {
   std::vector<TopoDS_Shell> shells;
   for (const TopoDS_Solid& solid : solids_of(bodies)) {
     const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
@@ -56,7 +55,7 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
     for (TopExp_Explorer each(solid, TopAbs_SHELL); each.More(); each.Next()) ++voids;
     if (voids > 0)
       changes.push_back(
-          fmt::format("{} closed cavities inside a body do not reach the fluid: left out", voids));
+          {fmt::format("{} closed cavities inside a body do not reach the fluid: left out", voids)});
   }
   const std::vector<TopoDS_Solid> nested = nest_shells(shells, volumes);
   std::vector<TopoDS_Shell> outermost;
@@ -69,8 +68,8 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
     if (!buried) outermost.push_back(outer);
   }
   if (outermost.size() < shells.size()) {
-    changes.push_back(fmt::format("{} bodies lie inside others and do not reach the fluid: left out",
-                                  shells.size() - outermost.size()));
+    changes.push_back({fmt::format("{} bodies lie inside others and do not reach the fluid: left out",
+                                   shells.size() - outermost.size())});
   }
   return outermost;
 }
@@ -89,8 +88,7 @@ void require_volume(double far_field, double body, double fluid) {
 
 }  // namespace
 
-NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes,
-                    std::vector<std::string>& changes) {
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
   const Box box = tight_box(bodies.shape);
   const double reference = largest_extent(box);
   require_clearance(options, box, reference);

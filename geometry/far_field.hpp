@@ -1,6 +1,7 @@
 /// Bodies made one, and the fluid around them. Seen by this folder only.
 #pragma once
 
+#include "geometry/change.hpp"
 #include "geometry/domain.hpp"
 #include "geometry/named_shape.hpp"
 #include "geometry/volumes.hpp"
@@ -11,16 +12,15 @@
 namespace aeroloom::geometry {
 
 /// Bodies that touch or overlap become one solid each (boolean union, its volume checked); labels follow.
-NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, std::vector<std::string>& changes);
+NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes);
 
 /// Solids that touch come to share their common faces, so that meshes of neighbouring regions conform. Throws
 /// CadError where they overlap.
-NamedShape join_regions(NamedShape regions, Volumes& volumes, std::vector<std::string>& changes);
+NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes);
 
 /// The space between the far field and the bodies, which are disjoint. No boolean operation: the bodies'
 /// outer shells become voids of the far field, which is exact and keeps faces and labels. Throws CadError
 /// where the far field does not clear the bodies, or when the volumes do not add up.
-NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes,
-                    std::vector<std::string>& changes);
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes);
 
 }  // namespace aeroloom::geometry

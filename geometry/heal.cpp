@@ -41,7 +41,7 @@ std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
   return shells;
 }
 
-Parts take_apart(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
+Parts take_apart(const TopoDS_Shape& shape, Changes& changes) {
   Parts parts;
   TopTools_IndexedMapOfShape solids, shells, faces;
   TopExp::MapShapes(shape, TopAbs_SOLID, solids);
@@ -51,7 +51,7 @@ Parts take_apart(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
     if (closed) {
       parts.solids.push_back(TopoDS::Solid(solids(i).Oriented(TopAbs_FORWARD)));
     } else {
-      changes.push_back(fmt::format("solid {} is not closed: its faces are sewn anew", i - 1));
+      changes.push_back({fmt::format("solid {} is not closed: its faces are sewn anew", i - 1)});
       TopExp::MapShapes(solids(i), TopAbs_FACE, parts.open_faces);
     }
   }
@@ -78,17 +78,17 @@ Parts take_apart(const TopoDS_Shape& shape, std::vector<std::string>& changes) {
 
 /// One solid may hold shells that are no voids but bodies of their own.
 void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
-                 std::vector<TopoDS_Solid>& result, std::vector<std::string>& changes) {
+                 std::vector<TopoDS_Solid>& result, Changes& changes) {
   const std::vector<TopoDS_Shell> shells = shells_of(solid);
   if (shells.size() == 1) {
     const double volume = volumes.of(solid);
     if (volume >= 0) return result.push_back(solid);
-    changes.push_back(fmt::format("solid {} was inside out: turned", index));
+    changes.push_back({fmt::format("solid {} was inside out: turned", index)});
     return result.push_back(solid_of(shells.front(), volumes));
   }
   const std::vector<TopoDS_Solid> split = nest_shells(shells, volumes);
   if (split.size() > 1) {
-    changes.push_back(fmt::format("solid {} held {} separate bodies: one solid each", index, split.size()));
+    changes.push_back({fmt::format("solid {} held {} separate bodies: one solid each", index, split.size())});
   }
   result.insert(result.end(), split.begin(), split.end());
 }
@@ -155,8 +155,7 @@ Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, FaceLab
   return sewn;
 }
 
-std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, FaceLabels& labels,
-                              std::vector<std::string>& changes) {
+std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, FaceLabels& labels, Changes& changes) {
   Box box;
   for (int i = 1; i <= faces.Extent(); ++i) box.add(tight_box(faces(i)));
   Sewn sewn;
@@ -165,8 +164,8 @@ std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, FaceLabel
     sewn = sew_once(faces, tolerance, labels);
     if (!sewn.complete) continue;
     changes.push_back(
-        fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the diagonal)",
-                    faces.Extent(), sewn.closed.size(), tolerance, share));
+        {fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the diagonal)",
+                     faces.Extent(), sewn.closed.size(), tolerance, share)});
     return sewn.closed;
   }
   throw CadError(fmt::format(
@@ -177,14 +176,15 @@ std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, FaceLabel
 }
 
 void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
-                std::vector<std::string>& changes) {
+                Changes& changes) {
   TopTools_IndexedMapOfShape used;
   for (const TopoDS_Solid& solid : solids) TopExp::MapShapes(solid, TopAbs_FACE, used);
   for (int i = 1; i <= faces.Extent(); ++i) {
     if (used.Contains(faces(i))) continue;
     const Vec3 center = tight_box(faces(i)).center();
-    changes.push_back(fmt::format("a loose face around ({:.6g}, {:.6g}, {:.6g}) belongs to no solid: dropped",
-                                  center.x, center.y, center.z));
+    changes.push_back(
+        {fmt::format("a loose face around ({:.6g}, {:.6g}, {:.6g}) belongs to no solid: dropped", center.x,
+                     center.y, center.z)});
   }
 }
 
@@ -220,13 +220,13 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
   return compound;
 }
 
-NamedShape make_solids(NamedShape named, Volumes& volumes, std::vector<std::string>& changes) {
+NamedShape make_solids(NamedShape named, Volumes& volumes, Changes& changes) {
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)
     split_solid(parts.solids[i], i, volumes, solids, changes);
   std::vector<TopoDS_Shell> shells = parts.closed_shells;
-  if (!shells.empty()) changes.push_back(fmt::format("{} closed shells promoted to solids", shells.size()));
+  if (!shells.empty()) changes.push_back({fmt::format("{} closed shells promoted to solids", shells.size())});
   if (solids.empty() && shells.empty()) {
     TopExp::MapShapes(named.shape, TopAbs_FACE, parts.open_faces);
     parts.loose_faces.Clear();

@@ -1,6 +1,7 @@
 /// From what a file holds to closed solids. Seen by this folder only.
 #pragma once
 
+#include "geometry/change.hpp"
 #include "geometry/named_shape.hpp"
 #include "geometry/volumes.hpp"
 
@@ -19,6 +20,6 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids);
 /// are no solids, sewn with tolerances from 1e-7 to 1e-5 of its diagonal. Labels follow. Every change is
 /// appended to `changes`. Throws CadError listing open edges where no closed solid comes out, and for solids
 /// without volume.
-NamedShape make_solids(NamedShape named, Volumes& volumes, std::vector<std::string>& changes);
+NamedShape make_solids(NamedShape named, Volumes& volumes, Changes& changes);
 
 }  // namespace aeroloom::geometry

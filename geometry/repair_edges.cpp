@@ -78,7 +78,7 @@ bool keep_pace(const TopoDS_Edge& edge, const TopoDS_Face& shape, double toleran
 
 }  // namespace
 
-void repair_edges(const TopoDS_Shape& shape, double tolerance, std::vector<std::string>& changes) {
+void repair_edges(const TopoDS_Shape& shape, double tolerance, Changes& changes) {
   TopTools_IndexedDataMapOfShapeListOfShape users;
   TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
   int curves = 0, images = 0, paces = 0;
@@ -97,13 +97,13 @@ void repair_edges(const TopoDS_Shape& shape, double tolerance, std::vector<std::
       }
     }
   }
-  if (curves > 0) changes.push_back(fmt::format("{} edges got the curve they lacked", curves));
+  if (curves > 0) changes.push_back({fmt::format("{} edges got the curve they lacked", curves)});
   if (images > 0)
-    changes.push_back(fmt::format("{} edges got the parameter curve they lacked on a face", images));
+    changes.push_back({fmt::format("{} edges got the parameter curve they lacked on a face", images)});
   if (paces > 0) {
-    changes.push_back(fmt::format(
+    changes.push_back({fmt::format(
         "{} parameter curves left their edges by more than {:.3g}, running at another pace: fitted anew",
-        paces, tolerance));
+        paces, tolerance)});
   }
 }
 

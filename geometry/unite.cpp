@@ -107,12 +107,12 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes&
 
 }  // namespace
 
-NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, std::vector<std::string>& changes) {
+NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(bodies.shape))) {
     const std::vector<TopoDS_Solid> united = group.size() > 1 ? unite(group, volumes, bodies.labels) : group;
     if (group.size() > united.size()) {
-      changes.push_back(fmt::format("{} touching bodies united to {}", group.size(), united.size()));
+      changes.push_back({fmt::format("{} touching bodies united to {}", group.size(), united.size())});
     }
     result.insert(result.end(), united.begin(), united.end());
   }
@@ -120,7 +120,7 @@ NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, std::vector<std::st
   return bodies;
 }
 
-NamedShape join_regions(NamedShape regions, Volumes& volumes, std::vector<std::string>& changes) {
+NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(regions.shape))) {
     if (group.size() == 1) {
@@ -144,7 +144,7 @@ NamedShape join_regions(NamedShape regions, Volumes& volumes, std::vector<std::s
       throw CadError(fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}", group.size(),
                                  whole, parts));
     }
-    changes.push_back(fmt::format("{} touching regions joined face to face", group.size()));
+    changes.push_back({fmt::format("{} touching regions joined face to face", group.size())});
     result.insert(result.end(), joined.begin(), joined.end());
   }
   regions.shape = make_compound(result);

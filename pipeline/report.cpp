@@ -27,7 +27,12 @@ Json geometry_json(const RunRecord& record) {
                                                                       : "auto";
   json["domain_reason"] = record.domain.reason;
   json["reference_length"] = record.domain.reference_length;
-  json["changes"] = record.domain.changes;
+  json["changes"] = Json::array();
+  for (const geometry::Change& change : record.domain.changes) {
+    json["changes"].push_back({{"what", change.what},
+                               {"where", change.where ? to_json(*change.where) : Json()},
+                               {"how_much", change.how_much}});
+  }
   return json;
 }
 

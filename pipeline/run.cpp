@@ -85,7 +85,9 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
                   record.regions, record.faces, record.edges, size.x, size.y, size.z,
                   record.unit.empty() ? "(no unit declared)" : record.unit));
   if (!record.domain.reason.empty()) parallel::log_info("geometry: " + record.domain.reason);
-  for (const std::string& change : record.domain.changes) parallel::log_info("geometry: " + change);
+  for (const geometry::Change& change : record.domain.changes) {
+    parallel::log_info("geometry: " + geometry::describe(change));
+  }
 }
 
 /// Faces between two regions need conforming volume meshes on both sides, which are not built yet.

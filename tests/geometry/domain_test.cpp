@@ -185,8 +185,8 @@ TEST(Domain, SeparateShellsOfOneSolidBecomeSolids) {
   EXPECT_EQ(domain.model.face_count(), 273);
   checks::expect_watertight(domain.model);
   const auto& changes = domain.report.changes;
-  EXPECT_TRUE(std::any_of(changes.begin(), changes.end(), [](const std::string& change) {
-    return change.find("2 separate bodies") != std::string::npos;
+  EXPECT_TRUE(std::any_of(changes.begin(), changes.end(), [](const Change& change) {
+    return change.what.find("2 separate bodies") != std::string::npos;
   }));
 }
 
