@@ -6,7 +6,10 @@
 #include "surface/support.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,6 +26,48 @@ struct ChartBoundary {
   std::vector<std::int32_t> face_vertex;  // per boundary point: vertex of the face's mesh
 };
 
+/// Per boundary point, the one to use in its place. Where loops touch in a vertex, the chart has a point for
+/// each passage; those that the map puts on one spot are one vertex of the front.
+std::vector<std::int32_t> join_passages(const ChartBoundary& boundary) {
+  constexpr double one_spot = 1e-6;  // of the shortest edge there
+  const auto& points = boundary.input.points;
+  const auto count = static_cast<std::int32_t>(points.size());
+  std::vector<double> reach(count, std::numeric_limits<double>::max());
+  for (const auto& [a, b] : boundary.input.edges) {
+    const Vec2 edge = points[b] - points[a];
+    const double length = std::hypot(edge.x, edge.y);
+    for (const std::int32_t end : {a, b}) reach[end] = std::min(reach[end], one_spot * length);
+  }
+  std::vector<std::int32_t> order(count), target(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::iota(target.begin(), target.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
+    return boundary.face_vertex[i] < boundary.face_vertex[j];
+  });
+  for (std::int32_t i = 1; i < count; ++i) {
+    const std::int32_t first = target[order[i - 1]], next = order[i];
+    if (boundary.face_vertex[first] != boundary.face_vertex[next]) continue;
+    const Vec2 apart = points[next] - points[first];
+    if (std::hypot(apart.x, apart.y) <= std::min(reach[first], reach[next])) target[next] = first;
+  }
+  return target;
+}
+
+/// Redirects the edges to the points they use in the end, and drops the others.
+void use_joined_points(const std::vector<std::int32_t>& target, ChartBoundary& boundary) {
+  std::vector<std::int32_t> number(target.size());
+  std::int32_t kept = 0;
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    if (target[i] != static_cast<std::int32_t>(i)) continue;
+    boundary.input.points[kept] = boundary.input.points[i];
+    boundary.face_vertex[kept] = boundary.face_vertex[i];
+    number[i] = kept++;
+  }
+  boundary.input.points.resize(kept);
+  boundary.face_vertex.resize(kept);
+  for (auto& edge : boundary.input.edges) edge = {number[target[edge[0]]], number[target[edge[1]]]};
+}
+
 ChartBoundary boundary_of(const Chart& chart) {
   ChartBoundary boundary;
   std::vector<std::int32_t> number(chart.support.points.size(), -1);
@@ -38,6 +83,7 @@ ChartBoundary boundary_of(const Chart& chart) {
     const std::int32_t first = point_of(from);
     boundary.input.edges.push_back({first, point_of(to)});
   }
+  use_joined_points(join_passages(boundary), boundary);
   return boundary;
 }
 
