@@ -37,7 +37,7 @@ struct Candidate {
 };
 
 bool is_acceptable(const MapQuality& quality, const ChartLimits& limits) {
-  return quality.overlap <= acceptable_overlap && quality.folded <= acceptable_fold &&
+  return !quality.loops_cross && quality.overlap <= acceptable_overlap && quality.folded <= acceptable_fold &&
          quality.stretch <= limits.stretch && quality.scale_ratio <= limits.scale_ratio;
 }
 
@@ -52,6 +52,7 @@ double excess(const MapQuality& quality, const ChartLimits& limits) {
 
 bool is_better(const MapQuality& a, const MapQuality& b, const ChartLimits& limits) {
   if (is_bearable(a) != is_bearable(b)) return is_bearable(a);
+  if (a.loops_cross != b.loops_cross) return b.loops_cross;
   return excess(a, limits) < excess(b, limits);
 }
 

@@ -181,6 +181,7 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
   const double smallest = quantile(scales, 0.005), largest = quantile(scales, 0.995);
   quality.scale_ratio = smallest > 0 ? largest / smallest : 1e300;
   quality.overlap = may_overlap(support, map) ? overlap_share(support, map) : 0;
+  quality.loops_cross = !support.loop_edges.empty() && BoundaryCrossings(map, support.loop_edges).any();
   return quality;
 }
 
