@@ -11,9 +11,9 @@ namespace aeroloom::geometry {
 
 /// One change of the geometry that was read.
 struct Change {
-  std::string what;           ///< one sentence: entity and deed
-  std::optional<Vec3> where;  ///< a place to look at
-  double how_much = 0;        ///< largest distance anything moved, in the model's unit; 0: nothing moved
+  std::string what;                ///< one sentence: entity and deed
+  std::optional<Vec3> where = {};  ///< a place to look at
+  double how_much = 0;             ///< largest distance anything moved, in the model's unit; 0: nothing moved
 };
 
 using Changes = std::vector<Change>;

@@ -8,6 +8,7 @@
 #include "geometry/occ_guard.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,13 @@ namespace {
 NamedShape read_source(const DomainOptions& options) {
   if (options.transport) return make_transport(*options.transport);
   return read_cad_file(options.file);
+}
+
+/// Gaps that elements would show are the user's to close.
+double largest_sewing_tolerance(const DomainOptions& options) {
+  constexpr double share_of_size = 0.1;
+  return options.smallest_size > 0 ? share_of_size * options.smallest_size
+                                   : std::numeric_limits<double>::infinity();
 }
 
 HullComparison compare(const NamedShape& solids, Volumes& volumes) {
@@ -56,7 +64,8 @@ double largest_extent(Vec3 size) {
 Domain prepare(const DomainOptions& options) {
   DomainReport report;
   Volumes volumes;
-  NamedShape solids = make_solids(read_source(options), volumes, report.changes);
+  NamedShape solids =
+      make_solids(read_source(options), largest_sewing_tolerance(options), volumes, report.changes);
   std::optional<HullComparison> hull;
   const KindDecision decision = choose_kind(options, solids, volumes, hull);
   report.kind = decision.kind;
@@ -96,7 +105,7 @@ void export_step(const DomainOptions& options, const std::string& file) {
   with_source(options, [&] {
     Changes changes;
     Volumes volumes;
-    write_step(make_solids(read_source(options), volumes, changes), file);
+    write_step(make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes), file);
   });
 }
 

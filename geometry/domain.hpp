@@ -28,6 +28,7 @@ struct DomainOptions {
   std::optional<TransportDimensions> transport;  ///< the built-in aircraft
   DomainKind kind = DomainKind::automatic;
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
+  double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
 };
 
 /// What was read and what was done with it, for log and report.

@@ -2,19 +2,16 @@
 
 #include "geometry/model_data.hpp"
 #include "geometry/repair_edges.hpp"
+#include "geometry/sewing.hpp"
 #include "geometry/shells.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include <BRepAdaptor_Curve.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <GCPnts_AbscissaPoint.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
@@ -93,88 +90,6 @@ void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
   result.insert(result.end(), split.begin(), split.end());
 }
 
-std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
-  TopTools_IndexedDataMapOfShapeListOfShape users;
-  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
-  std::vector<TopoDS_Edge> open;
-  for (int i = 1; i <= users.Extent(); ++i) {
-    const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
-    if (users(i).Extent() == 1 && !BRep_Tool::Degenerated(edge)) open.push_back(edge);
-  }
-  return open;
-}
-
-std::string list_open_edges(const TopoDS_Shape& shape) {
-  constexpr std::size_t shown = 5;
-  const std::vector<TopoDS_Edge> edges = open_edges(shape);
-  std::string text = fmt::format("{} open edges", edges.size());
-  for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {
-    const BRepAdaptor_Curve curve(edges[i]);
-    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    text += fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) length {:.6g}", i == 0 ? ":" : ";", middle.X(),
-                        middle.Y(), middle.Z(), GCPnts_AbscissaPoint::Length(curve));
-  }
-  return text + (edges.size() > shown ? "; ..." : "");
-}
-
-void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_Sewing& sewing,
-                 FaceLabels& labels) {
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    const FaceLabel* label = labels.Seek(faces(i));
-    if (!label) continue;
-    const FaceLabel kept = *label;
-    for (TopExp_Explorer sewn(sewing.ModifiedSubShape(faces(i)), TopAbs_FACE); sewn.More(); sewn.Next()) {
-      labels.Bind(sewn.Current(), kept);
-    }
-  }
-}
-
-struct Sewn {
-  std::vector<TopoDS_Shell> closed;
-  TopoDS_Shape shape;
-  bool complete = false;  ///< no face outside closed shells
-};
-
-Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, FaceLabels& labels) {
-  BRepBuilderAPI_Sewing sewing(tolerance);
-  for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
-  sewing.Perform();
-  Sewn sewn;
-  sewn.shape = sewing.SewedShape();
-  if (sewn.shape.IsNull()) return sewn;
-  sewn.complete = true;
-  for (const TopoDS_Shell& shell : shells_of(sewn.shape)) {
-    if (is_closed(shell)) {
-      sewn.closed.push_back(shell);
-    } else {
-      sewn.complete = false;
-    }
-  }
-  if (TopExp_Explorer(sewn.shape, TopAbs_FACE, TopAbs_SHELL).More()) sewn.complete = false;
-  move_labels(faces, sewing, labels);
-  return sewn;
-}
-
-std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, FaceLabels& labels, Changes& changes) {
-  Box box;
-  for (int i = 1; i <= faces.Extent(); ++i) box.add(tight_box(faces(i)));
-  Sewn sewn;
-  for (const double share : {1e-7, 1e-6, 1e-5}) {
-    const double tolerance = share * box.diagonal();
-    sewn = sew_once(faces, tolerance, labels);
-    if (!sewn.complete) continue;
-    changes.push_back(
-        {fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the diagonal)",
-                     faces.Extent(), sewn.closed.size(), tolerance, share)});
-    return sewn.closed;
-  }
-  throw CadError(fmt::format(
-      "the faces do not close to a solid, even sewn with a tolerance of {:.3g} (1e-5 of the diagonal): {}. "
-      "Close the "
-      "gaps in the CAD program",
-      1e-5 * box.diagonal(), sewn.shape.IsNull() ? "nothing was sewn" : list_open_edges(sewn.shape)));
-}
-
 void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
                 Changes& changes) {
   TopTools_IndexedMapOfShape used;
@@ -220,7 +135,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
   return compound;
 }
 
-NamedShape make_solids(NamedShape named, Volumes& volumes, Changes& changes) {
+NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volumes, Changes& changes) {
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)
@@ -232,7 +147,7 @@ NamedShape make_solids(NamedShape named, Volumes& volumes, Changes& changes) {
     parts.loose_faces.Clear();
   }
   if (!parts.open_faces.IsEmpty()) {
-    const std::vector<TopoDS_Shell> sewn = sew(parts.open_faces, named.labels, changes);
+    const std::vector<TopoDS_Shell> sewn = sew(parts.open_faces, largest_tolerance, named.labels, changes);
     shells.insert(shells.end(), sewn.begin(), sewn.end());
   }
   const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);

@@ -170,6 +170,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   result.domain.file = locate(result.domain.file, file);
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  result.domain.smallest_size = result.sizing.minimum.value_or(0);
   return result;
 }
 
