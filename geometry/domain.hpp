@@ -14,13 +14,23 @@ namespace aeroloom::geometry {
 /// Whether the file's solids are the fluid, or bodies in a far field.
 enum class DomainKind { automatic, fluid, body };
 
-enum class FarFieldShape { sphere, box };
+enum class FarFieldShape { sphere, box, hemisphere, cylinder };
+enum class Axis { x, y, z };
+
+/// How a half model's plane of symmetry is found. `automatic`: none, except for the hemisphere, where it is
+/// the coordinate plane the body ends at, or the plane y = 0 the body is symmetric about.
+enum class Symmetry { automatic, none, x, y, z };
 
 /// The far field around a body. Its reference length is the largest extent of the body's box.
 struct FarFieldOptions {
   FarFieldShape shape = FarFieldShape::sphere;
-  double extent = 10;  ///< distance from the body's centre to the far field, in reference lengths; for the
-                       ///< box: from the centre to each side
+  double extent = 10;  ///< distance from the body's centre to the far field, in reference lengths; for box
+                       ///< and cylinder: from the centre to each side and end
+  Axis axis = Axis::x;  ///< of the cylinder
+  /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
+  /// on the positive side is kept; the far field is cut to the same half.
+  Symmetry symmetry = Symmetry::automatic;
+  std::optional<double> symmetry_position;  ///< of the plane on its axis; default: where the body ends, or 0
 };
 
 struct DomainOptions {

@@ -146,6 +146,7 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     const FaceLabel* found = domain.labels.Seek(faces(i));
     const FaceLabel label = found ? *found : FaceLabel{};
     FaceTag tag{label.name, label.far_field ? std::string("farfield") : label.name, label.far_field};
+    if (label.symmetry) tag.patch = "symmetry";
     const bool fluid = kind == DomainKind::fluid;
     if (tag.patch.empty() && !fluid) tag.patch = label.solid;
     if (tag.patch.empty()) tag.patch = label.layer;

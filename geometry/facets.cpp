@@ -75,7 +75,7 @@ Facets extract(const Model::Data& data, FaceId id, const MeshedFace& meshed) {
     const gp_Pnt2d uv = mesh.UVNode(i);
     const gp_Pnt point = mesh.Node(i).Transformed(meshed.location.Transformation());
     facets.uv.push_back({uv.X(), uv.Y()});
-    facets.points.push_back({point.X(), point.Y(), point.Z()});
+    facets.points.push_back(data.face_snaps[id]({point.X(), point.Y(), point.Z()}));
   }
   for (int i = 1; i <= mesh.NbTriangles(); ++i) {
     int a, b, c;

@@ -2,21 +2,32 @@
 
 #include "geometry/heal.hpp"
 #include "geometry/model_data.hpp"
+#include "geometry/plane_loops.hpp"
+#include "geometry/sewing.hpp"
 #include "geometry/shells.hpp"
+#include "geometry/symmetry.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
 
 #include <BRepClass3d.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <fmt/format.h>
+#include <gp.hxx>
+#include <gp_Ax2.hxx>
 
 namespace aeroloom::geometry {
 namespace {
@@ -25,17 +36,81 @@ double largest_extent(const Box& box) {
   return std::max({box.size().x, box.size().y, box.size().z});
 }
 
-TopoDS_Solid make_far_field(const FarFieldOptions& options, Vec3 center, double radius) {
-  const gp_Pnt middle(center.x, center.y, center.z);
-  if (options.shape == FarFieldShape::sphere) return BRepPrimAPI_MakeSphere(middle, radius).Solid();
-  const gp_Pnt low(center.x - radius, center.y - radius, center.z - radius);
-  return BRepPrimAPI_MakeBox(low, 2 * radius, 2 * radius, 2 * radius).Solid();
+/// Where the far field stands and how large it is.
+struct Extent {
+  gp_Pnt center;
+  double radius;
+};
+
+gp_Ax2 axis_at(const gp_Pnt& origin, Axis axis) {
+  return gp_Ax2(origin, axis == Axis::x ? gp::DX() : axis == Axis::y ? gp::DY() : gp::DZ());
 }
 
-/// The far field must lie outside the bodies' box: a sphere outside its corners.
-void require_clearance(const FarFieldOptions& options, const Box& body, double reference) {
-  const bool sphere = options.shape == FarFieldShape::sphere;
-  const double needed = (sphere ? 0.5 * body.diagonal() : 0.5 * largest_extent(body)) / reference;
+TopoDS_Solid make_box(const Extent& extent, const std::optional<SymmetryPlane>& symmetry) {
+  const double r = extent.radius;
+  Vec3 low{extent.center.X() - r, extent.center.Y() - r, extent.center.Z() - r};
+  Vec3 high{extent.center.X() + r, extent.center.Y() + r, extent.center.Z() + r};
+  if (symmetry) (symmetry->positive ? low : high)[symmetry->axis] = symmetry->position;
+  return BRepPrimAPI_MakeBox(gp_Pnt(low.x, low.y, low.z), gp_Pnt(high.x, high.y, high.z)).Solid();
+}
+
+/// A sphere, or the half of it inside the plane.
+TopoDS_Solid make_sphere(const Extent& extent, const std::optional<SymmetryPlane>& symmetry) {
+  if (!symmetry) return BRepPrimAPI_MakeSphere(extent.center, extent.radius).Solid();
+  const gp_Ax2 inward(extent.center, symmetry->plane().Axis().Direction().Reversed());
+  return BRepPrimAPI_MakeSphere(inward, extent.radius, 0, std::numbers::pi / 2).Solid();
+}
+
+/// A cylinder along its axis, as long as it is wide. A plane along the axis halves it lengthwise, one across
+/// makes it end there.
+TopoDS_Solid make_cylinder(const Extent& extent, Axis axis, const std::optional<SymmetryPlane>& symmetry) {
+  const double r = extent.radius;
+  gp_Ax2 frame = axis_at(extent.center, axis);
+  if (symmetry && symmetry->axis == static_cast<int>(axis)) {
+    frame = gp_Ax2(extent.center, symmetry->plane().Axis().Direction().Reversed());
+    return BRepPrimAPI_MakeCylinder(frame, r, r).Solid();
+  }
+  if (!symmetry) {
+    frame.Translate(gp_Vec(frame.Direction()) * -r);
+    return BRepPrimAPI_MakeCylinder(frame, r, 2 * r).Solid();
+  }
+  // Half a turn from the frame's x direction: the fluid's side lies along its y direction.
+  const gp_Dir inward = symmetry->plane().Axis().Direction().Reversed();
+  frame = gp_Ax2(extent.center, frame.Direction(), inward.Crossed(frame.Direction()));
+  frame.Translate(gp_Vec(frame.Direction()) * -r);
+  return BRepPrimAPI_MakeCylinder(frame, r, 2 * r, std::numbers::pi).Solid();
+}
+
+TopoDS_Solid make_far_field(const FarFieldOptions& options, const Extent& extent,
+                            const std::optional<SymmetryPlane>& symmetry) {
+  switch (options.shape) {
+    case FarFieldShape::sphere:
+    case FarFieldShape::hemisphere:
+      return make_sphere(extent, symmetry);
+    case FarFieldShape::box:
+      return make_box(extent, symmetry);
+    case FarFieldShape::cylinder:
+      break;
+  }
+  return make_cylinder(extent, options.axis, symmetry);
+}
+
+/// How far the far field must reach from the centre to clear the bodies' box.
+double needed_extent(const FarFieldOptions& options, const Box& body, const gp_Pnt& center) {
+  Vec3 reach;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = center.Coord(axis + 1);
+    reach[axis] = std::max(body.high[axis] - at, at - body.low[axis]);
+  }
+  if (options.shape == FarFieldShape::box) return std::max({reach.x, reach.y, reach.z});
+  if (options.shape != FarFieldShape::cylinder) return norm(reach);
+  const int axis = static_cast<int>(options.axis);
+  return std::max(reach[axis], std::hypot(reach[(axis + 1) % 3], reach[(axis + 2) % 3]));
+}
+
+void require_clearance(const FarFieldOptions& options, const Box& body, const gp_Pnt& center,
+                       double reference) {
+  const double needed = needed_extent(options, body, center) / reference;
   if (options.extent > 1.01 * needed) return;
   throw CadError(
       fmt::format("the far field cuts the body: its extent of {:.4g} reference lengths ({:.6g}) must exceed "
@@ -86,35 +161,194 @@ void require_volume(double far_field, double body, double fluid) {
                   far_field, body, fluid));
 }
 
-}  // namespace
+std::vector<TopoDS_Face> faces_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Face> faces;
+  for (TopExp_Explorer each(shape, TopAbs_FACE); each.More(); each.Next())
+    faces.push_back(TopoDS::Face(each.Current()));
+  return faces;
+}
 
-NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
-  const Box box = tight_box(bodies.shape);
-  const double reference = largest_extent(box);
-  require_clearance(options, box, reference);
-  const TopoDS_Solid outer = make_far_field(options, box.center(), options.extent * reference);
+/// The fluid's boundary while it is put together: faces that look out of the fluid.
+struct Walls {
+  std::vector<TopoDS_Face> faces;
+  TopoDS_Face plane;  ///< the part of the plane of symmetry that reaches the far field; null without one
+};
+
+/// Edges that one of the faces uses, and no other.
+std::vector<TopoDS_Edge> rim_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Face& face : faces) builder.Add(compound, face);
+  return open_edges(compound);
+}
+
+FaceLabel symmetry_label() {
+  FaceLabel label;
+  label.name = "symmetry";
+  label.solid = "fluid";
+  label.far_field = label.symmetry = true;
+  return label;
+}
+
+/// Puts the plane of symmetry in place of the bodies' sections: the far field's own face there gets the
+/// outlines of the sections as holes, what they enclose gets faces of its own.
+void add_plane(const SymmetryPlane& symmetry, const TopoDS_Face& far_face,
+               const std::vector<TopoDS_Face>& sections, Walls& walls, FaceLabels& labels) {
+  const auto loops = find_plane_loops(rim_of(sections), symmetry.tolerance, symmetry.plane());
+  if (!loops) {
+    throw CadError(
+        fmt::format("the body's section at the plane of symmetry has an outline that is no simple "
+                    "closed loop: repair the body near coordinate {} = {:.6g}",
+                    symmetry.axis, symmetry.position));
+  }
+  std::vector<TopoDS_Wire> outlines;
+  for (std::size_t i = 0; i < loops->size(); ++i) {
+    if ((*loops)[i].depth == 0) outlines.push_back((*loops)[i].wire);
+    if ((*loops)[i].depth % 2 == 1) walls.faces.push_back(make_plane_face(*loops, i));
+  }
+  walls.plane = make_plane_face(symmetry.plane(), BRepTools::OuterWire(far_face), outlines);
+  for (const TopoDS_Face& island : walls.faces) labels.Bind(island, symmetry_label());
+  labels.Bind(walls.plane, symmetry_label());
+}
+
+/// Groups faces that share edges; the group of face 0 first, each in order.
+std::vector<std::vector<TopoDS_Face>> connected_groups(const std::vector<TopoDS_Face>& faces) {
+  std::vector<int> group(faces.size());
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](int i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  TopTools_IndexedMapOfShape edges;
+  std::vector<int> first_user;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (TopExp_Explorer each(faces[i], TopAbs_EDGE); each.More(); each.Next()) {
+      const int edge = edges.Add(each.Current()) - 1;
+      if (edge == static_cast<int>(first_user.size())) first_user.push_back(static_cast<int>(i));
+      const int a = root(first_user[edge]), b = root(static_cast<int>(i));
+      group[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::vector<TopoDS_Face>> groups(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) groups[root(static_cast<int>(i))].push_back(faces[i]);
+  std::erase_if(groups, [](const auto& members) { return members.empty(); });
+  return groups;
+}
+
+TopoDS_Shell shell_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  for (const TopoDS_Face& face : faces) builder.Add(shell, face);
+  shell.Closed(true);
+  return shell;
+}
+
+/// The fluid's solid from its walls. Groups of walls that do not reach the plane of symmetry are voids around
+/// bodies; those closed by islands alone are cavities without connection to the outside.
+TopoDS_Solid make_fluid(const Walls& walls, const FaceLabels& labels, Volumes& volumes, double& cavities,
+                        Changes& changes) {
+  TopoDS_Solid fluid;
+  BRep_Builder builder;
+  builder.MakeSolid(fluid);
+  std::vector<TopoDS_Face> all{walls.plane};
+  all.insert(all.end(), walls.faces.begin(), walls.faces.end());
+  const auto groups = connected_groups(all);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const TopoDS_Shell shell = shell_of(groups[i]);
+    const bool has_island = std::any_of(groups[i].begin(), groups[i].end(), [&](const TopoDS_Face& face) {
+      const FaceLabel* label = labels.Seek(face);
+      return label != nullptr && label->symmetry;
+    });
+    if (i == 0 || !has_island) {
+      builder.Add(fluid, shell);
+      continue;
+    }
+    cavities += std::abs(volumes.of(shell));
+    changes.push_back(
+        {"a cavity inside a body, cut open by the plane of symmetry, does not reach the fluid: "
+         "left out",
+         tight_box(shell).center()});
+  }
+  return fluid;
+}
+
+NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const TopoDS_Solid& far_field,
+                         Volumes& volumes, Changes& changes) {
+  Walls walls;
+  TopoDS_Face far_face;
+  for (const TopoDS_Face& face : faces_of(far_field)) {
+    if (symmetry.holds(face)) {
+      far_face = face;
+    } else {
+      walls.faces.push_back(face);
+    }
+  }
+  std::vector<TopoDS_Face> body_walls, sections;
+  double body_volume = 0;
+  for (const TopoDS_Shell& shell : outer_shells(bodies.shape, volumes, changes)) {
+    const TopoDS_Solid body = solid_of(shell, volumes);
+    body_volume += volumes.of(body);
+    for (const TopoDS_Face& face : faces_of(body)) {
+      (symmetry.holds(face) ? sections : body_walls).push_back(face);
+    }
+  }
+  const std::vector<TopoDS_Face> far_walls = std::move(walls.faces);
+  walls.faces.clear();
+  add_plane(symmetry, far_face, sections, walls, bodies.labels);
+  walls.faces.insert(walls.faces.end(), far_walls.begin(), far_walls.end());
+  for (const TopoDS_Face& face : body_walls) walls.faces.push_back(TopoDS::Face(face.Reversed()));
+  double cavities = 0;
+  const TopoDS_Solid fluid = make_fluid(walls, bodies.labels, volumes, cavities, changes);
+  require_volume(volumes.of(far_field), body_volume + cavities, volumes.of(fluid));
+  bodies.shape = make_compound({fluid});
+  return bodies;
+}
+
+NamedShape surround_whole(NamedShape bodies, const TopoDS_Solid& far_field, Volumes& volumes,
+                          Changes& changes) {
   BRep_Builder builder;
   TopoDS_Solid fluid;
   builder.MakeSolid(fluid);
-  builder.Add(fluid, TopExp_Explorer(outer, TopAbs_SHELL).Current());
+  builder.Add(fluid, TopExp_Explorer(far_field, TopAbs_SHELL).Current());
   double body_volume = 0;
   for (const TopoDS_Shell& shell : outer_shells(bodies.shape, volumes, changes)) {
     const TopoDS_Solid body = solid_of(shell, volumes);
     body_volume += volumes.of(body);
     builder.Add(fluid, TopExp_Explorer(body, TopAbs_SHELL).Current().Reversed());
   }
-  require_volume(volumes.of(outer), body_volume, volumes.of(fluid));
+  require_volume(volumes.of(far_field), body_volume, volumes.of(fluid));
+  bodies.shape = make_compound({fluid});
+  return bodies;
+}
+
+void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {
   TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(outer, TopAbs_FACE, faces);
+  TopExp::MapShapes(far_field, TopAbs_FACE, faces);
   for (int i = 1; i <= faces.Extent(); ++i) {
     FaceLabel label;
     label.name = faces.Extent() == 1 ? std::string("farfield") : fmt::format("farfield_{}", i);
     label.solid = "fluid";
     label.far_field = true;
-    bodies.labels.Bind(faces(i), label);
+    labels.Bind(faces(i), label);
   }
-  bodies.shape = make_compound({fluid});
-  return bodies;
+}
+
+}  // namespace
+
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
+  const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
+  const double reference = largest_extent(tight_box(bodies.shape));
+  if (symmetry) bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
+  const Box box = tight_box(bodies.shape);
+  gp_Pnt center(box.center().x, box.center().y, box.center().z);
+  if (symmetry) center.SetCoord(symmetry->axis + 1, symmetry->position);
+  require_clearance(options, box, center, reference);
+  const TopoDS_Solid far_field = make_far_field(options, {center, options.extent * reference}, symmetry);
+  label_far_field(far_field, bodies.labels);
+  if (!symmetry) return surround_whole(std::move(bodies), far_field, volumes, changes);
+  return surround_half(std::move(bodies), *symmetry, far_field, volumes, changes);
 }
 
 }  // namespace aeroloom::geometry

@@ -18,9 +18,10 @@ NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes);
 /// CadError where they overlap.
 NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes);
 
-/// The space between the far field and the bodies, which are disjoint. No boolean operation: the bodies'
-/// outer shells become voids of the far field, which is exact and keeps faces and labels. Throws CadError
-/// where the far field does not clear the bodies, or when the volumes do not add up.
+/// The space between the far field and the bodies, which are disjoint. No boolean operation with the far
+/// field: the bodies' outer shells become voids of it, or join it along the outlines of their sections at the
+/// plane of symmetry, which is exact and keeps faces and labels. Throws CadError where the far field does not
+/// clear the bodies, or when the volumes do not add up.
 NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes);
 
 }  // namespace aeroloom::geometry

@@ -5,6 +5,7 @@
 #include "geometry/named_shape.hpp"
 #include "geometry/surface_evaluator.hpp"
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -67,6 +68,24 @@ struct FaceEvaluator {
 /// Parameters of a point that lies on the face, from parameters near it.
 Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
 
+/// Coordinates that are known exactly, from axis-aligned planes (plane_snap.hpp).
+struct Snap {
+  std::array<bool, 3> fixed{};
+  Vec3 value;
+
+  void fix(int axis, double position) {
+    if (fixed[axis]) return;
+    fixed[axis] = true;
+    value[axis] = position;
+  }
+  Vec3 operator()(Vec3 p) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (fixed[axis]) p[axis] = value[axis];
+    }
+    return p;
+  }
+};
+
 struct Model::Data {
   std::vector<std::byte> bytes;
   TopoDS_Shape shape;
@@ -75,6 +94,7 @@ struct Model::Data {
   std::vector<EdgeEvaluator> edge_evaluators;
   std::vector<Face> faces;
   std::vector<FaceEvaluator> face_evaluators;
+  std::vector<Snap> vertex_snaps, edge_snaps, face_snaps;
   std::vector<char> far_field;
   std::vector<std::string> region_names;
   std::vector<std::string> patches;

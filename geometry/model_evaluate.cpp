@@ -39,7 +39,7 @@ std::int32_t Model::region_count() const {
   return static_cast<std::int32_t>(_data->region_names.size());
 }
 Vec3 Model::vertex(VertexId id) const {
-  return _data->vertices.at(id);
+  return _data->vertex_snaps.at(id)(_data->vertices[id]);
 }
 const Edge& Model::edge(EdgeId id) const {
   return _data->edges.at(id);
@@ -75,7 +75,7 @@ std::vector<std::byte> Model::serialise() const {
 Vec3 Model::edge_point(EdgeId id, double parameter) const {
   const Edge& edge = _data->edges.at(id);
   if (edge.degenerate) return vertex(edge.first);
-  return to_vec(_data->edge_evaluators[id].curve.Value(parameter));
+  return _data->edge_snaps[id](to_vec(_data->edge_evaluators[id].curve.Value(parameter)));
 }
 
 Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
@@ -130,13 +130,13 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
-  return _data->face_evaluators.at(id).surface.point(uv);
+  return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const SurfaceJet jet = face.surface.jet(uv, 1);
-  SurfaceFrame frame{jet.point, jet.du, jet.dv, {}};
+  SurfaceFrame frame{_data->face_snaps[id](jet.point), jet.du, jet.dv, {}};
   const Vec3 normal = cross(frame.du, frame.dv);
   // Below this the angle between the derivatives is rounding error: the direction would be noise.
   if (norm(normal) > 1e-12 * std::max(dot(frame.du, frame.du), dot(frame.dv, frame.dv))) {

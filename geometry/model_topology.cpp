@@ -1,5 +1,7 @@
 #include "geometry/model_topology.hpp"
 
+#include "geometry/plane_snap.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -273,6 +275,7 @@ void index_topology(Model::Data& data) {
     if (data.faces[id].front == no_entity) throw CadError(data.describe_face(id) + " bounds no solid");
   }
   orient_loops(data);
+  mark_exact_planes(data);
 }
 
 }  // namespace aeroloom::geometry

@@ -19,6 +19,7 @@ struct FaceLabel {
   std::string colour;  ///< "#rrggbb"
   std::string solid;   ///< name of the solid (part, product) the face belongs to
   bool far_field = false;
+  bool symmetry = false;  ///< on the plane of symmetry of a half model
 };
 
 /// Labels by face; the orientation of the face does not matter. Look up only: iteration follows addresses.

@@ -218,10 +218,13 @@ Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const Projector projector(face, point, 1e-11 * _data->bounds.diagonal());
   Projection best = projector.from(guess);
-  if (best.converged) return best;
-  const Projection restarted = projector.from(nearest_sample(face, point));
-  if (restarted.converged || projector.distance(restarted) < projector.distance(best)) best = restarted;
-  return best.converged ? best : search(face, point, best);
+  if (!best.converged) {
+    const Projection restarted = projector.from(nearest_sample(face, point));
+    if (restarted.converged || projector.distance(restarted) < projector.distance(best)) best = restarted;
+    if (!best.converged) best = search(face, point, best);
+  }
+  best.point = _data->face_snaps[id](best.point);
+  return best;
 }
 
 }  // namespace aeroloom::geometry

@@ -1,3 +1,4 @@
+#include "geometry/booleans.hpp"
 #include "geometry/far_field.hpp"
 #include "geometry/heal.hpp"
 #include "geometry/model_data.hpp"
@@ -16,9 +17,6 @@
 
 namespace aeroloom::geometry {
 namespace {
-
-/// What the CAD library's volumes of trimmed spline solids are good for; a union gone wrong is off by a body.
-constexpr double integration_error = 2e-3;
 
 /// Groups solids whose boxes touch, each group ascending.
 std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_Solid>& solids) {
@@ -40,28 +38,6 @@ std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_
   for (std::size_t i = 0; i < solids.size(); ++i) groups[group[i]].push_back(solids[i]);
   std::erase_if(groups, [](const auto& members) { return members.empty(); });
   return groups;
-}
-
-void follow_labels(BRepBuilderAPI_MakeShape& operation, const std::vector<TopoDS_Solid>& arguments,
-                   FaceLabels& labels) {
-  for (const TopoDS_Solid& solid : arguments) {
-    for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next()) {
-      const FaceLabel* label = labels.Seek(faces.Current());
-      if (!label) continue;
-      const FaceLabel kept = *label;
-      for (const TopoDS_Shape& image : operation.Modified(faces.Current())) {
-        if (image.ShapeType() == TopAbs_FACE && !labels.IsBound(image)) labels.Bind(image, kept);
-      }
-    }
-  }
-}
-
-void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing) {
-  operation.SetRunParallel(false);
-  operation.SetToFillHistory(true);
-  operation.Build();
-  if (operation.IsDone() && !operation.HasErrors()) return;
-  throw CadError(fmt::format("{} failed in the CAD library: repair the solids in the CAD program", doing));
 }
 
 double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, Volumes& volumes) {

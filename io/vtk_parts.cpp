@@ -61,6 +61,7 @@ std::vector<std::size_t> assign_parts(const parallel::Communicator& communicator
 
 void pack(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& numbers, parallel::Packer& packer) {
   packer.value(piece.id);
+  packer.value(piece.region);
   packer.array(piece.coordinates);
   packer.array(numbers);
   packer.array(piece.cells);
@@ -72,6 +73,7 @@ void pack(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& number
 PartPiece unpack(parallel::Unpacker& unpacker) {
   PartPiece piece;
   piece.id = unpacker.value<mesh::PieceId>();
+  piece.region = unpacker.value<std::int32_t>();
   piece.coordinates = unpacker.array<double>();
   piece.numbers = unpacker.array<mesh::GlobalIndex>();
   piece.cells = unpacker.array<mesh::LocalIndex>();

@@ -15,6 +15,7 @@ namespace aeroloom::io {
 /// What a writer needs of one piece.
 struct PartPiece {
   mesh::PieceId id = 0;
+  std::int32_t region = 0;
   std::vector<double> coordinates;           ///< (n,3)
   std::vector<mesh::GlobalIndex> numbers;    ///< (n) global vertex numbers
   std::vector<mesh::LocalIndex> cells;       ///< (m,3) or (m,4)

@@ -11,8 +11,9 @@
 namespace aeroloom::io {
 
 /// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/. Tetrahedra only. Cell arrays `piece`,
-/// `mean_ratio`, `min_dihedral`; point array `global_id`. One part is in VTK's form at a time. The files are
-/// the same bytes for any number of ranks. Collective; throws on all ranks when a file cannot be written.
+/// `region`, `mean_ratio`, `min_dihedral`; field array `region_names`; point array `global_id`. One part is
+/// in VTK's form at a time. The files are the same bytes for any number of ranks. Collective; throws on all
+/// ranks when a file cannot be written.
 void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                   const mesh::Numbering& numbering, const std::string& directory, const std::string& name);
 

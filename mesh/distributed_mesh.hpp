@@ -3,10 +3,19 @@
 
 #include "mesh/piece.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace aeroloom::mesh {
+
+/// The regions on either side of a CAD face: the one its triangles are seen from outside of, and the one
+/// beyond, which an inner face alone has.
+struct FaceSides {
+  RegionId front = 0, back = no_region;
+
+  bool is_inner() const { return back != no_region; }
+};
 
 /// The pieces of one mesh that live on this rank. Data and queries; algorithms are free functions.
 struct DistributedMesh {
@@ -15,6 +24,16 @@ struct DistributedMesh {
   std::vector<Piece> pieces;         ///< on this rank, ascending id
   std::vector<std::string> patches;  ///< names by patch index, the same on every rank
   std::vector<std::string> faces;    ///< CAD face names by face id, the same on every rank
+  std::vector<FaceSides> sides;      ///< by face id, the same on every rank; empty: all faces bound region 0
+  std::vector<std::string> regions;  ///< names by region id, the same on every rank; empty: one, unnamed
+
+  RegionId region_count() const { return regions.empty() ? 1 : static_cast<RegionId>(regions.size()); }
+  FaceSides sides_of(std::int32_t face) const {
+    return face >= 0 && static_cast<std::size_t>(face) < sides.size() ? sides[face] : FaceSides{};
+  }
+  bool has_inner_faces() const {
+    return std::any_of(sides.begin(), sides.end(), [](const FaceSides& s) { return s.is_inner(); });
+  }
 };
 
 /// Global numbers, a function of pieces and tokens alone: vertices run by the id of the owning piece (the
@@ -35,15 +54,17 @@ Numbering number_mesh(const parallel::Communicator& communicator, const Distribu
 void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
              const std::vector<parallel::Rank>& owner);
 
-/// Counts of the whole mesh. Collective.
+/// Counts of the whole mesh: boundary triangles of the domain, and those of faces between two regions.
 struct MeshCounts {
-  GlobalIndex vertices = 0, cells = 0, boundary_triangles = 0;
+  GlobalIndex vertices = 0, cells = 0, boundary_triangles = 0, inner_triangles = 0;
 };
+/// Collective.
 MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering);
 
 /// The 128-bit hash of the mesh as 32 hexadecimal digits: coordinate bits, cells, classification, patches and
-/// boundary triangles in global numbering. Independent of ranks; flipping any one bit changes it. Collective.
+/// boundary triangles in global numbering, regions. Independent of ranks; flipping any one bit changes it.
+/// Collective.
 std::string hash_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering);
 

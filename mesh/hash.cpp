@@ -25,7 +25,17 @@ struct Sum128 {
   }
 };
 
-enum class ItemKind : std::uint64_t { vertex = 1, cell, triangle, patch_name, face_name, whole };
+enum class ItemKind : std::uint64_t {
+  vertex = 1,
+  cell,
+  triangle,
+  patch_name,
+  face_name,
+  region_name,
+  face_sides,
+  region_of_piece,
+  whole
+};
 
 /// Hashes one item word by word. The first lane is a bijection of each word given those before it, so a
 /// changed word changes it; the second makes accidental agreement of both as unlikely as 128 bits allow.
@@ -88,6 +98,23 @@ void add_names(const std::vector<std::string>& names, ItemKind kind, Sum128& sum
   }
 }
 
+void add_sides(const std::vector<FaceSides>& sides, Sum128& sum) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    ItemHash item(ItemKind::face_sides, static_cast<GlobalIndex>(i));
+    item.add_signed(sides[i].front);
+    item.add_signed(sides[i].back);
+    sum.add(item.digest());
+  }
+}
+
+void add_regions(const DistributedMesh& mesh, Sum128& sum) {
+  for (const Piece& piece : mesh.pieces) {
+    ItemHash item(ItemKind::region_of_piece, piece.id);
+    item.add_signed(piece.region);
+    sum.add(item.digest());
+  }
+}
+
 /// Global number of each local piece's first boundary triangle; the total comes last.
 std::vector<GlobalIndex> first_triangles(const parallel::Communicator& communicator,
                                          const DistributedMesh& mesh) {
@@ -108,6 +135,7 @@ std::string hash_mesh(const parallel::Communicator& communicator, const Distribu
                       const Numbering& numbering) {
   const std::vector<GlobalIndex> first_triangle = first_triangles(communicator, mesh);
   Sum128 mine;
+  if (mesh.kind == CellKind::tetrahedron) add_regions(mesh, mine);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     add_vertices(piece, numbering.vertices[i], numbering.owned[i], mine);
@@ -119,6 +147,8 @@ std::string hash_mesh(const parallel::Communicator& communicator, const Distribu
   for (const Sum128& part : communicator.all_gather_items(std::span<const Sum128>(&mine, 1))) sum.add(part);
   add_names(mesh.patches, ItemKind::patch_name, sum);
   add_names(mesh.faces, ItemKind::face_name, sum);
+  add_names(mesh.regions, ItemKind::region_name, sum);
+  add_sides(mesh.sides, sum);
 
   ItemHash whole(ItemKind::whole, static_cast<GlobalIndex>(mesh.kind));
   for (const GlobalIndex count : {numbering.vertex_count, numbering.cell_count, first_triangle.back()}) {
@@ -126,6 +156,8 @@ std::string hash_mesh(const parallel::Communicator& communicator, const Distribu
   }
   whole.add(std::uint64_t{mesh.patches.size()});
   whole.add(std::uint64_t{mesh.faces.size()});
+  whole.add(std::uint64_t{mesh.regions.size()});
+  whole.add(std::uint64_t{mesh.sides.size()});
   whole.add(sum.low);
   whole.add(sum.high);
   const Sum128 digest = whole.digest();

@@ -23,7 +23,8 @@ namespace aeroloom::mesh {
 /// One of the items that meet at a face or edge.
 struct Member {
   PieceId piece;
-  std::uint32_t tag;  ///< bit 0: odd, bit 1: role, the rest: item
+  std::uint32_t tag;   ///< bit 0: odd, bit 1: role, the rest: item
+  std::int32_t label;  ///< what the matcher's `label` says of the item
 
   bool odd() const { return tag & 1U; }  ///< whether its vertices run against those of even members
   int role() const { return static_cast<int>(tag >> 1) & 1; }
@@ -52,14 +53,23 @@ inline std::vector<std::uint8_t> mark_shared(const Piece& piece) {
   return marks;
 }
 
-/// Matches the faces (N = 3) or edges (N = 2) of a mesh. `enumerate(piece, sink)` calls sink(vertices, role,
-/// item) for each of them, the same in every call; `judge(members)` gets all that meet at one and names the
-/// rule that is broken, if any. Offenders go to `findings`. Collective.
-template <std::size_t N, class Enumerate, class Judge>
+/// What to match: `enumerate(piece, sink)` calls sink(vertices, role, item) for each face or edge, the same
+/// in every call; `label(piece, role, item)` is what the judge may know of one of them; `judge(members)` gets
+/// all that meet at one and names the rule that is broken, if any.
+template <class Enumerate, class Label, class Judge>
+struct Matching {
+  RoleEntities entities;
+  Enumerate enumerate;
+  Label label;
+  Judge judge;
+};
+
+/// Matches the faces (N = 3) or edges (N = 2) of a mesh. Offenders go to `findings`. Collective.
+template <std::size_t N, class Enumerate, class Label, class Judge>
 class Matcher {
 public:
-  Matcher(RoleEntities entities, Enumerate enumerate, Judge judge, Findings& findings)
-      : _entities(entities), _enumerate(enumerate), _judge(judge), _findings(findings) {}
+  Matcher(const Matching<Enumerate, Label, Judge>& what, Findings& findings)
+      : _what(what), _findings(findings) {}
 
   void match(const parallel::Communicator& communicator, const DistributedMesh& mesh,
              const Numbering& numbering) {
@@ -78,6 +88,8 @@ private:
     std::array<GlobalIndex, N> vertices;
     PieceId piece;
     std::uint32_t tag;
+    std::int32_t label;
+    std::int32_t unused = 0;  ///< no padding travels
     friend auto operator<=>(const Across&, const Across&) = default;
   };
 
@@ -91,39 +103,41 @@ private:
       return std::all_of(v.begin(), v.end(), [&](LocalIndex vertex) { return shared[vertex] != 0; });
     };
     std::vector<std::uint32_t> first(piece.vertex_count() + 2, 0);
-    _enumerate(piece, [&](const std::array<LocalIndex, N>& v, int, std::uint32_t) {
+    _what.enumerate(piece, [&](const std::array<LocalIndex, N>& v, int, std::uint32_t) {
       if (!all_shared(v)) ++first[*std::min_element(v.begin(), v.end()) + 2];
     });
     for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
     std::vector<Inside> items(first.back());
-    _enumerate(piece, [&](std::array<LocalIndex, N> v, int role, std::uint32_t item) {
-      if (all_shared(v)) return send_across(piece.id, v, numbers, role, item);
+    _what.enumerate(piece, [&](std::array<LocalIndex, N> v, int role, std::uint32_t item) {
+      if (all_shared(v)) return send_across(piece, v, numbers, role, item);
       const bool odd = sort_vertices(v);
       Inside& slot = items[first[v[0] + 1]++];
       std::copy(v.begin() + 1, v.end(), slot.rest.begin());
       slot.tag = make_tag(odd, role, item);
     });
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      judge_bucket(piece.id, v, std::span(items).subspan(first[v], first[v + 1] - first[v]), numbers);
+      judge_bucket(piece, v, std::span(items).subspan(first[v], first[v + 1] - first[v]), numbers);
     }
   }
 
-  void send_across(PieceId piece, const std::array<LocalIndex, N>& v, const std::vector<GlobalIndex>& numbers,
-                   int role, std::uint32_t item) {
+  void send_across(const Piece& piece, const std::array<LocalIndex, N>& v,
+                   const std::vector<GlobalIndex>& numbers, int role, std::uint32_t item) {
     std::array<GlobalIndex, N> vertices;
     for (std::size_t k = 0; k < N; ++k) vertices[k] = numbers[v[k]];
     const bool odd = sort_vertices(vertices);
-    _across.push_back({vertices, piece, make_tag(odd, role, item)});
+    _across.push_back({vertices, piece.id, make_tag(odd, role, item), _what.label(piece, role, item)});
   }
 
-  void judge_bucket(PieceId piece, LocalIndex lowest, std::span<Inside> bucket,
+  void judge_bucket(const Piece& piece, LocalIndex lowest, std::span<Inside> bucket,
                     const std::vector<GlobalIndex>& numbers) {
     std::sort(bucket.begin(), bucket.end());
     for (std::size_t i = 0, j = 0; i < bucket.size(); i = j) {
       _members.clear();
-      for (; j < bucket.size() && bucket[j].rest == bucket[i].rest; ++j)
-        _members.push_back({piece, bucket[j].tag});
-      const std::optional<Violation> violation = _judge(std::span<const Member>(_members));
+      for (; j < bucket.size() && bucket[j].rest == bucket[i].rest; ++j) {
+        Member& member = _members.emplace_back(Member{piece.id, bucket[j].tag, 0});
+        member.label = _what.label(piece, member.role(), member.item());
+      }
+      const std::optional<Violation> violation = _what.judge(std::span<const Member>(_members));
       if (!violation) continue;
       std::array<GlobalIndex, N> vertices;
       vertices[0] = numbers[lowest];
@@ -143,9 +157,9 @@ private:
     for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
       _members.clear();
       for (; j < met.size() && met[j].vertices == met[i].vertices; ++j) {
-        _members.push_back({met[j].piece, met[j].tag});
+        _members.push_back({met[j].piece, met[j].tag, met[j].label});
       }
-      if (const std::optional<Violation> violation = _judge(std::span<const Member>(_members))) {
+      if (const std::optional<Violation> violation = _what.judge(std::span<const Member>(_members))) {
         report(*violation, met[i].vertices);
       }
     }
@@ -161,25 +175,23 @@ private:
           return std::pair(a.piece, a.tag >> 1) < std::pair(b.piece, b.tag >> 1);
         });
     offender.piece = first.piece;
-    offender.entity = _entities[first.role()];
+    offender.entity = _what.entities[first.role()];
     offender.item = first.item();
     _findings.add(violation, offender);
   }
 
-  RoleEntities _entities;
-  Enumerate _enumerate;
-  Judge _judge;
+  const Matching<Enumerate, Label, Judge>& _what;
   Findings& _findings;
   std::vector<Across> _across;
   std::vector<Member> _members;
 };
 
 /// Matches and judges all faces (N = 3) or edges (N = 2). See Matcher. Collective.
-template <std::size_t N, class Enumerate, class Judge>
+template <std::size_t N, class Enumerate, class Label, class Judge>
 void match_all(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-               const Numbering& numbering, RoleEntities entities, Enumerate enumerate, Judge judge,
+               const Numbering& numbering, const Matching<Enumerate, Label, Judge>& what,
                Findings& findings) {
-  Matcher<N, Enumerate, Judge>(entities, enumerate, judge, findings).match(communicator, mesh, numbering);
+  Matcher<N, Enumerate, Label, Judge>(what, findings).match(communicator, mesh, numbering);
 }
 
 }  // namespace aeroloom::mesh

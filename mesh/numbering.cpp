@@ -202,9 +202,11 @@ Numbering number_mesh(const parallel::Communicator& communicator, const Distribu
 
 MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering) {
-  std::int64_t triangles = 0;
-  for (const Piece& piece : mesh.pieces) triangles += piece.boundary_count();
-  return {numbering.vertex_count, numbering.cell_count, communicator.sum(triangles)};
+  std::int64_t boundary = 0, inner = 0;
+  for (const Piece& piece : mesh.pieces) {
+    for (const std::int32_t face : piece.triangle_face) ++(mesh.sides_of(face).is_inner() ? inner : boundary);
+  }
+  return {numbering.vertex_count, numbering.cell_count, communicator.sum(boundary), communicator.sum(inner)};
 }
 
 }  // namespace aeroloom::mesh

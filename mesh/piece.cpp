@@ -22,6 +22,7 @@ parallel::Bytes pack_piece(const Piece& piece) {
   parallel::Packer packer;
   packer.value(piece.id);
   packer.value(piece.kind);
+  packer.value(piece.region);
   packer.array(piece.coordinates);
   packer.array(piece.cells);
   packer.array(piece.vertex_dimension);
@@ -39,6 +40,7 @@ Piece unpack_piece(std::span<const std::byte> bytes) {
   Piece piece;
   piece.id = unpacker.value<PieceId>();
   piece.kind = unpacker.value<CellKind>();
+  piece.region = unpacker.value<std::int32_t>();
   piece.coordinates = unpacker.array<double>();
   piece.cells = unpacker.array<LocalIndex>();
   piece.vertex_dimension = unpacker.array<std::int8_t>();

@@ -14,6 +14,8 @@ namespace aeroloom::mesh {
 using LocalIndex = std::int32_t;   ///< of a vertex or cell within a piece
 using GlobalIndex = std::int64_t;  ///< of a vertex or cell of the whole mesh
 using PieceId = std::int32_t;      ///< fixed by the decomposition, whatever the rank count
+using RegionId = std::int32_t;     ///< of a CAD region, as in geometry::Model
+inline constexpr RegionId no_region = -1;
 /// The name of a vertex that several pieces share, known by construction before any numbering. Equal tokens
 /// are one vertex.
 using SharedToken = std::uint64_t;
@@ -21,13 +23,15 @@ using SharedToken = std::uint64_t;
 enum class CellKind : std::int8_t { triangle = 3, tetrahedron = 4 };
 
 /// Flat arrays of one piece. n vertices, m cells, b boundary triangles. Cells of a tetrahedral piece have
-/// positive volume in VTK's order; its boundary triangles lie on the boundary of the domain (not on
-/// interfaces) and are counter-clockwise seen from outside the domain. In a triangle piece the cells
+/// positive volume in VTK's order and lie in one region; its boundary triangles lie on CAD faces (not on
+/// interfaces between pieces) and are counter-clockwise seen from outside the face's front region. A face
+/// between two regions has its triangles in pieces of the front region alone. In a triangle piece the cells
 /// themselves are the boundary triangles: `boundary` is empty, and `triangle_face` and `triangle_patch` run
 /// over the cells.
 struct Piece {
   PieceId id = 0;
   CellKind kind = CellKind::tetrahedron;
+  RegionId region = 0;                        ///< that the cells of a tetrahedral piece lie in
   std::vector<double> coordinates;            ///< (n,3)
   std::vector<LocalIndex> cells;              ///< (m,3) or (m,4)
   std::vector<std::int8_t> vertex_dimension;  ///< (n) 0 CAD vertex, 1 edge, 2 face, 3 region

@@ -45,11 +45,12 @@ void check_repeated(const parallel::Communicator& communicator, const Distribute
       sink(std::array<LocalIndex, 3>{v[0], v[1], v[2]}, 0, static_cast<std::uint32_t>(t));
     }
   };
+  const auto no_label = [](const Piece&, int, std::int64_t) { return 0; };
   const auto judge = [](std::span<const Member> members) {
     return members.size() > 1 ? std::optional(Violation::repeated_triangle) : std::nullopt;
   };
-  match_all<3>(communicator, mesh, numbering, {Entity::triangle, Entity::triangle}, triangles, judge,
-               findings);
+  match_all<3>(communicator, mesh, numbering,
+               Matching{{Entity::triangle, Entity::triangle}, triangles, no_label, judge}, findings);
 }
 
 }  // namespace
@@ -68,14 +69,15 @@ ValidityReport check_surface_mesh(const parallel::Communicator& communicator, co
   check_boundary_edges(communicator, mesh, numbering, findings);
   report.violations = findings.sentences(communicator, mesh);
 
-  const Vec3 origin = center_of_mesh(communicator, mesh);
-  std::vector<double> enclosed;
-  for (const Piece& piece : mesh.pieces) enclosed.push_back(enclosed_volume(piece, origin));
-  report.volume = report.surface_volume = sum_over_pieces(communicator, mesh, enclosed);
-  if (!(report.volume > 0)) {
-    report.violations.push_back(
-        fmt::format("the surface encloses {:.17g}, no positive volume", report.volume));
+  report.region_volumes = enclosed_volumes(communicator, mesh);
+  for (RegionId region = 0; region < mesh.region_count(); ++region) {
+    const double volume = report.region_volumes[region];
+    report.volume += volume;
+    if (volume > 0) continue;
+    report.violations.push_back(fmt::format("{}the surface encloses {:.17g}, no positive volume",
+                                            region_prefix(mesh, region), volume));
   }
+  report.surface_volume = report.volume;
   return report;
 }
 

@@ -4,9 +4,11 @@
 #include "mesh/matching.hpp"
 #include "mesh/mixing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <map>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -17,6 +19,9 @@ namespace aeroloom::mesh {
 using geometry::Vec3;
 
 namespace {
+
+/// Around the front region an inner triangle counts as it stands, around the back region turned over.
+constexpr int front_role = 0, back_role = 1;
 
 bool is_finite(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -30,11 +35,83 @@ struct SharedPoint {
   LocalIndex vertex;
 };
 
-/// An edge is fine when as many triangles pass it one way as the other.
+/// An edge is fine when, around each region, as many triangles pass it one way as the other.
 std::optional<Violation> judge_edge(std::span<const Member> members) {
-  const auto odd = std::count_if(members.begin(), members.end(), [](const Member& m) { return m.odd(); });
-  if (2 * odd == static_cast<std::ptrdiff_t>(members.size())) return std::nullopt;
-  return members.size() == 1 ? Violation::edge_of_one_triangle : Violation::edge_unbalanced;
+  std::optional<Violation> worst;
+  for (const Member& first : members) {
+    std::ptrdiff_t passes = 0, balance = 0;
+    for (const Member& member : members) {
+      if (member.label != first.label) continue;
+      ++passes;
+      balance += member.odd() ? 1 : -1;
+    }
+    if (balance != 0)
+      worst = std::max(
+          worst, std::optional(passes == 1 ? Violation::edge_of_one_triangle : Violation::edge_unbalanced));
+  }
+  return worst;
+}
+
+/// Whether every region that pieces and faces name is one of the mesh's.
+bool has_known_regions(const DistributedMesh& mesh) {
+  const auto known = [&](RegionId region) { return region >= 0 && region < mesh.region_count(); };
+  return (mesh.sides.empty() || mesh.sides.size() == mesh.faces.size()) &&
+         std::all_of(
+             mesh.sides.begin(), mesh.sides.end(),
+             [&](const FaceSides& s) { return known(s.front) && (known(s.back) || !s.is_inner()); }) &&
+         std::all_of(mesh.pieces.begin(), mesh.pieces.end(),
+                     [&](const Piece& piece) { return known(piece.region); });
+}
+
+/// Calls visit(region, first, last, sign) for the runs [first, last) of a piece's boundary triangles that
+/// bound a region, seen from its outside (sign 1) or its inside (-1).
+template <class Visit>
+void for_each_run(const DistributedMesh& mesh, const Piece& piece, Visit&& visit) {
+  for (LocalIndex first = 0, last = 0; first < piece.boundary_count(); first = last) {
+    const std::int32_t face = piece.triangle_face[first];
+    while (last < piece.boundary_count() && piece.triangle_face[last] == face) ++last;
+    const FaceSides sides = mesh.sides_of(face);
+    visit(sides.front, first, last, 1);
+    if (sides.is_inner()) visit(sides.back, first, last, -1);
+  }
+}
+
+/// The centre of the box around the finite points of each region's boundary: sums taken about it lose least.
+std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
+                                     const DistributedMesh& mesh) {
+  struct Part {
+    RegionId region;
+    geometry::Box box;
+  };
+  std::vector<Part> mine;
+  for (const Piece& piece : mesh.pieces) {
+    std::map<RegionId, geometry::Box> boxes;
+    for_each_run(mesh, piece, [&](RegionId region, LocalIndex first, LocalIndex last, int) {
+      geometry::Box& box = boxes[region];
+      for (LocalIndex t = first; t < last; ++t) {
+        for (int k = 0; k < 3; ++k) {
+          const Vec3 p = piece.point(piece.boundary_triangle(t)[k]);
+          if (is_finite(p)) box.add(p);
+        }
+      }
+    });
+    for (const auto& [region, box] : boxes) mine.push_back({region, box});
+  }
+  std::vector<geometry::Box> boxes(mesh.region_count());
+  for (const Part& part : communicator.all_gather_items(std::span<const Part>(mine))) {
+    if (part.box.empty()) continue;
+    boxes[part.region].add(part.box.low);
+    boxes[part.region].add(part.box.high);
+  }
+  std::vector<Vec3> centers;
+  for (const geometry::Box& box : boxes) centers.push_back(box.empty() ? Vec3{} : box.center());
+  return centers;
+}
+
+double cone_volume6(const Piece& piece, LocalIndex t, Vec3 apex) {
+  const LocalIndex* v = piece.boundary_triangle(t);
+  const Vec3 a = piece.point(v[0]) - apex, b = piece.point(v[1]) - apex, c = piece.point(v[2]) - apex;
+  return geometry::dot(a, geometry::cross(b, c));
 }
 
 }  // namespace
@@ -50,6 +127,7 @@ void require_checkable(const parallel::Communicator& communicator, const Distrib
              numbering.vertices[i].size() == static_cast<std::size_t>(mesh.pieces[i].vertex_count());
     }
     if (!fits) throw std::logic_error("the numbering does not belong to the mesh");
+    if (!has_known_regions(mesh)) throw std::logic_error("the mesh has no such region");
   });
 }
 
@@ -120,16 +198,24 @@ void check_shared_coordinates(const parallel::Communicator& communicator, const 
 
 void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                           const Numbering& numbering, Findings& findings) {
-  const auto edges = [](const Piece& piece, const auto& sink) {
+  const auto edges = [&](const Piece& piece, const auto& sink) {
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const LocalIndex* v = piece.boundary_triangle(t);
+      const bool inner = mesh.sides_of(piece.triangle_face[t]).is_inner();
       for (int k = 0; k < 3; ++k) {
-        sink(std::array<LocalIndex, 2>{v[k], v[(k + 1) % 3]}, 0, static_cast<std::uint32_t>(3 * t + k));
+        const auto item = static_cast<std::uint32_t>(3 * t + k);
+        const LocalIndex from = v[k], to = v[(k + 1) % 3];
+        sink(std::array<LocalIndex, 2>{from, to}, front_role, item);
+        if (inner) sink(std::array<LocalIndex, 2>{to, from}, back_role, item);
       }
     }
   };
-  match_all<2>(communicator, mesh, numbering, {Entity::triangle_edge, Entity::triangle_edge}, edges,
-               judge_edge, findings);
+  const auto region = [&](const Piece& piece, int role, std::int64_t item) {
+    const FaceSides sides = mesh.sides_of(piece.triangle_face[item / 3]);
+    return role == front_role ? sides.front : sides.back;
+  };
+  match_all<2>(communicator, mesh, numbering,
+               Matching{{Entity::triangle_edge, Entity::triangle_edge}, edges, region, judge_edge}, findings);
 }
 
 void CompensatedSum::add(double term) {
@@ -138,36 +224,36 @@ void CompensatedSum::add(double term) {
   _sum = sum;
 }
 
-Vec3 center_of_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh) {
-  geometry::Box box;
+std::vector<double> sum_by_region(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                                  const std::vector<RegionTerm>& terms) {
+  std::vector<RegionTerm> all = communicator.all_gather_items(std::span<const RegionTerm>(terms));
+  std::sort(all.begin(), all.end(), [](const RegionTerm& a, const RegionTerm& b) {
+    return std::tie(a.region, a.piece) < std::tie(b.region, b.piece);
+  });
+  std::vector<CompensatedSum> sums(mesh.region_count());
+  for (const RegionTerm& term : all) sums[term.region].add(term.value);
+  std::vector<double> values;
+  for (const CompensatedSum& sum : sums) values.push_back(sum.value());
+  return values;
+}
+
+std::vector<double> enclosed_volumes(const parallel::Communicator& communicator,
+                                     const DistributedMesh& mesh) {
+  const std::vector<Vec3> centers = centers_of_regions(communicator, mesh);
+  std::vector<RegionTerm> terms;
   for (const Piece& piece : mesh.pieces) {
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (is_finite(piece.point(v))) box.add(piece.point(v));
-    }
+    std::map<RegionId, CompensatedSum> sums;
+    for_each_run(mesh, piece, [&](RegionId region, LocalIndex first, LocalIndex last, int sign) {
+      CompensatedSum& sum = sums[region];
+      for (LocalIndex t = first; t < last; ++t) sum.add(sign * cone_volume6(piece, t, centers[region]) / 6);
+    });
+    for (const auto& [region, sum] : sums) terms.push_back({region, piece.id, sum.value()});
   }
-  Vec3 center;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = communicator.minimum(box.low[axis]), high = communicator.maximum(box.high[axis]);
-    center[axis] = low <= high ? low + 0.5 * (high - low) : 0;
-  }
-  return center;
+  return sum_by_region(communicator, mesh, terms);
 }
 
-double enclosed_volume(const Piece& piece, Vec3 origin) {
-  CompensatedSum sum;
-  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
-    const LocalIndex* v = piece.boundary_triangle(t);
-    const Vec3 a = piece.point(v[0]) - origin, b = piece.point(v[1]) - origin, c = piece.point(v[2]) - origin;
-    sum.add(geometry::dot(a, geometry::cross(b, c)));
-  }
-  return sum.value() / 6;
-}
-
-double sum_over_pieces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                       const std::vector<double>& values) {
-  CompensatedSum sum;
-  for (const double value : gather_by_piece(communicator, mesh, values)) sum.add(value);
-  return sum.value();
+std::string region_prefix(const DistributedMesh& mesh, RegionId region) {
+  return mesh.regions.size() > 1 ? "region '" + mesh.regions[region] + "': " : std::string();
 }
 
 }  // namespace aeroloom::mesh

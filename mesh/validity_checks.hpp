@@ -4,12 +4,14 @@
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/findings.hpp"
 
+#include <string>
 #include <vector>
 
 namespace aeroloom::mesh {
 
 /// Throws CollectiveError when the arrays of a piece do not fit together, cells are of another kind, or the
-/// numbering belongs to another mesh: then nothing else can be checked. Collective.
+/// numbering belongs to another mesh, or regions are named that the mesh does not have: then nothing else can
+/// be checked. Collective.
 void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh, CellKind kind,
                        const Numbering& numbering);
 
@@ -22,7 +24,8 @@ void check_labels(const DistributedMesh& mesh, Findings& findings);
 /// All pieces agree on the coordinate bits of the vertices they share. Collective.
 void check_shared_coordinates(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                               const Numbering& numbering, Findings& findings);
-/// The boundary triangles close: each edge is passed equally often in both directions. Collective.
+/// The boundary of each region closes: its triangles pass each edge equally often in both directions.
+/// Collective.
 void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                           const Numbering& numbering, Findings& findings);
 
@@ -41,14 +44,18 @@ private:
   double _sum = 0, _error = 0;
 };
 
-/// The centre of the box around the finite points of a mesh. Collective.
-geometry::Vec3 center_of_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh);
-/// The volume enclosed by a piece's boundary triangles together with the cone from `origin` over their rim:
-/// summed over all pieces, the rims cancel.
-double enclosed_volume(const Piece& piece, geometry::Vec3 origin);
-/// The sum of one value per local piece over the whole mesh, in piece order: the same bits whatever the
-/// ranks. Collective.
-double sum_over_pieces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                       const std::vector<double>& values);
+/// A piece's part of a sum over a region.
+struct RegionTerm {
+  RegionId region;
+  PieceId piece;
+  double value;
+};
+/// The sums by region, taken in piece order: the same bits whatever the ranks. Collective.
+std::vector<double> sum_by_region(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                                  const std::vector<RegionTerm>& terms);
+/// The volume that the boundary triangles around each region enclose, by the divergence integral. Collective.
+std::vector<double> enclosed_volumes(const parallel::Communicator& communicator, const DistributedMesh& mesh);
+/// "region 'name': " where the mesh has several, for sentences about one; empty otherwise.
+std::string region_prefix(const DistributedMesh& mesh, RegionId region);
 
 }  // namespace aeroloom::mesh

@@ -38,27 +38,50 @@ double measure_cells(const Piece& piece, Findings& findings) {
   return sum.value() / 6;
 }
 
-/// What meets at a face: one cell and one boundary triangle that agree on outside, or two cells on opposite
-/// sides.
-std::optional<Violation> judge_face(std::span<const Member> members) {
+/// What meets at a face.
+struct FaceParts {
   const Member *cell = nullptr, *other_cell = nullptr, *triangle = nullptr;
   std::size_t cells = 0, triangles = 0;
+};
+
+FaceParts sort_out(std::span<const Member> members) {
+  FaceParts parts;
   for (const Member& member : members) {
     if (member.role() == triangle_role) {
-      triangle = &member, ++triangles;
+      parts.triangle = &member, ++parts.triangles;
     } else {
-      (cells++ == 0 ? cell : other_cell) = &member;
+      (parts.cells++ == 0 ? parts.cell : parts.other_cell) = &member;
     }
   }
-  if (cells > 2) return Violation::face_of_many_cells;
-  if (cells == 0) return Violation::triangle_without_cell;
-  if (cells == 2) {
-    if (triangles > 0) return Violation::triangle_inside_mesh;
-    return cell->odd() == other_cell->odd() ? std::optional(Violation::cells_on_one_side) : std::nullopt;
+  return parts;
+}
+
+/// On the boundary of the domain: a boundary triangle of an outer face that agrees with the cell on outside.
+/// Cells are labelled with their region.
+std::optional<Violation> judge_one_cell(const FaceParts& parts, FaceSides sides) {
+  if (parts.triangles == 0) return Violation::face_without_partner;
+  if (parts.triangles > 1) return Violation::repeated_triangle;
+  if (sides.is_inner()) return Violation::inner_triangle_of_one_cell;
+  if (parts.triangle->odd() != parts.cell->odd()) return Violation::triangle_turned_inward;
+  return parts.cell->label != sides.front ? std::optional(Violation::triangle_of_other_regions)
+                                          : std::nullopt;
+}
+
+/// Between two cells: on opposite sides, with one triangle of an inner face exactly where a region ends.
+std::optional<Violation> judge_two_cells(const FaceParts& parts, FaceSides sides) {
+  if (parts.cell->odd() == parts.other_cell->odd()) return Violation::cells_on_one_side;
+  if (parts.triangles == 0) {
+    return parts.cell->label != parts.other_cell->label ? std::optional(Violation::regions_without_triangle)
+                                                        : std::nullopt;
   }
-  if (triangles == 0) return Violation::face_without_partner;
-  if (triangles > 1) return Violation::repeated_triangle;
-  return triangle->odd() != cell->odd() ? std::optional(Violation::triangle_turned_inward) : std::nullopt;
+  if (!sides.is_inner()) return Violation::triangle_inside_mesh;
+  if (parts.triangles > 1) return Violation::repeated_triangle;
+  const bool first_in_front = parts.cell->odd() == parts.triangle->odd();
+  const Member& front = first_in_front ? *parts.cell : *parts.other_cell;
+  const Member& back = first_in_front ? *parts.other_cell : *parts.cell;
+  return front.label != sides.front || back.label != sides.back
+             ? std::optional(Violation::triangle_of_other_regions)
+             : std::nullopt;
 }
 
 void check_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
@@ -77,26 +100,39 @@ void check_faces(const parallel::Communicator& communicator, const DistributedMe
       sink(std::array<LocalIndex, 3>{v[0], v[1], v[2]}, triangle_role, static_cast<std::uint32_t>(t));
     }
   };
-  match_all<3>(communicator, mesh, numbering, {Entity::cell_face, Entity::triangle}, faces, judge_face,
-               findings);
+  const auto label = [](const Piece& piece, int role, std::int64_t item) {
+    return role == cell_role ? piece.region : piece.triangle_face[item];
+  };
+  const auto judge = [&mesh](std::span<const Member> members) -> std::optional<Violation> {
+    const FaceParts parts = sort_out(members);
+    if (parts.cells > 2) return Violation::face_of_many_cells;
+    if (parts.cells == 0) return Violation::triangle_without_cell;
+    const FaceSides sides = parts.triangle ? mesh.sides_of(parts.triangle->label) : FaceSides{};
+    return parts.cells == 1 ? judge_one_cell(parts, sides) : judge_two_cells(parts, sides);
+  };
+  match_all<3>(communicator, mesh, numbering,
+               Matching{{Entity::cell_face, Entity::triangle}, faces, label, judge}, findings);
 }
 
-/// Sums the cells and the divergence integral over the boundary, and compares.
+/// Sums the cells and the divergence integral over the boundary, and compares, region by region.
 void check_volumes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                    ValidityReport& report, Findings& findings) {
-  const Vec3 origin = center_of_mesh(communicator, mesh);
-  std::vector<double> of_cells, enclosed;
+  std::vector<RegionTerm> of_cells;
   for (const Piece& piece : mesh.pieces) {
-    of_cells.push_back(measure_cells(piece, findings));
-    enclosed.push_back(enclosed_volume(piece, origin));
+    of_cells.push_back({piece.region, piece.id, measure_cells(piece, findings)});
   }
-  report.volume = sum_over_pieces(communicator, mesh, of_cells);
-  report.surface_volume = sum_over_pieces(communicator, mesh, enclosed);
-}
-
-bool volumes_agree(const ValidityReport& report) {
-  const double larger = std::max(std::abs(report.volume), std::abs(report.surface_volume));
-  return std::abs(report.volume - report.surface_volume) <= volume_tolerance * larger;
+  report.region_volumes = sum_by_region(communicator, mesh, of_cells);
+  const std::vector<double> enclosed = enclosed_volumes(communicator, mesh);
+  for (RegionId region = 0; region < mesh.region_count(); ++region) {
+    const double filled = report.region_volumes[region], surrounded = enclosed[region];
+    report.volume += filled;
+    report.surface_volume += surrounded;
+    const double larger = std::max(std::abs(filled), std::abs(surrounded));
+    if (std::abs(filled - surrounded) <= volume_tolerance * larger) continue;
+    report.violations.push_back(
+        fmt::format("{}the tetrahedra fill {:.17g}, but the boundary encloses {:.17g}",
+                    region_prefix(mesh, region), filled, surrounded));
+  }
 }
 
 }  // namespace
@@ -114,15 +150,12 @@ ValidityReport check_volume_mesh(const parallel::Communicator& communicator, con
   check_faces(communicator, mesh, numbering, in_mesh);
   check_boundary_edges(communicator, mesh, numbering, in_mesh);
   if (surface != nullptr) check_same_triangles(communicator, mesh, *surface, in_mesh, in_surface);
-  report.violations = in_mesh.sentences(communicator, mesh);
+  std::vector<std::string> sentences = in_mesh.sentences(communicator, mesh);
   if (surface != nullptr) {
-    for (auto& sentence : in_surface.sentences(communicator, *surface)) report.violations.push_back(sentence);
+    for (auto& sentence : in_surface.sentences(communicator, *surface)) sentences.push_back(sentence);
   }
-  if (numbering.cell_count == 0) report.violations.push_back("the mesh has no tetrahedra");
-  if (!volumes_agree(report)) {
-    report.violations.push_back(fmt::format("the tetrahedra fill {:.17g}, but the boundary encloses {:.17g}",
-                                            report.volume, report.surface_volume));
-  }
+  if (numbering.cell_count == 0) sentences.push_back("the mesh has no tetrahedra");
+  report.violations.insert(report.violations.begin(), sentences.begin(), sentences.end());
   return report;
 }
 

@@ -63,8 +63,21 @@ void declare_geometry(KeyTable& root, Draft& draft) {
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
   KeyTable& far_field = root.section("farfield", &draft.far_field_given);
   far_field.choice<FarFieldShape>("shape", draft.far_field.shape,
-                                  {{"sphere", FarFieldShape::sphere}, {"box", FarFieldShape::box}});
+                                  {{"sphere", FarFieldShape::sphere},
+                                   {"box", FarFieldShape::box},
+                                   {"hemisphere", FarFieldShape::hemisphere},
+                                   {"cylinder", FarFieldShape::cylinder}});
   far_field.number("extent", draft.far_field.extent, Range::above(0, "reference lengths"));
+  using geometry::Axis;
+  using geometry::Symmetry;
+  far_field.choice<Axis>("axis", draft.far_field.axis, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}});
+  far_field.choice<Symmetry>("symmetry", draft.far_field.symmetry,
+                             {{"auto", Symmetry::automatic},
+                              {"none", Symmetry::none},
+                              {"x", Symmetry::x},
+                              {"y", Symmetry::y},
+                              {"z", Symmetry::z}});
+  far_field.number("symmetry_position", draft.far_field.symmetry_position, {});
 }
 
 void declare_sizing(KeyTable& keys, SizingRequest& sizing) {

@@ -102,7 +102,16 @@ Json patches_json(const RunRecord& record) {
     json.push_back({{"name", patch.name},
                     {"area", patch.area},
                     {"cad_area", patch.cad_area},
-                    {"triangles", patch.triangles}});
+                    {"triangles", patch.triangles},
+                    {"inner", patch.inner}});
+  }
+  return json;
+}
+
+Json regions_json(const RunRecord& record) {
+  Json json = Json::array();
+  for (const RegionRow& region : record.regions_filled) {
+    json.push_back({{"name", region.name}, {"volume", region.volume}, {"tetrahedra", region.tetrahedra}});
   }
   return json;
 }
@@ -149,6 +158,7 @@ std::string report_json(const Case& input, const RunRecord& record,
                      {"swaps", record.improve.swaps}};
   json["pinned"] = Json::array();
   json["patches"] = patches_json(record);
+  json["regions"] = regions_json(record);
   json["wall_seconds"] = record.wall_seconds;
   json["stages"] = stages_json(stages);
   return json.dump(2) + "\n";

@@ -90,18 +90,6 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
   }
 }
 
-/// Faces between two regions need conforming volume meshes on both sides, which are not built yet.
-void refuse_inner_faces(const geometry::Model& model) {
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
-    if (model.face(f).back == geometry::no_entity) continue;
-    throw geometry::CadError(
-        fmt::format("face '{}' lies between two solids; regions that share faces are not supported yet. "
-                    "Remedy: unite the solids, "
-                    "or mesh them one by one",
-                    model.face(f).name));
-  }
-}
-
 /// What the user asked for; the rest is chosen from the model. Bounds that the user gave bind the choice.
 sizing::SizingOptions resolve_sizes(const Communicator& communicator, const geometry::Model& model,
                                     const SizingRequest& request, parallel::StageClock& clock) {
@@ -135,13 +123,14 @@ sizing::SizeField build_sizes(const Communicator& communicator, const geometry::
   return field;
 }
 
-/// One volume piece for now: what it will hold is predicted, and refused when it is too much for one piece.
+/// One volume piece per region for now: what they will hold together is predicted, and refused when it is too
+/// much for one piece.
 void decompose(const Communicator& communicator, const geometry::Model& model, const sizing::SizeField& field,
                const Case& input, RunRecord& record) {
   record.predicted = sizing::predict_counts(communicator, model, field, record.clock);
   parallel::log_info(fmt::format(
-      "decompose: {} surface pieces, 1 volume piece; predicted {:.3g} triangles, {:.3g} tetrahedra",
-      model.face_count(), record.predicted.triangles, record.predicted.tetrahedra));
+      "decompose: {} surface pieces, {} volume piece(s); predicted {:.3g} triangles, {:.3g} tetrahedra",
+      model.face_count(), model.region_count(), record.predicted.triangles, record.predicted.tetrahedra));
   if (record.predicted.tetrahedra > 1.5 * double(input.volume.largest_piece)) {
     throw std::runtime_error(
         fmt::format("the sizes ask for about {:.3g} tetrahedra, more than one volume piece holds ({}). "
@@ -183,6 +172,7 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const g
   for (const std::string& name : model.patches()) patches.push_back({.name = name});
   for (const FaceRow& row : rows) {
     PatchRow& patch = patches[model.face(row.face).patch];
+    patch.inner = patch.inner || model.face(row.face).back != geometry::no_entity;
     patch.area += row.area;
     patch.cad_area += row.cad_area;
     patch.triangles += row.triangles;
@@ -190,21 +180,69 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const g
   return patches;
 }
 
-surface::SurfaceMesh build_surface(const Communicator& communicator, const geometry::Model& model,
-                                   const sizing::SizeField& field, const Case& input, RunRecord& record,
-                                   mesh::Numbering& numbering) {
+/// A mesh with its global numbers.
+struct NumberedMesh {
+  mesh::DistributedMesh mesh;
+  mesh::Numbering numbering;
+};
+
+/// The finished surface with its sizes.
+struct FinishedSurface : NumberedMesh {
+  sizing::SizeField field;
+};
+
+NumberedMesh number_part(const Communicator& communicator, const mesh::DistributedMesh& surface, bool inner) {
+  NumberedMesh part{part_of_surface(surface, inner), {}};
+  part.numbering = mesh::number_mesh(communicator, part.mesh);
+  return part;
+}
+
+FinishedSurface build_surface(const Communicator& communicator, const geometry::Model& model,
+                              const sizing::SizeField& field, const Case& input, RunRecord& record) {
   surface::SurfaceMesh surface =
       surface::mesh_surface(communicator, model, field, input.surface, record.clock);
   record.surface = surface.report;
-  numbering = mesh::number_mesh(communicator, surface.mesh);
-  require_valid("the surface mesh", mesh::check_surface_mesh(communicator, surface.mesh, numbering));
-  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
-  record.patches = table_of_patches(communicator, model, surface.mesh);
+  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
+  require_valid("the surface mesh",
+                mesh::check_surface_mesh(communicator, finished.mesh, finished.numbering));
+  record.surface_quality = mesh::summarise_quality(communicator, finished.mesh, finished.numbering);
+  record.patches = table_of_patches(communicator, model, finished.mesh);
   parallel::log_info(
       fmt::format("surface: {} triangles, smallest angle {:.3g} degrees, mean ratio {:.3f} on average",
-                  surface.report.triangles, record.surface_quality->min_dihedral.minimum,
+                  record.surface.triangles, record.surface_quality->min_dihedral.minimum,
                   record.surface_quality->mean_ratio.mean));
-  return surface;
+  return finished;
+}
+
+/// Tetrahedra and volume by region; sums run in the order of the pieces.
+std::vector<RegionRow> table_of_regions(const Communicator& communicator,
+                                        const mesh::DistributedMesh& volume) {
+  struct PieceRow {
+    mesh::PieceId piece;
+    std::int32_t region;
+    std::int64_t tetrahedra;
+    double volume;
+  };
+  std::vector<PieceRow> mine;
+  for (const mesh::Piece& piece : volume.pieces) {
+    double sum = 0;
+    for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const mesh::LocalIndex* v = piece.cell(c);
+      sum +=
+          geometry::volume6(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])) / 6;
+    }
+    mine.push_back({piece.id, piece.region, piece.cell_count(), sum});
+  }
+  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
+  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+  std::vector<RegionRow> regions;
+  for (const std::string& name : volume.regions) regions.push_back({.name = name});
+  for (const PieceRow& row : rows) {
+    regions[row.region].tetrahedra += row.tetrahedra;
+    regions[row.region].volume += row.volume;
+  }
+  return regions;
 }
 
 void improve_volume(const Communicator& communicator, const Case& input, mesh::DistributedMesh& volume,
@@ -227,6 +265,19 @@ mesh::Numbering inspect_volume(const Communicator& communicator, const mesh::Dis
   return numbering;
 }
 
+/// The boundary of the domain, and what lies between regions in a file of its own.
+void write_surfaces(const Communicator& communicator, const NumberedMesh& surface,
+                    const std::string& directory) {
+  if (!surface.mesh.has_inner_faces()) {
+    io::write_surface(communicator, surface.mesh, surface.numbering, directory, "surface");
+    return;
+  }
+  for (const bool inner : {false, true}) {
+    const NumberedMesh part = number_part(communicator, surface.mesh, inner);
+    io::write_surface(communicator, part.mesh, part.numbering, directory, inner ? "interfaces" : "surface");
+  }
+}
+
 }  // namespace
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
@@ -236,20 +287,18 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   const geometry::Model model = run_stage(record, "geometry", ExitCode::cad, [&] {
     geometry::Model loaded = load_domain(communicator, input, record);
     describe_domain(loaded, record);
-    refuse_inner_faces(loaded);
     return loaded;
   });
   const sizing::SizeField field = run_stage(record, "sizing", ExitCode::cad,
                                             [&] { return build_sizes(communicator, model, input, record); });
   run_stage(record, "decompose", ExitCode::resources,
             [&] { decompose(communicator, model, field, input, record); });
-  mesh::Numbering surface_numbering;
-  const surface::SurfaceMesh surface = run_stage(record, "surface", ExitCode::surface, [&] {
-    return build_surface(communicator, model, field, input, record, surface_numbering);
+  const FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
+    return build_surface(communicator, model, field, input, record);
   });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
     mesh::DistributedMesh filled =
-        mesh_volume(communicator, surface.mesh, surface_numbering, surface.field, input.volume,
+        mesh_volume(communicator, model, surface.mesh, surface.numbering, surface.field, input.volume,
                     directory + "/offending_triangles.vtp", record.clock, record.volume);
     inspect_volume(communicator, filled, surface.mesh, record);
     parallel::log_info(
@@ -259,13 +308,14 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
     improve_volume(communicator, input, volume, record);
     mesh::Numbering improved = inspect_volume(communicator, volume, surface.mesh, record);
+    record.regions_filled = table_of_regions(communicator, volume);
     record.quality = mesh::summarise_quality(communicator, volume, improved);
     record.hash = mesh::hash_mesh(communicator, volume, improved);
     return improved;
   });
   run_stage(record, "output", ExitCode::files, [&] {
     io::write_volume(communicator, volume, numbering, directory, "mesh");
-    io::write_surface(communicator, surface.mesh, surface_numbering, directory, "surface");
+    write_surfaces(communicator, surface, directory);
   });
   record.wall_seconds = parallel::wall_seconds() - start;
 }

@@ -25,6 +25,14 @@ struct PatchRow {
   double area = 0;      ///< of the triangles, in the square of the model's unit
   double cad_area = 0;  ///< of the CAD faces
   std::int64_t triangles = 0;
+  bool inner = false;  ///< has faces between two regions
+};
+
+/// A region of the finished mesh.
+struct RegionRow {
+  std::string name;
+  double volume = 0;
+  std::int64_t tetrahedra = 0;
 };
 
 /// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
@@ -46,12 +54,14 @@ struct RunRecord {
   std::string hash;
   std::optional<mesh::QualitySummary> surface_quality, quality;
   std::vector<PatchRow> patches;
+  std::vector<RegionRow> regions_filled;
   parallel::StageClock clock;
   double wall_seconds = 0;  ///< of the run, from the first stage to the end of the last
 };
 
-/// Runs all stages of the case in order, with validity checks between them, and writes mesh.pvtu and
-/// surface.pvtp. Collective. Throws StageFailure on all ranks.
+/// Runs all stages of the case in order, with validity checks between them, and writes mesh.pvtu,
+/// surface.pvtp and, where regions share faces, interfaces.pvtp. Collective. Throws StageFailure on all
+/// ranks.
 void run_case(const parallel::Communicator& communicator, const Case& input, RunRecord& record);
 
 }  // namespace aeroloom::pipeline

@@ -143,7 +143,14 @@ mesh::DistributedMesh assemble(const geometry::Model& model, const std::map<Face
   surface.kind = mesh::CellKind::triangle;
   surface.piece_count = model.face_count();
   surface.patches = model.patches();
-  for (FaceId f = 0; f < model.face_count(); ++f) surface.faces.push_back(model.face(f).name);
+  for (FaceId f = 0; f < model.face_count(); ++f) {
+    const geometry::Face& face = model.face(f);
+    surface.faces.push_back(face.name);
+    surface.sides.push_back({face.front, face.back});
+  }
+  for (geometry::RegionId r = 0; r < model.region_count(); ++r) {
+    surface.regions.push_back(model.region_name(r));
+  }
   for (const auto& [face, meshed] : faces) surface.pieces.push_back(meshed.piece);
   return surface;
 }
