@@ -1,6 +1,7 @@
 #include "geometry/booleans.hpp"
 
 #include "geometry/model.hpp"
+#include "geometry/step_trace.hpp"
 
 #include <TopExp_Explorer.hxx>
 #include <fmt/format.h>
@@ -22,6 +23,7 @@ void follow_labels(BRepBuilderAPI_MakeShape& operation, const std::vector<TopoDS
 }
 
 void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing) {
+  tell_step(doing);
   operation.SetRunParallel(false);
   operation.SetToFillHistory(true);
   operation.Build();

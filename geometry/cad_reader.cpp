@@ -1,6 +1,7 @@
 #include "geometry/cad_reader.hpp"
 
 #include "geometry/occ_guard.hpp"
+#include "geometry/step_trace.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -122,32 +123,67 @@ std::string without_comments(std::string text) {
   return text;
 }
 
-NamedShape read_by_content(const std::string& file, const Ends& ends) {
-  if (without_comments(ends.head).starts_with("ISO-10303-21")) {
-    require(contains(ends.tail, "END-ISO-10303-21"), file,
-            "a STEP file that ends too early: no END-ISO-10303-21");
-    return read_step(file);
-  }
-  if (looks_like_iges(ends.head)) {
-    require(iges_is_complete(ends.tail), file,
-            "an IGES file that ends too early: its last line is no T section");
-    return read_iges(file);
-  }
-  if (contains(ends.head, "Open CASCADE Topology V")) return read_brep(file, true);
-  if (contains(ends.head, "CASCADE Topology V")) return read_brep(file, false);
+enum class Format { unknown, step, iges, brep, binary_brep };
+
+Format recognise(const Ends& ends) {
+  if (without_comments(ends.head).starts_with("ISO-10303-21")) return Format::step;
+  if (looks_like_iges(ends.head)) return Format::iges;
+  if (contains(ends.head, "Open CASCADE Topology V")) return Format::binary_brep;
+  return contains(ends.head, "CASCADE Topology V") ? Format::brep : Format::unknown;
+}
+
+[[noreturn]] void refuse(const std::string& file, const Ends& ends) {
   if (contains(ends.head, "ISO-10303-21")) {
-    throw CadError(fmt::format("'{}': a STEP file must begin with ISO-10303-21; found \"{}\"", file,
-                               excerpt(ends.head)));
+    throw CadError(
+        fmt::format("'{}': a STEP file must begin with ISO-10303-21; found \"{}\". Remedy: remove what "
+                    "stands before ISO-10303-21",
+                    file, excerpt(ends.head)));
   }
   throw CadError(
       fmt::format("'{}' is neither STEP, IGES nor BREP: it begins with \"{}\"", file, excerpt(ends.head)));
 }
 
+NamedShape read_by_content(const std::string& file, const Ends& ends) {
+  switch (recognise(ends)) {
+    case Format::step:
+      require(contains(ends.tail, "END-ISO-10303-21"), file,
+              "a STEP file that ends too early: no END-ISO-10303-21");
+      return read_step(file);
+    case Format::iges:
+      require(iges_is_complete(ends.tail), file,
+              "an IGES file that ends too early: its last line is no T section");
+      return read_iges(file);
+    case Format::brep:
+      return read_brep(file, false);
+    case Format::binary_brep:
+      return read_brep(file, true);
+    case Format::unknown:
+      break;
+  }
+  refuse(file, ends);
+}
+
 }  // namespace
+
+std::string format_of_cad_file(const std::string& file) {
+  switch (recognise(read_ends(file))) {
+    case Format::step:
+      return "STEP";
+    case Format::iges:
+      return "IGES";
+    case Format::brep:
+    case Format::binary_brep:
+      return "BREP";
+    case Format::unknown:
+      break;
+  }
+  return {};
+}
 
 NamedShape read_cad_file(const std::string& file) {
   const Ends ends = read_ends(file);
   require(!trimmed(ends.head).empty(), file, "the file is empty");
+  tell_step("reading the file");
   return guarded(fmt::format("reading '{}'", file), [&] { return read_by_content(file, ends); });
 }
 

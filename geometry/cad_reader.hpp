@@ -12,6 +12,9 @@ namespace aeroloom::geometry {
 /// std::ios_base::failure when the file cannot be opened.
 NamedShape read_cad_file(const std::string& file);
 
+/// "STEP", "IGES" or "BREP", by content; empty for others. Throws std::ios_base::failure as above.
+std::string format_of_cad_file(const std::string& file);
+
 NamedShape read_step(const std::string& file);
 NamedShape read_iges(const std::string& file);
 

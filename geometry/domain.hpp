@@ -5,6 +5,7 @@
 #include "geometry/model.hpp"
 #include "geometry/transport.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +25,8 @@ enum class Symmetry { automatic, none, x, y, z };
 /// The far field around a body. Its reference length is the largest extent of the body's box.
 struct FarFieldOptions {
   FarFieldShape shape = FarFieldShape::sphere;
-  double extent = 10;  ///< distance from the body's centre to the far field, in reference lengths; for box
-                       ///< and cylinder: from the centre to each side and end
+  double extent = 10;   ///< distance from the body's centre to the far field, in reference lengths; for box
+                        ///< and cylinder: from the centre to each side and end
   Axis axis = Axis::x;  ///< of the cylinder
   /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
   /// on the positive side is kept; the far field is cut to the same half.
@@ -39,6 +40,14 @@ struct DomainOptions {
   DomainKind kind = DomainKind::automatic;
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
+  /// What a contained run does before its work; for tests of containment.
+  enum class Sabotage : std::uint8_t {
+    none,
+    throws,
+    aborts,
+    hangs,
+    exhausts_memory
+  } sabotage = Sabotage::none;
 };
 
 /// What was read and what was done with it, for log and report.

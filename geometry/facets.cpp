@@ -3,6 +3,7 @@
 #include "geometry/occ_guard.hpp"
 #include "geometry/pole_facets.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/step_trace.hpp"
 
 #include <algorithm>
 #include <array>
@@ -168,6 +169,7 @@ double folded_share(const Facets& facets) {
 Facets Model::facets(FaceId id, double deflection, double angle) const {
   const FaceEvaluator& evaluator = _data->face_evaluators.at(id);
   const std::string doing = "triangulating " + _data->describe_face(id);
+  tell_step(doing);
   return guarded(doing, [&] {
     std::string defect;
     for (const double share : {1.0, 0.5, 0.25, 0.1, 0.02}) {

@@ -5,6 +5,7 @@
 #include "geometry/plane_loops.hpp"
 #include "geometry/sewing.hpp"
 #include "geometry/shells.hpp"
+#include "geometry/step_trace.hpp"
 #include "geometry/symmetry.hpp"
 
 #include <algorithm>
@@ -338,6 +339,7 @@ void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {
 }  // namespace
 
 NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
+  tell_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
   const double reference = largest_extent(tight_box(bodies.shape));
   if (symmetry) bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);

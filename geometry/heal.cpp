@@ -4,6 +4,7 @@
 #include "geometry/repair_edges.hpp"
 #include "geometry/sewing.hpp"
 #include "geometry/shells.hpp"
+#include "geometry/step_trace.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +137,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 }
 
 NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volumes, Changes& changes) {
+  tell_step("healing the shape");
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)

@@ -1,6 +1,7 @@
 #include "geometry/model_data.hpp"
 #include "geometry/model_topology.hpp"
 #include "geometry/occ_guard.hpp"
+#include "geometry/step_trace.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -132,6 +133,7 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
 }  // namespace
 
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
+  tell_step("building the model");
   return guarded("building the model", [&] {
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(named.shape, TopAbs_FACE, faces);

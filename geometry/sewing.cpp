@@ -3,6 +3,7 @@
 #include "geometry/caps.hpp"
 #include "geometry/model_data.hpp"
 #include "geometry/shells.hpp"
+#include "geometry/step_trace.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -57,6 +58,7 @@ void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_S
 }
 
 Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, const FaceLabels& labels) {
+  tell_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), tolerance));
   BRepBuilderAPI_Sewing sewing(tolerance);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();

@@ -61,6 +61,13 @@ void declare_geometry(KeyTable& root, Draft& draft) {
   keys.choice<DomainKind>(
       "domain", draft.result.domain.kind,
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
+  using Sabotage = geometry::DomainOptions::Sabotage;
+  keys.choice<Sabotage>("inject", draft.result.domain.sabotage,
+                        {{"none", Sabotage::none},
+                         {"throws", Sabotage::throws},
+                         {"aborts", Sabotage::aborts},
+                         {"hangs", Sabotage::hangs},
+                         {"exhausts_memory", Sabotage::exhausts_memory}});
   KeyTable& far_field = root.section("farfield", &draft.far_field_given);
   far_field.choice<FarFieldShape>("shape", draft.far_field.shape,
                                   {{"sphere", FarFieldShape::sphere},

@@ -3,6 +3,7 @@
 #include "io/vtk_writer.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "pipeline/load_domain.hpp"
 
 #include <cmath>
 
@@ -51,25 +52,6 @@ auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work w
   } catch (const std::exception& error) {
     throw StageFailure(name, code, error.what());
   }
-}
-
-/// Rank 0 reads and builds the domain; every rank numbers its entities from the same bytes.
-geometry::Model load_domain(const Communicator& communicator, const Case& input, RunRecord& record) {
-  parallel::Bytes bytes;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    const parallel::ScopedCpu cpu(record.clock, parallel::ScopedCpu::As::serial);
-    geometry::Domain domain = geometry::prepare_domain(input.domain);
-    record.domain = domain.report;
-    bytes = domain.model.serialise();
-  });
-  communicator.broadcast(bytes);
-  std::optional<geometry::Model> model;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(record.clock, parallel::ScopedCpu::As::serial);
-    model = geometry::Model::from_bytes(bytes);
-  });
-  return *model;
 }
 
 void describe_domain(const geometry::Model& model, RunRecord& record) {
@@ -285,7 +267,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   const std::string& directory = input.output.directory;
 
   const geometry::Model model = run_stage(record, "geometry", ExitCode::cad, [&] {
-    geometry::Model loaded = load_domain(communicator, input, record);
+    geometry::Model loaded = load_domain(communicator, input.domain, record.clock, record.domain);
     describe_domain(loaded, record);
     return loaded;
   });

@@ -1,0 +1,279 @@
+#include "pipeline/load_domain.hpp"
+
+#include "geometry/step_trace.hpp"
+#include "parallel/collective_error.hpp"
+#include "parallel/contained.hpp"
+
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <ios>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using geometry::Change;
+using geometry::DomainOptions;
+using parallel::Bytes;
+using parallel::Packer;
+using parallel::Unpacker;
+
+const char* const prepare_task_name = "geometry.prepare";
+const char* const diagnose_task_name = "geometry.diagnose";
+
+// Limits of a child, from the size of the file. Real files of some megabytes take seconds and less than a
+// gigabyte; what takes twenty times as long is stuck.
+constexpr double base_cpu_seconds = 60, cpu_seconds_per_megabyte = 40;
+constexpr double most_cpu_seconds = 1800;
+constexpr std::int64_t base_bytes = 4LL << 30, bytes_per_file_byte = 1000;
+
+/// How a contained run ended, as far as it ended by itself.
+enum class Outcome : std::uint8_t { done, cad_error, file_error };
+
+void pack_options(const DomainOptions& options, Packer& packer) {
+  packer.text(options.file);
+  packer.value(std::uint8_t{options.transport.has_value()});
+  packer.value(options.transport.value_or(geometry::TransportDimensions{}));
+  packer.value(options.kind);
+  const geometry::FarFieldOptions far_field = options.far_field.value_or(geometry::FarFieldOptions{});
+  packer.value(std::uint8_t{options.far_field.has_value()});
+  packer.value(far_field.shape);
+  packer.value(far_field.extent);
+  packer.value(far_field.axis);
+  packer.value(far_field.symmetry);
+  packer.value(std::uint8_t{far_field.symmetry_position.has_value()});
+  packer.value(far_field.symmetry_position.value_or(0));
+  packer.value(options.smallest_size);
+  packer.value(options.sabotage);
+}
+
+DomainOptions unpack_options(Unpacker& unpacker) {
+  DomainOptions options;
+  options.file = unpacker.text();
+  const bool built_in = unpacker.value<std::uint8_t>() != 0;
+  const auto transport = unpacker.value<geometry::TransportDimensions>();
+  if (built_in) options.transport = transport;
+  options.kind = unpacker.value<geometry::DomainKind>();
+  const bool surrounded = unpacker.value<std::uint8_t>() != 0;
+  geometry::FarFieldOptions far_field;
+  far_field.shape = unpacker.value<geometry::FarFieldShape>();
+  far_field.extent = unpacker.value<double>();
+  far_field.axis = unpacker.value<geometry::Axis>();
+  far_field.symmetry = unpacker.value<geometry::Symmetry>();
+  const bool placed = unpacker.value<std::uint8_t>() != 0;
+  const auto position = unpacker.value<double>();
+  if (placed) far_field.symmetry_position = position;
+  if (surrounded) options.far_field = far_field;
+  options.smallest_size = unpacker.value<double>();
+  options.sabotage = unpacker.value<DomainOptions::Sabotage>();
+  return options;
+}
+
+void pack_change(const Change& change, Packer& packer) {
+  packer.text(change.what);
+  packer.value(std::uint8_t{change.where.has_value()});
+  packer.value(change.where.value_or(geometry::Vec3{}));
+  packer.value(change.how_much);
+}
+
+Change unpack_change(Unpacker& unpacker) {
+  Change change;
+  change.what = unpacker.text();
+  const bool placed = unpacker.value<std::uint8_t>() != 0;
+  const auto where = unpacker.value<geometry::Vec3>();
+  if (placed) change.where = where;
+  change.how_much = unpacker.value<double>();
+  return change;
+}
+
+void pack_changes(const geometry::Changes& changes, Packer& packer) {
+  packer.value(static_cast<std::uint64_t>(changes.size()));
+  for (const Change& change : changes) pack_change(change, packer);
+}
+
+geometry::Changes unpack_changes(Unpacker& unpacker) {
+  geometry::Changes changes(unpacker.value<std::uint64_t>());
+  for (Change& change : changes) change = unpack_change(unpacker);
+  return changes;
+}
+
+void pack_domain(const geometry::Domain& domain, Packer& packer) {
+  packer.value(domain.report.kind);
+  packer.text(domain.report.reason);
+  packer.value(domain.report.reference_length);
+  pack_changes(domain.report.changes, packer);
+  packer.array(domain.model.serialise());
+}
+
+geometry::Domain unpack_domain(Unpacker& unpacker) {
+  geometry::DomainReport report;
+  report.kind = unpacker.value<geometry::DomainKind>();
+  report.reason = unpacker.text();
+  report.reference_length = unpacker.value<double>();
+  report.changes = unpack_changes(unpacker);
+  return {geometry::Model::from_bytes(unpacker.array<std::byte>()), std::move(report)};
+}
+
+void pack_diagnosis(const geometry::Diagnosis& diagnosis, Packer& packer) {
+  packer.text(diagnosis.format);
+  packer.text(diagnosis.unit_name);
+  packer.value(diagnosis.bounds);
+  packer.value(diagnosis.counts);
+  pack_changes(diagnosis.findings, packer);
+  packer.text(diagnosis.failure);
+  packer.value(std::uint8_t{diagnosis.domain.has_value()});
+  if (diagnosis.domain) pack_domain(*diagnosis.domain, packer);
+}
+
+geometry::Diagnosis unpack_diagnosis(Unpacker& unpacker) {
+  geometry::Diagnosis diagnosis;
+  diagnosis.format = unpacker.text();
+  diagnosis.unit_name = unpacker.text();
+  diagnosis.bounds = unpacker.value<geometry::Box>();
+  diagnosis.counts = unpacker.value<geometry::EntityCounts>();
+  diagnosis.findings = unpack_changes(unpacker);
+  diagnosis.failure = unpacker.text();
+  if (unpacker.value<std::uint8_t>() != 0) diagnosis.domain = unpack_domain(unpacker);
+  return diagnosis;
+}
+
+void commit_sabotage(DomainOptions::Sabotage sabotage) {
+  using Sabotage = DomainOptions::Sabotage;
+  if (sabotage == Sabotage::throws) throw std::runtime_error("sabotage: an exception");
+  if (sabotage == Sabotage::aborts) std::abort();
+  if (sabotage == Sabotage::hangs) {
+    for (;;) std::atomic_signal_fence(std::memory_order_seq_cst);
+  }
+  if (sabotage == Sabotage::exhausts_memory) {
+    constexpr std::size_t chunk = 64 << 20;
+    std::vector<std::vector<char>> hoard;
+    for (;;) hoard.emplace_back(chunk, 'x');
+  }
+}
+
+/// In the child: errors of known kinds travel as data, the step at hand goes to standard error.
+template <class Work>
+Bytes answer(std::span<const std::byte> input, Work work) {
+  Unpacker unpacker(input);
+  const DomainOptions options = unpack_options(unpacker);
+  geometry::listen_to_steps(
+      [](const std::string& step) { fmt::print(stderr, "\n{}", step), std::fflush(stderr); });
+  Packer packer;
+  const auto fail = [&](Outcome outcome, const char* text) {
+    packer = {};
+    packer.value(outcome);
+    packer.text(text);
+  };
+  try {
+    commit_sabotage(options.sabotage);
+    packer.value(Outcome::done);
+    work(options, packer);
+  } catch (const geometry::CadError& error) {
+    fail(Outcome::cad_error, error.what());
+  } catch (const std::ios_base::failure& error) {
+    fail(Outcome::file_error, error.what());
+  }
+  return packer.take();
+}
+
+Bytes prepare_task(std::span<const std::byte> input) {
+  return answer(input, [](const DomainOptions& options, Packer& packer) {
+    pack_domain(geometry::prepare_domain(options), packer);
+  });
+}
+
+Bytes diagnose_task(std::span<const std::byte> input) {
+  return answer(input, [](const DomainOptions& options, Packer& packer) {
+    pack_diagnosis(geometry::diagnose(options), packer);
+  });
+}
+
+double file_bytes(const DomainOptions& options) {
+  std::error_code ignored;  // a file that is not there is reported by who reads it
+  const auto size = options.file.empty() ? 0 : std::filesystem::file_size(options.file, ignored);
+  return ignored ? 0 : double(size);
+}
+
+parallel::ContainedLimits limits_for(const DomainOptions& options) {
+  const double bytes = file_bytes(options);
+  parallel::ContainedLimits limits;
+  limits.cpu_seconds = std::min(most_cpu_seconds, base_cpu_seconds + cpu_seconds_per_megabyte * bytes / 1e6);
+  limits.address_space_bytes = base_bytes + bytes_per_file_byte * static_cast<std::int64_t>(bytes);
+  return limits;
+}
+
+[[noreturn]] void throw_crash(const DomainOptions& options, const parallel::ContainedResult& result,
+                              const parallel::ContainedLimits& limits) {
+  const std::string source = options.transport ? "the built-in aircraft" : "'" + options.file + "'";
+  std::string what = "failed";
+  if (result.status == parallel::ContainedStatus::aborted) what = "crashed";
+  if (result.status == parallel::ContainedStatus::out_of_time)
+    what = fmt::format("took more than {:.0f} s", limits.cpu_seconds);
+  if (result.status == parallel::ContainedStatus::out_of_memory) what = "ran out of memory";
+  throw geometry::CadError(
+      fmt::format("{}: the CAD library {} while preparing this geometry ({}). Remedy: repair the file in the "
+                  "CAD program, or "
+                  "export it anew, in another format or part by part",
+                  source, what, result.message));
+}
+
+/// Runs a task on the options and hands its output over where it ended well.
+template <class Read>
+auto run_task(const char* task, const DomainOptions& options, parallel::StageClock& clock, Read read) {
+  Packer packer;
+  pack_options(options, packer);
+  const parallel::ContainedLimits limits = limits_for(options);
+  const parallel::ContainedResult result = parallel::run_contained(task, packer.take(), limits);
+  clock.add_serial_cpu(result.cpu_seconds);
+  clock.note_child_memory(result.peak_resident_bytes);
+  if (result.status != parallel::ContainedStatus::ok) throw_crash(options, result, limits);
+  Unpacker unpacker(result.output);
+  const auto outcome = unpacker.value<Outcome>();
+  if (outcome == Outcome::cad_error) throw geometry::CadError(unpacker.text());
+  if (outcome == Outcome::file_error) {
+    std::string text = unpacker.text();
+    const std::string suffix = ": " + std::make_error_code(std::io_errc::stream).message();
+    if (text.ends_with(suffix)) text.resize(text.size() - suffix.size());  // it is appended once more here
+    throw std::ios_base::failure(text);
+  }
+  return read(unpacker);
+}
+
+}  // namespace
+
+void register_geometry_tasks() {
+  parallel::register_contained_task(prepare_task_name, prepare_task);
+  parallel::register_contained_task(diagnose_task_name, diagnose_task);
+}
+
+geometry::Domain prepare_contained(const DomainOptions& options, parallel::StageClock& clock) {
+  return run_task(prepare_task_name, options, clock, unpack_domain);
+}
+
+geometry::Diagnosis diagnose_contained(const DomainOptions& options, parallel::StageClock& clock) {
+  return run_task(diagnose_task_name, options, clock, unpack_diagnosis);
+}
+
+geometry::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
+                            parallel::StageClock& clock, geometry::DomainReport& report) {
+  Bytes bytes;
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    geometry::Domain domain = prepare_contained(options, clock);
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    report = std::move(domain.report);
+    bytes = domain.model.serialise();
+  });
+  communicator.broadcast(bytes);
+  std::optional<geometry::Model> model;
+  parallel::agree(communicator, [&] {
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    model = geometry::Model::from_bytes(bytes);
+  });
+  return *model;
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,29 @@
+/// The domain from CAD, prepared in a contained run: the CAD library may throw, crash, hang or exhaust memory
+/// on a damaged file without taking a rank down.
+#pragma once
+
+#include "geometry/diagnosis.hpp"
+#include "geometry/domain.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+
+namespace aeroloom::pipeline {
+
+/// Makes the contained tasks known; call before parallel::Environment is constructed.
+void register_geometry_tasks();
+
+/// Prepares the domain in a child of this rank. Not collective. Throws what geometry::prepare_domain throws;
+/// geometry::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
+geometry::Domain prepare_contained(const geometry::DomainOptions& options, parallel::StageClock& clock);
+
+/// Looks at the geometry in a child of this rank; as above, but a domain that cannot be made is part of the
+/// diagnosis. Not collective.
+geometry::Diagnosis diagnose_contained(const geometry::DomainOptions& options, parallel::StageClock& clock);
+
+/// Rank 0 prepares the domain, every rank numbers its entities from the same bytes. `report` is filled on
+/// rank 0 alone. Collective; throws CollectiveError.
+geometry::Model load_domain(const parallel::Communicator& communicator,
+                            const geometry::DomainOptions& options, parallel::StageClock& clock,
+                            geometry::DomainReport& report);
+
+}  // namespace aeroloom::pipeline
