@@ -2,6 +2,7 @@
 
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "pipeline/check.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
 
@@ -24,6 +25,7 @@ constexpr const char* examples =
     "Examples:\n"
     "  aeroloom run configs/transport.yaml                 mesh the built-in aircraft on one rank\n"
     "  mpirun -n 8 aeroloom run case.yaml                  the same mesh, bit for bit, by eight ranks\n"
+    "  aeroloom check case.yaml                            what is wrong with the CAD, what a run will cost\n"
     "  aeroloom run case.yaml --set sizing.minimum=0.02    override a key of the case\n"
     "  aeroloom export-cad configs/transport.yaml a.step   write the case's geometry as STEP\n\n"
     "Exit codes: 0 ok, 2 usage or configuration, 3 CAD, 4 surface, 5 volume, 6 quality gate,\n"
@@ -91,6 +93,17 @@ int run(const Communicator& communicator, const Case& input) {
   return 0;
 }
 
+int check(const Communicator& communicator, const Case& input) {
+  try {
+    const ExitCode code = check_case(communicator, input);
+    communicator.barrier();
+    return static_cast<int>(code);
+  } catch (const parallel::CollectiveError& error) {
+    const bool files = error.kind() == parallel::FailureKind::files;
+    return fail(communicator, files ? ExitCode::files : ExitCode::cad, error.what());
+  }
+}
+
 int export_cad(const Communicator& communicator, const Case& input, const std::string& file) {
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) geometry::export_step(input.domain, file);
@@ -127,8 +140,11 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
                            std::string("aeroloom ") + AEROLOOM_VERSION + "\n" + AEROLOOM_LIBRARIES);
   program.require_subcommand(1);
   CLI::App* run_command = program.add_subcommand("run", "mesh a case");
+  CLI::App* check_command = program.add_subcommand(
+      "check", "diagnose the geometry of a case and predict its mesh, without meshing");
   CLI::App* export_command = program.add_subcommand("export-cad", "write the geometry of a case as STEP");
   add_case_options(*run_command, arguments);
+  add_case_options(*check_command, arguments);
   add_case_options(*export_command, arguments);
   export_command->add_option("file", arguments.cad_file, "the STEP file to write")->required();
   try {
@@ -149,6 +165,7 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
                                         : arguments.verbose ? parallel::LogLevel::verbose
                                                             : input.output.log);
   if (run_command->parsed()) return run(communicator, input);
+  if (check_command->parsed()) return check(communicator, input);
   try {
     return export_cad(communicator, input, arguments.cad_file);
   } catch (const parallel::CollectiveError& error) {

@@ -26,4 +26,8 @@ geometry::Model load_domain(const parallel::Communicator& communicator,
                             const geometry::DomainOptions& options, parallel::StageClock& clock,
                             geometry::DomainReport& report);
 
+/// The model that rank 0 has as bytes, on every rank. Collective; throws CollectiveError.
+geometry::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
+                            parallel::StageClock& clock);
+
 }  // namespace aeroloom::pipeline

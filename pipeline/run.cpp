@@ -4,6 +4,7 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/resolve_sizes.hpp"
 
 #include <cmath>
 
@@ -70,27 +71,6 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
   for (const geometry::Change& change : record.domain.changes) {
     parallel::log_info("geometry: " + geometry::describe(change));
   }
-}
-
-/// What the user asked for; the rest is chosen from the model. Bounds that the user gave bind the choice.
-sizing::SizingOptions resolve_sizes(const Communicator& communicator, const geometry::Model& model,
-                                    const SizingRequest& request, parallel::StageClock& clock) {
-  sizing::SizingOptions sizes;
-  if (!request.minimum || !request.maximum) {
-    sizes = sizing::choose_sizes(communicator, model, request.target_tetrahedra, clock);
-  }
-  if (request.minimum) sizes.minimum = *request.minimum;
-  if (request.maximum) sizes.maximum = *request.maximum;
-  if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;
-  if (request.growth) sizes.growth = *request.growth;
-  if (request.surface_maximum) sizes.surface_maximum = *request.surface_maximum;
-  if (sizes.minimum > sizes.maximum) {
-    throw std::invalid_argument(
-        fmt::format("sizing.minimum ({:.6g}) exceeds sizing.maximum ({:.6g}), one of which was chosen from "
-                    "the model. Remedy: give both",
-                    sizes.minimum, sizes.maximum));
-  }
-  return sizes;
 }
 
 sizing::SizeField build_sizes(const Communicator& communicator, const geometry::Model& model,

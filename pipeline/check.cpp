@@ -1,0 +1,236 @@
+#include "pipeline/check.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "pipeline/load_domain.hpp"
+#include "pipeline/resolve_sizes.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t shown_contacts = 20;
+constexpr int pieces_per_rank = 4;
+
+// What a run costs on one core, from runs at a million tetrahedra (docs/status.md).
+constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
+constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 450;
+
+Forecast forecast_run(const parallel::Communicator& communicator, const geometry::Model& model,
+                      const Case& input) {
+  parallel::StageClock clock;
+  Forecast forecast;
+  forecast.sizes = resolve_sizes(communicator, model, input.sizing, clock);
+  const sizing::SizeField field = sizing::build_size_field(communicator, model, forecast.sizes, clock);
+  forecast.counts = sizing::predict_counts(communicator, model, field, clock);
+  const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
+  forecast.seconds = seconds_per_triangle * triangles + seconds_per_tetrahedron * tetrahedra;
+  forecast.bytes = base_bytes * communicator.size() + bytes_per_tetrahedron * tetrahedra;
+  const double pieces = pieces_per_rank * communicator.size();
+  forecast.piece_triangles = std::clamp<std::int64_t>(std::llround(triangles / pieces), 1000, 200'000);
+  forecast.piece_tets = std::clamp<std::int64_t>(std::llround(tetrahedra / pieces), 10'000, 1'000'000);
+  return forecast;
+}
+
+std::string place(geometry::Vec3 p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
+
+std::string describe_reading(const Case& input, const geometry::Diagnosis& found) {
+  const geometry::Vec3 size = found.bounds.size();
+  return fmt::format(
+      "read: {}, {}, unit {}\n"
+      "      box {} to {}, {:.6g} x {:.6g} x {:.6g}\n"
+      "      {} solids, {} shells, {} faces, {} edges\n",
+      input.domain.file.empty() ? "the built-in aircraft" : input.domain.file, found.format,
+      found.unit_name.empty() ? "not declared" : found.unit_name, place(found.bounds.low),
+      place(found.bounds.high), size.x, size.y, size.z, found.counts.solids, found.counts.shells,
+      found.counts.faces, found.counts.edges);
+}
+
+std::string describe_findings(const CheckRecord& record) {
+  const geometry::EntityCounts& counts = record.diagnosis.counts;
+  std::string text = fmt::format("found: {} open edges, {} short edges, {} sliver faces as read\n",
+                                 counts.open_edges, counts.short_edges, counts.sliver_faces);
+  for (const geometry::Change& finding : record.diagnosis.findings) {
+    text += "      " + geometry::describe(finding) + "\n";
+  }
+  if (!record.diagnosis.domain) return text;
+  text += fmt::format("      {} pairs of faces intersect or nearly touch\n", record.contact_count);
+  const geometry::Model& model = record.diagnosis.domain->model;
+  for (const FaceContact& contact : record.contacts) {
+    text += fmt::format("      faces '{}' and '{}' meet near {}\n", model.face(contact.first).name,
+                        model.face(contact.second).name, place(contact.where));
+  }
+  return text;
+}
+
+struct PatchSum {
+  int faces = 0;
+  double area = 0;
+};
+
+std::vector<PatchSum> sum_patches(const geometry::Model& model) {
+  std::vector<PatchSum> sums(model.patches().size());
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    PatchSum& sum = sums[model.face(f).patch];
+    ++sum.faces;
+    sum.area += model.face_area(f);
+  }
+  return sums;
+}
+
+std::string describe_domain(const geometry::Domain& domain) {
+  std::string text;
+  for (const geometry::Change& change : domain.report.changes) {
+    text += "healed: " + geometry::describe(change) + "\n";
+  }
+  text += fmt::format("domain: {}; {} region(s)\n", domain.report.reason, domain.model.region_count());
+  const std::vector<PatchSum> sums = sum_patches(domain.model);
+  for (std::size_t p = 0; p < sums.size(); ++p) {
+    text += fmt::format("patch {:<28} {:>6} faces, area {:.6g}\n", domain.model.patches()[p], sums[p].faces,
+                        sums[p].area);
+  }
+  return text;
+}
+
+std::string describe_forecast(const Forecast& forecast, int ranks) {
+  return fmt::format(
+      "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
+      "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
+      "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
+      "a volume can be meshed\n",
+      forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
+      forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
+      forecast.bytes / (1024.0 * 1024 * 1024), ranks, forecast.piece_triangles, forecast.piece_tets);
+}
+
+Json to_json(geometry::Vec3 p) {
+  return Json::array({p.x, p.y, p.z});
+}
+
+Json to_json(const geometry::Changes& changes) {
+  Json json = Json::array();
+  for (const geometry::Change& change : changes) {
+    json.push_back({{"what", change.what},
+                    {"where", change.where ? to_json(*change.where) : Json()},
+                    {"how_much", change.how_much}});
+  }
+  return json;
+}
+
+Json read_json(const Case& input, const geometry::Diagnosis& found) {
+  Json json = {{"file", input.domain.file}, {"format", found.format}, {"unit", found.unit_name}};
+  json["bounds"] = {to_json(found.bounds.low), to_json(found.bounds.high)};
+  json["solids"] = found.counts.solids;
+  json["shells"] = found.counts.shells;
+  json["faces"] = found.counts.faces;
+  json["edges"] = found.counts.edges;
+  json["open_edges"] = found.counts.open_edges;
+  json["short_edges"] = found.counts.short_edges;
+  json["sliver_faces"] = found.counts.sliver_faces;
+  return json;
+}
+
+Json domain_json(const geometry::Domain& domain) {
+  Json json = {{"kind", domain.report.kind == geometry::DomainKind::fluid ? "fluid" : "body"},
+               {"reason", domain.report.reason},
+               {"changes", to_json(domain.report.changes)}};
+  json["regions"] = Json::array();
+  for (geometry::RegionId r = 0; r < domain.model.region_count(); ++r) {
+    json["regions"].push_back(domain.model.region_name(r));
+  }
+  json["patches"] = Json::array();
+  const std::vector<PatchSum> sums = sum_patches(domain.model);
+  for (std::size_t p = 0; p < sums.size(); ++p) {
+    json["patches"].push_back(
+        {{"name", domain.model.patches()[p]}, {"faces", sums[p].faces}, {"area", sums[p].area}});
+  }
+  return json;
+}
+
+Json forecast_json(const Forecast& forecast) {
+  return {{"minimum", forecast.sizes.minimum},           {"maximum", forecast.sizes.maximum},
+          {"triangles", forecast.counts.triangles},      {"tetrahedra", forecast.counts.tetrahedra},
+          {"seconds_on_one_core", forecast.seconds},     {"bytes", forecast.bytes},
+          {"piece_triangles", forecast.piece_triangles}, {"piece_tets", forecast.piece_tets}};
+}
+
+Json record_json(const Case& input, const CheckRecord& record) {
+  Json json = {{"schema_version", 1}, {"meshable", record.diagnosis.domain.has_value()}};
+  json["read"] = read_json(input, record.diagnosis);
+  json["findings"] = to_json(record.diagnosis.findings);
+  json["contact_count"] = record.contact_count;
+  json["contacts"] = Json::array();
+  for (const FaceContact& contact : record.contacts) {
+    const geometry::Model& model = record.diagnosis.domain->model;
+    json["contacts"].push_back({{"faces", {model.face(contact.first).name, model.face(contact.second).name}},
+                                {"where", to_json(contact.where)}});
+  }
+  if (!record.diagnosis.domain) {
+    json["failure"] = record.diagnosis.failure;
+    return json;
+  }
+  json["domain"] = domain_json(*record.diagnosis.domain);
+  json["forecast"] = forecast_json(record.forecast);
+  return json;
+}
+
+void write_record(const Case& input, const CheckRecord& record) {
+  std::filesystem::create_directories(input.output.directory);
+  const std::string file = input.output.directory + "/check.json";
+  std::ofstream stream(file);
+  stream << record_json(input, record).dump(2) << "\n";
+  stream.close();
+  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
+}
+
+void print_record(const Case& input, const CheckRecord& record, int ranks) {
+  const geometry::Diagnosis& found = record.diagnosis;
+  std::string text = describe_reading(input, found) + describe_findings(record);
+  if (found.domain) {
+    text += describe_domain(*found.domain) + describe_forecast(record.forecast, ranks);
+  } else {
+    text += "no volume can be meshed: " + found.failure + "\n";
+  }
+  fmt::print("{}", text);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+ExitCode check_case(const parallel::Communicator& communicator, const Case& input) {
+  CheckRecord record;
+  parallel::StageClock clock;
+  parallel::Bytes bytes;
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    record.diagnosis = diagnose_contained(input.domain, clock);
+    if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
+  });
+  const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
+  if (meshable) {
+    const geometry::Model model = share_model(communicator, std::move(bytes), clock);
+    record.forecast = forecast_run(communicator, model, input);
+    parallel::agree(communicator, [&] {
+      if (communicator.is_root())
+        record.contacts = find_face_contacts(model, shown_contacts, record.contact_count);
+    });
+  }
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    print_record(input, record, communicator.size());
+    write_record(input, record);
+  });
+  return meshable ? ExitCode::ok : ExitCode::cad;
+}
+
+}  // namespace aeroloom::pipeline

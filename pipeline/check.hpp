@@ -1,0 +1,48 @@
+/// The command check: what a run would meet, before it meshes anything.
+#pragma once
+
+#include "geometry/diagnosis.hpp"
+#include "parallel/communicator.hpp"
+#include "pipeline/case.hpp"
+#include "pipeline/exit_code.hpp"
+#include "sizing/size_field.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// Two faces whose coarse facets meet although the faces share no edge and no vertex: they intersect, or are
+/// closer to each other than the facets follow them.
+struct FaceContact {
+  geometry::FaceId first, second;
+  geometry::Vec3 where;
+};
+
+/// What a run would cost, from the prediction and the constants in docs/usage.md.
+struct Forecast {
+  sizing::SizingOptions sizes;
+  sizing::PredictedCounts counts;
+  double seconds = 0;                                ///< of one core
+  double bytes = 0;                                  ///< of memory, all ranks together
+  std::int64_t piece_triangles = 0, piece_tets = 0;  ///< piece sizes that give every rank several pieces
+};
+
+struct CheckRecord {
+  geometry::Diagnosis diagnosis;
+  std::vector<FaceContact> contacts;  ///< at most 20
+  std::int64_t contact_count = 0;
+  Forecast forecast;
+};
+
+/// Contacts among the faces of a model that are not far field, at most `most` of them listed. Not collective.
+std::vector<FaceContact> find_face_contacts(const geometry::Model& model, std::size_t most,
+                                            std::int64_t& count);
+
+/// Diagnoses the geometry, prints what was found on rank 0 and writes check.json to the output directory.
+/// Returns ok when a volume can be meshed, cad when not. Collective; throws CollectiveError when the file
+/// cannot be read or check.json cannot be written.
+ExitCode check_case(const parallel::Communicator& communicator, const Case& input);
+
+}  // namespace aeroloom::pipeline
