@@ -151,7 +151,20 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
   return capped;
 }
 
-std::string list_open_edges(const TopoDS_Shape& shape) {
+/// The name of the only face around an edge, or of its solid; empty where the file names neither.
+std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, const FaceLabels& labels) {
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    for (TopExp_Explorer edges(faces.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
+      if (!edges.Current().IsSame(edge)) continue;
+      const FaceLabel* label = labels.Seek(faces.Current());
+      if (label == nullptr) return {};
+      return label->name.empty() ? label->solid : label->name;
+    }
+  }
+  return {};
+}
+
+std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels) {
   constexpr std::size_t shown = 5;
   const std::vector<TopoDS_Edge> edges = open_edges(shape);
   std::string text = fmt::format("{} open edges", edges.size());
@@ -160,6 +173,8 @@ std::string list_open_edges(const TopoDS_Shape& shape) {
     const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
     text += fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) length {:.6g}", i == 0 ? ":" : ";", middle.X(),
                         middle.Y(), middle.Z(), GCPnts_AbscissaPoint::Length(curve));
+    const std::string name = name_around(edges[i], shape, labels);
+    if (!name.empty()) text += fmt::format(" of '{}'", name);
   }
   return text + (edges.size() > shown ? "; ..." : "");
 }
@@ -204,11 +219,12 @@ std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, double la
     return capped.closed;
   }
   const Sewn& last = tried.back();
-  throw CadError(fmt::format(
-      "the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
-      "the diagonal), and their openings are no small planar ones: {}. Close the gaps in "
-      "the CAD program",
-      last.tolerance, last.share, last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape)));
+  throw CadError(
+      fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
+                  "the diagonal), and their openings are no small planar ones: {}. Close the gaps in "
+                  "the CAD program",
+                  last.tolerance, last.share,
+                  last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels)));
 }
 
 }  // namespace aeroloom::geometry

@@ -96,6 +96,35 @@ NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes) {
   return bodies;
 }
 
+namespace {
+
+/// The first pairs of solids that overlap, with places.
+std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volumes) {
+  constexpr int shown = 3;
+  std::vector<Box> boxes;
+  for (const TopoDS_Solid& solid : group) boxes.push_back(tight_box(solid));
+  std::string text;
+  int found = 0;
+  for (std::size_t i = 0; i < group.size() && found < shown; ++i) {
+    for (std::size_t j = 0; j < i && found < shown; ++j) {
+      if (!boxes[i].overlaps(boxes[j])) continue;
+      const double common = common_volume(group[i], group[j], volumes);
+      if (common <= integration_error * std::min(volumes.of(group[i]), volumes.of(group[j]))) continue;
+      ++found;
+      const Vec3 low{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
+                     std::max(boxes[i].low.z, boxes[j].low.z)};
+      const Vec3 high{std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y),
+                      std::min(boxes[i].high.z, boxes[j].high.z)};
+      const Vec3 at = 0.5 * (low + high);
+      text += fmt::format("; two share a volume of {:.6g} around ({:.6g}, {:.6g}, {:.6g})", common, at.x,
+                          at.y, at.z);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
 NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(regions.shape))) {
@@ -116,9 +145,11 @@ NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) 
     const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
     double whole = 0;
     for (const TopoDS_Solid& solid : joined) whole += volumes.of(solid);
-    if (joined.size() != group.size() || std::abs(whole - parts) > integration_error * parts) {
-      throw CadError(fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}", group.size(),
-                                 whole, parts));
+    if (joined.size() < group.size() || std::abs(whole - parts) > integration_error * parts) {
+      throw CadError(
+          fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}{}. Remedy: make "
+                      "them touch in the CAD program, or take them as bodies (geometry.domain: body)",
+                      group.size(), whole, parts, name_overlaps(group, volumes)));
     }
     changes.push_back({fmt::format("{} touching regions joined face to face", group.size())});
     result.insert(result.end(), joined.begin(), joined.end());
