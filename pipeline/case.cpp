@@ -93,6 +93,7 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length));
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"));
   keys.number("growth", sizing.growth, Range::above(1, 3));
+  keys.number("proximity", sizing.proximity, Range::between(0, 20, "elements"));
   keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10));
 }
 

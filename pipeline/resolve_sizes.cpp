@@ -15,6 +15,7 @@ sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, 
   if (request.minimum) sizes.minimum = *request.minimum;
   if (request.maximum) sizes.maximum = *request.maximum;
   if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;
+  if (request.proximity) sizes.proximity = *request.proximity;
   if (request.growth) sizes.growth = *request.growth;
   if (request.surface_maximum) sizes.surface_maximum = *request.surface_maximum;
   if (sizes.minimum > sizes.maximum) {

@@ -5,6 +5,7 @@
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace aeroloom::sizing {
 namespace {
@@ -50,6 +51,20 @@ struct FaceTriangle {
   Triangle corners;
 };
 
+// Gaps that are looked for, and the shortest edge of the facets rays start from, as parts of the body's
+// extent.
+constexpr double narrow_gap = 20, finest_gap = 400;
+
+/// What walls opposite to each other ask for.
+std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOptions& options) {
+  std::vector<SizeSource> sources;
+  for (const Gap& gap : gaps) {
+    const double size = std::max(gap.width / options.proximity, options.minimum);
+    if (size < options.maximum) sources.push_back({gap.point, size});
+  }
+  return sources;
+}
+
 }  // namespace
 
 ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
@@ -88,6 +103,29 @@ void ModelSampler::gather_triangles() {
     if (_model.face(t.face).back == geometry::no_entity) _boundary.push_back(t.corners);
   }
   if (_body_box.empty()) _body_box = _model.bounds();
+  std::vector<Triangle> walls;
+  std::vector<FaceId> faces;
+  for (const FaceTriangle& t : all) walls.push_back(t.corners), faces.push_back(t.face);
+  measure_gaps(std::move(walls), std::move(faces));
+}
+
+void ModelSampler::measure_gaps(std::vector<Triangle> walls, std::vector<FaceId> faces) {
+  parallel::agree(_communicator, [&] {
+    const geometry::Vec3 size = _body_box.size();
+    const double extent = std::max({size.x, size.y, size.z});
+    std::optional<Walls> walls_tree;
+    {
+      ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+      walls_tree.emplace(std::move(walls), std::move(faces));
+    }
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (std::size_t i = 0; i < _faces.size(); ++i) {
+      if (_far_field[_faces[i]]) continue;
+      const std::vector<Gap> gaps =
+          find_gaps(_model, _facets[i], *walls_tree, extent / narrow_gap, extent / finest_gap);
+      _gaps.insert(_gaps.end(), gaps.begin(), gaps.end());
+    }
+  });
 }
 
 std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options) const {
@@ -101,6 +139,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options) const
   for (geometry::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
     keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), options));
   }
+  if (options.proximity > 0) keep(gap_sources(_gaps, options));
   return mine;
 }
 

@@ -4,6 +4,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/model_sources.hpp"
+#include "sizing/proximity.hpp"
 #include "sizing/triangle_tree.hpp"
 
 #include <vector>
@@ -28,6 +29,7 @@ public:
 
 private:
   void gather_triangles();
+  void measure_gaps(std::vector<Triangle> walls, std::vector<geometry::FaceId> faces);
   std::vector<SizeSource> sample(const SizingOptions& options) const;
   double count_triangles(const SizeField& field) const;
   double count_tetrahedra(const SizeField& field) const;
@@ -41,6 +43,7 @@ private:
   std::vector<geometry::FaceId> _faces;   // of this rank, ascending
   std::vector<geometry::Facets> _facets;  // of those
   std::vector<Triangle> _boundary;        // facets of all faces that bound the domain, in the order of faces
+  std::vector<Gap> _gaps;                 // seen from the faces of this rank
   geometry::Box _body_box;
 };
 

@@ -21,7 +21,8 @@ struct SizingOptions {
   double growth =
       1.3;  ///< ratio of neighbouring element sizes, > 1; h changes by at most ln(growth) per length
   double surface_maximum =
-      0;  ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
+      0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
+  double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
 };
 
 /// A point that asks for a size.

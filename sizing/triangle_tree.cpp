@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace aeroloom::sizing {
 namespace {
@@ -34,8 +36,8 @@ bool boxes_overlap_inside(const Box& box, Vec3 low, double edge) {
 }
 
 /// Whether the ray meets the box (slabs).
-bool ray_meets(const Box& box, Vec3 point, Vec3 inverse) {
-  double enter = 0, leave = 1e300;
+bool ray_meets(const Box& box, Vec3 point, Vec3 inverse, double reach = 1e300) {
+  double enter = 0, leave = reach;
   for (int axis = 0; axis < 3; ++axis) {
     const double a = (box.low[axis] - point[axis]) * inverse[axis],
                  b = (box.high[axis] - point[axis]) * inverse[axis];
@@ -45,15 +47,17 @@ bool ray_meets(const Box& box, Vec3 point, Vec3 inverse) {
   return enter <= leave;
 }
 
-/// Whether the ray crosses the triangle (Moeller and Trumbore, J. Graphics Tools 2, 1997,
-/// doi:10.1080/10867651.1997.10487468).
-bool ray_crosses(const Triangle& t, Vec3 point, Vec3 direction) {
+/// Where the ray crosses the triangle, in lengths of the direction (Moeller and Trumbore, J. Graphics Tools
+/// 2, 1997, doi:10.1080/10867651.1997.10487468).
+std::optional<double> ray_crossing(const Triangle& t, Vec3 point, Vec3 direction) {
   const Vec3 edge1 = t[1] - t[0], edge2 = t[2] - t[0], p = cross(direction, edge2);
   const double determinant = dot(edge1, p);
-  if (determinant == 0) return false;
+  if (determinant == 0) return std::nullopt;
   const Vec3 s = point - t[0], q = cross(s, edge1);
   const double u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && dot(edge2, q) / determinant > 0;
+  const double away = dot(edge2, q) / determinant;
+  if (!(u >= 0 && v >= 0 && u + v <= 1 && away > 0)) return std::nullopt;
+  return away;
 }
 
 double squared_distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
@@ -79,16 +83,19 @@ double squared_distance(Vec3 p, const Triangle& t) {
 
 }  // namespace
 
-TriangleTree::TriangleTree(std::vector<Triangle> triangles) : _triangles(std::move(triangles)) {
+TriangleTree::TriangleTree(std::vector<Triangle> triangles) : _original(triangles.size()) {
+  std::iota(_original.begin(), _original.end(), 0);
   _nodes.push_back({});
-  split(0, 0, static_cast<std::int32_t>(_triangles.size()));
+  split(triangles, 0, 0, static_cast<std::int32_t>(triangles.size()));
+  for (const std::int32_t i : _original) _triangles.push_back(triangles[i]);
 }
 
-void TriangleTree::split(std::int32_t node, std::int32_t first, std::int32_t last) {
+void TriangleTree::split(const std::vector<Triangle>& source, std::int32_t node, std::int32_t first,
+                         std::int32_t last) {
   Box box, centers;
   for (std::int32_t i = first; i < last; ++i) {
-    box.add(box_of(_triangles[i]));
-    centers.add(centroid(_triangles[i]));
+    box.add(box_of(source[_original[i]]));
+    centers.add(centroid(source[_original[i]]));
   }
   if (last - first <= triangles_per_leaf) {
     _nodes[node] = {box, first, last - first};
@@ -98,13 +105,13 @@ void TriangleTree::split(std::int32_t node, std::int32_t first, std::int32_t las
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::int32_t middle = (first + last) / 2;
   std::nth_element(
-      _triangles.begin() + first, _triangles.begin() + middle, _triangles.begin() + last,
-      [&](const Triangle& a, const Triangle& b) { return centroid(a)[axis] < centroid(b)[axis]; });
+      _original.begin() + first, _original.begin() + middle, _original.begin() + last,
+      [&](std::int32_t a, std::int32_t b) { return centroid(source[a])[axis] < centroid(source[b])[axis]; });
   const auto child = static_cast<std::int32_t>(_nodes.size());
   _nodes[node] = {box, child, 0};
   _nodes.resize(_nodes.size() + 2);
-  split(child, first, middle);
-  split(child + 1, middle, last);
+  split(source, child, first, middle);
+  split(source, child + 1, middle, last);
 }
 
 void TriangleTree::find_overlapping(Vec3 low, double edge, std::vector<std::int32_t>& found) const {
@@ -141,10 +148,29 @@ bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      if (ray_crosses(_triangles[i], point, direction)) odd = !odd;
+      if (ray_crossing(_triangles[i], point, direction)) odd = !odd;
     }
   }
   return odd;
+}
+
+void TriangleTree::find_crossings(Vec3 point, Vec3 direction, double reach,
+                                  std::vector<Crossing>& found) const {
+  const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
+  std::array<std::int32_t, 128> stack{};
+  for (int depth = 1; depth > 0;) {
+    const Node& node = _nodes[stack[--depth]];
+    if (!ray_meets(node.box, point, inverse, reach)) continue;
+    if (node.count == 0 && !_triangles.empty()) {
+      stack[depth++] = node.first;
+      stack[depth++] = node.first + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const std::optional<double> away = ray_crossing(_triangles[i], point, direction);
+      if (away && *away <= reach) found.push_back({i, *away});
+    }
+  }
 }
 
 bool TriangleTree::contains(Vec3 point) const {

@@ -1,0 +1,106 @@
+#include "sizing/proximity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double facing = -0.5;          // largest cosine between normals of walls that face each other
+constexpr double edge_per_gap = 4;       // of facets that one ray stands for
+constexpr double wedge_slenderness = 8;  // distance to the common edge over the gap
+constexpr int deepest_bisection = 24;
+
+Vec3 unit_normal(const Triangle& t) {
+  return normalized(cross(t[1] - t[0], t[2] - t[0]));
+}
+
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double length = dot(along, along);
+  const double share = length > 0 ? std::clamp(dot(p - a, along) / length, 0.0, 1.0) : 0;
+  return distance(p, a + share * along);
+}
+
+class GapFinder {
+public:
+  GapFinder(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls, double widest,
+            double finest)
+      : _model(model), _facets(facets), _walls(walls), _widest(widest), _finest(finest) {}
+
+  std::vector<Gap> run() {
+    for (const auto& t : _facets.triangles) {
+      cover({_facets.points[t[0]], _facets.points[t[1]], _facets.points[t[2]]}, 0);
+    }
+    return std::move(_gaps);
+  }
+
+private:
+  void cover(const Triangle& t, int depth) {
+    const Vec3 center = (t[0] + t[1] + t[2]) / 3;
+    const Vec3 normal = unit_normal(t);
+    if (!(norm(normal) > 0.5)) return;
+    const double gap = std::min(look(center, normal, normal), look(center, -normal, normal));
+    if (gap <= _widest) _gaps.push_back({center, gap});
+    int longest = 0;
+    double length = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double edge = distance(t[i], t[(i + 1) % 3]);
+      if (edge > length) length = edge, longest = i;
+    }
+    // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
+    const double fine = std::max(_finest, edge_per_gap * std::min(gap, _widest));
+    if (length <= fine || depth >= deepest_bisection) return;
+    const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
+    cover({a, middle, c}, depth + 1);
+    cover({middle, b, c}, depth + 1);
+  }
+
+  /// Distance along the ray to the nearest wall that faces the normal; infinity where there is none in reach.
+  double look(Vec3 from, Vec3 direction, Vec3 normal) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::int32_t wall = -1;
+    _walls.tree.for_each_crossing(from, direction, _widest, [&](std::int32_t triangle, double away) {
+      if (away >= nearest || dot(unit_normal(_walls.triangles[triangle]), normal) > facing) return;
+      nearest = away, wall = triangle;
+    });
+    if (wall < 0 || in_wedge(from, _walls.faces[wall], nearest))
+      return std::numeric_limits<double>::infinity();
+    return nearest;
+  }
+
+  /// Whether the face meets the opposite one (or itself) in an edge so near that gap and edge form a wedge.
+  bool in_wedge(Vec3 point, geometry::FaceId opposite, double gap) const {
+    for (const geometry::Facets::BoundaryLine& line : _facets.boundary) {
+      const std::vector<geometry::FaceId>& users = _model.edge(line.use.edge).faces;
+      if (!std::binary_search(users.begin(), users.end(), opposite)) continue;
+      for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
+        const Vec3 a = _facets.points[line.nodes[i]], b = _facets.points[line.nodes[i + 1]];
+        if (distance_to_segment(point, a, b) < wedge_slenderness * gap) return true;
+      }
+    }
+    return false;
+  }
+
+  const geometry::Model& _model;
+  const geometry::Facets& _facets;
+  const Walls& _walls;
+  double _widest, _finest;
+  std::vector<Gap> _gaps;
+};
+
+}  // namespace
+
+Walls::Walls(std::vector<Triangle> triangles_of_walls, std::vector<geometry::FaceId> faces_of_walls)
+    : tree(triangles_of_walls), triangles(std::move(triangles_of_walls)), faces(std::move(faces_of_walls)) {}
+
+std::vector<Gap> find_gaps(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls,
+                           double widest, double finest) {
+  return GapFinder(model, facets, walls, widest, finest).run();
+}
+
+}  // namespace aeroloom::sizing
