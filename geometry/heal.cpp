@@ -149,8 +149,9 @@ NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volu
     parts.loose_faces.Clear();
   }
   if (!parts.open_faces.IsEmpty()) {
-    const std::vector<TopoDS_Shell> sewn = sew(parts.open_faces, largest_tolerance, named.labels, changes);
-    shells.insert(shells.end(), sewn.begin(), sewn.end());
+    const SewnShells sewn = sew(parts.open_faces, largest_tolerance, named.labels, changes);
+    shells.insert(shells.end(), sewn.shells.begin(), sewn.shells.end());
+    named.gap = sewn.gap;
   }
   const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);
   solids.insert(solids.end(), promoted.begin(), promoted.end());

@@ -114,6 +114,9 @@ public:
   /// metres.
   const std::string& unit_name() const;
   double unit_in_metres() const;
+  /// The widest gap between faces that sewing closed; surfaces and edges are apart by as much. 0 without
+  /// sewing.
+  double sewn_gap() const;
 
   /// Point and derivatives of the edge's curve. Not for degenerate edges.
   Vec3 edge_point(EdgeId id, double parameter) const;

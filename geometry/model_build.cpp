@@ -18,7 +18,7 @@
 namespace aeroloom::geometry {
 namespace {
 
-constexpr std::uint64_t magic = 0x314d4c4145524f41;  // "AOREALM1"
+constexpr std::uint64_t magic = 0x324d4c4145524f41;  // "AOREALM2"
 
 class ByteWriter {
 public:
@@ -92,6 +92,7 @@ std::vector<std::string> region_names(const NamedShape& named) {
 void put_labels(const NamedShape& named, const std::vector<FaceTag>& tags, ByteWriter& writer) {
   writer.put_text(named.unit_name);
   writer.put(named.unit_in_metres);
+  writer.put(named.gap);
   const std::vector<std::string> regions = region_names(named);
   writer.put<std::uint64_t>(regions.size());
   for (const std::string& name : regions) writer.put_text(name);
@@ -106,6 +107,7 @@ void put_labels(const NamedShape& named, const std::vector<FaceTag>& tags, ByteW
 std::vector<FaceTag> get_labels(ByteReader& reader, Model::Data& data) {
   data.unit_name = reader.get_text();
   data.unit_in_metres = reader.get<double>();
+  data.gap = reader.get<double>();
   data.region_names.resize(reader.get<std::uint64_t>());
   for (std::string& name : data.region_names) name = reader.get_text();
   std::vector<FaceTag> tags(reader.get<std::uint64_t>());

@@ -101,6 +101,7 @@ struct Model::Data {
   Box bounds, body_bounds;
   std::string unit_name;
   double unit_in_metres = 1;
+  double gap = 0;
 
   /// "face 12 'wing_upper' near (x, y, z)", for messages.
   std::string describe_face(FaceId id) const;

@@ -68,6 +68,9 @@ const std::string& Model::unit_name() const {
 double Model::unit_in_metres() const {
   return _data->unit_in_metres;
 }
+double Model::sewn_gap() const {
+  return _data->gap;
+}
 std::vector<std::byte> Model::serialise() const {
   return _data->bytes;
 }

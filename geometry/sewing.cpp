@@ -2,6 +2,7 @@
 
 #include "geometry/caps.hpp"
 #include "geometry/model_data.hpp"
+#include "geometry/model_topology.hpp"
 #include "geometry/shells.hpp"
 #include "geometry/step_trace.hpp"
 
@@ -18,7 +19,6 @@
 #include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
-#include <Geom_Surface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -36,6 +36,10 @@ constexpr double shares[] = {1e-7, 1e-6, 1e-5, 1e-4};
 constexpr double planar_share = 1e-5;
 /// What is open wider than this share of its faces' area is a sheet, not a body with an opening.
 constexpr double widest_opening = 0.5;
+
+/// An opening narrower than this share of the diagonal is a gap between faces, to be sewn and not to be
+/// capped.
+constexpr double narrowest_opening = 1e-3;
 
 struct Sewn {
   std::vector<TopoDS_Shell> closed;
@@ -85,8 +89,9 @@ struct Gap {
   std::optional<Vec3> where;
 };
 
-/// The largest distance between an edge and a face it bounds: the gap that sewing closed there.
-Gap largest_gap(const TopoDS_Shape& shape) {
+/// The largest distance between an edge and the surface of a face it bounds: the gap that sewing closed
+/// there.
+Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
   constexpr int samples = 8;
   TopTools_IndexedDataMapOfShapeListOfShape users;
   TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
@@ -99,26 +104,30 @@ Gap largest_gap(const TopoDS_Shape& shape) {
     for (const TopoDS_Shape& user : users(i)) {
       const TopoDS_Face face = TopoDS::Face(user);
       const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(edge, face, low, high);
-      const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-      if (image.IsNull() || surface.IsNull()) continue;
+      if (image.IsNull() || BRep_Tool::Surface(face).IsNull()) continue;
+      const FaceEvaluator evaluator = make_evaluator(face, 0);
       for (int k = 0; k <= samples; ++k) {
         const gp_Pnt on_curve = curve->Value(first + (last - first) * k / samples);
-        const gp_Pnt2d uv = image->Value(low + (high - low) * k / samples);
-        const double width = on_curve.Distance(surface->Value(uv.X(), uv.Y()));
-        if (width > gap.width) gap = {width, Vec3{on_curve.X(), on_curve.Y(), on_curve.Z()}};
+        const gp_Pnt2d guess = image->Value(low + (high - low) * k / samples);
+        const Vec3 point{on_curve.X(), on_curve.Y(), on_curve.Z()};
+        const Vec2 uv = settle_on_face(evaluator, point, {guess.X(), guess.Y()}, tolerance);
+        const double width = distance(point, evaluator.surface.point(uv));
+        if (width > gap.width) gap = {width, point};
       }
     }
   }
   return gap;
 }
 
-void tell_sewn(const Sewn& sewn, int face_count, Changes& changes) {
-  const Gap gap = largest_gap(sewn.shape);
+/// Returns the widest gap.
+double tell_sewn(const Sewn& sewn, int face_count, Changes& changes) {
+  const Gap gap = largest_gap(sewn.shape, 1e-3 * sewn.tolerance);
   const char* caution = sewn.share > 2e-5 ? "; such gaps are wide: look at the mesh there" : "";
   changes.push_back({fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the "
                                  "diagonal){}",
                                  face_count, sewn.closed.size(), sewn.tolerance, sewn.share, caution),
                      gap.where, gap.width});
+  return gap.width;
 }
 
 double area_of(const TopoDS_Shape& shape) {
@@ -127,12 +136,21 @@ double area_of(const TopoDS_Shape& shape) {
   return std::abs(properties.Mass());
 }
 
+double length_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(shape, properties);
+  return properties.Mass();
+}
+
 /// Adds caps to sewn faces and sews once more; not complete where the openings are not planar.
 Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
   const std::vector<Cap> caps = cap_openings(open_edges(sewn.shape), planar_share * diagonal);
   if (caps.empty()) return {};
   double opening = 0;
-  for (const Cap& cap : caps) opening += cap.area;
+  for (const Cap& cap : caps) {
+    if (cap.area < narrowest_opening * diagonal * length_of(cap.face)) return {};
+    opening += cap.area;
+  }
   if (opening > widest_opening * area_of(sewn.shape)) return {};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
@@ -193,8 +211,8 @@ std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
   return open;
 }
 
-std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance,
-                              FaceLabels& labels, Changes& changes) {
+SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
+               Changes& changes) {
   Box box;
   for (int i = 1; i <= faces.Extent(); ++i) box.add(tight_box(faces(i)));
   const double diagonal = box.diagonal();
@@ -204,9 +222,9 @@ std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, double la
     Sewn& sewn = tried.emplace_back(sew_once(faces, share * diagonal, labels));
     sewn.share = share;
     if (!sewn.complete) continue;
-    tell_sewn(sewn, faces.Extent(), changes);
+    const double gap = tell_sewn(sewn, faces.Extent(), changes);
     labels = std::move(sewn.labels);
-    return sewn.closed;
+    return {sewn.closed, gap};
   }
   for (const Sewn& open : tried) {
     if (open.shape.IsNull()) continue;
@@ -214,11 +232,16 @@ std::vector<TopoDS_Shell> sew(const TopTools_IndexedMapOfShape& faces, double la
     Sewn capped = cap_and_sew(open, diagonal, caps_made);
     if (!capped.complete) continue;
     changes.insert(changes.end(), caps_made.begin(), caps_made.end());
-    tell_sewn(capped, faces.Extent(), changes);
+    const double gap = tell_sewn(capped, faces.Extent(), changes);
     labels = std::move(capped.labels);
-    return capped.closed;
+    return {capped.closed, gap};
   }
   const Sewn& last = tried.back();
+  if (faces.Extent() == 1 && !last.shape.IsNull()) {
+    throw CadError(
+        fmt::format("a single face bounds no volume: {}. Add the faces that close it in the CAD program",
+                    list_open_edges(last.shape, last.labels)));
+  }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
                   "the diagonal), and their openings are no small planar ones: {}. Close the gaps in "

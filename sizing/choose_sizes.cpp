@@ -12,6 +12,7 @@ namespace {
 // What the preset fixes; one length, the size on the body, follows from the target.
 constexpr double preset_curvature_angle = 15;
 constexpr double preset_growth = 1.3;
+constexpr double size_over_gap = 10;  // the smallest size over the widest gap that was sewn
 constexpr double body_size_over_minimum = 10;
 constexpr double domain_over_maximum = 20;  // diagonal of everything
 constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
@@ -24,11 +25,11 @@ constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
 constexpr double largest_step = 1.4;   // of the logarithm of the size
 constexpr double close_enough = 0.04;  // of the target
 
-SizingOptions sizes_for(double body_size, double maximum) {
+SizingOptions sizes_for(double body_size, double maximum, double gap) {
   SizingOptions options;
-  options.maximum = std::max(maximum, body_size);
-  options.surface_maximum = body_size;
-  options.minimum = body_size / body_size_over_minimum;
+  options.minimum = std::max(body_size / body_size_over_minimum, size_over_gap * gap);
+  options.surface_maximum = std::max(body_size, options.minimum);
+  options.maximum = std::max(maximum, options.surface_maximum);
   options.curvature_angle = preset_curvature_angle;
   options.growth = preset_growth;
   return options;
@@ -55,7 +56,7 @@ SizingOptions choose_sizes(const parallel::Communicator& communicator, const geo
          last_error = 0;
   double slope = first_slope;
   for (int round = 0; round < most_rounds && best_error > close_enough; ++round) {
-    const SizeField field = sampler.build_field(sizes_for(std::exp(size), maximum));
+    const SizeField field = sampler.build_field(sizes_for(std::exp(size), maximum, model.sewn_gap()));
     const double error = std::log(std::max(sampler.predict(field).tetrahedra, 1.0)) - target;
     if (std::abs(error) < best_error) best_error = std::abs(error), best = size;
     if (round > 0)
@@ -65,7 +66,7 @@ SizingOptions choose_sizes(const parallel::Communicator& communicator, const geo
     size -= std::clamp(error / slope, -largest_step, largest_step);
     if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
   }
-  return sizes_for(std::exp(best), maximum);
+  return sizes_for(std::exp(best), maximum, model.sewn_gap());
 }
 
 }  // namespace aeroloom::sizing
