@@ -19,7 +19,7 @@ enum class FarFieldShape { sphere, box, hemisphere, cylinder };
 enum class Axis { x, y, z };
 
 /// How a half model's plane of symmetry is found. `automatic`: none, except for the hemisphere, where it is
-/// the coordinate plane the body ends at, or the plane y = 0 the body is symmetric about.
+/// the plane y = 0 the body is symmetric about, or else the coordinate plane it ends at.
 enum class Symmetry { automatic, none, x, y, z };
 
 /// The far field around a body. Its reference length is the largest extent of the body's box.
@@ -31,7 +31,8 @@ struct FarFieldOptions {
   /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
   /// on the positive side is kept; the far field is cut to the same half.
   Symmetry symmetry = Symmetry::automatic;
-  std::optional<double> symmetry_position;  ///< of the plane on its axis; default: where the body ends, or 0
+  std::optional<double> symmetry_position =
+      {};  ///< of the plane on its axis; default: where the body ends, or 0
 };
 
 struct DomainOptions {

@@ -141,6 +141,7 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(domain.shape, TopAbs_FACE, faces);
   const Box all = tight_box(domain.shape);
+  const std::vector<std::vector<int>> solids = solids_around_faces(domain.shape);
   std::vector<FaceTag> tags;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const FaceLabel* found = domain.labels.Seek(faces(i));
@@ -148,6 +149,9 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     FaceTag tag{label.name, label.far_field ? std::string("farfield") : label.name, label.far_field};
     if (label.symmetry) tag.patch = "symmetry";
     const bool fluid = kind == DomainKind::fluid;
+    const std::vector<int>& around = solids[i - 1];
+    if (tag.patch.empty() && around.size() == 2)
+      tag.patch = fmt::format("interface_{}_{}", around[0], around[1]);
     if (tag.patch.empty() && !fluid) tag.patch = label.solid;
     if (tag.patch.empty()) tag.patch = label.layer;
     if (tag.patch.empty()) tag.patch = label.colour;

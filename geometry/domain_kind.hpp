@@ -31,9 +31,10 @@ struct KindDecision {
 KindDecision decide_kind(const HullComparison& comparison);
 
 /// Face and patch names of the domain, by TopExp's order of faces. A patch is called as its face where the
-/// file names it. Unnamed faces of bodies go by solid, layer or colour, in this order, and last "body"; those
-/// of a ready-made fluid by layer or colour, then "xmin" ... "zmax" for planar faces on the domain's box,
-/// "outer" for others on its hull, and "body" for the rest.
+/// file names it. Unnamed faces between two regions are called "interface_<region>_<region>". Unnamed faces
+/// of bodies go by solid, layer or colour, in this order, and last "body"; those of a ready-made fluid by
+/// layer or colour, then "xmin" ... "zmax" for planar faces on the domain's box, "outer" for others on its
+/// hull, and "body" for the rest.
 std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const HullComparison* hull);
 
 }  // namespace aeroloom::geometry

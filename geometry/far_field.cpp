@@ -13,12 +13,12 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 
 #include <BRepClass3d.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -192,9 +192,9 @@ FaceLabel symmetry_label() {
   return label;
 }
 
-/// Puts the plane of symmetry in place of the bodies' sections: the far field's own face there gets the
-/// outlines of the sections as holes, what they enclose gets faces of its own.
-void add_plane(const SymmetryPlane& symmetry, const TopoDS_Face& far_face,
+/// Puts the plane of symmetry in place of the bodies' sections: the far field's own faces there become one
+/// that gets the outlines of the sections as holes, what they enclose gets faces of its own.
+void add_plane(const SymmetryPlane& symmetry, const std::vector<TopoDS_Face>& far_faces,
                const std::vector<TopoDS_Face>& sections, Walls& walls, FaceLabels& labels) {
   const auto loops = find_plane_loops(rim_of(sections), symmetry.tolerance, symmetry.plane());
   if (!loops) {
@@ -208,7 +208,9 @@ void add_plane(const SymmetryPlane& symmetry, const TopoDS_Face& far_face,
     if ((*loops)[i].depth == 0) outlines.push_back((*loops)[i].wire);
     if ((*loops)[i].depth % 2 == 1) walls.faces.push_back(make_plane_face(*loops, i));
   }
-  walls.plane = make_plane_face(symmetry.plane(), BRepTools::OuterWire(far_face), outlines);
+  const auto rim = find_plane_loops(rim_of(far_faces), symmetry.tolerance, symmetry.plane());
+  if (!rim || rim->size() != 1) throw std::logic_error("the far field's section is no single loop");
+  walls.plane = make_plane_face(symmetry.plane(), rim->front().wire, outlines);
   for (const TopoDS_Face& island : walls.faces) labels.Bind(island, symmetry_label());
   labels.Bind(walls.plane, symmetry_label());
 }
@@ -278,13 +280,9 @@ TopoDS_Solid make_fluid(const Walls& walls, const FaceLabels& labels, Volumes& v
 NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const TopoDS_Solid& far_field,
                          Volumes& volumes, Changes& changes) {
   Walls walls;
-  TopoDS_Face far_face;
+  std::vector<TopoDS_Face> far_faces, far_walls;
   for (const TopoDS_Face& face : faces_of(far_field)) {
-    if (symmetry.holds(face)) {
-      far_face = face;
-    } else {
-      walls.faces.push_back(face);
-    }
+    (symmetry.holds(face) ? far_faces : far_walls).push_back(face);
   }
   std::vector<TopoDS_Face> body_walls, sections;
   double body_volume = 0;
@@ -295,9 +293,7 @@ NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const
       (symmetry.holds(face) ? sections : body_walls).push_back(face);
     }
   }
-  const std::vector<TopoDS_Face> far_walls = std::move(walls.faces);
-  walls.faces.clear();
-  add_plane(symmetry, far_face, sections, walls, bodies.labels);
+  add_plane(symmetry, far_faces, sections, walls, bodies.labels);
   walls.faces.insert(walls.faces.end(), far_walls.begin(), far_walls.end());
   for (const TopoDS_Face& face : body_walls) walls.faces.push_back(TopoDS::Face(face.Reversed()));
   double cavities = 0;
@@ -342,6 +338,7 @@ NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& 
   tell_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
   const double reference = largest_extent(tight_box(bodies.shape));
+  if (symmetry) changes.push_back({describe(*symmetry)});
   if (symmetry) bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
   const Box box = tight_box(bodies.shape);
   gp_Pnt center(box.center().x, box.center().y, box.center().z);

@@ -73,18 +73,24 @@ Box body_box(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>
   return box.empty() ? all : box;
 }
 
+/// A region is called as the solid of its faces; a face between two regions may carry the other one's label.
 std::vector<std::string> region_names(const NamedShape& named) {
-  std::vector<std::string> names;
-  TopTools_IndexedMapOfShape solids;
+  TopTools_IndexedMapOfShape solids, faces;
   TopExp::MapShapes(named.shape, TopAbs_SOLID, solids);
-  for (int i = 1; i <= solids.Extent(); ++i) {
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(solids(i), TopAbs_FACE, faces);
-    std::string name;
-    for (int f = 1; f <= faces.Extent() && name.empty(); ++f) {
-      if (const FaceLabel* label = named.labels.Seek(faces(f))) name = label->solid;
+  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const std::vector<std::vector<int>> around = solids_around_faces(named.shape);
+  std::vector<std::string> names(solids.Extent());
+  for (const std::size_t most : {1, 2}) {
+    for (int f = 1; f <= faces.Extent(); ++f) {
+      const FaceLabel* label = named.labels.Seek(faces(f));
+      if (label == nullptr || around[f - 1].size() > most) continue;
+      for (const int solid : around[f - 1]) {
+        if (names[solid].empty()) names[solid] = label->solid;
+      }
     }
-    names.push_back(name.empty() ? fmt::format("region_{}", i - 1) : name);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) names[i] = fmt::format("region_{}", i);
   }
   return names;
 }
@@ -133,6 +139,19 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape solids, faces;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  std::vector<std::vector<int>> around(faces.Extent());
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    TopTools_IndexedMapOfShape own;
+    TopExp::MapShapes(solids(i), TopAbs_FACE, own);
+    for (int f = 1; f <= own.Extent(); ++f) around[faces.FindIndex(own(f)) - 1].push_back(i - 1);
+  }
+  return around;
+}
 
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
   tell_step("building the model");

@@ -25,6 +25,9 @@ struct FaceTag {
   bool far_field = false;
 };
 
+/// The solids of a shape around each of its faces, both by TopExp's order; one, or two for inner faces.
+std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);
+
 /// Builds the model of a shape whose faces all belong to solids. `tags` follow TopExp's order of faces.
 /// Throws CadError.
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags);

@@ -83,16 +83,16 @@ SymmetryPlane plane_at(int axis, double position, const Box& box, std::string re
 }
 
 SymmetryPlane find_automatic(const TopoDS_Shape& bodies, const Box& box) {
+  const double extent = box.high.y - box.low.y;
+  if (std::abs(box.high.y + box.low.y) <= symmetric_share * extent) {
+    return plane_at(1, 0, box, "the body is symmetric about it");
+  }
   const std::vector<End> ends = find_ends(bodies, box);
   const End* end = best_end(ends, std::nullopt);
   if (end != nullptr && end->plane.position == 0) {
     SymmetryPlane plane = end->plane;
     plane.reason = "the body ends there in planar faces";
     return plane;
-  }
-  const double extent = box.high.y - box.low.y;
-  if (std::abs(box.high.y + box.low.y) <= symmetric_share * extent) {
-    return plane_at(1, 0, box, "the body is symmetric about it");
   }
   throw CadError(
       "a hemisphere needs a plane of symmetry, but the body ends at no coordinate plane and is not "
@@ -154,6 +154,11 @@ bool SymmetryPlane::holds(const TopoDS_Face& face) const {
     return false;
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   return !surface.IsNull() && GeomLib_IsPlanarSurface(surface, tolerance).IsPlanar();
+}
+
+std::string describe(const SymmetryPlane& symmetry) {
+  return fmt::format("plane of symmetry {} = {:.6g}: {}", axis_names[symmetry.axis], symmetry.position,
+                     symmetry.reason);
 }
 
 std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies) {

@@ -26,6 +26,9 @@ struct SymmetryPlane {
   bool holds(const TopoDS_Face& face) const;
 };
 
+/// "plane of symmetry y = 0: ...", with how it was found.
+std::string describe(const SymmetryPlane& symmetry);
+
 /// The plane that the options ask for, if any. Throws CadError where none can be found, or the body does not
 /// reach it.
 std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies);

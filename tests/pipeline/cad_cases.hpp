@@ -1,0 +1,93 @@
+// Cases on shapes of the CAD library, for tests of the whole program in one process.
+#pragma once
+
+#include "parallel/collective_error.hpp"
+#include "parallel/communicator.hpp"
+#include "pipeline/load_domain.hpp"
+#include "pipeline/run.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <BRepTools.hxx>
+#include <TopoDS_Shape.hxx>
+#include <unistd.h>
+
+namespace aeroloom::pipeline::cad_cases {
+
+/// Contained tasks must be known before the environment starts.
+inline const bool registered = [] {
+  volume::register_volume_tasks();
+  register_geometry_tasks();
+  return true;
+}();
+
+/// A folder that all ranks of this test share and that goes with it.
+class Folder {
+public:
+  Folder() {
+    const auto world = parallel::Communicator::world();
+    parallel::Bytes name;
+    if (world.is_root()) {
+      _path = std::filesystem::temp_directory_path() / ("aeroloom_cad_" + std::to_string(::getpid()));
+      std::filesystem::create_directories(_path);
+      const std::string text = _path.string();
+      for (const char letter : text) name.push_back(static_cast<std::byte>(letter));
+    }
+    world.broadcast(name);
+    std::string text;
+    for (const std::byte letter : name) text.push_back(static_cast<char>(letter));
+    _path = text;
+  }
+  ~Folder() {
+    const auto world = parallel::Communicator::world();
+    world.barrier();
+    if (world.is_root()) std::filesystem::remove_all(_path);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  /// Writes a shape for all ranks to read.
+  std::string write(const TopoDS_Shape& shape, const std::string& name) const {
+    const auto world = parallel::Communicator::world();
+    const std::string file = (_path / name).string();
+    if (world.is_root()) BRepTools::Write(shape, file.c_str());
+    world.barrier();
+    return file;
+  }
+  std::string path() const { return _path.string(); }
+
+private:
+  std::filesystem::path _path;
+};
+
+/// A coarse case on a file.
+inline Case coarse_case(const std::string& file, const Folder& folder, double target) {
+  Case input;
+  input.domain.file = file;
+  input.sizing.target_tetrahedra = target;
+  input.output.directory = folder.path() + "/out";
+  input.output.log = parallel::LogLevel::quiet;
+  return input;
+}
+
+/// Runs the case on all ranks together, then on rank 0 alone: the record of the first, with the hash of both
+/// in `alone` (the first's own where there is nothing to compare).
+inline RunRecord run_twice(const Case& input, std::string& alone) {
+  const auto world = parallel::Communicator::world();
+  RunRecord record;
+  run_case(world, input, record);
+  alone = record.hash;
+  parallel::agree(world, [&] {
+    if (!world.is_root() || world.size() == 1) return;
+    Case again = input;
+    again.output.directory += "_alone";
+    RunRecord other;
+    run_case(parallel::Communicator::self(), again, other);
+    alone = other.hash;
+  });
+  return record;
+}
+
+}  // namespace aeroloom::pipeline::cad_cases

@@ -1,0 +1,122 @@
+// Several solids that share faces, edges or nothing but a point: conforming regions, whatever the rank count.
+#include "tests/pipeline/cad_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRep_Builder.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Compound.hxx>
+#include <gtest/gtest.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using cad_cases::Folder;
+
+TopoDS_Shape box(double x, double y, double z, double dx, double dy, double dz) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+}
+
+TopoDS_Shape together(const std::vector<TopoDS_Shape>& shapes) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
+  return compound;
+}
+
+struct Expected {
+  std::vector<double> volumes;  // ascending
+  int inner_patches;
+};
+
+void expect_regions(const TopoDS_Shape& shape, const Expected& expected) {
+  const Folder folder;
+  Case input = cad_cases::coarse_case(folder.write(shape, "regions.brep"), folder, 3000);
+  input.domain.kind = geometry::DomainKind::fluid;
+  std::string alone;
+  const RunRecord record = cad_cases::run_twice(input, alone);
+  EXPECT_EQ(record.hash, alone);
+  ASSERT_EQ(record.regions_filled.size(), expected.volumes.size());
+  std::vector<double> volumes;
+  for (const RegionRow& region : record.regions_filled) {
+    EXPECT_FALSE(region.name.empty());
+    EXPECT_GT(region.tetrahedra, 0);
+    volumes.push_back(region.volume);
+  }
+  std::sort(volumes.begin(), volumes.end());
+  for (std::size_t i = 0; i < volumes.size(); ++i) EXPECT_NEAR(volumes[i], expected.volumes[i], 1e-9);
+  const double whole = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  EXPECT_NEAR(record.mesh_volume, whole, 1e-9 * whole);
+  const auto inner = std::count_if(record.patches.begin(), record.patches.end(),
+                                   [](const PatchRow& patch) { return patch.inner; });
+  EXPECT_EQ(inner > 0, expected.inner_patches > 0);
+  const bool written = std::filesystem::exists(input.output.directory + "/interfaces.pvtp");
+  EXPECT_EQ(written, expected.inner_patches > 0);
+}
+
+TEST(Regions, TwoBoxesShareAFace) {
+  expect_regions(together({box(0, 0, 0, 1, 1, 1), box(1, 0, 0, 2, 1, 1)}), {{1, 2}, 1});
+}
+
+TEST(Regions, ABoxStandsOnPartOfAnother) {
+  expect_regions(together({box(0, 0, 0, 3, 3, 1), box(1, 1, 1, 1, 1, 1)}), {{1, 9}, 1});
+}
+
+TEST(Regions, ABoxFillsTheVoidOfAnother) {
+  const TopoDS_Shape core = box(1, 1, 1, 1, 1, 1);
+  expect_regions(together({BRepAlgoAPI_Cut(box(0, 0, 0, 3, 3, 3), core).Shape(), core}), {{1, 26}, 1});
+}
+
+TEST(Regions, ASolidHasAVoid) {
+  expect_regions(BRepAlgoAPI_Cut(box(0, 0, 0, 3, 3, 3), box(1, 1, 1, 1, 1, 1)).Shape(), {{26}, 0});
+}
+
+TEST(Regions, ThreeBoxesMeetAtOneEdge) {
+  expect_regions(together({box(0, 0, 0, 1, 1, 1), box(1, 0, 0, 1, 1, 1), box(0, 1, 0, 1, 1, 1)}),
+                 {{1, 1, 1}, 1});
+}
+
+TEST(Regions, TwoBoxesTouchInAnEdgeAlone) {
+  expect_regions(together({box(0, 0, 0, 1, 1, 1), box(1, 1, 0, 1, 1, 1)}), {{1, 1}, 0});
+}
+
+TEST(Regions, OverlappingSolidsAreRefusedWithAPlace) {
+  const Folder folder;
+  Case input = cad_cases::coarse_case(
+      folder.write(together({box(0, 0, 0, 2, 1, 1), box(1, 0, 0, 2, 1, 1)}), "overlap.brep"), folder, 3000);
+  input.domain.kind = geometry::DomainKind::fluid;
+  RunRecord record;
+  try {
+    run_case(parallel::Communicator::world(), input, record);
+    ADD_FAILURE() << "overlapping solids were meshed";
+  } catch (const StageFailure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::cad);
+    EXPECT_NE(std::string(failure.what()).find("overlap"), std::string::npos) << failure.what();
+    EXPECT_NE(std::string(failure.what()).find("around (1.5, 0.5, 0.5)"), std::string::npos)
+        << failure.what();
+  }
+}
+
+// A pin stands on a plate so that its outline touches the plate's rim in one point: two loops of one face
+// share a vertex.
+TEST(Regions, LoopsOfAFaceMayTouchInAVertex) {
+  const TopoDS_Shape plate = box(0, 0, 0, 4, 4, 1);
+  const TopoDS_Shape pin = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(3, 2, 1), gp_Dir(0, 0, 1)), 1, 2).Shape();
+  const Folder folder;
+  Case input = cad_cases::coarse_case(folder.write(together({plate, pin}), "pin.brep"), folder, 20000);
+  input.domain.kind = geometry::DomainKind::body;
+  std::string alone;
+  const RunRecord record = cad_cases::run_twice(input, alone);
+  EXPECT_EQ(record.hash, alone);
+  EXPECT_GT(record.counts.cells, 5000);
+}
+
+}  // namespace
+}  // namespace aeroloom::pipeline
