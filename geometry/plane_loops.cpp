@@ -70,6 +70,10 @@ std::optional<std::vector<TopoDS_Wire>> chain_wires(const std::vector<TopoDS_Edg
     const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
     TopExp::MapShapesAndAncestors(forward, TopAbs_VERTEX, TopAbs_EDGE, users);
   }
+  // A closed edge uses its vertex twice.
+  for (int i = 1; i <= users.Extent(); ++i) {
+    if (users(i).Extent() != 2) return std::nullopt;
+  }
   std::vector<char> used(edges.size(), 0);
   std::vector<TopoDS_Wire> wires;
   for (std::size_t first = 0; first < edges.size(); ++first) {
@@ -79,7 +83,6 @@ std::optional<std::vector<TopoDS_Wire>> chain_wires(const std::vector<TopoDS_Edg
     const TopoDS_Vertex begin = TopExp::FirstVertex(edges[first]);
     TopoDS_Vertex end = TopExp::LastVertex(edges[first]);
     while (!end.IsSame(begin)) {
-      if (users.FindFromKey(end).Extent() != 2) return std::nullopt;
       std::size_t next = 0;
       while (next < edges.size() && (used[next] || (!TopExp::FirstVertex(edges[next]).IsSame(end) &&
                                                     !TopExp::LastVertex(edges[next]).IsSame(end)))) {

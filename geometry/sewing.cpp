@@ -11,9 +11,11 @@
 #include <optional>
 #include <utility>
 
+#include <BOPTools_AlgoTools.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
@@ -24,6 +26,7 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::geometry {
@@ -142,16 +145,38 @@ double length_of(const TopoDS_Shape& shape) {
   return properties.Mass();
 }
 
+/// Whether the caps close bodies: what hangs together must be open no wider than a body is, each piece for
+/// itself.
+bool close_bodies(const TopoDS_Shape& open, const std::vector<Cap>& caps) {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  builder.Add(all, open);
+  TopTools_IndexedMapOfShape cap_faces;
+  for (const Cap& cap : caps) {
+    builder.Add(all, cap.face);
+    cap_faces.Add(cap.face);
+  }
+  TopTools_ListOfShape pieces;
+  BOPTools_AlgoTools::MakeConnexityBlocks(all, TopAbs_EDGE, TopAbs_FACE, pieces);
+  for (const TopoDS_Shape& piece : pieces) {
+    double walls = 0, openings = 0;
+    for (TopExp_Explorer faces(piece, TopAbs_FACE); faces.More(); faces.Next()) {
+      (cap_faces.Contains(faces.Current()) ? openings : walls) += area_of(faces.Current());
+    }
+    if (openings > widest_opening * walls) return false;
+  }
+  return true;
+}
+
 /// Adds caps to sewn faces and sews once more; not complete where the openings are not planar.
 Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
   const std::vector<Cap> caps = cap_openings(open_edges(sewn.shape), planar_share * diagonal);
   if (caps.empty()) return {};
-  double opening = 0;
   for (const Cap& cap : caps) {
     if (cap.area < narrowest_opening * diagonal * length_of(cap.face)) return {};
-    opening += cap.area;
   }
-  if (opening > widest_opening * area_of(sewn.shape)) return {};
+  if (!close_bodies(sewn.shape, caps)) return {};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
   FaceLabels labels = sewn.labels;
