@@ -47,7 +47,7 @@ SizingOptions choose_sizes(const parallel::Communicator& communicator, const geo
     throw std::invalid_argument(
         fmt::format("sizing: the target must be at least 1 tetrahedron, but it is {}", target_tetrahedra));
   }
-  const ModelSampler sampler(communicator, model, clock);
+  const ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity);
   const double maximum = model.bounds().diagonal() / domain_over_maximum,
                extent = largest_extent(sampler.body_box());
   const double target = std::log(target_tetrahedra);

@@ -68,10 +68,11 @@ std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOp
 }  // namespace
 
 ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
-                           parallel::StageClock& clock)
+                           parallel::StageClock& clock, double layers)
     : _communicator(communicator),
       _model(model),
       _clock(clock),
+      _layers(layers),
       _root(model.bounds()),
       _areas(measure_faces(communicator, model)) {
   parallel::agree(communicator, [&] {
@@ -119,10 +120,10 @@ void ModelSampler::measure_gaps(std::vector<Triangle> walls, std::vector<FaceId>
       walls_tree.emplace(std::move(walls), std::move(faces));
     }
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    for (std::size_t i = 0; i < _faces.size(); ++i) {
-      if (_far_field[_faces[i]]) continue;
+    for (std::size_t i = 0; i < _faces.size() && _layers > 0; ++i) {
+      if (_model.is_far_field(_faces[i])) continue;
       const std::vector<Gap> gaps =
-          find_gaps(_model, _facets[i], *walls_tree, extent / narrow_gap, extent / finest_gap);
+          find_gaps(_model, _facets[i], *walls_tree, extent / narrow_gap, extent / finest_gap, _layers);
       _gaps.insert(_gaps.end(), gaps.begin(), gaps.end());
     }
   });
@@ -158,7 +159,7 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
 SizeField build_size_field(const parallel::Communicator& communicator, const geometry::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock) {
   check_options(options);
-  return ModelSampler(communicator, model, clock).build_field(options);
+  return ModelSampler(communicator, model, clock, options.proximity).build_field(options);
 }
 
 }  // namespace aeroloom::sizing

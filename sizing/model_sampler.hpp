@@ -15,9 +15,10 @@ namespace aeroloom::sizing {
 /// is the same for any number of ranks.
 class ModelSampler {
 public:
-  /// Collective. Throws parallel::CollectiveError where the CAD library fails on a face.
+  /// `layers`: elements across a gap that the fields to come may ask for, at most. Collective. Throws
+  /// parallel::CollectiveError where the CAD library fails on a face.
   ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
-               parallel::StageClock& clock);
+               parallel::StageClock& clock, double layers);
 
   /// The field under these options. Collective.
   SizeField build_field(const SizingOptions& options) const;
@@ -37,6 +38,7 @@ private:
   parallel::Communicator _communicator;
   const geometry::Model& _model;
   parallel::StageClock& _clock;
+  double _layers;
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;

@@ -179,7 +179,7 @@ PredictedCounts ModelSampler::predict(const SizeField& field) const {
 
 PredictedCounts predict_counts(const parallel::Communicator& communicator, const geometry::Model& model,
                                const SizeField& field, parallel::StageClock& clock) {
-  return ModelSampler(communicator, model, clock).predict(field);
+  return ModelSampler(communicator, model, clock, 0).predict(field);
 }
 
 }  // namespace aeroloom::sizing

@@ -11,7 +11,7 @@ namespace {
 using geometry::Vec3;
 
 constexpr double facing = -0.5;          // largest cosine between normals of walls that face each other
-constexpr double edge_per_gap = 4;       // of facets that one ray stands for
+constexpr double edge_per_size = 4;      // of facets that one ray stands for
 constexpr double wedge_slenderness = 8;  // distance to the common edge over the gap
 constexpr int deepest_bisection = 24;
 
@@ -29,8 +29,13 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
 class GapFinder {
 public:
   GapFinder(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls, double widest,
-            double finest)
-      : _model(model), _facets(facets), _walls(walls), _widest(widest), _finest(finest) {}
+            double finest, double layers)
+      : _model(model),
+        _facets(facets),
+        _walls(walls),
+        _widest(widest),
+        _finest(finest),
+        _edge_per_gap(edge_per_size / std::max(1.0, layers)) {}
 
   std::vector<Gap> run() {
     for (const auto& t : _facets.triangles) {
@@ -53,7 +58,7 @@ private:
       if (edge > length) length = edge, longest = i;
     }
     // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
-    const double fine = std::max(_finest, edge_per_gap * std::min(gap, _widest));
+    const double fine = std::max(_finest, _edge_per_gap * std::min(gap, _widest));
     if (length <= fine || depth >= deepest_bisection) return;
     const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
     cover({a, middle, c}, depth + 1);
@@ -89,7 +94,7 @@ private:
   const geometry::Model& _model;
   const geometry::Facets& _facets;
   const Walls& _walls;
-  double _widest, _finest;
+  double _widest, _finest, _edge_per_gap;
   std::vector<Gap> _gaps;
 };
 
@@ -99,8 +104,8 @@ Walls::Walls(std::vector<Triangle> triangles_of_walls, std::vector<geometry::Fac
     : tree(triangles_of_walls), triangles(std::move(triangles_of_walls)), faces(std::move(faces_of_walls)) {}
 
 std::vector<Gap> find_gaps(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls,
-                           double widest, double finest) {
-  return GapFinder(model, facets, walls, widest, finest).run();
+                           double widest, double finest, double layers) {
+  return GapFinder(model, facets, walls, widest, finest, layers).run();
 }
 
 }  // namespace aeroloom::sizing

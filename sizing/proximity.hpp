@@ -30,6 +30,6 @@ struct Walls {
 /// face in an edge nearer than eight times the gap: sizes would fall to nothing there. A function of the
 /// model and the arguments alone.
 std::vector<Gap> find_gaps(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls,
-                           double widest, double finest);
+                           double widest, double finest, double layers);
 
 }  // namespace aeroloom::sizing

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""The command check: what it says and how it ends. usage: check_test.py PROGRAM"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from program import GEOMETRY, SOURCE
+
+
+def check(program, case, ranks=1):
+    """Exit code, output and check.json."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
+    (folder / "case.yaml").write_text(case)
+    command = [SOURCE / "scripts" / "mpirun_local.sh", str(ranks), program, "check", folder / "case.yaml",
+               "--set", f"output.directory={folder / 'out'}"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=folder)
+    record = folder / "out" / "check.json"
+    return done.returncode, done.stdout + done.stderr, json.loads(record.read_text()) if record.exists() else None
+
+
+def check_sound(program):
+    case = "geometry: {builtin: transport}\nfarfield: {shape: cylinder, extent: 3}\nsizing: {target_tetrahedra: 200000}\n"
+    records = {}
+    for ranks in (1, 2):
+        code, text, record = check(program, case, ranks)
+        assert code == 0, text
+        assert "a volume can be meshed" in text and record["meshable"], text
+        assert record["read"]["solids"] == 1 and record["read"]["open_edges"] == 0
+        assert {"fuselage", "farfield"} <= {patch["name"] for patch in record["domain"]["patches"]}
+        assert 0.5 < record["forecast"]["tetrahedra"] / 200000 < 2
+        records[ranks] = record
+    one, two = records[1]["forecast"], records[2]["forecast"]
+    assert one["tetrahedra"] == two["tetrahedra"] and one["piece_tets"] >= two["piece_tets"]
+
+
+def check_open(program):
+    file = GEOMETRY / "parts" / "gmsh_capot.brep"
+    if not file.exists():
+        print("no real geometry here: skipped the open shell")
+        return
+    code, text, record = check(program, f"geometry: {{file: {file}}}\n", 2)
+    assert code == 3, text
+    assert "no volume can be meshed" in text and "an open edge of length" in text, text
+    assert not record["meshable"] and record["read"]["open_edges"] == 22 and record["read"]["faces"] == 18
+    assert all(len(finding["where"]) == 3 for finding in record["findings"])
+    assert "forecast" not in record and file.name in record["failure"]
+
+
+def check_unreadable(program):
+    code, text, record = check(program, "geometry: {file: nowhere.step}\n")
+    assert code == 7 and "nowhere.step" in text and record is None, text
+
+
+def main():
+    check_sound(sys.argv[1])
+    check_open(sys.argv[1])
+    check_unreadable(sys.argv[1])
+
+
+if __name__ == "__main__":
+    main()

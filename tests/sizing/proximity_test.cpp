@@ -1,0 +1,99 @@
+// Sizes fall to the thickness of thin parts and to the width of gaps, but not along wedges.
+#include "sizing/proximity.hpp"
+
+#include "geometry/domain.hpp"
+#include "geometry/primitives.hpp"
+#include "sizing/model_sources.hpp"
+#include "sizing/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <BRepPrimAPI_MakeWedge.hxx>
+#include <BRepTools.hxx>
+#include <TopoDS_Shape.hxx>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+using namespace aeroloom;
+using geometry::Model;
+using geometry::PrimitiveKind;
+using geometry::Vec3;
+using sizing::SizeField;
+using sizing::SizingOptions;
+
+namespace {
+
+SizingOptions options_with(double proximity) {
+  SizingOptions options{0.001, 1, 30, 1.3, 0};
+  options.proximity = proximity;
+  return options;
+}
+
+SizeField build(const Model& model, double proximity) {
+  parallel::StageClock clock;
+  return sizing::build_size_field(parallel::Communicator::world(), model, options_with(proximity), clock);
+}
+
+Model plate(double thickness) {
+  geometry::PrimitiveDimensions dimensions;
+  dimensions.box = {2, 2, thickness};
+  return make_primitive_domain(PrimitiveKind::box, dimensions);
+}
+
+/// A body with a sharp edge of the given angle, in a far field.
+Model wedge(double degrees) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("aeroloom_wedge_" + std::to_string(::getpid()) + ".brep"))
+          .string();
+  // A right triangle extruded: legs 1 and tan(angle).
+  const double height = std::tan(degrees * M_PI / 180);
+  BRepTools::Write(BRepPrimAPI_MakeWedge(1, height, 1, 0).Shape(), file.c_str());
+  geometry::DomainOptions options;
+  options.file = file;
+  options.kind = geometry::DomainKind::body;
+  const Model model = prepare_domain(options).model;
+  std::filesystem::remove(file);
+  return model;
+}
+
+}  // namespace
+
+TEST(Proximity, ThinPlateGetsItsThickness) {
+  const Model thin = plate(0.02);
+  for (const double layers : {1.0, 3.0}) {
+    const SizeField field = build(thin, layers);
+    for (const double x : {-0.7, 0.0, 0.6}) {
+      const double h = field({x, 0.3, 0});
+      EXPECT_LE(h, 1.7 * 0.02 / layers);
+      EXPECT_GE(h, 0.5 * 0.02 / layers);
+    }
+  }
+}
+
+TEST(Proximity, ZeroTurnsItOff) {
+  EXPECT_GT(build(plate(0.02), 0)({0, 0, 0}), 5 * 0.02);
+}
+
+TEST(Proximity, MinimumBinds) {
+  EXPECT_GE(build(plate(0.02), 1000)({0, 0, 0}), 0.001);
+}
+
+TEST(Proximity, WidePartsAskForNothing) {
+  const Model cube = plate(2);
+  EXPECT_NEAR(build(cube, 1)({0, 0, 0.9}), build(cube, 0)({0, 0, 0.9}), 1e-6);
+}
+
+TEST(Proximity, ASharpEdgeDoesNotDriveSizesDown) {
+  const Model sharp = wedge(20);
+  const SizeField field = build(sharp, 1);
+  // On the sloping side, close to the sharp edge, which lies along z at x = 1, y = 0 or x = 0, y = height.
+  double least = 1e300;
+  for (geometry::FaceId f = 0; f < sharp.face_count(); ++f) {
+    if (sharp.is_far_field(f)) continue;
+    for (const Vec3 p : sharp.facets(f, 0.01, 0.3).points) least = std::min(least, field(p));
+  }
+  EXPECT_GT(least, 0.05);
+}
