@@ -103,7 +103,8 @@ TEST(ModelField, ShortEdgesAskForTheirLength) {
 TEST(ModelField, NarrowFacesAskForTheirWidth) {
   geometry::PrimitiveDimensions dimensions;
   dimensions.box = {4, 4, 0.05};
-  const SizeField field = build(make_primitive_domain(PrimitiveKind::box, dimensions), {0.04, 1, 12, 1.3, 0});
+  const SizeField field =
+      build(make_primitive_domain(PrimitiveKind::box, dimensions), {0.04, 1, 12, 1.3, 0, 0});
   for (double x = -2; x <= 2; x += 0.01) EXPECT_NEAR(field({x, 2, 0.025}), 0.05, 1e-6);
   EXPECT_GT(field({0, 0, 0.025}), 0.3);
   // A disc with opposite edges far apart is not narrow.

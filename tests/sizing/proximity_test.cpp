@@ -26,15 +26,10 @@ using sizing::SizingOptions;
 
 namespace {
 
-SizingOptions options_with(double proximity) {
-  SizingOptions options{0.001, 1, 30, 1.3, 0};
-  options.proximity = proximity;
-  return options;
-}
-
-SizeField build(const Model& model, double proximity) {
+SizeField build(const Model& model, double proximity, double minimum = 0.001) {
+  const SizingOptions options{minimum, 1, 30, 1.3, 0, proximity};
   parallel::StageClock clock;
-  return sizing::build_size_field(parallel::Communicator::world(), model, options_with(proximity), clock);
+  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
 }
 
 Model plate(double thickness) {
@@ -78,7 +73,7 @@ TEST(Proximity, ZeroTurnsItOff) {
 }
 
 TEST(Proximity, MinimumBinds) {
-  EXPECT_GE(build(plate(0.02), 1000)({0, 0, 0}), 0.001);
+  EXPECT_GE(build(plate(0.02), 1, 0.05)({0, 0, 0}), 0.05);
 }
 
 TEST(Proximity, WidePartsAskForNothing) {
