@@ -61,6 +61,12 @@ double largest_extent(Vec3 size) {
   return std::max({size.x, size.y, size.z});
 }
 
+/// Triangulates every face coarsely, where nobody did: what the CAD library cannot triangulate is found here,
+/// where a crash is contained.
+void try_facets(const Model& model) {
+  for (FaceId f = 0; f < model.face_count(); ++f) model.facets(f, 0.01 * model.bounds().diagonal(), 0.6);
+}
+
 Domain prepare(const DomainOptions& options) {
   DomainReport report;
   Volumes volumes;
@@ -74,6 +80,7 @@ Domain prepare(const DomainOptions& options) {
                     ? build_fluid(std::move(solids), hull, volumes, report.changes)
                     : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
                                           volumes, report.changes);
+  if (!hull) try_facets(model);
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};
 }

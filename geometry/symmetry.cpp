@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepGProp.hxx>
@@ -139,6 +140,25 @@ std::vector<TopoDS_Solid> common_with(const TopoDS_Solid& body, const TopoDS_Sol
   return common.Shape().IsNull() ? std::vector<TopoDS_Solid>{} : solids_of(common.Shape());
 }
 
+/// A body that reaches the plane must end there in a face: at a mere point or line of contact the fluid would
+/// have no thickness.
+void require_section(const TopoDS_Solid& body, const SymmetryPlane& symmetry) {
+  Vec3 contact;
+  double nearest = std::numeric_limits<double>::max();
+  for (TopExp_Explorer faces(body, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face face = TopoDS::Face(faces.Current());
+    if (symmetry.holds(face)) return;
+    const Box box = tight_box(face);
+    const double gap = std::abs((symmetry.positive ? box.low : box.high)[symmetry.axis] - symmetry.position);
+    if (gap < nearest) nearest = gap, contact = box.center();
+  }
+  contact[symmetry.axis] = symmetry.position;
+  throw CadError(
+      fmt::format("a body only touches the plane of symmetry {} = {:.6g}, near ({:.6g}, {:.6g}, {:.6g}), and "
+                  "has no planar face there: move farfield.symmetry_position into the body or away from it",
+                  axis_names[symmetry.axis], symmetry.position, contact.x, contact.y, contact.z));
+}
+
 }  // namespace
 
 gp_Pln SymmetryPlane::plane() const {
@@ -195,6 +215,7 @@ NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Vol
     const double inward = symmetry.positive ? low - symmetry.position : symmetry.position - high;
     const double outward = symmetry.positive ? high - symmetry.position : symmetry.position - low;
     if (inward >= -symmetry.tolerance) {
+      if (inward <= symmetry.tolerance) require_section(body, symmetry);
       kept.push_back(body);
       continue;
     }
