@@ -155,7 +155,7 @@ void require_section(const TopoDS_Solid& body, const SymmetryPlane& symmetry) {
   contact[symmetry.axis] = symmetry.position;
   throw CadError(
       fmt::format("a body only touches the plane of symmetry {} = {:.6g}, near ({:.6g}, {:.6g}, {:.6g}), and "
-                  "has no planar face there: move farfield.symmetry_position into the body or away from it",
+                  "has no planar face there: move farfield.symmetry_position into the body",
                   axis_names[symmetry.axis], symmetry.position, contact.x, contact.y, contact.z));
 }
 
