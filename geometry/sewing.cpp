@@ -262,10 +262,10 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     return {capped.closed, gap};
   }
   const Sewn& last = tried.back();
-  if (faces.Extent() == 1 && !last.shape.IsNull()) {
+  if (faces.Extent() == 1) {
     throw CadError(
         fmt::format("a single face bounds no volume: {}. Add the faces that close it in the CAD program",
-                    list_open_edges(last.shape, last.labels)));
+                    list_open_edges(faces(1), labels)));
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
