@@ -263,9 +263,11 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
   }
   const Sewn& last = tried.back();
   if (faces.Extent() == 1) {
+    const Vec3 at = box.center();
     throw CadError(
-        fmt::format("a single face bounds no volume: {}. Add the faces that close it in the CAD program",
-                    list_open_edges(faces(1), labels)));
+        fmt::format("a single face, around ({:.6g}, {:.6g}, {:.6g}), bounds no volume: {}. Add the faces "
+                    "that close it in the CAD program",
+                    at.x, at.y, at.z, list_open_edges(faces(1), labels)));
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "

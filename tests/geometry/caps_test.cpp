@@ -131,14 +131,14 @@ TEST(Caps, CurvedRimsAreRefusedWithTheirEdges) {
 
 TEST(Caps, DoNotMakeASheetABody) {
   const TopoDS_Face square = faces_of(make_box())[0];
-  EXPECT_NE(shapes::refusal(square).find("a single face bounds no volume: 4 open edges: at ("),
+  EXPECT_NE(shapes::refusal(square).find("bounds no volume: 4 open edges: at ("),
             std::string::npos);
   // Of a cylinder and of a ball: patches with little curvature.
   const TopoDS_Shape bent = BRepPrimAPI_MakeCylinder(1, 2, 0.8).Shape();
   const TopoDS_Shape dome = BRepPrimAPI_MakeSphere(1, 0.6, pi / 2).Shape();
   for (const TopoDS_Shape& solid : {bent, dome}) {
     const std::string message = shapes::refusal(faces_of(solid)[0]);
-    EXPECT_NE(message.find("a single face bounds no volume"), std::string::npos) << message;
+    EXPECT_NE(message.find("bounds no volume"), std::string::npos) << message;
   }
 }
 

@@ -155,7 +155,7 @@ TEST_F(Repair, OpeningsThatAreNotPlanarStayOpen) {
     if (BRepAdaptor_Surface(face).GetType() == GeomAbs_Sphere) builder.Add(skin, face);
   }
   const std::string text = message(skin);
-  EXPECT_NE(text.find("a single face bounds no volume"), std::string::npos) << text;
+  EXPECT_NE(text.find("bounds no volume"), std::string::npos) << text;
   EXPECT_NE(text.find("open edges: at ("), std::string::npos) << text;
 }
 
