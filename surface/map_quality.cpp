@@ -136,6 +136,11 @@ double overlap_share(const Support& support, const PlaneMap& map) {
   const PlaneGrid grid(map, support.triangles);
   const auto is_inside = [&](Vec2 p, std::int32_t triangle) {
     const auto& [a, b, c] = support.triangles[triangle];
+    // Cells of the grid hold many triangles where the support is fine: boxes sort most of them out.
+    if (p.x < std::min({map[a].x, map[b].x, map[c].x}) || p.x > std::max({map[a].x, map[b].x, map[c].x}) ||
+        p.y < std::min({map[a].y, map[b].y, map[c].y}) || p.y > std::max({map[a].y, map[b].y, map[c].y})) {
+      return false;
+    }
     return geometry::orient2d(map[a], map[b], p) > 0 && geometry::orient2d(map[b], map[c], p) > 0 &&
            geometry::orient2d(map[c], map[a], p) > 0;
   };
