@@ -131,6 +131,10 @@ public:
   SurfaceFrame face_frame(FaceId id, Vec2 uv) const;
   PrincipalCurvatures face_curvatures(FaceId id, Vec2 uv) const;
   bool is_planar(FaceId id) const;
+  /// The lengths after which the surface comes back to the same points in u and v; 0 where it does not.
+  Vec2 parameter_periods(FaceId id) const;
+  /// The parameters of the same point inside the surface's range, where the surface closes.
+  Vec2 wrap(FaceId id, Vec2 uv) const;
   /// Nearest point of the face's surface, by Newton's method from `guess`; cheap when the guess is near.
   /// Stays within the surface's parameter range (periodic directions wrap). When it does not converge,
   /// returns the best point met with converged = false.

@@ -6,6 +6,7 @@
 #include "geometry/surface_evaluator.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -53,6 +54,15 @@ struct ParameterRange {
          high = 0;      ///< natural range; of a periodic direction, one period from where the face begins
   double period = 0;    ///< 0 where it is not periodic
   bool closed = false;  ///< both ends are the same curve, without being periodic
+
+  /// The length after which points repeat; 0 where they do not.
+  double repeats_after() const { return period > 0 ? period : closed ? high - low : 0; }
+  /// The parameter of the same point inside the range.
+  double wrap(double parameter) const {
+    const double length = repeats_after();
+    if (length == 0 || (parameter >= low && parameter <= high)) return parameter;
+    return parameter - length * std::floor((parameter - low) / length);
+  }
 };
 
 struct FaceEvaluator {

@@ -167,6 +167,16 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
   return {std::max(first, second), std::min(first, second), true};
 }
 
+Vec2 Model::parameter_periods(FaceId id) const {
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  return {face.u.repeats_after(), face.v.repeats_after()};
+}
+
+Vec2 Model::wrap(FaceId id, Vec2 uv) const {
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  return {face.u.wrap(uv.x), face.v.wrap(uv.y)};
+}
+
 bool Model::is_planar(FaceId id) const {
   return _data->face_evaluators.at(id).planar;
 }

@@ -52,6 +52,8 @@ struct Piece {
     const double* p = coordinates.data() + 3 * static_cast<std::size_t>(v);
     return {p[0], p[1], p[2]};
   }
+  /// The CAD face that all triangles of a surface piece lie on; -1 of an empty piece.
+  std::int32_t common_face() const { return triangle_face.empty() ? -1 : triangle_face.front(); }
   void set_point(LocalIndex v, geometry::Vec3 p) {
     double* q = coordinates.data() + 3 * static_cast<std::size_t>(v);
     q[0] = p.x, q[1] = p.y, q[2] = p.z;

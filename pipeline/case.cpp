@@ -100,11 +100,13 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
 void declare_stages(KeyTable& root, Case& result) {
   using volume::VolumeOptions;
   const Range piece_size = Range::between(100, 1e9, "elements");
-  KeyTable& surface = root.section("surface");
-  surface.integer("piece_triangles", result.piece_triangles, piece_size);
-  surface.choice<SurfaceDecomposition>(
-      "decomposition", result.decomposition,
+  KeyTable& surface_keys = root.section("surface");
+  using surface::SurfaceDecomposition;
+  surface_keys.integer("piece_triangles", result.surface.piece_triangles, piece_size);
+  surface_keys.choice<SurfaceDecomposition>(
+      "decomposition", result.surface.decomposition,
       {{"faces", SurfaceDecomposition::faces}, {"pieces", SurfaceDecomposition::pieces}});
+  surface_keys.number("cut_angle", result.surface.cut_angle, Range::between(0, 60, "degrees"));
   KeyTable& volume = root.section("volume");
   volume.integer("piece_tets", result.piece_tets, piece_size);
   volume.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"));

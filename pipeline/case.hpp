@@ -25,9 +25,6 @@ struct SizingRequest {
   double target_tetrahedra = 1'000'000;    ///< what sizes chosen from the model aim at
 };
 
-/// How a surface is cut into pieces. For now a surface piece is a whole CAD face either way.
-enum class SurfaceDecomposition { faces, pieces };
-
 struct OutputOptions {
   std::string directory = "out";                        ///< relative to the working directory
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
@@ -37,9 +34,6 @@ struct Case {
   geometry::DomainOptions domain;
   SizingRequest sizing;
   surface::SurfaceOptions surface;
-  std::int64_t piece_triangles =
-      50'000;  ///< wanted size of a surface piece; has no effect while pieces are CAD faces
-  SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
   volume::VolumeOptions volume;
   std::int64_t piece_tets = 250'000;  ///< wanted size of a volume piece
   improve::ImproveOptions improve;

@@ -91,8 +91,8 @@ void decompose(const Communicator& communicator, const geometry::Model& model, c
                const Case& input, RunRecord& record) {
   record.predicted = sizing::predict_counts(communicator, model, field, record.clock);
   parallel::log_info(fmt::format(
-      "decompose: {} surface pieces, {} volume piece(s); predicted {:.3g} triangles, {:.3g} tetrahedra",
-      model.face_count(), model.region_count(), record.predicted.triangles, record.predicted.tetrahedra));
+      "decompose: {} volume piece(s); predicted {:.3g} triangles, {:.3g} tetrahedra",
+      model.region_count(), record.predicted.triangles, record.predicted.tetrahedra));
   if (record.predicted.tetrahedra > 1.5 * double(input.volume.largest_piece)) {
     throw std::runtime_error(
         fmt::format("the sizes ask for about {:.3g} tetrahedra, more than one volume piece holds ({}). "
@@ -110,15 +110,16 @@ double require_valid(const std::string& what, const mesh::ValidityReport& report
   throw std::runtime_error(text);
 }
 
-/// Areas and counts by patch; sums run in the order of the faces, whatever rank they live on.
+/// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
 std::vector<PatchRow> table_of_patches(const Communicator& communicator, const geometry::Model& model,
                                        const mesh::DistributedMesh& surface) {
-  struct FaceRow {
+  struct PieceRow {
+    mesh::PieceId piece;
     geometry::FaceId face;
-    double area, cad_area;
+    double area;
     std::int64_t triangles;
   };
-  std::vector<FaceRow> mine;
+  std::vector<PieceRow> mine;
   for (const mesh::Piece& piece : surface.pieces) {
     double area = 0;
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -126,18 +127,19 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const g
       const geometry::Vec3 a = piece.point(v[0]);
       area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
     }
-    mine.push_back({piece.id, area, model.face_area(piece.id), piece.cell_count()});
+    mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
   }
-  std::vector<FaceRow> rows = communicator.all_gather_items<FaceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const FaceRow& a, const FaceRow& b) { return a.face < b.face; });
+  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
+  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
   std::vector<PatchRow> patches;
   for (const std::string& name : model.patches()) patches.push_back({.name = name});
-  for (const FaceRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const PieceRow& row = rows[i];
     PatchRow& patch = patches[model.face(row.face).patch];
     patch.inner = patch.inner || model.face(row.face).back != geometry::no_entity;
     patch.area += row.area;
-    patch.cad_area += row.cad_area;
     patch.triangles += row.triangles;
+    if (i == 0 || rows[i - 1].face != row.face) patch.cad_area += model.face_area(row.face);
   }
   return patches;
 }
@@ -171,8 +173,9 @@ FinishedSurface build_surface(const Communicator& communicator, const geometry::
   record.surface_quality = mesh::summarise_quality(communicator, finished.mesh, finished.numbering);
   record.patches = table_of_patches(communicator, model, finished.mesh);
   parallel::log_info(
-      fmt::format("surface: {} triangles, smallest angle {:.3g} degrees, mean ratio {:.3f} on average",
-                  record.surface.triangles, record.surface_quality->min_dihedral.minimum,
+      fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
+                  "average",
+                  record.surface.triangles, record.surface.pieces, record.surface_quality->min_dihedral.minimum,
                   record.surface_quality->mean_ratio.mean));
   return finished;
 }

@@ -38,7 +38,7 @@ std::vector<BoundaryVertex> vertices_around(const mesh::DistributedMesh& surface
   std::vector<BoundaryVertex> vertices;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const Piece& piece = surface.pieces[p];
-    if (!bounds(surface.sides_of(piece.id), region)) continue;
+    if (!bounds(surface.sides_of(piece.common_face()), region)) continue;
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       vertices.push_back(
           {numbering.vertices[p][v], piece.point(v), piece.vertex_entity[v], piece.vertex_dimension[v]});
@@ -52,7 +52,7 @@ std::vector<BoundaryTriangle> triangles_around(const mesh::DistributedMesh& surf
   std::vector<BoundaryTriangle> triangles;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const Piece& piece = surface.pieces[p];
-    const mesh::FaceSides sides = surface.sides_of(piece.id);
+    const mesh::FaceSides sides = surface.sides_of(piece.common_face());
     if (!bounds(sides, region)) continue;
     const int second = sides.front == region ? 1 : 2;
     const auto& number = numbering.vertices[p];
@@ -143,7 +143,7 @@ std::vector<double> region_loads(const parallel::Communicator& communicator,
     LocalIndex triangles;
   };
   std::vector<FaceCount> mine;
-  for (const Piece& piece : surface.pieces) mine.push_back({piece.id, piece.cell_count()});
+  for (const Piece& piece : surface.pieces) mine.push_back({piece.common_face(), piece.cell_count()});
   std::vector<double> loads(surface.region_count(), 0);
   for (const FaceCount& count : communicator.all_gather_items<FaceCount>(mine)) {
     const mesh::FaceSides sides = surface.sides_of(count.face);
@@ -178,7 +178,7 @@ std::string explain(const volume::VolumeError& error, const PieceBoundary& bound
 mesh::DistributedMesh part_of_surface(const mesh::DistributedMesh& surface, bool inner) {
   mesh::DistributedMesh part = surface;
   for (Piece& piece : part.pieces) {
-    if (surface.sides_of(piece.id).is_inner() == inner) continue;
+    if (surface.sides_of(piece.common_face()).is_inner() == inner) continue;
     Piece empty;
     empty.id = piece.id;
     empty.kind = piece.kind;

@@ -58,6 +58,16 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
   return std::min(blend(low, high, w), _options.maximum);
 }
 
+SizeField SizeField::scaled(double factor) const {
+  SizeField result = *this;
+  for (double* bound :
+       {&result._options.minimum, &result._options.maximum, &result._options.surface_maximum}) {
+    *bound *= factor;
+  }
+  for (float& size : result._corner_sizes) size = static_cast<float>(size * factor);
+  return result;
+}
+
 SizeField::Leaf SizeField::leaf(std::int64_t i) const {
   const GridPoint low = grid_point(_leaf_keys[i]);
   const double unit = _root_edge / grid_size;

@@ -63,6 +63,8 @@ public:
   /// The field with further sources: sizes can only fall, below the minimum too. Used where surfaces come too
   /// close.
   SizeField refined(std::span<const SizeSource> more) const;
+  /// The field with all sizes and bounds `factor` times as large.
+  SizeField scaled(double factor) const;
 
 private:
   friend class FieldBuilder;

@@ -90,10 +90,7 @@ public:
       : _model(model), _field(field), _limits(limits), _vertices(vertices) {}
 
   std::vector<Chart> run(const Support& whole) {
-    for (const auto& [a, b] : whole.loop_edges) {
-      _joined.insert({std::min(whole.mesh_vertex[a], whole.mesh_vertex[b]),
-                      std::max(whole.mesh_vertex[a], whole.mesh_vertex[b])});
-    }
+    _joined = joined_vertices(whole);
     const std::vector<SupportHalfEdge> twins = match_half_edges(whole.triangles);
     std::vector<std::int32_t> component;
     const std::vector<std::int32_t> alike(whole.triangles.size(), 0);

@@ -138,6 +138,41 @@ EdgeId CurveMesh::edge_of(const Model& model, CurveVertex v) const {
          1;
 }
 
+namespace {
+
+// CAD vertices are named by their number, vertices on edges and cuts by entity and index on it.
+constexpr int entity_shift = 32;
+constexpr mesh::SharedToken cut_bit = mesh::SharedToken{1} << 63;
+
+}  // namespace
+
+mesh::SharedToken CurveMesh::token(const Model& model, CurveVertex v) const {
+  if (v < model.vertex_count()) return static_cast<mesh::SharedToken>(v);
+  const EdgeId edge = edge_of(model, v);
+  return (static_cast<mesh::SharedToken>(edge) + 1) << entity_shift |
+         static_cast<mesh::SharedToken>(v - first_interior[edge]);
+}
+
+CurveVertex CurveMesh::vertex_of(mesh::SharedToken token) const {
+  const EdgeId edge = edge_of_token(token);
+  const auto index = static_cast<CurveVertex>(token & 0xffffffffu);
+  return edge == geometry::no_entity ? index : first_interior[edge] + index;
+}
+
+EdgeId edge_of_token(mesh::SharedToken token) {
+  if (is_cut_token(token)) return geometry::no_entity;
+  return static_cast<EdgeId>(token >> entity_shift) - 1;
+}
+
+mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t index) {
+  return cut_bit | static_cast<mesh::SharedToken>(face) << entity_shift |
+         static_cast<mesh::SharedToken>(index);
+}
+
+bool is_cut_token(mesh::SharedToken token) {
+  return (token & cut_bit) != 0;
+}
+
 bool is_constraining(const Model& model, EdgeId id) {
   const Edge& edge = model.edge(id);
   if (edge.degenerate) return false;

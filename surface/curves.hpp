@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/model.hpp"
+#include "mesh/piece.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
@@ -12,7 +13,6 @@
 namespace aeroloom::surface {
 
 /// Index of a vertex on the curves: the model's CAD vertices first, then the interior vertices edge by edge.
-/// It is also the vertex's shared token.
 using CurveVertex = std::int32_t;
 
 /// All curve vertices of a model. Seams (edges that one face uses twice and no other face uses) and
@@ -28,7 +28,18 @@ struct CurveMesh {
   std::vector<double> chain_parameters(const geometry::Model& model, geometry::EdgeId edge) const;
   /// The edge that interior curve vertex v lies on; no_entity for CAD vertices.
   geometry::EdgeId edge_of(const geometry::Model& model, CurveVertex v) const;
+  /// The name of a vertex, and back: ascending like the vertices, and the same as long as its own edge keeps
+  /// its vertices.
+  mesh::SharedToken token(const geometry::Model& model, CurveVertex v) const;
+  CurveVertex vertex_of(mesh::SharedToken token) const;
 };
+
+/// The CAD edge in the name of an interior vertex of a curve, no_entity for CAD vertices and vertices on
+/// cuts.
+geometry::EdgeId edge_of_token(mesh::SharedToken token);
+/// The name of vertex `index` on the cuts of a face.
+mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t index);
+bool is_cut_token(mesh::SharedToken token);
 
 /// Whether an edge constrains the surface mesh (is neither degenerate nor a seam).
 bool is_constraining(const geometry::Model& model, geometry::EdgeId edge);

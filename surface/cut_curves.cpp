@@ -16,21 +16,23 @@ using geometry::Vec3;
 /// distance.
 constexpr double snap_part = 0.03;
 
-/// One stretch of the cut between mesh vertices, or a closed one: half-edges of side 1, side 1 on their left.
+/// One stretch of a cut between mesh vertices or meetings of cuts, or a closed one: half-edges with the higher
+/// part on their left.
 using Chain = std::vector<SupportHalfEdge>;
 
 std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<SupportHalfEdge>& twins) {
   const Support& support = cut.support;
-  std::vector<std::int32_t> leaving(support.points.size(), 0);
+  std::vector<std::int32_t> cuts_at(support.points.size(), 0);
   std::vector<SupportHalfEdge> next(support.points.size(), -1);
   std::vector<SupportHalfEdge> all;
   for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
-    if (twins[h] < 0 || cut.side[h / 3] != 1 || cut.side[twins[h] / 3] != 0) continue;
+    if (twins[h] < 0 || cut.part[h / 3] <= cut.part[twins[h] / 3]) continue;
     all.push_back(h);
-    ++leaving[start_of(support, h)];
+    ++cuts_at[start_of(support, h)];
+    ++cuts_at[end_of(support, h)];
     next[start_of(support, h)] = h;
   }
-  const auto is_end = [&](std::int32_t p) { return support.mesh_vertex[p] >= 0 || leaving[p] != 1; };
+  const auto is_end = [&](std::int32_t p) { return support.mesh_vertex[p] >= 0 || cuts_at[p] != 2; };
   std::vector<char> done(twins.size(), 0);
   std::vector<Chain> chains;
   const auto follow = [&](SupportHalfEdge start) {
@@ -66,9 +68,9 @@ public:
   void run() {
     for (const Chain& chain : trace_chains(_cut, _twins)) discretise(chain);
     const std::vector<std::int32_t> former = divide_edges(_support, std::move(_divisions));
-    std::vector<std::int32_t> side;
-    for (const std::int32_t t : former) side.push_back(_cut.side[t]);
-    _cut.side = std::move(side);
+    std::vector<std::int32_t> part;
+    for (const std::int32_t t : former) part.push_back(_cut.part[t]);
+    _cut.part = std::move(part);
   }
 
 private:
@@ -149,6 +151,7 @@ private:
   /// Makes a support point a mesh vertex on the CAD surface.
   void promote(std::int32_t point, Vec2 guess) {
     const Vec3 facet = _support.points[point];
+    guess = _model.wrap(_support.face, guess);
     geometry::Projection on = _model.project(_support.face, facet, guess);
     const Vec3 interpolated = _model.face_point(_support.face, guess);
     if (!(distance(on.point, facet) <= distance(interpolated, facet))) on = {guess, interpolated, true};
@@ -170,12 +173,21 @@ private:
 
 }  // namespace
 
+JoinedVertices joined_vertices(const Support& support) {
+  JoinedVertices joined;
+  for (const auto& [a, b] : support.loop_edges) {
+    joined.insert({std::min(support.mesh_vertex[a], support.mesh_vertex[b]),
+                   std::max(support.mesh_vertex[a], support.mesh_vertex[b])});
+  }
+  return joined;
+}
+
 std::vector<Support> separate_at_cut(const geometry::Model& model, const sizing::SizeField& field,
                                      CutSupport cut, FaceVertices& vertices, JoinedVertices& joined) {
   CutDiscretiser(model, field, cut, vertices, joined).run();
   const std::vector<SupportHalfEdge> twins = match_half_edges(cut.support.triangles);
   std::vector<std::int32_t> component;
-  const std::int32_t count = label_components(twins, cut.side, component);
+  const std::int32_t count = label_components(twins, cut.part, component);
   return separate_parts(cut.support, twins, component, count);
 }
 

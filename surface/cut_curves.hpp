@@ -1,8 +1,8 @@
-/// The borders between charts: discretised once, for both sides.
+/// The cuts between charts and between pieces: discretised once, for both sides.
 #pragma once
 
 #include "sizing/size_field.hpp"
-#include "surface/plane_cut.hpp"
+#include "surface/support.hpp"
 
 #include <array>
 #include <set>
@@ -13,8 +13,17 @@ namespace aeroloom::surface {
 /// Pairs of mesh vertices (lower first) that a boundary edge joins already: no second one may.
 using JoinedVertices = std::set<std::array<std::int32_t, 2>>;
 
-/// Spreads mesh vertices over the cut so that segments have length 1 in the metric of the field, appends them
-/// to `vertices`, and takes the sides apart. The parts come in order of their first triangles.
+/// A support divided into parts. Whoever divided it, the edges between triangles of different parts are cuts.
+struct CutSupport {
+  Support support;
+  std::vector<std::int32_t> part;  ///< per triangle
+};
+
+/// Whether a support's loops join these vertices, for a support that is not cut yet.
+JoinedVertices joined_vertices(const Support& support);
+
+/// Spreads mesh vertices over the cuts so that segments have length 1 in the metric of the field, appends them
+/// to `vertices`, and takes the parts asunder. They come in the order of their first triangles, a part in several pieces as several parts.
 std::vector<Support> separate_at_cut(const geometry::Model& model, const sizing::SizeField& field,
                                      CutSupport cut, FaceVertices& vertices, JoinedVertices& joined);
 

@@ -33,6 +33,8 @@ public:
   void divide_long_edges();
   void flip_edges();
   void smooth();
+  /// One sweep of straighten_cuts().
+  void straighten(const std::vector<std::int32_t>& part, double smallest_angle);
   /// Ends a sweep: the next one looks only at what this one changed.
   void settle();
   /// Writes back triangles and vertices without those that vanished.
@@ -86,6 +88,10 @@ private:
   double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;
   geometry::Vec3 ideal_place(std::int32_t vertex) const;
   void smooth_vertex(std::int32_t vertex);
+  /// The ends of the borders that leave a vertex, counter-clockwise; edges of one triangle are borders too.
+  void gather_borders(std::int32_t vertex, const std::vector<std::int32_t>& part);
+  double smallest_border_angle(std::int32_t vertex, const std::vector<std::int32_t>& part);
+  bool straighten_vertex(std::int32_t vertex, const std::vector<std::int32_t>& part, double smallest_angle);
 
   const geometry::Model& _model;
   const sizing::SizeField& _field;
@@ -95,7 +101,7 @@ private:
   std::vector<double> _sizes;                // per vertex
   std::vector<std::uint8_t> _movable;        // per vertex
   std::vector<std::uint8_t> _active, _next;  // per vertex: looked at in this sweep, in the next
-  std::vector<std::int32_t> _fan, _other_fan;
+  std::vector<std::int32_t> _fan, _other_fan, _borders;
   std::vector<HalfEdge> _stack;
   std::vector<StarEdge> _star, _replaced;
 };

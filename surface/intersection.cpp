@@ -230,22 +230,33 @@ private:
 }  // namespace
 
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const mesh::DistributedMesh& surface) {
+                                            const mesh::DistributedMesh& surface,
+                                            parallel::StageClock& clock) {
+  using parallel::ScopedCpu;
   std::vector<Block> blocks;
   std::vector<Triangles> contents;
-  parallel::agree(communicator, [&] { cut_into_blocks(surface, communicator.rank(), blocks, contents); });
+  parallel::agree(communicator, [&] {
+    const ScopedCpu cpu(clock, ScopedCpu::As::task);
+    cut_into_blocks(surface, communicator.rank(), blocks, contents);
+  });
   std::vector<Block> table = communicator.all_gather_items(std::span<const Block>(blocks));
   std::sort(table.begin(), table.end(), [](const Block& a, const Block& b) {
     return std::tie(a.piece, a.order) < std::tie(b.piece, b.order);
   });
-  const std::vector<BlockPair> pairs = find_block_pairs(table, communicator.rank());
+  const std::vector<BlockPair> pairs = [&] {
+    const ScopedCpu cpu(clock, ScopedCpu::As::serial);
+    return find_block_pairs(table, communicator.rank());
+  }();
   const auto at_hand = fetch_blocks(communicator, table, pairs, std::move(contents));
 
   std::vector<TriangleHit> hits;
-  BlockTest test(table);
-  for (const BlockPair pair : pairs) {
-    if (tester(table, pair) == communicator.rank())
-      test.run(pair, at_hand.at(pair.lower), at_hand.at(pair.upper), hits);
+  {
+    const ScopedCpu cpu(clock, ScopedCpu::As::task);
+    BlockTest test(table);
+    for (const BlockPair pair : pairs) {
+      if (tester(table, pair) == communicator.rank())
+        test.run(pair, at_hand.at(pair.lower), at_hand.at(pair.upper), hits);
+    }
   }
   hits = communicator.all_gather_items(std::span<const TriangleHit>(hits));
   std::sort(hits.begin(), hits.end(), [](const TriangleHit& a, const TriangleHit& b) {

@@ -3,6 +3,7 @@
 
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
 
 #include <vector>
 
@@ -19,6 +20,7 @@ struct TriangleHit {
 /// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.
 /// Vertices are the same when their tokens are (across pieces) or their indices (within one). Collective.
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const mesh::DistributedMesh& surface);
+                                            const mesh::DistributedMesh& surface,
+                                            parallel::StageClock& clock);
 
 }  // namespace aeroloom::surface

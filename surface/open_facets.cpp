@@ -291,12 +291,12 @@ void OpenFacets::collect_vertices(const CurveMesh& curves, FaceVertices& vertice
   std::sort(found.begin(), found.end());
   vertices = {};
   for (const auto& [vertex, point] : found) {
-    if (!vertices.curve_vertex.empty() && vertices.curve_vertex.back() == vertex) continue;
-    vertices.curve_vertex.push_back(vertex);
+    const mesh::SharedToken token = curves.token(_model, vertex);
+    if (!vertices.tokens.empty() && vertices.tokens.back() == token) continue;
+    vertices.tokens.push_back(token);
     vertices.points.push_back(curves.points[vertex]);
     vertices.uv.push_back(_uv[point]);
   }
-  vertices.curve_count = static_cast<std::int32_t>(vertices.points.size());
 }
 
 Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
@@ -309,9 +309,8 @@ Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
   for (const Line& line : _lines) {
     for (const Node& node : line.nodes) {
       if (node.vertex < 0) continue;
-      const auto& known = vertices.curve_vertex;
-      const auto index = std::lower_bound(known.begin(), known.end(), node.vertex) - known.begin();
-      joined.mesh_vertex[roots[node.point]] = static_cast<std::int32_t>(index);
+      const std::int32_t index = vertices.find(curves.token(_model, node.vertex));
+      joined.mesh_vertex[roots[node.point]] = index;
       joined.points[roots[node.point]] = vertices.points[index];
     }
   }

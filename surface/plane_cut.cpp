@@ -215,9 +215,9 @@ std::optional<CutSupport> cut_by_plane(const Support& support, const CutPlane& p
   CutSupport cut{support, {}};
   divide_at_zero(cut.support, twins, levels);
   for (const auto& [a, b, c] : cut.support.triangles) {
-    cut.side.push_back(std::min({levels[a], levels[b], levels[c]}) < 0 ? 0 : 1);
+    cut.part.push_back(std::min({levels[a], levels[b], levels[c]}) < 0 ? 0 : 1);
   }
-  if (absorb_small_parts(cut.support, cut.side) < 2) return std::nullopt;
+  if (absorb_small_parts(cut.support, cut.part) < 2) return std::nullopt;
   return cut;
 }
 

@@ -1,7 +1,7 @@
 /// Cutting a support in two by a plane.
 #pragma once
 
-#include "surface/support.hpp"
+#include "surface/cut_curves.hpp"
 
 #include <optional>
 #include <vector>
@@ -17,13 +17,7 @@ struct CutPlane {
 /// Planes to cut by, the most promising first: those that leave flat, balanced sides behind a short cut.
 std::vector<CutPlane> propose_planes(const Support& support);
 
-/// A support divided along a cut, with the side each triangle lies on.
-struct CutSupport {
-  Support support;
-  std::vector<std::int32_t> side;  ///< 0 or 1, per triangle
-};
-
-/// Divides the triangles along the plane. Where it meets the boundary the cut bends to a mesh vertex; parts
+/// Divides the triangles along the plane, into parts 0 and 1. Where it meets the boundary the cut bends to a mesh vertex; parts
 /// that are too small stay with their neighbour. Nothing when only one part is left.
 std::optional<CutSupport> cut_by_plane(const Support& support, const CutPlane& plane);
 

@@ -4,12 +4,14 @@
 
 namespace aeroloom::surface {
 
-void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps,
+void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, const Remeshing& options,
                      FaceMesh& mesh) {
   FaceRemesher remesher(model, field, mesh);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    remesher.contract_short_edges();
-    remesher.divide_long_edges();
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+    if (options.resizes) {
+      remesher.contract_short_edges();
+      remesher.divide_long_edges();
+    }
     remesher.flip_edges();
     remesher.smooth();
     remesher.flip_edges();

@@ -17,7 +17,12 @@ struct FaceMesh {
   std::vector<geometry::Vec3> points;
   std::vector<geometry::Vec2> uv;                      ///< parameters of each point on the CAD surface
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
-  std::int32_t fixed = 0;  ///< the first `fixed` vertices lie on CAD curves and stay
+  std::int32_t fixed = 0;  ///< the first `fixed` vertices lie on borders and stay
+};
+
+struct Remeshing {
+  int sweeps = 6;
+  bool resizes = true;  ///< whether edges are divided and contracted
 };
 
 /// Smooths and reconnects the interior: edges longer than 1.4 times the local size are divided, shorter than
@@ -26,7 +31,13 @@ struct FaceMesh {
 /// worst mean ratio around it, unless that stays above 0.65. Edges used by one triangle stay, and so do
 /// vertices on them and the first `fixed` ones. After the first sweep only places that changed are looked at
 /// again. Deterministic.
-void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, int sweeps,
+void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, const Remeshing& options,
                      FaceMesh& mesh);
+
+/// Moves free vertices so that the borders between the triangles of different parts get straight and meet at
+/// even angles, and smooths the others, as long as triangles stay well shaped. Connections stay. `part` per
+/// triangle. Angles below `smallest_angle` (degrees) between borders do not get smaller.
+void straighten_cuts(const geometry::Model& model, const sizing::SizeField& field,
+                     const std::vector<std::int32_t>& part, double smallest_angle, FaceMesh& mesh);
 
 }  // namespace aeroloom::surface

@@ -18,10 +18,7 @@ using VertexPair = std::array<std::int32_t, 2>;
 std::vector<VertexPair> expected_loop_edges(const geometry::Model& model, geometry::FaceId face,
                                             const CurveMesh& curves, const FaceVertices& vertices) {
   std::vector<VertexPair> edges;
-  const auto number = [&](CurveVertex v) {
-    const auto& known = vertices.curve_vertex;
-    return static_cast<std::int32_t>(std::lower_bound(known.begin(), known.end(), v) - known.begin());
-  };
+  const auto number = [&](CurveVertex v) { return vertices.find(curves.token(model, v)); };
   for (const auto& loop : model.face(face).loops) {
     for (const auto& use : loop) {
       const auto chain = curves.chain(model, use.edge);

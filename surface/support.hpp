@@ -5,6 +5,7 @@
 #include "geometry/vec.hpp"
 #include "surface/curves.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -26,13 +27,18 @@ struct Support {
   std::vector<std::array<std::int32_t, 2>> loop_edges;
 };
 
-/// The mesh vertices of a face known before its interior is meshed: those on CAD curves first, then those on
-/// the cuts between its charts.
+/// The mesh vertices of a piece known before its interior is meshed: those on its borders first, which have
+/// names and stay, then those on the cuts between its charts.
 struct FaceVertices {
   std::vector<geometry::Vec3> points;
-  std::vector<geometry::Vec2> uv;         ///< one valid parameter pair on the face for each
-  std::vector<CurveVertex> curve_vertex;  ///< for the first `curve_count`
-  std::int32_t curve_count = 0;
+  std::vector<geometry::Vec2> uv;          ///< one valid parameter pair on the face for each
+  std::vector<mesh::SharedToken> tokens;   ///< of the vertices on borders, ascending
+
+  std::int32_t border_count() const { return static_cast<std::int32_t>(tokens.size()); }
+  /// The vertex on the border of that name, which must be known.
+  std::int32_t find(mesh::SharedToken token) const {
+    return static_cast<std::int32_t>(std::lower_bound(tokens.begin(), tokens.end(), token) - tokens.begin());
+  }
 };
 
 /// Builds the support of a whole face from its facets: closes seams and poles, splits boundary edges at the

@@ -5,16 +5,30 @@
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
+#include "partition/background_surface.hpp"
 #include "sizing/size_field.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace aeroloom::surface {
 
+/// How a surface is cut into pieces: one per CAD face, or as many as their size asks for.
+enum class SurfaceDecomposition : std::int8_t { faces, pieces };
+
+/// Divides the background mesh of a face: the part of each of its triangles, from 0. The borders between
+/// parts become cuts. Must be a function of its arguments alone.
+using FaceDivider =
+    std::function<std::vector<std::int32_t>(geometry::FaceId, const partition::BackgroundSurface&)>;
+
 struct SurfaceOptions {
+  SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
+  std::int64_t piece_triangles = 50'000;  ///< wanted triangles of a piece
+  double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
+  FaceDivider divider;    ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
   double chart_spread =
       60;  ///< degrees normals of one chart may spread from their axis before the chart is split
@@ -29,8 +43,18 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// An angle of a piece where cuts end.
+struct CutAngle {
+  geometry::FaceId face = geometry::no_entity;
+  geometry::Vec3 point;
+  double degrees = 0;
+};
+
 struct SurfaceReport {
   std::int64_t curve_vertices = 0;
+  std::int64_t pieces = 0;
+  std::int64_t divided_faces = 0;     ///< CAD faces of more than one piece
+  std::vector<CutAngle> cut_angles;   ///< where cuts end, by face and piece, the same on every rank
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds in which sizes had to fall
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
@@ -38,7 +62,7 @@ struct SurfaceReport {
 
 struct SurfaceMesh {
   mesh::DistributedMesh
-      mesh;  ///< one triangle piece per CAD face, piece id = face id, spread over ranks by load
+      mesh;  ///< triangle pieces, each part of one CAD face, numbered by face; spread over ranks by load
   SurfaceReport report;
   /// The field with the sources that mending added; the volume follows this one.
   sizing::SizeField field;

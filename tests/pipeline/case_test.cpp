@@ -57,9 +57,9 @@ TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   EXPECT_EQ(input.domain.kind, geometry::DomainKind::automatic);
   EXPECT_FALSE(input.sizing.minimum || input.sizing.maximum || input.sizing.surface_maximum);
   EXPECT_FALSE(input.sizing.curvature_angle || input.sizing.growth);
-  EXPECT_EQ(input.piece_triangles, 50'000);
+  EXPECT_EQ(input.surface.piece_triangles, 50'000);
   EXPECT_EQ(input.piece_tets, 250'000);
-  EXPECT_EQ(input.decomposition, SurfaceDecomposition::pieces);
+  EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::pieces);
   EXPECT_TRUE(input.improve.enabled);
   EXPECT_EQ(input.output.directory, "out");
 }
@@ -118,8 +118,8 @@ output: {directory: out/a, log: verbose}
   EXPECT_EQ(input.sizing.curvature_angle, 15);
   EXPECT_EQ(input.sizing.growth, 1.2);
   EXPECT_EQ(input.sizing.target_tetrahedra, 2e6);
-  EXPECT_EQ(input.piece_triangles, 1000);
-  EXPECT_EQ(input.decomposition, SurfaceDecomposition::faces);
+  EXPECT_EQ(input.surface.piece_triangles, 1000);
+  EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::faces);
   EXPECT_EQ(input.piece_tets, 300'000);
   EXPECT_EQ(input.volume.lattice_clearance, 0.5);
   EXPECT_EQ(input.volume.perturbation, 0.1);

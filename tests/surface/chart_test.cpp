@@ -86,7 +86,7 @@ TEST(Charts, SphereIsTwoHemispheres) {
   const auto field = uniform_field(model, 0.05);
   const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
   EXPECT_EQ(face.charts.size(), 2u);
-  EXPECT_EQ(face.vertices.curve_count, 0);
+  EXPECT_EQ(face.vertices.border_count(), 0);
   for (const Vec3 p : face.vertices.points) EXPECT_NEAR(norm(p), 0.25, 1e-9);
   expect_sound(face);
 }

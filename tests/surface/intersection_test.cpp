@@ -16,6 +16,12 @@
 namespace aeroloom::surface {
 namespace {
 
+std::vector<TriangleHit> intersections_of(const parallel::Communicator& communicator,
+                                          const mesh::DistributedMesh& surface) {
+  parallel::StageClock clock;
+  return find_intersections(communicator, surface, clock);
+}
+
 using geometry::Vec3;
 using mesh::LocalIndex;
 
@@ -64,7 +70,7 @@ Pairs find_pairs(const Soup& soup, int pieces) {
   const int count = static_cast<int>(soup.triangles.size());
   Pairs pairs;
   std::tuple<int, int, int, int> last{-1, -1, -1, -1};
-  for (const TriangleHit& hit : find_intersections(world, distribute(soup, pieces, world))) {
+  for (const TriangleHit& hit : intersections_of(world, distribute(soup, pieces, world))) {
     const std::tuple<int, int, int, int> key{hit.first_piece, hit.first, hit.second_piece, hit.second};
     EXPECT_LT(last, key) << "hits ascend and none comes twice";
     EXPECT_LE(hit.first_piece, hit.second_piece);
@@ -236,8 +242,8 @@ TEST(FindIntersections, GivesTheSameHitsOnAnyRankCount) {
   add_sheet(soup, 16, [](double u, double v) { return Vec3{1.4 * u - 0.7, 1.4 * v - 0.7, 0.8 + 0.1 * u}; });
   const auto world = parallel::Communicator::world();
   const auto self = parallel::Communicator::self();
-  const auto spread = find_intersections(world, distribute(soup, 6, world));
-  const auto alone = find_intersections(self, distribute(soup, 6, self));
+  const auto spread = intersections_of(world, distribute(soup, 6, world));
+  const auto alone = intersections_of(self, distribute(soup, 6, self));
   ASSERT_EQ(spread.size(), alone.size());
   EXPECT_FALSE(spread.empty());
   for (std::size_t i = 0; i < spread.size(); ++i) {
@@ -255,7 +261,7 @@ TEST(FindIntersections, RefusesTetrahedraOnAllRanks) {
   const auto world = parallel::Communicator::world();
   mesh::DistributedMesh volume;
   if (world.rank() != world.size() - 1) volume.kind = mesh::CellKind::triangle;
-  EXPECT_THROW(find_intersections(world, volume), std::runtime_error);
+  EXPECT_THROW(intersections_of(world, volume), std::runtime_error);
 }
 
 }  // namespace

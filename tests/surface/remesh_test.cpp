@@ -157,7 +157,7 @@ TEST(Remesh, ImprovesATorusAcrossItsSeams) {
   FaceMesh mesh = torus_mesh(model, size);
   shake(model, 0.2 * size, mesh);
   const FaceMesh before = mesh;
-  remesh_interior(model, uniform_field(model, size), 6, mesh);
+  remesh_interior(model, uniform_field(model, size), {.sweeps = 6}, mesh);
   expect_good(model, before, mesh, size);
 }
 
@@ -195,7 +195,7 @@ TEST(Remesh, ImprovesASphereAcrossItsPoles) {
   orient(model, mesh);
   shake(model, 0.2 * size, mesh);
   const FaceMesh before = mesh;
-  remesh_interior(model, uniform_field(model, size), 6, mesh);
+  remesh_interior(model, uniform_field(model, size), {.sweeps = 6}, mesh);
   expect_good(model, before, mesh, size);
 }
 
@@ -232,7 +232,7 @@ TEST_P(CylinderRows, ReachTheWantedSize) {
   FaceMesh mesh = cylinder_mesh(model, size, GetParam());
   shake(model, 0.1 * size, mesh);
   const FaceMesh before = mesh;
-  remesh_interior(model, uniform_field(model, size), 8, mesh);
+  remesh_interior(model, uniform_field(model, size), {.sweeps = 8}, mesh);
   expect_good(model, before, mesh, size);
 }
 
@@ -245,7 +245,7 @@ TEST(Remesh, FollowsAGradedField) {
       sizing::SizeField::build(model.bounds(), sources, {.minimum = 0.008, .maximum = 0.06, .growth = 1.2});
   FaceMesh mesh = torus_mesh(model, 0.05);
   const FaceMesh before = mesh;
-  remesh_interior(model, field, 20, mesh);
+  remesh_interior(model, field, {.sweeps = 20}, mesh);
   const Measure last = measure(model, mesh);
   EXPECT_EQ(last.euler, 0);
   EXPECT_GE(last.worst, std::min(0.65, measure(model, before).worst));
@@ -267,8 +267,8 @@ TEST(Remesh, GivesTheSameBitsEveryTime) {
   shake(model, 0.01, first);
   FaceMesh second = first;
   const auto field = uniform_field(model, 0.05);
-  remesh_interior(model, field, 3, first);
-  remesh_interior(model, field, 3, second);
+  remesh_interior(model, field, {.sweeps = 3}, first);
+  remesh_interior(model, field, {.sweeps = 3}, second);
   EXPECT_EQ(first.points, second.points);
   EXPECT_EQ(first.uv, second.uv);
   EXPECT_EQ(first.triangles, second.triangles);
@@ -289,7 +289,7 @@ TEST(Remesh, LeavesAnOctahedronAlone) {
     mesh.triangles.push_back({(i + 1) % 4, i, 5});
   }
   orient(model, mesh);
-  remesh_interior(model, uniform_field(model, 10), 5, mesh);  // every edge is far too short
+  remesh_interior(model, uniform_field(model, 10), {.sweeps = 5}, mesh);  // every edge is far too short
   const Measure last = measure(model, mesh);
   EXPECT_EQ(last.euler, 2);
   EXPECT_EQ(last.border_edges, 0);

@@ -1,0 +1,131 @@
+/// The surface stage alone: mpirun -n N surface_benchmark CASE [KEY=VALUE ...] prints one RESULT line.
+///
+/// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
+/// on a border between pieces of one CAD face.
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "parallel/environment.hpp"
+#include "parallel/log.hpp"
+#include "pipeline/load_domain.hpp"
+#include "pipeline/resolve_sizes.hpp"
+#include "surface/surface_mesher.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+using namespace aeroloom;
+using parallel::Communicator;
+
+/// Sums over all triangles, those that touch a cut apart, and over all edges.
+struct Shape {
+  double count[2] = {0, 0}, mean_ratio[2] = {0, 0};
+  double worst_mean_ratio[2] = {1, 1}, smallest_angle[2] = {180, 180};
+  double edges = 0, good_edges = 0;
+};
+
+Shape measure(const mesh::Piece& piece, const sizing::SizeField& field) {
+  Shape shape;
+  std::vector<char> on_cut(piece.vertex_count(), 0);
+  for (const mesh::LocalIndex v : piece.shared_vertices) on_cut[v] = piece.vertex_dimension[v] == 2;
+  for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const mesh::LocalIndex* v = piece.cell(t);
+    const geometry::Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
+    const int k = on_cut[v[0]] || on_cut[v[1]] || on_cut[v[2]];
+    const double ratio = mesh::triangle_mean_ratio(p[0], p[1], p[2]);
+    shape.count[k] += 1;
+    shape.mean_ratio[k] += ratio;
+    shape.worst_mean_ratio[k] = std::min(shape.worst_mean_ratio[k], ratio);
+    shape.smallest_angle[k] = std::min(shape.smallest_angle[k], mesh::smallest_angle(p[0], p[1], p[2]));
+    for (int i = 0; i < 3; ++i) {
+      const geometry::Vec3 a = p[i], b = p[(i + 1) % 3];
+      const double length = distance(a, b) / field(0.5 * (a + b));
+      shape.edges += 1;
+      shape.good_edges += length >= 0.7 && length <= 1.4;
+    }
+  }
+  return shape;
+}
+
+Shape measure(const Communicator& communicator, const mesh::DistributedMesh& surface,
+              const sizing::SizeField& field) {
+  Shape all;
+  for (const mesh::Piece& piece : surface.pieces) {
+    const Shape one = measure(piece, field);
+    for (int k = 0; k < 2; ++k) {
+      all.count[k] += one.count[k];
+      all.mean_ratio[k] += one.mean_ratio[k];
+      all.worst_mean_ratio[k] = std::min(all.worst_mean_ratio[k], one.worst_mean_ratio[k]);
+      all.smallest_angle[k] = std::min(all.smallest_angle[k], one.smallest_angle[k]);
+    }
+    all.edges += one.edges;
+    all.good_edges += one.good_edges;
+  }
+  for (int k = 0; k < 2; ++k) {
+    all.count[k] = communicator.sum(all.count[k]);
+    all.mean_ratio[k] = communicator.sum(all.mean_ratio[k]) / std::max(all.count[k], 1.0);
+    all.worst_mean_ratio[k] = communicator.minimum(all.worst_mean_ratio[k]);
+    all.smallest_angle[k] = communicator.minimum(all.smallest_angle[k]);
+  }
+  all.edges = communicator.sum(all.edges);
+  all.good_edges = communicator.sum(all.good_edges);
+  return all;
+}
+
+void run(const Communicator& communicator, const pipeline::Case& input) {
+  parallel::StageClock clock;
+  geometry::DomainReport domain;
+  clock.begin("geometry");
+  const geometry::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
+  clock.end();
+  clock.begin("sizing");
+  const sizing::SizingOptions sizes = pipeline::resolve_sizes(communicator, model, input.sizing, clock);
+  const sizing::SizeField field = sizing::build_size_field(communicator, model, sizes, clock);
+  clock.end();
+  clock.begin("surface");
+  const surface::SurfaceMesh surface =
+      surface::mesh_surface(communicator, model, field, input.surface, clock);
+  clock.end();
+  const parallel::StageSummary stage = clock.summarise(communicator).back();
+  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  const auto validity = mesh::check_surface_mesh(communicator, surface.mesh, numbering);
+  const std::string hash = mesh::hash_mesh(communicator, surface.mesh, numbering);
+  const Shape shape = measure(communicator, surface.mesh, surface.field);
+  const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
+  if (!communicator.is_root()) return;
+  const double total = stage.cpu_seconds_mean * communicator.size();
+  const auto triangles = static_cast<double>(surface.report.triangles);
+  std::printf(
+      "RESULT ranks=%d pieces=%d triangles=%.0f valid=%d wall_seconds=%.3f cpu_total=%.3f cpu_max=%.3f "
+      "busiest=%.3f serial_share=%.4f triangles_per_cpu_second=%.0f load_error_90=%.3f rounds=%d\n"
+      "       min_angle=%.2f mean_ratio=%.4f good_edges=%.4f cut_triangles=%.0f cut_mean_ratio=%.4f "
+      "other_mean_ratio=%.4f cut_worst=%.3f other_worst=%.3f cut_min_angle=%.2f hash=%s\n",
+      communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
+      stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
+      stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
+      surface.report.mending_rounds, quality.min_dihedral.minimum, quality.mean_ratio.mean,
+      shape.good_edges / shape.edges, shape.count[1], shape.mean_ratio[1], shape.mean_ratio[0],
+      shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1], hash.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  pipeline::register_geometry_tasks();
+  const parallel::Environment environment(argc, argv);
+  const Communicator world = Communicator::world();
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: surface_benchmark CASE [KEY=VALUE ...]\n");
+    return 2;
+  }
+  try {
+    parallel::configure_log(world, parallel::LogLevel::quiet);
+    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc}));
+  } catch (const std::exception& error) {
+    if (world.is_root()) std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,191 @@
+#include "partition/repair_parts.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace aeroloom::partition {
+namespace {
+
+bool is_feature(const BackgroundSurface& surface, HalfEdge h) {
+  return surface.twins[h] < 0;
+}
+
+bool is_border(const BackgroundSurface& surface, const std::vector<std::int32_t>& part, HalfEdge h) {
+  return is_feature(surface, h) || part[h / 3] != part[surface.twins[h] / 3];
+}
+
+/// Calls visit(wedge) for each stretch between neighbouring borders of one fan.
+template <class Visit>
+void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
+                  const std::vector<std::int32_t>& part, std::int32_t fan, Visit visit) {
+  const std::int32_t size = fans.size(fan), edges = fans.edge_count(fan);
+  std::int32_t start = 0;
+  while (start < edges && !is_border(surface, part, fans.edge(fan, start))) ++start;
+  if (start == edges) return;
+  const std::int32_t steps = fans.closed[fan] ? size : size - start;
+  std::int32_t from = start;
+  double angle = 0;
+  for (std::int32_t k = 0; k < steps; ++k) {
+    angle += fans.angles[fans.first[fan] + (start + k) % size];
+    const std::int32_t to = fans.closed[fan] ? (start + k + 1) % size : start + k + 1;
+    if (!is_border(surface, part, fans.edge(fan, to))) continue;
+    const bool forced =
+        is_feature(surface, fans.edge(fan, from)) && is_feature(surface, fans.edge(fan, to));
+    if (!forced && !(from == to)) visit(Wedge{fan, from, to, angle});
+    from = to;
+    angle = 0;
+  }
+}
+
+class Widener {
+public:
+  Widener(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+          std::vector<std::int32_t>& part)
+      : _surface(surface), _fans(fans), _smallest(smallest_angle), _part(part), _fan_of(fans.corners.size()) {
+    for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
+      for (std::int32_t i = fans.first[fan]; i < fans.first[fan + 1]; ++i) _fan_of[fans.corners[i]] = fan;
+    }
+  }
+
+  std::int32_t run() {
+    std::int32_t moves = 0;
+    for (std::int32_t fan = 0; fan < _fans.count(); ++fan) {
+      Wedge worst{-1, 0, 0, _smallest};
+      visit_wedges(_surface, _fans, _part, fan, [&](const Wedge& wedge) {
+        if (wedge.angle < worst.angle) worst = wedge;
+      });
+      if (worst.fan >= 0 && widen(worst)) ++moves;
+    }
+    return moves;
+  }
+
+private:
+  bool widen(const Wedge& wedge) {
+    std::vector<std::int32_t> triangles;
+    const std::int32_t size = _fans.size(wedge.fan);
+    for (std::int32_t i = wedge.from; i != wedge.to; i = _fans.closed[wedge.fan] ? (i + 1) % size : i + 1) {
+      triangles.push_back(_fans.corners[_fans.first[wedge.fan] + i] / 3);
+    }
+    const std::int32_t mine = _part[triangles.front()];
+    const double before = missing_around(triangles);
+    double best = before * (1 - 1e-9);
+    std::int32_t target = -1;
+    for (const std::int32_t edge : {wedge.from, wedge.to}) {
+      const HalfEdge h = _fans.edge(wedge.fan, edge);
+      if (_surface.twins[h] < 0) continue;
+      // The part on the far side of the edge.
+      const std::int32_t other =
+          _part[h / 3] == mine ? _part[_surface.twins[h] / 3] : _part[h / 3];
+      if (other == mine) continue;
+      set(triangles, other);
+      const double after = missing_around(triangles);
+      if (after < best) {
+        best = after;
+        target = other;
+      }
+      set(triangles, mine);
+    }
+    if (target < 0) return false;
+    set(triangles, target);
+    return true;
+  }
+
+  void set(const std::vector<std::int32_t>& triangles, std::int32_t part) {
+    for (const std::int32_t t : triangles) _part[t] = part;
+  }
+
+  /// Degrees that wedges around the corners of the triangles lack.
+  double missing_around(const std::vector<std::int32_t>& triangles) const {
+    std::vector<std::int32_t> fans;
+    for (const std::int32_t t : triangles) {
+      for (int i = 0; i < 3; ++i) fans.push_back(_fan_of[3 * t + i]);
+    }
+    std::sort(fans.begin(), fans.end());
+    fans.erase(std::unique(fans.begin(), fans.end()), fans.end());
+    double missing = 0;
+    for (const std::int32_t fan : fans) {
+      visit_wedges(_surface, _fans, _part, fan,
+                   [&](const Wedge& wedge) { missing += std::max(0.0, _smallest - wedge.angle); });
+    }
+    return missing;
+  }
+
+  const BackgroundSurface& _surface;
+  const VertexFans& _fans;
+  double _smallest;
+  std::vector<std::int32_t>& _part;
+  std::vector<std::int32_t> _fan_of;  // per corner
+};
+
+}  // namespace
+
+std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans& fans,
+                              const std::vector<std::int32_t>& part) {
+  std::vector<Wedge> wedges;
+  for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
+    visit_wedges(surface, fans, part, fan, [&](const Wedge& wedge) { wedges.push_back(wedge); });
+  }
+  return wedges;
+}
+
+void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& part) {
+  const auto count = static_cast<std::int32_t>(surface.triangles.size());
+  std::vector<std::int32_t> component(count, -1), stack;
+  std::vector<double> loads;
+  std::vector<std::int32_t> part_of;
+  for (std::int32_t seed = 0; seed < count; ++seed) {
+    if (component[seed] >= 0) continue;
+    const auto number = static_cast<std::int32_t>(loads.size());
+    loads.push_back(0);
+    part_of.push_back(part[seed]);
+    component[seed] = number;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const std::int32_t t = stack.back();
+      stack.pop_back();
+      loads[number] += surface.loads[t];
+      for (int i = 0; i < 3; ++i) {
+        const HalfEdge twin = surface.twins[3 * t + i];
+        if (twin < 0 || component[twin / 3] >= 0 || part[twin / 3] != part[t]) continue;
+        component[twin / 3] = number;
+        stack.push_back(twin / 3);
+      }
+    }
+  }
+  std::map<std::int32_t, std::int32_t> heaviest;  // component by part; the first of equals
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(loads.size()); ++c) {
+    const auto [at, fresh] = heaviest.try_emplace(part_of[c], c);
+    if (!fresh && loads[c] > loads[at->second]) at->second = c;
+  }
+  // Stray components join a neighbour whose part is settled; those in the second row wait for the first.
+  std::vector<char> settled(loads.size(), 0);
+  for (const auto& [p, c] : heaviest) settled[c] = 1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part beyond: length
+    for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
+      const HalfEdge twin = surface.twins[h];
+      if (twin < 0 || settled[component[h / 3]] || !settled[component[twin / 3]]) continue;
+      border[{component[h / 3], part_of[component[twin / 3]]}] +=
+          distance(surface.points[surface.start(h)], surface.points[surface.end(h)]);
+    }
+    std::map<std::int32_t, std::pair<double, std::int32_t>> best;
+    for (const auto& [key, length] : border) {
+      const auto [at, fresh] = best.try_emplace(key[0], length, key[1]);
+      if (!fresh && length > at->second.first) at->second = {length, key[1]};
+    }
+    for (const auto& [c, target] : best) {
+      part_of[c] = target.second;
+      settled[c] = 1;
+      changed = true;
+    }
+  }
+  for (std::int32_t t = 0; t < count; ++t) part[t] = part_of[component[t]];
+}
+
+std::int32_t widen_wedges(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+                          std::vector<std::int32_t>& part) {
+  return Widener(surface, fans, smallest_angle, part).run();
+}
+
+}  // namespace aeroloom::partition

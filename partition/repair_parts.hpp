@@ -1,0 +1,25 @@
+/// What METIS leaves to be done: connected parts whose borders meet at good angles.
+#pragma once
+
+#include "partition/background_surface.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::partition {
+
+/// Neighbouring wedges between cuts, or a cut and a feature curve, around all vertices, in the order of fans.
+/// Wedges between two feature curves are not listed: no decomposition changes them.
+std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans& fans,
+                              const std::vector<std::int32_t>& part);
+
+/// Gives all but the heaviest component of each part to the neighbour it shares the longest border with.
+void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& part);
+
+/// Moves the triangles of wedges below `smallest_angle` (degrees) to the part on either side when that makes
+/// the sum of what is missing around them smaller. Parts may fall apart: connect_parts() follows.
+/// Deterministic. Returns the number of moves.
+std::int32_t widen_wedges(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+                          std::vector<std::int32_t>& part);
+
+}  // namespace aeroloom::partition

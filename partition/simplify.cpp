@@ -1,0 +1,122 @@
+#include "partition/simplify.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::partition {
+namespace {
+
+/// Triangles united to clusters, with their loads.
+class ClusterForest {
+public:
+  explicit ClusterForest(const std::vector<double>& loads) : _parent(loads.size()), _loads(loads) {
+    std::iota(_parent.begin(), _parent.end(), 0);
+  }
+  std::int32_t root(std::int32_t t) {
+    while (_parent[t] != t) t = _parent[t] = _parent[_parent[t]];
+    return t;
+  }
+  double load(std::int32_t root) const { return _loads[root]; }
+  /// The lower root stays, so that numbers do not depend on the order of unions.
+  void unite(std::int32_t a, std::int32_t b) {
+    if (a > b) std::swap(a, b);
+    _parent[b] = a;
+    _loads[a] += _loads[b];
+  }
+
+private:
+  std::vector<std::int32_t> _parent;
+  std::vector<double> _loads;
+};
+
+/// All wedges below the threshold, the sharpest first. In a closed fan no wedge goes all the way round.
+std::vector<Wedge> sharp_wedges(const VertexFans& fans, double threshold) {
+  std::vector<Wedge> wedges;
+  for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
+    const std::int32_t size = fans.size(fan);
+    for (std::int32_t from = 0; from < size; ++from) {
+      double angle = 0;
+      const std::int32_t most = fans.closed[fan] ? size - 1 : size - from;
+      for (std::int32_t k = 0; k < most; ++k) {
+        angle += fans.angles[fans.first[fan] + (from + k) % size];
+        if (angle >= threshold) break;
+        const std::int32_t to = from + k + 1;
+        wedges.push_back({fan, from, fans.closed[fan] ? to % size : to, angle});
+      }
+    }
+  }
+  std::sort(wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) {
+    return std::tie(a.angle, a.fan, a.from, a.to) < std::tie(b.angle, b.fan, b.from, b.to);
+  });
+  return wedges;
+}
+
+/// Numbers the clusters by first triangle.
+Clusters number_clusters(const BackgroundSurface& surface, ClusterForest& forest) {
+  Clusters clusters;
+  clusters.of_triangle.resize(surface.triangles.size());
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface.triangles.size()); ++t) {
+    const std::int32_t root = forest.root(t);
+    if (root == t) {
+      clusters.of_triangle[t] = static_cast<std::int32_t>(clusters.loads.size());
+      clusters.loads.push_back(forest.load(t));
+    } else {
+      clusters.of_triangle[t] = clusters.of_triangle[root];
+    }
+  }
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
+    const HalfEdge twin = surface.twins[h];
+    if (twin > h && clusters.of_triangle[h / 3] == clusters.of_triangle[twin / 3]) ++clusters.forbidden_edges;
+  }
+  return clusters;
+}
+
+}  // namespace
+
+Clusters single_triangles(const BackgroundSurface& surface) {
+  ClusterForest forest(surface.loads);
+  return number_clusters(surface, forest);
+}
+
+Clusters simplify(const BackgroundSurface& surface, const VertexFans& fans, const SimplifyOptions& options) {
+  ClusterForest forest(surface.loads);
+  std::int32_t unresolved = 0;
+  for (const Wedge& wedge : sharp_wedges(fans, options.smallest_angle)) {
+    // The clusters on both sides of each of its edges; a feature curve cannot be contracted.
+    struct Arc {
+      bool feature = true;
+      std::int32_t left = -1, right = -1;
+      double load = 0;
+      HalfEdge half_edge = -1;
+    };
+    const auto arc_of = [&](std::int32_t edge) {
+      Arc arc;
+      arc.half_edge = fans.edge(wedge.fan, edge);
+      const HalfEdge twin = surface.twins[arc.half_edge];
+      if (twin < 0) return arc;
+      arc.feature = false;
+      arc.left = forest.root(arc.half_edge / 3);
+      arc.right = forest.root(twin / 3);
+      arc.load = forest.load(arc.left) + forest.load(arc.right);
+      return arc;
+    };
+    Arc first = arc_of(wedge.from), second = arc_of(wedge.to);
+    const auto is_contracted = [](const Arc& arc) { return !arc.feature && arc.left == arc.right; };
+    if (is_contracted(first) || is_contracted(second) || (first.feature && second.feature)) continue;
+    const bool take_second = first.feature || (!second.feature && std::tie(second.load, second.half_edge) <
+                                                                      std::tie(first.load, first.half_edge));
+    const Arc& chosen = take_second ? second : first;
+    if (options.largest_load > 0 && chosen.load > options.largest_load) {
+      ++unresolved;
+      continue;
+    }
+    forest.unite(chosen.left, chosen.right);
+  }
+  Clusters clusters = number_clusters(surface, forest);
+  clusters.unresolved = unresolved;
+  return clusters;
+}
+
+}  // namespace aeroloom::partition

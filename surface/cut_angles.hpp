@@ -1,0 +1,27 @@
+/// The angles at which pieces meet, measured between the edges of the fine mesh.
+#pragma once
+
+#include "surface/piece_seed.hpp"
+#include "surface/surface_mesher.hpp"
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// The fine edges of a face on its CAD curves, by the names of their ends.
+class FeatureEdges {
+public:
+  FeatureEdges(const Support& support, const FaceVertices& vertices);
+  bool contains(mesh::SharedToken a, mesh::SharedToken b) const;
+
+private:
+  std::set<std::array<mesh::SharedToken, 2>> _edges;
+};
+
+/// Angles of the pieces of one face at the ends of cuts: where a cut meets a feature curve, and where three
+/// cuts or more meet. Angles between two feature curves are not listed.
+std::vector<CutAngle> measure_cut_angles(const std::vector<PieceSeed>& seeds, const FeatureEdges& features);
+
+}  // namespace aeroloom::surface

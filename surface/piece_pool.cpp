@@ -1,0 +1,243 @@
+#include "surface/piece_pool.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
+#include "parallel/schedule.hpp"
+#include "surface/face_mesher.hpp"
+#include "surface/support_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::FaceId;
+using parallel::ScopedCpu;
+using sizing::SizeField;
+
+/// Triangles meshed in a second, about: what the time spent on dividing faces is worth when pieces are dealt
+/// out. And what a piece costs besides its triangles. No result depends on either.
+constexpr double triangles_per_second = 4e5, piece_overhead = 150;
+
+std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
+  std::vector<double> sizes(piece.vertex_count());
+  for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) sizes[v] = field(piece.point(v));
+  return sizes;
+}
+
+}  // namespace
+
+PiecePool::PiecePool(const parallel::Communicator& communicator, const geometry::Model& model,
+                     const SurfaceOptions& options, parallel::StageClock& clock)
+    : _communicator(communicator),
+      _model(model),
+      _options(options),
+      _clock(clock),
+      _parts(model.face_count(), 0) {}
+
+std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
+  std::vector<std::int32_t> counts;
+  for (const auto& loop : _model.face(face).loops) {
+    for (const geometry::EdgeUse& use : loop) {
+      counts.push_back(curves.first_interior[use.edge + 1] - curves.first_interior[use.edge]);
+    }
+  }
+  return counts;
+}
+
+bool PiecePool::is_unchanged(const CurveMesh& curves, const SizeField& field, FaceId face,
+                             const Meshed& meshed) const {
+  if (edge_vertices(curves, face) != meshed.edge_vertices) return false;
+  const mesh::Piece& piece = meshed.piece;
+  for (std::size_t i = 0; i < piece.shared_tokens.size(); ++i) {
+    if (is_cut_token(piece.shared_tokens[i])) continue;
+    const CurveVertex v = curves.vertex_of(piece.shared_tokens[i]);
+    if (!(curves.points[v] == piece.point(piece.shared_vertices[i]))) return false;
+  }
+  return sizes_at_vertices(field, piece) == meshed.vertex_sizes;
+}
+
+/// Ascending, the same on every rank. A face is made again as a whole: sizes decide on its cuts too.
+std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const SizeField& field) const {
+  std::vector<FaceId> changed;
+  if (!_started) {
+    changed.resize(_model.face_count());
+    std::iota(changed.begin(), changed.end(), 0);
+    return changed;
+  }
+  std::vector<std::int32_t> kept(_model.face_count(), 0);
+  {
+    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (const auto& [key, meshed] : _meshed) {
+      kept[key[0]] += is_unchanged(curves, field, key[0], meshed) ? 1 : 0;
+    }
+  }
+  std::vector<std::array<std::int32_t, 2>> mine;
+  for (FaceId f = 0; f < _model.face_count(); ++f) {
+    if (kept[f] > 0) mine.push_back({f, kept[f]});
+  }
+  std::fill(kept.begin(), kept.end(), 0);
+  for (const auto& [face, count] : _communicator.all_gather_items<std::array<std::int32_t, 2>>(mine)) {
+    kept[face] += count;
+  }
+  for (FaceId f = 0; f < _model.face_count(); ++f) {
+    if (_parts[f] == 0 || kept[f] != _parts[f]) changed.push_back(f);
+  }
+  return changed;
+}
+
+/// Divides faces on all ranks; the seeds stay where they were made.
+std::map<PiecePool::Key, PieceSeed> PiecePool::divide(const std::vector<FaceId>& faces,
+                                                      const CurveMesh& curves, const SizeField& field) {
+  std::map<Key, PieceSeed> seeds;
+  const double start = parallel::cpu_seconds();
+  parallel::agree(_communicator, [&] {
+    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    std::vector<double> loads;
+    for (const FaceId face : faces) {
+      // About the triangles that fit into a square of the perimeter; most are left to the pieces.
+      const auto counts = edge_vertices(curves, face);
+      const double quarter = std::accumulate(counts.begin(), counts.end(), 0.0) / 4;
+      loads.push_back(1000 + 50 * quarter + 0.05 * quarter * quarter);
+    }
+    const auto owners = parallel::assign_largest_first(loads, _communicator.size());
+    CoarseSizes sizes(field, static_cast<double>(_options.piece_triangles));
+    for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
+      const FaceId face = faces[task];
+      FacePieces pieces = divide_face(_model, face, curves, sizes, _options);
+      for (std::size_t i = 0; i < pieces.seeds.size(); ++i) {
+        seeds.emplace(Key{face, static_cast<std::int32_t>(i)}, std::move(pieces.seeds[i]));
+      }
+      _angles[face] = std::move(pieces.angles);
+    }
+  });
+  _divide_seconds = parallel::cpu_seconds() - start;
+  return seeds;
+}
+
+/// One row per piece, on every rank, by key.
+std::vector<PiecePool::Row> PiecePool::tabulate(const std::map<Key, PieceSeed>& seeds) {
+  std::vector<Row> rows;
+  for (const auto& [key, seed] : seeds) rows.push_back({key, seed.load});
+  rows = _communicator.all_gather_items<Row>(rows);
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
+  for (const Row& row : rows) _parts[row.key[0]] = row.key[1] + 1;
+  return rows;
+}
+
+/// Sends the seeds to the ranks that mesh them.
+std::map<PiecePool::Key, PieceSeed> PiecePool::deal_out(std::map<Key, PieceSeed> seeds,
+                                                        const std::vector<Row>& rows) {
+  std::vector<double> loads, burdens;
+  for (const Row& row : rows) loads.push_back(row.load + piece_overhead);
+  const std::vector<double> spent{_divide_seconds};
+  for (const double seconds : _communicator.all_gather_items<double>(spent)) {
+    burdens.push_back(seconds * triangles_per_second);
+  }
+  const auto owners = parallel::assign_largest_first(loads, burdens);
+  std::map<Key, PieceSeed> here;
+  std::map<parallel::Rank, parallel::Packer> leaving;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = seeds.find(rows[i].key);
+    if (at == seeds.end()) continue;
+    if (owners[i] == _communicator.rank()) {
+      here.emplace(rows[i].key, std::move(at->second));
+      continue;
+    }
+    leaving[owners[i]].value(rows[i].key);
+    leaving[owners[i]].array(pack_seed(at->second));
+  }
+  std::vector<parallel::Parcel> parcels;
+  for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
+  for (const parallel::Parcel& parcel : _communicator.exchange(std::move(parcels))) {
+    parallel::Unpacker unpacker(parcel.content);
+    while (!unpacker.at_end()) {
+      const auto key = unpacker.value<Key>();
+      here.emplace(key, unpack_seed(unpacker.array<std::byte>()));
+    }
+  }
+  return here;
+}
+
+Conflicts PiecePool::mesh_seeds(const std::map<Key, PieceSeed>& seeds, const CurveMesh& curves,
+                                const SizeField& field) {
+  Conflicts conflicts;
+  parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()));
+  for (const auto& [key, seed] : seeds) {
+    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    try {
+      Meshed meshed{mesh_piece(_model, seed, field, _options), {}, edge_vertices(curves, key[0]), seed.load};
+      meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
+      _meshed.emplace(key, std::move(meshed));
+    } catch (const FaceConflict& conflict) {
+      if (conflicts.complaint.empty()) conflicts.complaint = conflict.what();
+      conflicts.remedies.insert(conflicts.remedies.end(), conflict.remedy().begin(), conflict.remedy().end());
+    }
+    progress.advance();
+  }
+  return conflicts;
+}
+
+Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
+  const std::vector<FaceId> faces = changed_faces(curves, field);
+  _started = true;
+  std::erase_if(_meshed, [&](const auto& entry) {
+    return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
+  });
+  for (const FaceId face : faces) _angles.erase(face);
+  std::map<Key, PieceSeed> seeds = divide(faces, curves, field);
+  const std::vector<Row> rows = tabulate(seeds);
+  seeds = deal_out(std::move(seeds), rows);
+  Conflicts conflicts;
+  parallel::agree(_communicator, [&] { conflicts = mesh_seeds(seeds, curves, field); });
+  return conflicts;
+}
+
+mesh::DistributedMesh PiecePool::assemble() const {
+  mesh::DistributedMesh surface;
+  surface.kind = mesh::CellKind::triangle;
+  surface.patches = _model.patches();
+  std::vector<mesh::PieceId> first{0};
+  for (FaceId f = 0; f < _model.face_count(); ++f) {
+    const geometry::Face& face = _model.face(f);
+    surface.faces.push_back(face.name);
+    surface.sides.push_back({face.front, face.back});
+    first.push_back(first.back() + _parts[f]);
+  }
+  surface.piece_count = first.back();
+  for (geometry::RegionId r = 0; r < _model.region_count(); ++r) {
+    surface.regions.push_back(_model.region_name(r));
+  }
+  for (const auto& [key, meshed] : _meshed) {
+    surface.pieces.push_back(meshed.piece);
+    surface.pieces.back().id = first[key[0]] + key[1];
+  }
+  return surface;
+}
+
+std::vector<CutAngle> PiecePool::cut_angles() const {
+  std::vector<CutAngle> mine;
+  for (const auto& [face, angles] : _angles) mine.insert(mine.end(), angles.begin(), angles.end());
+  std::vector<CutAngle> all = _communicator.all_gather_items<CutAngle>(mine);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const CutAngle& a, const CutAngle& b) { return a.face < b.face; });
+  return all;
+}
+
+double PiecePool::load_error_90() const {
+  std::vector<double> errors;
+  for (const auto& [key, meshed] : _meshed) {
+    errors.push_back(std::abs(meshed.load / static_cast<double>(meshed.piece.cell_count()) - 1));
+  }
+  errors = _communicator.all_gather_items<double>(errors);
+  std::sort(errors.begin(), errors.end());
+  return errors.empty() ? 0 : errors[errors.size() * 9 / 10];
+}
+
+std::int64_t PiecePool::divided_faces() const {
+  return std::count_if(_parts.begin(), _parts.end(), [](std::int32_t parts) { return parts > 1; });
+}
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,75 @@
+/// The surface pieces of a rank through the rounds of a run: made from faces, dealt out, meshed, and kept as
+/// long as nothing around them changes.
+#pragma once
+
+#include "surface/curves.hpp"
+#include "surface/face_pieces.hpp"
+#include "surface/surface_mesher.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// Where sizes have to fall before meshing can succeed.
+struct Conflicts {
+  std::vector<sizing::SizeSource> remedies;
+  std::string complaint;  ///< about the first one; empty: none
+};
+
+class PiecePool {
+public:
+  PiecePool(const parallel::Communicator& communicator, const geometry::Model& model,
+            const SurfaceOptions& options, parallel::StageClock& clock);
+
+  /// Meshes every face whose curves or sizes are not those of the round before. Collective. Conflicts are
+  /// those of this rank.
+  Conflicts mesh(const CurveMesh& curves, const sizing::SizeField& field);
+  /// The pieces as a mesh; all faces must be meshed.
+  mesh::DistributedMesh assemble() const;
+  /// The angles where cuts end, by face; the same on every rank. Collective.
+  std::vector<CutAngle> cut_angles() const;
+  /// The relative error that 90 % of the predicted loads stay below. Collective.
+  double load_error_90() const;
+  std::int64_t divided_faces() const;
+
+private:
+  /// A piece is named by its face and its place among the pieces of that face.
+  using Key = std::array<std::int32_t, 2>;
+  struct Meshed {
+    mesh::Piece piece;
+    std::vector<double> vertex_sizes;         // to see whether it has to be made again
+    std::vector<std::int32_t> edge_vertices;  // on each edge use of its face
+    double load;
+  };
+  struct Row {
+    Key key;
+    double load;
+  };
+
+  bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, geometry::FaceId face,
+                    const Meshed& meshed) const;
+  std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, geometry::FaceId face) const;
+  std::vector<geometry::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
+  std::map<Key, PieceSeed> divide(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
+                                  const sizing::SizeField& field);
+  std::vector<Row> tabulate(const std::map<Key, PieceSeed>& seeds);
+  std::map<Key, PieceSeed> deal_out(std::map<Key, PieceSeed> seeds, const std::vector<Row>& rows);
+  Conflicts mesh_seeds(const std::map<Key, PieceSeed>& seeds, const CurveMesh& curves,
+                       const sizing::SizeField& field);
+
+  const parallel::Communicator& _communicator;
+  const geometry::Model& _model;
+  const SurfaceOptions& _options;
+  parallel::StageClock& _clock;
+  bool _started = false;
+  std::vector<std::int32_t> _parts;                       // per face, 0: not divided yet
+  std::map<Key, Meshed> _meshed;                          // on this rank
+  std::map<geometry::FaceId, std::vector<CutAngle>> _angles;  // of faces divided on this rank
+  double _divide_seconds = 0;
+};
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,27 @@
+/// A surface piece before it is meshed.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "sizing/size_field.hpp"
+#include "surface/support.hpp"
+
+#include <span>
+
+namespace aeroloom::surface {
+
+/// Everything a rank needs to mesh a piece besides the model and the sizes.
+struct PieceSeed {
+  Support support;
+  FaceVertices vertices;  ///< on the borders of the piece
+  double load = 1;        ///< predicted triangles
+};
+
+/// Predicted triangles of a support under a field. Euler's formula gives them from the vertices: those on the
+/// loops are known, those inside are the integral of 2/(sqrt(3) h^2) less what belongs to the loops.
+double predict_triangles(const Support& support, const sizing::SizeField& field);
+
+/// Bit for bit, for another rank.
+parallel::Bytes pack_seed(const PieceSeed& seed);
+PieceSeed unpack_seed(std::span<const std::byte> bytes);
+
+}  // namespace aeroloom::surface
