@@ -1,7 +1,9 @@
-/// The surface stage alone: mpirun -n N surface_benchmark CASE [KEY=VALUE ...] prints one RESULT line.
+/// The surface stage alone: mpirun -n N surface_benchmark CASE [KEY=VALUE ...] prints one RESULT line; with
+/// --write as the last argument, surface.pvtp goes to the case's output directory.
 ///
 /// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
 /// on a border between pieces of one CAD face.
+#include "io/vtk_writer.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "parallel/environment.hpp"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 namespace {
 
@@ -74,7 +77,7 @@ Shape measure(const Communicator& communicator, const mesh::DistributedMesh& sur
   return all;
 }
 
-void run(const Communicator& communicator, const pipeline::Case& input) {
+void run(const Communicator& communicator, const pipeline::Case& input, bool write) {
   parallel::StageClock clock;
   geometry::DomainReport domain;
   clock.begin("geometry");
@@ -94,6 +97,7 @@ void run(const Communicator& communicator, const pipeline::Case& input) {
   const std::string hash = mesh::hash_mesh(communicator, surface.mesh, numbering);
   const Shape shape = measure(communicator, surface.mesh, surface.field);
   const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
+  if (write) io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
   if (!communicator.is_root()) return;
   const double total = stage.cpu_seconds_mean * communicator.size();
   const auto triangles = static_cast<double>(surface.report.triangles);
@@ -122,7 +126,8 @@ int main(int argc, char** argv) {
   }
   try {
     parallel::configure_log(world, parallel::LogLevel::quiet);
-    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc}));
+    const bool write = argc > 2 && std::string(argv[argc - 1]) == "--write";
+    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc - (write ? 1 : 0)}), write);
   } catch (const std::exception& error) {
     if (world.is_root()) std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -28,7 +28,7 @@ constexpr mesh::GlobalIndex triangles_per_part = 200'000;
 /// The cell arrays of a part.
 struct TriangleArrays {
   std::vector<std::int64_t> connectivity;
-  std::vector<std::int32_t> face, patch;
+  std::vector<std::int32_t> piece, face, patch;
   std::vector<float> quality;
 };
 
@@ -43,6 +43,7 @@ void append_cells(const PartPiece& piece, const std::vector<std::int64_t>& place
     arrays.quality.push_back(
         static_cast<float>(mesh::triangle_mean_ratio(point(v[0]), point(v[1]), point(v[2]))));
   }
+  arrays.piece.resize(arrays.piece.size() + piece.cells.size() / 3, piece.id);
   arrays.face.insert(arrays.face.end(), piece.triangle_face.begin(), piece.triangle_face.end());
   arrays.patch.insert(arrays.patch.end(), piece.triangle_patch.begin(), piece.triangle_patch.end());
 }
@@ -57,6 +58,7 @@ void write_part(const std::vector<PartPiece>& pieces, const std::vector<std::str
   surface->SetPoints(make_points(points.coordinates));
   surface->SetPolys(make_cells(arrays.connectivity, 3));
   surface->GetPointData()->AddArray(make_array<vtkTypeInt64Array>("global_id", points.numbers));
+  surface->GetCellData()->AddArray(make_array<vtkIntArray>("piece", arrays.piece));
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("face", arrays.face));
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("patch", arrays.patch));
   surface->GetCellData()->AddArray(make_array<vtkFloatArray>("quality", arrays.quality));
@@ -77,7 +79,8 @@ void write_surface(const parallel::Communicator& communicator, const mesh::Distr
                     write_part(pieces, surface.faces, surface.patches, path);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
-  constexpr IndexArray cell_arrays[] = {{"Int32", "face"}, {"Int32", "patch"}, {"Float32", "quality"}};
+  constexpr IndexArray cell_arrays[] = {
+      {"Int32", "piece"}, {"Int32", "face"}, {"Int32", "patch"}, {"Float32", "quality"}};
   std::vector<std::string> sources;
   for (std::size_t i = 0; i < parts; ++i) sources.push_back(files.part_source(i));
   write_index(communicator, files.index_path(), index_text("PPolyData", point_arrays, cell_arrays, sources));
