@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -99,19 +100,27 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
   const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
   if (write) io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
   if (!communicator.is_root()) return;
+  double sharpest = 180;
+  int sharp = 0;
+  for (const surface::CutAngle& angle : surface.report.cut_angles) {
+    sharpest = std::min(sharpest, angle.degrees);
+    sharp += angle.degrees < 30;
+  }
   const double total = stage.cpu_seconds_mean * communicator.size();
   const auto triangles = static_cast<double>(surface.report.triangles);
   std::printf(
       "RESULT ranks=%d pieces=%d triangles=%.0f valid=%d wall_seconds=%.3f cpu_total=%.3f cpu_max=%.3f "
       "busiest=%.3f serial_share=%.4f triangles_per_cpu_second=%.0f load_error_90=%.3f rounds=%d\n"
       "       min_angle=%.2f mean_ratio=%.4f good_edges=%.4f cut_triangles=%.0f cut_mean_ratio=%.4f "
-      "other_mean_ratio=%.4f cut_worst=%.3f other_worst=%.3f cut_min_angle=%.2f hash=%s\n",
+      "other_mean_ratio=%.4f cut_worst=%.3f other_worst=%.3f cut_min_angle=%.2f "
+      "cut_places=%zu cut_places_below_30=%d cut_angle_min=%.2f hash=%s\n",
       communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
       stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
       stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
       surface.report.mending_rounds, quality.min_dihedral.minimum, quality.mean_ratio.mean,
       shape.good_edges / shape.edges, shape.count[1], shape.mean_ratio[1], shape.mean_ratio[0],
-      shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1], hash.c_str());
+      shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1],
+      surface.report.cut_angles.size(), sharp, sharpest, hash.c_str());
 }
 
 }  // namespace
@@ -125,7 +134,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    parallel::configure_log(world, parallel::LogLevel::quiet);
+    const bool verbose = std::getenv("AEROLOOM_VERBOSE") != nullptr;
+    parallel::configure_log(world, verbose ? parallel::LogLevel::verbose : parallel::LogLevel::quiet);
     const bool write = argc > 2 && std::string(argv[argc - 1]) == "--write";
     run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc - (write ? 1 : 0)}), write);
   } catch (const std::exception& error) {

@@ -30,7 +30,8 @@ double unwrap(double parameter, double reference, double period) {
 }
 
 /// Parameters at the corners of each triangle, without jumps inside it: those of vertices beyond a seam are
-/// moved by a period, and the direction that means nothing at a pole is taken from the other corners.
+/// moved by a period, and the direction that means nothing at a pole is taken from the other corners. A
+/// triangle around a pole gets those of one corner everywhere: there is no better linear guess.
 class CornerParameters {
 public:
   CornerParameters(const Model& model, const FaceMesh& mesh)
@@ -66,10 +67,17 @@ public:
       }
     }
     for (int i = 0; i < 3; ++i) uv[i] = {values[0][i], values[1][i]};
+    if (goes_round(values[0], _periods.x) || goes_round(values[1], _periods.y)) uv[1] = uv[2] = uv[0];
     return uv;
   }
 
 private:
+  static bool goes_round(const std::array<double, 3>& values, double period) {
+    constexpr double part = 0.4;  // of a period; three triangles around a tube span a third each
+    const auto [low, high] = std::minmax({values[0], values[1], values[2]});
+    return period > 0 && high - low > part * period;
+  }
+
   const FaceMesh& _mesh;
   Vec2 _periods;
   std::vector<std::array<bool, 2>> _collapsed;  // per vertex: u means nothing there, v means nothing there
@@ -85,41 +93,25 @@ void carry_over(const std::vector<std::int32_t>& former, std::vector<std::int32_
 /// Builds the support step by step.
 class SupportBuilder {
 public:
-  SupportBuilder(const Model& model, const FaceBackground& background, const CurveMesh& curves,
+  SupportBuilder(const Model& model, const PieceSeed& seed, const Background& background,
                  std::vector<std::int32_t>& part)
-      : _model(model), _background(background), _curves(curves), _part(part) {
+      : _model(model), _seed(seed), _loops(background.loops), _part(part) {
     const FaceMesh& mesh = background.mesh;
     const CornerParameters parameters(model, mesh);
     _support.face = mesh.face;
     _support.points = mesh.points;
     _support.triangles = mesh.triangles;
     for (const auto& triangle : mesh.triangles) _support.corner_uv.push_back(parameters(triangle));
-    _curve_vertex = background.on_curves;
-    _curve_vertex.resize(mesh.points.size(), -1);
+    _support.mesh_vertex = background.on_loops;
+    _support.mesh_vertex.resize(mesh.points.size(), -1);
   }
 
-  /// Divides the edges on CAD curves at the fine vertices.
-  void insert_curve_vertices() {
-    const FineSegments segments(_model, _curves, _background.curves, _support.face);
+  /// Divides the edges on loops at the fine vertices.
+  void insert_loop_vertices() {
     const auto twins = match_half_edges(_support.triangles);
     std::vector<EdgePoint> divisions;
     for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
-      if (twins[h] >= 0) continue;
-      const std::int32_t a = start_of(_support, h), b = end_of(_support, h);
-      const auto inside = segments.between(_curve_vertex[a], _curve_vertex[b]);
-      std::vector<double> along{0};
-      Vec3 last = _support.points[a];
-      for (const CurveVertex v : inside) {
-        along.push_back(along.back() + distance(last, _curves.points[v]));
-        last = _curves.points[v];
-      }
-      const double length = along.back() + distance(last, _support.points[b]);
-      for (std::size_t i = 0; i < inside.size(); ++i) {
-        const double fraction = along[i + 1] / length;
-        const Vec2 guess = (1 - fraction) * start_uv(_support, h) + fraction * end_uv(_support, h);
-        divisions.push_back({h, fraction, add_point(_curves.points[inside[i]], inside[i]),
-                             settle(_curves.points[inside[i]], guess)});
-      }
+      if (twins[h] < 0) divide_loop_edge(h, divisions);
     }
     carry_over(divide_edges(_support, std::move(divisions)), _part);
   }
@@ -133,54 +125,59 @@ public:
       for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
         if (twins[h] < h) continue;
         if (!turns(h) && !turns(twins[h])) continue;
-        const Vec2 middle = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
+        const Vec3 a = _support.points[start_of(_support, h)], b = _support.points[end_of(_support, h)];
+        const Vec2 guess = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
+        const auto middle = _model.project(_support.face, 0.5 * (a + b), _model.wrap(_support.face, guess));
+        if (!middle.converged || distance(middle.point, 0.5 * (a + b)) > 0.5 * distance(a, b)) continue;
+        const std::int32_t index = add_point(middle.point, -1);
+        divisions.push_back({h, 0.5, index, near(middle.uv, guess)});
         const Vec2 beyond = 0.5 * (start_uv(_support, twins[h]) + end_uv(_support, twins[h]));
-        const Vec3 point = _model.face_point(_support.face, _model.wrap(_support.face, middle));
-        const std::int32_t index = add_point(point, -1);
-        divisions.push_back({h, 0.5, index, middle});
-        divisions.push_back({twins[h], 0.5, index, beyond});
+        divisions.push_back({twins[h], 0.5, index, near(middle.uv, beyond)});
       }
       if (divisions.empty()) break;
       carry_over(divide_edges(_support, std::move(divisions)), _part);
     }
   }
 
-  Support finish(FaceVertices& vertices) {
-    std::vector<std::pair<CurveVertex, std::int32_t>> known;
-    for (std::size_t p = 0; p < _curve_vertex.size(); ++p) {
-      if (_curve_vertex[p] >= 0) known.push_back({_curve_vertex[p], static_cast<std::int32_t>(p)});
-    }
-    std::sort(known.begin(), known.end());
-    _support.mesh_vertex.assign(_support.points.size(), -1);
-    vertices = {};
-    for (const auto& [vertex, point] : known) {
-      _support.mesh_vertex[point] = vertices.border_count();
-      vertices.tokens.push_back(_curves.token(_model, vertex));
-      vertices.points.push_back(_curves.points[vertex]);
-      vertices.uv.emplace_back();
-    }
-    for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
-      for (int i = 0; i < 3; ++i) {
-        const std::int32_t vertex = _support.mesh_vertex[_support.triangles[t][i]];
-        if (vertex >= 0) vertices.uv[vertex] = _model.wrap(_support.face, _support.corner_uv[t][i]);
-      }
-    }
+  Support finish() {
+    _support.loop_edges = trace_loop_edges(_support, match_half_edges(_support.triangles));
     return std::move(_support);
   }
 
 private:
-  std::int32_t add_point(Vec3 point, CurveVertex vertex) {
+  std::int32_t add_point(Vec3 point, std::int32_t vertex) {
     _support.points.push_back(point);
-    _curve_vertex.push_back(vertex);
+    _support.mesh_vertex.push_back(vertex);
     return static_cast<std::int32_t>(_support.points.size()) - 1;
   }
 
-  /// Parameters of a point on the face, near the guess and on its side of a seam.
-  Vec2 settle(Vec3 point, Vec2 guess) const {
-    const auto found = _model.project(_support.face, point, _model.wrap(_support.face, guess));
-    if (!found.converged) return guess;
+  void divide_loop_edge(SupportHalfEdge h, std::vector<EdgePoint>& divisions) {
+    const std::int32_t from = _support.mesh_vertex[start_of(_support, h)];
+    const std::int32_t to = _support.mesh_vertex[end_of(_support, h)];
+    const CoarseSegment* segment = _loops.find(from, to);
+    if (segment == nullptr) return;
+    std::vector<std::int32_t> inside(_loops.inside.begin() + segment->begin,
+                                     _loops.inside.begin() + segment->end);
+    if (segment->from != from) std::reverse(inside.begin(), inside.end());
+    std::vector<double> along{0};
+    Vec3 last = _seed.vertices.points[from];
+    for (const std::int32_t v : inside) {
+      along.push_back(along.back() + distance(last, _seed.vertices.points[v]));
+      last = _seed.vertices.points[v];
+    }
+    const double length = along.back() + distance(last, _seed.vertices.points[to]);
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const double fraction = along[i + 1] / length;
+      const Vec2 guess = (1 - fraction) * start_uv(_support, h) + fraction * end_uv(_support, h);
+      divisions.push_back({h, fraction, add_point(_seed.vertices.points[inside[i]], inside[i]),
+                           near(_seed.vertices.uv[inside[i]], guess)});
+    }
+  }
+
+  /// The parameters of the same point nearest to others.
+  Vec2 near(Vec2 uv, Vec2 others) const {
     const Vec2 periods = _model.parameter_periods(_support.face);
-    return {unwrap(found.uv.x, guess.x, periods.x), unwrap(found.uv.y, guess.y, periods.y)};
+    return {unwrap(uv.x, others.x, periods.x), unwrap(uv.y, others.y, periods.y)};
   }
 
   bool turns(SupportHalfEdge h) const {
@@ -192,43 +189,56 @@ private:
   }
 
   const Model& _model;
-  const FaceBackground& _background;
-  const CurveMesh& _curves;
+  const PieceSeed& _seed;
+  const CoarseLoops& _loops;
   std::vector<std::int32_t>& _part;
   Support _support;
-  std::vector<CurveVertex> _curve_vertex;  // per point; -1: none
 };
+
+/// The seed without the vertices on loops that the background does without. `on_loops` receives the vertices
+/// that stay.
+PieceSeed thin_out(const PieceSeed& seed, const CoarseLoops& loops, std::vector<std::int32_t>& on_loops) {
+  std::vector<std::int32_t> number(seed.vertices.points.size(), -1);
+  for (const CoarseSegment& segment : loops.segments) number[segment.from] = number[segment.to] = 0;
+  PieceSeed thin{seed.support, {}, seed.load};
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(on_loops.size());
+    on_loops.push_back(static_cast<std::int32_t>(v));
+    thin.vertices.points.push_back(seed.vertices.points[v]);
+    thin.vertices.uv.push_back(seed.vertices.uv[v]);
+    thin.vertices.tokens.push_back(seed.vertices.tokens[v]);
+  }
+  for (std::int32_t& v : thin.support.mesh_vertex) v = v < 0 ? -1 : number[v];
+  thin.support.loop_edges = trace_loop_edges(thin.support, match_half_edges(thin.support.triangles));
+  return thin;
+}
 
 }  // namespace
 
-std::optional<FaceBackground> mesh_background(const Model& model, geometry::FaceId face,
-                                              const CurveMesh& curves, const geometry::Facets& facets,
-                                              const sizing::SizeField& coarse, double factor,
-                                              const SurfaceOptions& options) {
-  FaceBackground background;
-  background.curves = coarsen_curves(model, curves, face, factor, largest_turn);
-  FaceVertices vertices;
-  Support support = build_support(model, face, background.curves.curves, facets, vertices);
+std::optional<Background> mesh_background(const Model& model, const PieceSeed& seed,
+                                          const sizing::SizeField& coarse, const SurfaceOptions& options) {
+  Background background;
+  background.loops = coarsen_loops(seed, coarse, largest_turn);
+  PieceSeed thin = thin_out(seed, background.loops, background.on_loops);
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .largest_turn = largest_turn,
                                .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
-    background.mesh = mesh_support(model, coarse, std::move(support), vertices, meshing);
+    background.mesh =
+        mesh_support(model, coarse, std::move(thin.support), std::move(thin.vertices), meshing);
   } catch (const FaceConflict&) {
     return std::nullopt;
-  }
-  for (const mesh::SharedToken token : vertices.tokens) {
-    background.on_curves.push_back(background.curves.fine_vertex[background.curves.curves.vertex_of(token)]);
   }
   return background;
 }
 
-Support support_of(const Model& model, const FaceBackground& background, const CurveMesh& curves,
-                   std::vector<std::int32_t>& part, FaceVertices& vertices) {
-  SupportBuilder builder(model, background, curves, part);
-  builder.insert_curve_vertices();
+Support support_of(const Model& model, const PieceSeed& seed, const Background& background,
+                   std::vector<std::int32_t>& part) {
+  SupportBuilder builder(model, seed, background, part);
+  builder.insert_loop_vertices();
   builder.follow_surface();
-  return builder.finish(vertices);
+  return builder.finish();
 }
 
 }  // namespace aeroloom::surface

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 
 namespace aeroloom::surface {
 namespace {
@@ -143,6 +144,7 @@ namespace {
 // CAD vertices are named by their number, vertices on edges and cuts by entity and index on it.
 constexpr int entity_shift = 32;
 constexpr mesh::SharedToken cut_bit = mesh::SharedToken{1} << 63;
+constexpr int group_bits = 16, index_bits = 24;
 
 }  // namespace
 
@@ -164,9 +166,12 @@ EdgeId edge_of_token(mesh::SharedToken token) {
   return static_cast<EdgeId>(token >> entity_shift) - 1;
 }
 
-mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t index) {
-  return cut_bit | static_cast<mesh::SharedToken>(face) << entity_shift |
-         static_cast<mesh::SharedToken>(index);
+mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t group, std::int32_t index) {
+  if (face >= 1 << 23 || group >= 1 << group_bits || index >= 1 << index_bits) {
+    throw std::length_error("a face is cut into more pieces than vertices on cuts can be named for");
+  }
+  const auto wide = [](std::int32_t value) { return static_cast<mesh::SharedToken>(value); };
+  return cut_bit | wide(face) << (group_bits + index_bits) | wide(group) << index_bits | wide(index);
 }
 
 bool is_cut_token(mesh::SharedToken token) {

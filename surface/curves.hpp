@@ -37,8 +37,9 @@ struct CurveMesh {
 /// The CAD edge in the name of an interior vertex of a curve, no_entity for CAD vertices and vertices on
 /// cuts.
 geometry::EdgeId edge_of_token(mesh::SharedToken token);
-/// The name of vertex `index` on the cuts of a face.
-mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t index);
+/// The name of vertex `index` on the cuts that one division (`group`, below 2^16) of a face made; index below
+/// 2^24, face below 2^23.
+mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t group, std::int32_t index);
 bool is_cut_token(mesh::SharedToken token);
 
 /// Whether an edge constrains the surface mesh (is neither degenerate nor a seam).

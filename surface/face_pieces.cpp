@@ -4,7 +4,6 @@
 #include "surface/background.hpp"
 #include "surface/cut_angles.hpp"
 #include "surface/cut_curves.hpp"
-#include "surface/face_mesher.hpp"
 #include "surface/support_flips.hpp"
 #include "surface/support_topology.hpp"
 
@@ -20,9 +19,16 @@ using geometry::Vec3;
 
 /// Background triangles in a piece, about.
 constexpr double triangles_per_piece = 64;
-/// So often the background gets twice as fine where its curves cross; a face that is still no good stays
-/// whole.
-constexpr int most_halvings = 3;
+/// So often the background gets twice as fine where its loops cross; a seed that is still no good stays whole.
+constexpr int most_halvings = 4;
+/// A seed of more pieces is cut twice.
+constexpr double most_pieces_at_once = 24;
+
+/// The pieces that a seed is cut into at once.
+double count_parts(const PieceSeed& seed, const SurfaceOptions& options) {
+  const double pieces = std::max(1.0, std::round(seed.load / static_cast<double>(options.piece_triangles)));
+  return pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
+}
 
 /// The background as the decomposition sees it.
 partition::BackgroundSurface surface_of(const FaceMesh& mesh, const sizing::SizeField& field) {
@@ -38,18 +44,17 @@ partition::BackgroundSurface surface_of(const FaceMesh& mesh, const sizing::Size
   return surface;
 }
 
-std::vector<std::int32_t> divide(geometry::FaceId face, const FaceMesh& mesh, const sizing::SizeField& field,
+std::vector<std::int32_t> divide(const FaceMesh& mesh, double parts, const sizing::SizeField& field,
                                  const SurfaceOptions& options) {
   const partition::BackgroundSurface surface = surface_of(mesh, field);
-  if (options.divider) return options.divider(face, surface);
+  if (options.divider) return options.divider(mesh.face, surface);
   const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
-  const double parts = std::max(1.0, std::round(total / static_cast<double>(options.piece_triangles)));
   return partition::decompose_surface(surface,
                                       {.piece_load = total / parts, .smallest_angle = options.cut_angle})
       .part;
 }
 
-/// A part of the face's support as a seed; its vertices are those of the face that it has.
+/// A part of a divided support as a seed; its vertices are those of the whole that it has.
 PieceSeed seed_of_part(Support part, const FaceVertices& known, const std::vector<mesh::SharedToken>& tokens,
                        const sizing::SizeField& field) {
   PieceSeed seed;
@@ -72,25 +77,25 @@ PieceSeed seed_of_part(Support part, const FaceVertices& known, const std::vecto
   return seed;
 }
 
-/// Cuts the background of a face into seeds.
-FacePieces cut_face(const geometry::Model& model, FaceBackground background, const CurveMesh& curves,
-                    const sizing::SizeField& field, const SurfaceOptions& options) {
-  const geometry::FaceId face = background.mesh.face;
-  std::vector<std::int32_t> part = divide(face, background.mesh, field, options);
+/// Cuts a seed along the parts of its background.
+SeedPieces cut_seed(const geometry::Model& model, const PieceSeed& seed, Background background,
+                    std::int32_t group, double parts, const sizing::SizeField& field,
+                    const SurfaceOptions& options) {
+  const geometry::FaceId face = seed.support.face;
+  std::vector<std::int32_t> part = divide(background.mesh, parts, field, options);
   if (options.cut_angle > 0) straighten_cuts(model, field, part, options.cut_angle, background.mesh);
-  FaceVertices vertices;
-  CutSupport cut{support_of(model, background, curves, part, vertices), {}};
+  CutSupport cut{support_of(model, seed, background, part), {}};
   cut.part = std::move(part);
-  cut.support.loop_edges = trace_loop_edges(cut.support, match_half_edges(cut.support.triangles));
-  std::vector<mesh::SharedToken> tokens = vertices.tokens;
-  const FeatureEdges features(cut.support, vertices);
+  const FeatureEdges features(cut.support, seed.vertices);
   JoinedVertices joined = joined_vertices(cut.support);
-  std::vector<Support> parts = separate_at_cut(model, field, std::move(cut), vertices, joined);
+  FaceVertices vertices = seed.vertices;
+  std::vector<Support> supports = separate_at_cut(model, field, std::move(cut), vertices, joined);
+  std::vector<mesh::SharedToken> tokens = vertices.tokens;
   for (std::size_t v = tokens.size(); v < vertices.points.size(); ++v) {
-    tokens.push_back(cut_token(face, static_cast<std::int32_t>(v)));
+    tokens.push_back(cut_token(face, group, static_cast<std::int32_t>(v)));
   }
-  FacePieces pieces;
-  for (Support& support : parts) {
+  SeedPieces pieces;
+  for (Support& support : supports) {
     flip_to_delaunay(support);
     pieces.seeds.push_back(seed_of_part(std::move(support), vertices, tokens, field));
   }
@@ -100,34 +105,28 @@ FacePieces cut_face(const geometry::Model& model, FaceBackground background, con
 
 }  // namespace
 
-CoarseSizes::CoarseSizes(const sizing::SizeField& fine, double piece_triangles)
-    : _fine(fine), _factor(std::max(2.0, std::sqrt(piece_triangles / triangles_per_piece))) {}
-
-double CoarseSizes::factor(int halvings) const {
-  return std::max(1.0, std::ldexp(_factor, -halvings));
+const sizing::SizeField& CoarseSizes::field(int power) {
+  while (static_cast<int>(_fields.size()) <= power) _fields.push_back(_fields.back().scaled(2));
+  return _fields[power];
 }
 
-const sizing::SizeField& CoarseSizes::field(int halvings) {
-  for (auto next = static_cast<int>(_fields.size()); next <= halvings; ++next) {
-    _fields.push_back(_fine.scaled(factor(next)));
-  }
-  return _fields[halvings];
+bool is_heavy(const PieceSeed& seed, const SurfaceOptions& options) {
+  return options.decomposition == SurfaceDecomposition::pieces &&
+         seed.load >= 1.5 * static_cast<double>(options.piece_triangles);
 }
 
-FacePieces divide_face(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
-                       CoarseSizes& sizes, const SurfaceOptions& options) {
-  const geometry::Facets facets = support_facets(model, face, options);
-  FacePieces whole;
-  PieceSeed seed;
-  seed.support = build_support(model, face, curves, facets, seed.vertices);
-  seed.load = predict_triangles(seed.support, sizes.fine());
-  const bool heavy = options.decomposition == SurfaceDecomposition::pieces &&
-                     seed.load >= 1.5 * static_cast<double>(options.piece_triangles);
-  for (int halvings = 0; (heavy || options.divider) && halvings <= most_halvings; ++halvings) {
-    auto background = mesh_background(model, face, curves, facets, sizes.field(halvings),
-                                      sizes.factor(halvings), options);
-    if (background) return cut_face(model, std::move(*background), curves, sizes.fine(), options);
+SeedPieces divide_seed(const geometry::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
+                       const SurfaceOptions& options) {
+  const double parts = count_parts(seed, options);
+  const double factor = std::sqrt(seed.load / parts / triangles_per_piece);
+  const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
+  for (int at = power; at >= std::max(0, power - most_halvings); --at) {
+    auto background = mesh_background(model, seed, sizes.field(at), options);
+    if (background) {
+      return cut_seed(model, seed, std::move(*background), group, parts, sizes.fine(), options);
+    }
   }
+  SeedPieces whole;
   whole.seeds.push_back(std::move(seed));
   return whole;
 }

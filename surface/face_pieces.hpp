@@ -1,7 +1,10 @@
 /// From a CAD face to its pieces.
+///
+/// A piece that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
+/// twice: into about the square root of the number of pieces first, then each of these, by any rank. So no
+/// rank has more to do with a single face than a small part of it.
 #pragma once
 
-#include "surface/curves.hpp"
 #include "surface/piece_seed.hpp"
 #include "surface/surface_mesher.hpp"
 
@@ -9,32 +12,31 @@
 
 namespace aeroloom::surface {
 
-/// Sizes for background meshes: the fine ones, several times as large.
+/// Sizes for background meshes: the fine ones, a power of two times as large.
 class CoarseSizes {
 public:
-  /// The factor follows from the wanted triangles of a piece.
-  CoarseSizes(const sizing::SizeField& fine, double piece_triangles);
-  double factor(int halvings) const;
-  /// Halved so often; made when it is asked for first.
-  const sizing::SizeField& field(int halvings);
-  const sizing::SizeField& fine() const { return _fine; }
+  explicit CoarseSizes(const sizing::SizeField& fine) : _fields{fine} {}
+  /// The field 2^power times as large; made when it is asked for first.
+  const sizing::SizeField& field(int power);
+  const sizing::SizeField& fine() const { return _fields.front(); }
 
 private:
-  const sizing::SizeField& _fine;
-  double _factor;
   std::vector<sizing::SizeField> _fields;
 };
 
-struct FacePieces {
+struct SeedPieces {
   std::vector<PieceSeed> seeds;
-  std::vector<CutAngle> angles;  ///< where cuts end: on feature curves and where they meet
+  std::vector<CutAngle> angles;  ///< where cuts end: on loops and where they meet
 };
 
-/// The pieces of a face: the whole face as long as it is no heavier than a piece should be, else cut along a
-/// decomposition of its background mesh. Cuts are straightened, discretised once under the field, and lie on
-/// the CAD surface. A function of the arguments alone. Not collective. Throws SurfaceError or
-/// geometry::CadError.
-FacePieces divide_face(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
-                       CoarseSizes& sizes, const SurfaceOptions& options);
+/// Whether the seed is to be divided.
+bool is_heavy(const PieceSeed& seed, const SurfaceOptions& options);
+
+/// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,
+/// and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other divisions of
+/// the same face. Where no background mesh can be had, the seed stays whole. A function of the arguments
+/// alone. Not collective. Throws SurfaceError or geometry::CadError.
+SeedPieces divide_seed(const geometry::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
+                       const SurfaceOptions& options);
 
 }  // namespace aeroloom::surface

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace aeroloom::surface {
 namespace {
@@ -20,6 +21,8 @@ using sizing::SizeField;
 /// Triangles meshed in a second, about: what the time spent on dividing faces is worth when pieces are dealt
 /// out. And what a piece costs besides its triangles. No result depends on either.
 constexpr double triangles_per_second = 4e5, piece_overhead = 150;
+/// Of the time that meshing a heavy piece takes, its division takes about this part.
+constexpr double dividing_part = 0.1;
 
 std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
   std::vector<double> sizes(piece.vertex_count());
@@ -88,56 +91,52 @@ std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const Size
   return changed;
 }
 
-/// Divides faces on all ranks; the seeds stay where they were made.
-std::map<PiecePool::Key, PieceSeed> PiecePool::divide(const std::vector<FaceId>& faces,
-                                                      const CurveMesh& curves, const SizeField& field) {
-  std::map<Key, PieceSeed> seeds;
-  const double start = parallel::cpu_seconds();
+/// The faces as seeds, spread over the ranks.
+PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, const CurveMesh& curves,
+                                            const SizeField& field) {
+  Seeds seeds;
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const double start = parallel::cpu_seconds();
     std::vector<double> loads;
     for (const FaceId face : faces) {
-      // About the triangles that fit into a square of the perimeter; most are left to the pieces.
       const auto counts = edge_vertices(curves, face);
-      const double quarter = std::accumulate(counts.begin(), counts.end(), 0.0) / 4;
-      loads.push_back(1000 + 50 * quarter + 0.05 * quarter * quarter);
+      loads.push_back(50 + std::accumulate(counts.begin(), counts.end(), 0.0));
     }
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
-    CoarseSizes sizes(field, static_cast<double>(_options.piece_triangles));
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
-      const FaceId face = faces[task];
-      FacePieces pieces = divide_face(_model, face, curves, sizes, _options);
-      for (std::size_t i = 0; i < pieces.seeds.size(); ++i) {
-        seeds.emplace(Key{face, static_cast<std::int32_t>(i)}, std::move(pieces.seeds[i]));
-      }
-      _angles[face] = std::move(pieces.angles);
+      seeds.emplace(Key{faces[task], 0, 0}, seed_of_face(_model, faces[task], curves, field, _options));
     }
+    _divide_seconds += parallel::cpu_seconds() - start;
   });
-  _divide_seconds = parallel::cpu_seconds() - start;
   return seeds;
 }
 
-/// One row per piece, on every rank, by key.
-std::vector<PiecePool::Row> PiecePool::tabulate(const std::map<Key, PieceSeed>& seeds) {
+/// One row per seed, on every rank, by key.
+std::vector<PiecePool::Row> PiecePool::tabulate(const Seeds& seeds) const {
   std::vector<Row> rows;
-  for (const auto& [key, seed] : seeds) rows.push_back({key, seed.load});
+  for (const auto& [key, seed] : seeds) {
+    rows.push_back({key, seed.load, static_cast<double>(seed.support.triangles.size())});
+  }
   rows = _communicator.all_gather_items<Row>(rows);
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
-  for (const Row& row : rows) _parts[row.key[0]] = row.key[1] + 1;
   return rows;
 }
 
-/// Sends the seeds to the ranks that mesh them.
-std::map<PiecePool::Key, PieceSeed> PiecePool::deal_out(std::map<Key, PieceSeed> seeds,
-                                                        const std::vector<Row>& rows) {
-  std::vector<double> loads, burdens;
-  for (const Row& row : rows) loads.push_back(row.load + piece_overhead);
-  const std::vector<double> spent{_divide_seconds};
-  for (const double seconds : _communicator.all_gather_items<double>(spent)) {
-    burdens.push_back(seconds * triangles_per_second);
+/// What each rank has done in this round so far, in triangles meshed.
+std::vector<double> PiecePool::burdens() const {
+  std::vector<double> result;
+  const std::vector<double> mine{_divide_seconds};
+  for (const double seconds : _communicator.all_gather_items<double>(mine)) {
+    result.push_back(seconds * triangles_per_second);
   }
-  const auto owners = parallel::assign_largest_first(loads, burdens);
-  std::map<Key, PieceSeed> here;
+  return result;
+}
+
+/// Sends seeds to their owners, by row.
+PiecePool::Seeds PiecePool::deal_out(Seeds seeds, const std::vector<Row>& rows,
+                                     const std::vector<parallel::Rank>& owners) const {
+  Seeds here;
   std::map<parallel::Rank, parallel::Packer> leaving;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto at = seeds.find(rows[i].key);
@@ -161,14 +160,68 @@ std::map<PiecePool::Key, PieceSeed> PiecePool::deal_out(std::map<Key, PieceSeed>
   return here;
 }
 
-Conflicts PiecePool::mesh_seeds(const std::map<Key, PieceSeed>& seeds, const CurveMesh& curves,
-                                const SizeField& field) {
+/// Deals out the seeds and divides those that are too heavy; the parts stay where they were made.
+PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& sizes) {
+  const bool by_divider = _options.divider != nullptr && level == 1;
+  const auto is_divided = [&](double load) {
+    PieceSeed probe;
+    probe.load = load;
+    return by_divider || (!_options.divider && is_heavy(probe, _options));
+  };
+  const std::vector<Row> rows = tabulate(seeds);
+  if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return is_divided(row.load); })) {
+    return seeds;
+  }
+  std::vector<double> loads;
+  for (const Row& row : rows) loads.push_back(is_divided(row.load) ? dividing_part * row.load : 0);
+  auto owners = parallel::assign_largest_first(loads, burdens());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    // What is not divided stays with whoever has it.
+    if (!is_divided(rows[i].load)) owners[i] = _communicator.rank();
+  }
+  seeds = deal_out(std::move(seeds), rows, owners);
+  Seeds divided;
+  parallel::agree(_communicator, [&] {
+    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const double start = parallel::cpu_seconds();
+    for (auto& [key, seed] : seeds) {
+      if (!is_divided(seed.load)) {
+        divided.emplace(key, std::move(seed));
+        continue;
+      }
+      const std::int32_t group = level == 1 ? 0 : key[1] + 1;
+      SeedPieces pieces = divide_seed(_model, std::move(seed), group, sizes, _options);
+      for (std::size_t i = 0; i < pieces.seeds.size(); ++i) {
+        Key part = key;
+        part[level] = static_cast<std::int32_t>(i);
+        divided.emplace(part, std::move(pieces.seeds[i]));
+      }
+      _angles[key] = std::move(pieces.angles);
+    }
+    _divide_seconds += parallel::cpu_seconds() - start;
+  });
+  return divided;
+}
+
+/// From faces to the seeds of pieces.
+PiecePool::Seeds PiecePool::divide(const std::vector<FaceId>& faces, const CurveMesh& curves,
+                                   const SizeField& field) {
+  _divide_seconds = 0;
+  Seeds seeds = make_face_seeds(faces, curves, field);
+  CoarseSizes sizes(field);
+  for (const int level : {1, 2}) seeds = divide_heavy(std::move(seeds), level, sizes);
+  return seeds;
+}
+
+Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
+                                const CurveMesh& curves, const SizeField& field) {
   Conflicts conflicts;
   parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()));
   for (const auto& [key, seed] : seeds) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     try {
-      Meshed meshed{mesh_piece(_model, seed, field, _options), {}, edge_vertices(curves, key[0]), seed.load};
+      Meshed meshed{mesh_piece(_model, seed, field, _options), {}, edge_vertices(curves, key[0]), seed.load,
+                    places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
@@ -186,12 +239,21 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   std::erase_if(_meshed, [&](const auto& entry) {
     return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
   });
-  for (const FaceId face : faces) _angles.erase(face);
-  std::map<Key, PieceSeed> seeds = divide(faces, curves, field);
+  std::erase_if(_angles, [&](const auto& entry) {
+    return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
+  });
+  Seeds seeds = divide(faces, curves, field);
   const std::vector<Row> rows = tabulate(seeds);
-  seeds = deal_out(std::move(seeds), rows);
+  for (const FaceId face : faces) _parts[face] = 0;
+  std::vector<double> loads;
+  std::map<Key, std::int32_t> places;
+  for (const Row& row : rows) {
+    places[row.key] = _parts[row.key[0]]++;
+    loads.push_back(row.load + piece_overhead + row.facets);
+  }
+  seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, burdens()));
   Conflicts conflicts;
-  parallel::agree(_communicator, [&] { conflicts = mesh_seeds(seeds, curves, field); });
+  parallel::agree(_communicator, [&] { conflicts = mesh_seeds(seeds, places, curves, field); });
   return conflicts;
 }
 
@@ -212,17 +274,19 @@ mesh::DistributedMesh PiecePool::assemble() const {
   }
   for (const auto& [key, meshed] : _meshed) {
     surface.pieces.push_back(meshed.piece);
-    surface.pieces.back().id = first[key[0]] + key[1];
+    surface.pieces.back().id = first[key[0]] + meshed.place;
   }
   return surface;
 }
 
 std::vector<CutAngle> PiecePool::cut_angles() const {
   std::vector<CutAngle> mine;
-  for (const auto& [face, angles] : _angles) mine.insert(mine.end(), angles.begin(), angles.end());
+  for (const auto& [key, angles] : _angles) mine.insert(mine.end(), angles.begin(), angles.end());
   std::vector<CutAngle> all = _communicator.all_gather_items<CutAngle>(mine);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const CutAngle& a, const CutAngle& b) { return a.face < b.face; });
+  std::sort(all.begin(), all.end(), [](const CutAngle& a, const CutAngle& b) {
+    return std::tie(a.face, a.degrees, a.point.x, a.point.y, a.point.z) <
+           std::tie(b.face, b.degrees, b.point.x, b.point.y, b.point.z);
+  });
   return all;
 }
 

@@ -37,29 +37,37 @@ public:
   std::int64_t divided_faces() const;
 
 private:
-  /// A piece is named by its face and its place among the pieces of that face.
-  using Key = std::array<std::int32_t, 2>;
+  /// A piece is named by its face, its place among the parts that the face was cut into, and its place among
+  /// those that such a part was cut into.
+  using Key = std::array<std::int32_t, 3>;
+  using Seeds = std::map<Key, PieceSeed>;
   struct Meshed {
     mesh::Piece piece;
     std::vector<double> vertex_sizes;         // to see whether it has to be made again
     std::vector<std::int32_t> edge_vertices;  // on each edge use of its face
     double load;
+    std::int32_t place;  // among the pieces of its face
   };
   struct Row {
     Key key;
-    double load;
+    double load;    // predicted triangles
+    double facets;  // of the support
   };
 
   bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, geometry::FaceId face,
                     const Meshed& meshed) const;
   std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, geometry::FaceId face) const;
   std::vector<geometry::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
-  std::map<Key, PieceSeed> divide(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
-                                  const sizing::SizeField& field);
-  std::vector<Row> tabulate(const std::map<Key, PieceSeed>& seeds);
-  std::map<Key, PieceSeed> deal_out(std::map<Key, PieceSeed> seeds, const std::vector<Row>& rows);
-  Conflicts mesh_seeds(const std::map<Key, PieceSeed>& seeds, const CurveMesh& curves,
-                       const sizing::SizeField& field);
+  Seeds divide(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
+               const sizing::SizeField& field);
+  Seeds make_face_seeds(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
+                        const sizing::SizeField& field);
+  Seeds divide_heavy(Seeds seeds, int level, CoarseSizes& sizes);
+  std::vector<Row> tabulate(const Seeds& seeds) const;
+  std::vector<double> burdens() const;
+  Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
+  Conflicts mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
+                       const CurveMesh& curves, const sizing::SizeField& field);
 
   const parallel::Communicator& _communicator;
   const geometry::Model& _model;
@@ -68,8 +76,8 @@ private:
   bool _started = false;
   std::vector<std::int32_t> _parts;                       // per face, 0: not divided yet
   std::map<Key, Meshed> _meshed;                          // on this rank
-  std::map<geometry::FaceId, std::vector<CutAngle>> _angles;  // of faces divided on this rank
-  double _divide_seconds = 0;
+  std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
+  double _divide_seconds = 0;  // on this rank, in this round
 };
 
 }  // namespace aeroloom::surface
