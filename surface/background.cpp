@@ -1,5 +1,6 @@
 #include "surface/background.hpp"
 
+#include "surface/boundary_thinning.hpp"
 #include "surface/support_mesher.hpp"
 #include "surface/support_topology.hpp"
 
@@ -197,12 +198,15 @@ private:
 
 /// The seed without the vertices on loops that the background does without. `on_loops` receives the vertices
 /// that stay.
-PieceSeed thin_out(const PieceSeed& seed, const CoarseLoops& loops, std::vector<std::int32_t>& on_loops) {
-  std::vector<std::int32_t> number(seed.vertices.points.size(), -1);
-  for (const CoarseSegment& segment : loops.segments) number[segment.from] = number[segment.to] = 0;
+PieceSeed thin_out(const Model& model, const PieceSeed& seed, const CoarseLoops& loops,
+                   std::vector<std::int32_t>& on_loops) {
+  std::vector<char> keep(seed.vertices.points.size(), 0);
+  for (const CoarseSegment& segment : loops.segments) keep[segment.from] = keep[segment.to] = 1;
   PieceSeed thin{seed.support, {}, seed.load};
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
+  drop_boundary_vertices(model, keep, thin.support);
+  std::vector<std::int32_t> number(keep.size(), -1);
+  for (std::size_t v = 0; v < keep.size(); ++v) {
+    if (!keep[v]) continue;
     number[v] = static_cast<std::int32_t>(on_loops.size());
     on_loops.push_back(static_cast<std::int32_t>(v));
     thin.vertices.points.push_back(seed.vertices.points[v]);
@@ -210,7 +214,6 @@ PieceSeed thin_out(const PieceSeed& seed, const CoarseLoops& loops, std::vector<
     thin.vertices.tokens.push_back(seed.vertices.tokens[v]);
   }
   for (std::int32_t& v : thin.support.mesh_vertex) v = v < 0 ? -1 : number[v];
-  thin.support.loop_edges = trace_loop_edges(thin.support, match_half_edges(thin.support.triangles));
   return thin;
 }
 
@@ -220,7 +223,7 @@ std::optional<Background> mesh_background(const Model& model, const PieceSeed& s
                                           const sizing::SizeField& coarse, const SurfaceOptions& options) {
   Background background;
   background.loops = coarsen_loops(seed, coarse, largest_turn);
-  PieceSeed thin = thin_out(seed, background.loops, background.on_loops);
+  PieceSeed thin = thin_out(model, seed, background.loops, background.on_loops);
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .largest_turn = largest_turn,
                                .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
@@ -228,6 +231,8 @@ std::optional<Background> mesh_background(const Model& model, const PieceSeed& s
     background.mesh =
         mesh_support(model, coarse, std::move(thin.support), std::move(thin.vertices), meshing);
   } catch (const FaceConflict&) {
+    return std::nullopt;
+  } catch (const SurfaceError&) {  // no chart under these sizes
     return std::nullopt;
   }
   return background;

@@ -20,7 +20,7 @@ struct Background {
 };
 
 /// Meshes the piece under `coarse` sizes; an edge turns by at most 30 degrees. Nothing where it has no such
-/// mesh: its loops cross when they are as coarse as that. Not collective. Throws SurfaceError or
+/// mesh: its loops cross, or no chart holds it, when they are as coarse as that. Not collective. Throws
 /// geometry::CadError.
 std::optional<Background> mesh_background(const geometry::Model& model, const PieceSeed& seed,
                                           const sizing::SizeField& coarse, const SurfaceOptions& options);

@@ -110,9 +110,9 @@ const sizing::SizeField& CoarseSizes::field(int power) {
   return _fields[power];
 }
 
-bool is_heavy(const PieceSeed& seed, const SurfaceOptions& options) {
+bool is_heavy(double load, const SurfaceOptions& options) {
   return options.decomposition == SurfaceDecomposition::pieces &&
-         seed.load >= 1.5 * static_cast<double>(options.piece_triangles);
+         load >= 1.5 * static_cast<double>(options.piece_triangles);
 }
 
 SeedPieces divide_seed(const geometry::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,

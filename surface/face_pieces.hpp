@@ -29,8 +29,8 @@ struct SeedPieces {
   std::vector<CutAngle> angles;  ///< where cuts end: on loops and where they meet
 };
 
-/// Whether the seed is to be divided.
-bool is_heavy(const PieceSeed& seed, const SurfaceOptions& options);
+/// Whether a seed of this load is to be divided.
+bool is_heavy(double load, const SurfaceOptions& options);
 
 /// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,
 /// and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other divisions of

@@ -38,7 +38,8 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const geometry:
       _model(model),
       _options(options),
       _clock(clock),
-      _parts(model.face_count(), 0) {}
+      _parts(model.face_count(), 0),
+      _whole(model.face_count(), 0) {}
 
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
@@ -160,24 +161,32 @@ PiecePool::Seeds PiecePool::deal_out(Seeds seeds, const std::vector<Row>& rows,
   return here;
 }
 
+bool PiecePool::is_to_divide(const Row& row, int level) const {
+  if (_whole[row.key[0]]) return false;
+  return _options.divider ? level == 1 : is_heavy(row.load, _options);
+}
+
+void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
+  for (const FaceId face : faces) {
+    _whole[face] = 1;
+    _parts[face] = 0;
+  }
+}
+
 /// Deals out the seeds and divides those that are too heavy; the parts stay where they were made.
 PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& sizes) {
-  const bool by_divider = _options.divider != nullptr && level == 1;
-  const auto is_divided = [&](double load) {
-    PieceSeed probe;
-    probe.load = load;
-    return by_divider || (!_options.divider && is_heavy(probe, _options));
-  };
   const std::vector<Row> rows = tabulate(seeds);
-  if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return is_divided(row.load); })) {
+  if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return is_to_divide(row, level); })) {
     return seeds;
   }
   std::vector<double> loads;
-  for (const Row& row : rows) loads.push_back(is_divided(row.load) ? dividing_part * row.load : 0);
+  for (const Row& row : rows) {
+    loads.push_back(is_to_divide(row, level) ? dividing_part * row.load : 0);
+  }
   auto owners = parallel::assign_largest_first(loads, burdens());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // What is not divided stays with whoever has it.
-    if (!is_divided(rows[i].load)) owners[i] = _communicator.rank();
+    if (!is_to_divide(rows[i], level)) owners[i] = _communicator.rank();
   }
   seeds = deal_out(std::move(seeds), rows, owners);
   Seeds divided;
@@ -185,7 +194,7 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& si
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     const double start = parallel::cpu_seconds();
     for (auto& [key, seed] : seeds) {
-      if (!is_divided(seed.load)) {
+      if (!is_to_divide({key, seed.load, 0}, level)) {
         divided.emplace(key, std::move(seed));
         continue;
       }
@@ -226,7 +235,16 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
       if (conflicts.complaint.empty()) conflicts.complaint = conflict.what();
-      conflicts.remedies.insert(conflicts.remedies.end(), conflict.remedy().begin(), conflict.remedy().end());
+      if (is_divided(key[0])) {
+        conflicts.undivided.push_back(key[0]);
+      } else {
+        conflicts.remedies.insert(conflicts.remedies.end(), conflict.remedy().begin(),
+                                  conflict.remedy().end());
+      }
+    } catch (const SurfaceError& error) {
+      if (!is_divided(key[0])) throw;
+      if (conflicts.complaint.empty()) conflicts.complaint = error.what();
+      conflicts.undivided.push_back(key[0]);
     }
     progress.advance();
   }

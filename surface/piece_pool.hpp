@@ -14,10 +14,11 @@
 
 namespace aeroloom::surface {
 
-/// Where sizes have to fall before meshing can succeed.
+/// What has to change before meshing can succeed.
 struct Conflicts {
-  std::vector<sizing::SizeSource> remedies;
-  std::string complaint;  ///< about the first one; empty: none
+  std::vector<sizing::SizeSource> remedies;  ///< where sizes have to fall
+  std::vector<geometry::FaceId> undivided;   ///< faces that had better stay whole
+  std::string complaint;                     ///< about the first one; empty: none
 };
 
 class PiecePool {
@@ -28,6 +29,10 @@ public:
   /// Meshes every face whose curves or sizes are not those of the round before. Collective. Conflicts are
   /// those of this rank.
   Conflicts mesh(const CurveMesh& curves, const sizing::SizeField& field);
+  /// Whether a face is cut into pieces; known on every rank.
+  bool is_divided(geometry::FaceId face) const { return _parts[face] > 1; }
+  /// From the next round on, these faces are one piece each. The same on every rank.
+  void leave_whole(const std::vector<geometry::FaceId>& faces);
   /// The pieces as a mesh; all faces must be meshed.
   mesh::DistributedMesh assemble() const;
   /// The angles where cuts end, by face; the same on every rank. Collective.
@@ -63,6 +68,7 @@ private:
   Seeds make_face_seeds(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
                         const sizing::SizeField& field);
   Seeds divide_heavy(Seeds seeds, int level, CoarseSizes& sizes);
+  bool is_to_divide(const Row& row, int level) const;
   std::vector<Row> tabulate(const Seeds& seeds) const;
   std::vector<double> burdens() const;
   Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
@@ -74,7 +80,8 @@ private:
   const SurfaceOptions& _options;
   parallel::StageClock& _clock;
   bool _started = false;
-  std::vector<std::int32_t> _parts;                       // per face, 0: not divided yet
+  std::vector<std::int32_t> _parts;                       // per face: pieces, 0 before it is divided
+  std::vector<char> _whole;                               // per face: 1 where it must not be divided
   std::map<Key, Meshed> _meshed;                          // on this rank
   std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
   double _divide_seconds = 0;  // on this rank, in this round

@@ -26,16 +26,23 @@ std::vector<geometry::FaceId> faces_of_pieces(const parallel::Communicator& comm
   return faces;
 }
 
-/// Where triangles of the whole surface intersect, half the size there is asked for. Collective, the same on
-/// every rank.
+/// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
+/// pieces make intersect is left whole. Collective, the same on every rank.
 Conflicts find_conflicts(const parallel::Communicator& communicator, const geometry::Model& model,
-                         const SizeField& field, const mesh::DistributedMesh& surface,
+                         const SizeField& field, const mesh::DistributedMesh& surface, const PiecePool& pool,
                          parallel::StageClock& clock) {
   Conflicts conflicts;
   const std::vector<TriangleHit> hits = find_intersections(communicator, surface, clock);
-  for (const TriangleHit& hit : hits) conflicts.remedies.push_back({hit.center, 0.5 * field(hit.center)});
   if (hits.empty()) return conflicts;
   const std::vector<geometry::FaceId> faces = faces_of_pieces(communicator, surface);
+  for (const TriangleHit& hit : hits) {
+    const geometry::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
+    if (first == second && pool.is_divided(first)) {
+      conflicts.undivided.push_back(first);
+    } else {
+      conflicts.remedies.push_back({hit.center, 0.5 * field(hit.center)});
+    }
+  }
   const TriangleHit& first = hits.front();
   conflicts.complaint = fmt::format(
       "triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there",
@@ -48,6 +55,7 @@ Conflicts find_conflicts(const parallel::Communicator& communicator, const geome
 Conflicts share(const parallel::Communicator& communicator, const Conflicts& mine) {
   Conflicts all;
   all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
+  all.undivided = communicator.all_gather_items<geometry::FaceId>(mine.undivided);
   const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
   for (const parallel::Bytes& text : texts) {
     if (all.complaint.empty()) all.complaint.assign(reinterpret_cast<const char*>(text.data()), text.size());
@@ -75,15 +83,16 @@ SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geome
     if (conflicts.complaint.empty()) {
       result.mesh = pool.assemble();
       result.report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
-      conflicts = find_conflicts(communicator, model, result.field, result.mesh, clock);
+      conflicts = find_conflicts(communicator, model, result.field, result.mesh, pool, clock);
     }
     if (conflicts.complaint.empty()) break;
-    if (result.report.mending_rounds == options.mending_rounds || conflicts.remedies.empty()) {
-      give_up(conflicts, options);
-    }
-    parallel::log_verbose(fmt::format("surface: {}; sizes fall there ({} places)", conflicts.complaint,
-                                      conflicts.remedies.size()));
-    result.field = result.field.refined(conflicts.remedies);
+    const bool can_go_on = !conflicts.remedies.empty() || !conflicts.undivided.empty();
+    if (result.report.mending_rounds == options.mending_rounds || !can_go_on) give_up(conflicts, options);
+    parallel::log_verbose(fmt::format("surface: {}; sizes fall in {} places, {} faces stay whole",
+                                      conflicts.complaint, conflicts.remedies.size(),
+                                      conflicts.undivided.size()));
+    pool.leave_whole(conflicts.undivided);
+    if (!conflicts.remedies.empty()) result.field = result.field.refined(conflicts.remedies);
   }
   for (const mesh::Piece& piece : result.mesh.pieces) result.report.triangles += piece.cell_count();
   result.report.triangles = communicator.sum(result.report.triangles);
