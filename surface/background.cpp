@@ -19,6 +19,8 @@ using geometry::Vec3;
 constexpr double degree = std::numbers::pi / 180;
 /// Of curves and of the surface along an edge of the background.
 constexpr double largest_turn = 30 * degree;
+/// But no edge is shorter than so many fine ones for that.
+constexpr double fine_edges = 2;
 constexpr int smoothing_sweeps = 3;
 /// Facets of the support turn less than this: edges between points whose normals differ by more are divided,
 /// in so many rounds.
@@ -220,12 +222,14 @@ PieceSeed thin_out(const Model& model, const PieceSeed& seed, const CoarseLoops&
 }  // namespace
 
 std::optional<Background> mesh_background(const Model& model, const PieceSeed& seed,
-                                          const sizing::SizeField& coarse, const SurfaceOptions& options) {
+                                          const sizing::SizeField& coarse, double factor,
+                                          const SurfaceOptions& options) {
   Background background;
   background.loops = coarsen_loops(seed, coarse, largest_turn);
   PieceSeed thin = thin_out(model, seed, background.loops, background.on_loops);
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .largest_turn = largest_turn,
+                               .least_part = std::min(1.0, fine_edges / factor),
                                .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
     background.mesh =

@@ -19,11 +19,12 @@ struct Background {
   CoarseLoops loops;
 };
 
-/// Meshes the piece under `coarse` sizes; an edge turns by at most 30 degrees. Nothing where it has no such
+/// Meshes the piece under `coarse` sizes, `factor` times the fine ones; an edge turns by at most 30 degrees. Nothing where it has no such
 /// mesh: its loops cross, or no chart holds it, when they are as coarse as that. Not collective. Throws
 /// geometry::CadError.
 std::optional<Background> mesh_background(const geometry::Model& model, const PieceSeed& seed,
-                                          const sizing::SizeField& coarse, const SurfaceOptions& options);
+                                          const sizing::SizeField& coarse, double factor,
+                                          const SurfaceOptions& options);
 
 /// The background as a support: parameters at triangle corners, the fine vertices on its loops (numbered as
 /// those of the seed), and facets that follow the surface. `part` per triangle is kept up.

@@ -121,7 +121,7 @@ SeedPieces divide_seed(const geometry::Model& model, PieceSeed seed, std::int32_
   const double factor = std::sqrt(seed.load / parts / triangles_per_piece);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
   for (int at = power; at >= std::max(0, power - most_halvings); --at) {
-    auto background = mesh_background(model, seed, sizes.field(at), options);
+    auto background = mesh_background(model, seed, sizes.field(at), std::ldexp(1.0, at), options);
     if (background) {
       return cut_seed(model, seed, std::move(*background), group, parts, sizes.fine(), options);
     }

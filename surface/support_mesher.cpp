@@ -125,20 +125,22 @@ std::vector<double> turning_lengths(const geometry::Model& model, const Support&
 class ChartSizes {
 public:
   ChartSizes(const geometry::Model& model, const sizing::SizeField& field, const Chart& chart,
-             const ChartLocator& locator, double largest_turn)
-      : _field(field), _chart(chart), _locator(locator) {
-    if (largest_turn > 0 && !model.is_planar(chart.support.face)) {
-      _turning = turning_lengths(model, chart.support, largest_turn);
+             const ChartLocator& locator, const SupportMeshing& options)
+      : _field(field), _chart(chart), _locator(locator), _least_part(options.least_part) {
+    if (options.largest_turn > 0 && !model.is_planar(chart.support.face)) {
+      _turning = turning_lengths(model, chart.support, options.largest_turn);
     }
   }
 
   double operator()(Vec2 point, std::int32_t& hint) const {
     const ChartPoint at = _locator.locate(point, hint);
-    double size = _field(at.point);
+    const double asked = _field(at.point);
+    double size = asked;
     if (!_turning.empty()) {
       for (const std::int32_t corner : _chart.support.triangles[at.triangle]) {
         size = std::min(size, _turning[corner]);
       }
+      size = std::max(size, _least_part * asked);
     }
     return size * _locator.scale(at);
   }
@@ -147,17 +149,18 @@ private:
   const sizing::SizeField& _field;
   const Chart& _chart;
   const ChartLocator& _locator;
+  double _least_part;
   std::vector<double> _turning;  // per support point; empty: any
 };
 
 /// Appends the triangles of one chart to the mesh of the piece. Points the front placed return to the CAD
 /// surface.
 void fill_chart(const geometry::Model& model, const sizing::SizeField& field, const Chart& chart,
-                const FaceVertices& vertices, double largest_turn, FaceMesh& mesh) {
+                const FaceVertices& vertices, const SupportMeshing& options, FaceMesh& mesh) {
   const geometry::FaceId face = chart.support.face;
   const ChartBoundary boundary = boundary_of(chart);
   const ChartLocator locator(chart);
-  const ChartSizes sizes(model, field, chart, locator, largest_turn);
+  const ChartSizes sizes(model, field, chart, locator, options);
   FrontResult filled;
   try {
     filled = fill_front(boundary.input,
@@ -190,7 +193,7 @@ FaceMesh mesh_support(const geometry::Model& model, const sizing::SizeField& fie
       make_charts(model, field, std::move(support), {.spread = options.chart_spread}, vertices);
   mesh.points = vertices.points;
   mesh.uv = vertices.uv;
-  for (const Chart& chart : charts) fill_chart(model, field, chart, vertices, options.largest_turn, mesh);
+  for (const Chart& chart : charts) fill_chart(model, field, chart, vertices, options, mesh);
   remesh_interior(model, field, options.remeshing, mesh);
   return mesh;
 }
