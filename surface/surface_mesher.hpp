@@ -28,7 +28,7 @@ struct SurfaceOptions {
   SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
   std::int64_t piece_triangles = 50'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
-  FaceDivider divider;    ///< cuts every face this way instead; empty: by load
+  FaceDivider divider = {};  ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
   double chart_spread =
       60;  ///< degrees normals of one chart may spread from their axis before the chart is split

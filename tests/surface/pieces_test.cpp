@@ -1,0 +1,253 @@
+/// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
+#include "surface/piece_pool.hpp"
+
+#include "geometry/primitives.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "surface/coarse_loops.hpp"
+#include "surface/face_mesher.hpp"
+#include "surface/surface_mesher.hpp"
+#include "tests/surface/face_fixture.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::make_primitive_domain;
+using geometry::PrimitiveKind;
+using geometry::Vec3;
+using parallel::Communicator;
+using testing::graded_field;
+using testing::uniform_field;
+
+struct Meshed {
+  SurfaceMesh surface;
+  mesh::Numbering numbering;
+};
+
+Meshed mesh_model(const Communicator& communicator, const geometry::Model& model,
+                  const sizing::SizeField& field, const SurfaceOptions& options) {
+  parallel::StageClock clock;
+  SurfaceMesh surface = mesh_surface(communicator, model, field, options, clock);
+  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  return {std::move(surface), std::move(numbering)};
+}
+
+std::string hash_of(const Communicator& communicator, const Meshed& meshed) {
+  return mesh::hash_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+}
+
+void expect_valid(const Communicator& communicator, const Meshed& meshed) {
+  const auto report = mesh::check_surface_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+  EXPECT_TRUE(report.valid()) << report.violations.front();
+}
+
+/// Mean ratios of the triangles with a vertex on a cut, and of the others.
+struct Seam {
+  double count[2] = {0, 0}, mean[2] = {0, 0}, worst[2] = {1, 1};
+};
+
+Seam measure_seam(const Communicator& communicator, const mesh::DistributedMesh& surface) {
+  Seam seam;
+  for (const mesh::Piece& piece : surface.pieces) {
+    std::vector<char> on_cut(piece.vertex_count(), 0);
+    for (std::size_t i = 0; i < piece.shared_vertices.size(); ++i) {
+      on_cut[piece.shared_vertices[i]] = is_cut_token(piece.shared_tokens[i]);
+    }
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const int k = on_cut[v[0]] || on_cut[v[1]] || on_cut[v[2]];
+      const double ratio = mesh::triangle_mean_ratio(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]));
+      seam.count[k] += 1;
+      seam.mean[k] += ratio;
+      seam.worst[k] = std::min(seam.worst[k], ratio);
+    }
+  }
+  for (int k = 0; k < 2; ++k) {
+    seam.count[k] = communicator.sum(seam.count[k]);
+    seam.mean[k] = communicator.sum(seam.mean[k]) / std::max(1.0, seam.count[k]);
+    seam.worst[k] = communicator.minimum(seam.worst[k]);
+  }
+  return seam;
+}
+
+struct Shape {
+  const char* name;
+  PrimitiveKind kind;
+  double size;
+  bool graded;
+};
+
+void PrintTo(const Shape& shape, std::ostream* out) {
+  *out << shape.name;
+}
+
+class Pieces : public ::testing::TestWithParam<Shape> {
+protected:
+  geometry::Model model = make_primitive_domain(GetParam().kind);
+  sizing::SizeField field = GetParam().graded
+                                ? graded_field(model, {0.25, 0, 0}, 0.4 * GetParam().size, GetParam().size)
+                                : uniform_field(model, GetParam().size);
+  SurfaceOptions options{.piece_triangles = 300};
+};
+
+TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
+  const Communicator world = Communicator::world();
+  const Meshed meshed = mesh_model(world, model, field, options);
+  expect_valid(world, meshed);
+  EXPECT_GE(meshed.surface.mesh.piece_count, 16);
+  EXPECT_EQ(meshed.surface.report.mending_rounds, 0);
+  EXPECT_LT(meshed.surface.report.load_error_90, 0.15);
+  ASSERT_FALSE(meshed.surface.report.cut_angles.empty());
+  for (const CutAngle& angle : meshed.surface.report.cut_angles) {
+    EXPECT_GE(angle.degrees, 30) << "near " << angle.point.x << ", " << angle.point.y << ", " << angle.point.z;
+  }
+  const Seam seam = measure_seam(world, meshed.surface.mesh);
+  EXPECT_GT(seam.count[1], 100);
+  EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
+  EXPECT_GE(seam.worst[1], 0.6);
+  const auto quality = mesh::summarise_quality(world, meshed.surface.mesh, meshed.numbering);
+  EXPECT_GT(quality.min_dihedral.minimum, 20);
+  EXPECT_GT(quality.mean_ratio.mean, 0.95);
+}
+
+TEST_P(Pieces, AreTheSameOnAnyNumberOfRanks) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  EXPECT_EQ(hash_of(world, mesh_model(world, model, field, options)),
+            hash_of(self, mesh_model(self, model, field, options)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Pieces,
+                         ::testing::Values(Shape{"sphere", PrimitiveKind::sphere, 0.014, false},
+                                           Shape{"graded_sphere", PrimitiveKind::sphere, 0.018, true},
+                                           Shape{"torus", PrimitiveKind::torus, 0.04, false},
+                                           Shape{"cylinder", PrimitiveKind::cylinder, 0.03, false},
+                                           Shape{"box", PrimitiveKind::box, 0.04, false}));
+
+/// Very heavy faces are cut twice; the second cuts end on the first ones.
+TEST(DividedTwice, HasNoSeamEither) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  const geometry::Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const sizing::SizeField field = uniform_field(model, 0.008);
+  const SurfaceOptions options{.piece_triangles = 500};
+  const Meshed meshed = mesh_model(world, model, field, options);
+  expect_valid(world, meshed);
+  EXPECT_GT(meshed.surface.mesh.piece_count, 40);
+  for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
+  const Seam seam = measure_seam(world, meshed.surface.mesh);
+  EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
+  EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options)));
+}
+
+/// The stage takes cuts whoever asks for them: here a box that the surface reaches into.
+TEST(ImposedCuts, FollowABox) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::torus, PrimitiveKind::cylinder}) {
+    const geometry::Model model = make_primitive_domain(kind);
+    const sizing::SizeField field = uniform_field(model, 0.03);
+    SurfaceOptions options{.piece_triangles = 1'000'000};
+    const auto is_inside = [](Vec3 p) { return p.x > -0.1 && p.y > -0.05 && p.z > -0.12; };
+    options.divider = [&](geometry::FaceId, const partition::BackgroundSurface& surface) {
+      std::vector<std::int32_t> part;
+      for (const auto& [a, b, c] : surface.triangles) {
+        part.push_back(is_inside((surface.points[a] + surface.points[b] + surface.points[c]) / 3.0) ? 1 : 0);
+      }
+      return part;
+    };
+    const Meshed meshed = mesh_model(world, model, field, options);
+    expect_valid(world, meshed);
+    EXPECT_GT(meshed.surface.mesh.piece_count, model.face_count());
+    EXPECT_GT(meshed.surface.report.divided_faces, 0);
+    EXPECT_GT(measure_seam(world, meshed.surface.mesh).count[1], 50);
+    EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options)));
+  }
+}
+
+TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
+  const Communicator world = Communicator::world();
+  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const SurfaceOptions options{.decomposition = SurfaceDecomposition::faces, .piece_triangles = 100};
+  const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.03), options);
+  EXPECT_EQ(meshed.surface.mesh.piece_count, model.face_count());
+  EXPECT_EQ(meshed.surface.report.divided_faces, 0);
+  EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
+}
+
+PieceSeed side_of_cylinder(const geometry::Model& model, const sizing::SizeField& field) {
+  parallel::StageClock clock;
+  const CurveMesh curves = discretise_curves(Communicator::self(), model, field, clock);
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    if (!model.is_planar(f)) return seed_of_face(model, f, curves, field, {});
+  }
+  throw std::logic_error("a cylinder without a side");
+}
+
+TEST(CoarseLoops, KeepASubsetInOrder) {
+  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const sizing::SizeField field = uniform_field(model, 0.02);
+  const PieceSeed seed = side_of_cylinder(model, field);
+  const auto fine = static_cast<std::size_t>(std::round(2 * std::numbers::pi * 0.25 / 0.02));
+  ASSERT_NEAR(seed.support.loop_edges.size(), 2 * fine, 2);
+  const CoarseLoops by_size = coarsen_loops(seed, field.scaled(4), std::numbers::pi);
+  EXPECT_NEAR(by_size.segments.size(), fine / 2, 2);
+  const CoarseLoops by_turn = coarsen_loops(seed, field.scaled(1000), 30 * std::numbers::pi / 180);
+  EXPECT_GE(by_turn.segments.size(), 24u);
+  EXPECT_LE(by_turn.segments.size(), 30u);
+  for (const CoarseLoops& loops : {by_size, by_turn}) {
+    std::set<std::int32_t> seen(loops.inside.begin(), loops.inside.end());
+    EXPECT_EQ(seen.size(), loops.inside.size());
+    for (const CoarseSegment& segment : loops.segments) {
+      seen.insert(segment.from);
+      EXPECT_EQ(loops.find(segment.to, segment.from), loops.find(segment.from, segment.to));
+      // What lies between comes in order along the circle: every step is a fine edge.
+      std::int32_t last = segment.from;
+      const auto step = [&](std::int32_t v) {
+        EXPECT_LT(distance(seed.vertices.points[last], seed.vertices.points[v]), 0.025);
+        last = v;
+      };
+      for (std::int32_t i = segment.begin; i < segment.end; ++i) step(loops.inside[i]);
+      step(segment.to);
+    }
+    EXPECT_EQ(seen.size(), seed.vertices.points.size());
+  }
+  EXPECT_EQ(by_size.find(-1, 0), nullptr);
+}
+
+TEST(PieceSeeds, TravelBitForBit) {
+  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const sizing::SizeField field = uniform_field(model, 0.1);
+  const PieceSeed seed = side_of_cylinder(model, field);
+  const PieceSeed copy = unpack_seed(pack_seed(seed));
+  EXPECT_EQ(pack_seed(copy), pack_seed(seed));
+  EXPECT_EQ(pack_piece(mesh_piece(model, copy, field, {})), pack_piece(mesh_piece(model, seed, field, {})));
+}
+
+TEST(Tokens, NameVerticesOfCurvesAndCuts) {
+  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  parallel::StageClock clock;
+  const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1), clock);
+  std::set<mesh::SharedToken> names;
+  for (CurveVertex v = 0; v < static_cast<CurveVertex>(curves.points.size()); ++v) {
+    const mesh::SharedToken token = curves.token(model, v);
+    EXPECT_EQ(curves.vertex_of(token), v);
+    EXPECT_EQ(edge_of_token(token), curves.edge_of(model, v));
+    EXPECT_FALSE(is_cut_token(token));
+    names.insert(token);
+  }
+  for (const auto& [face, group, index] : {std::array{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}}) {
+    const mesh::SharedToken token = cut_token(face, group, index);
+    EXPECT_TRUE(is_cut_token(token));
+    EXPECT_EQ(edge_of_token(token), geometry::no_entity);
+    names.insert(token);
+  }
+  EXPECT_EQ(names.size(), curves.points.size() + 4);
+  EXPECT_THROW(cut_token(0, 1 << 16, 0), std::length_error);
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
