@@ -78,6 +78,39 @@ Shape measure(const Communicator& communicator, const mesh::DistributedMesh& sur
   return all;
 }
 
+/// What the decomposition of faces made: how many fine edges its cuts have, and how much heavier than the mean
+/// piece of its face the heaviest one is (the worst face).
+struct Decomposition {
+  double cut_edges = 0, imbalance = 1;
+};
+
+Decomposition inspect_pieces(const Communicator& communicator, const mesh::DistributedMesh& surface) {
+  struct Row {
+    std::int32_t face, piece, triangles, border;
+  };
+  std::vector<Row> rows;
+  for (const mesh::Piece& piece : surface.pieces) {
+    std::int32_t border = 0;
+    for (const mesh::LocalIndex v : piece.shared_vertices) border += piece.vertex_dimension[v] == 2;
+    rows.push_back({piece.common_face(), piece.id, piece.cell_count(), border});
+  }
+  rows = communicator.all_gather_items<Row>(rows);
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.piece < b.piece; });
+  Decomposition result;
+  for (std::size_t i = 0; i < rows.size();) {
+    double sum = 0, most = 0;
+    std::size_t end = i;
+    for (; end < rows.size() && rows[end].face == rows[i].face; ++end) {
+      sum += rows[end].triangles;
+      most = std::max(most, double(rows[end].triangles));
+      result.cut_edges += 0.5 * rows[end].border;
+    }
+    result.imbalance = std::max(result.imbalance, most * static_cast<double>(end - i) / sum);
+    i = end;
+  }
+  return result;
+}
+
 void run(const Communicator& communicator, const pipeline::Case& input, bool write) {
   parallel::StageClock clock;
   geometry::DomainReport domain;
@@ -92,35 +125,42 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
   const surface::SurfaceMesh surface =
       surface::mesh_surface(communicator, model, field, input.surface, clock);
   clock.end();
-  const parallel::StageSummary stage = clock.summarise(communicator).back();
+  const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
+  const parallel::StageSummary& stage = stages.back();
+  const double sizing = stages[1].cpu_seconds_mean * communicator.size();
   const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   const auto validity = mesh::check_surface_mesh(communicator, surface.mesh, numbering);
   const std::string hash = mesh::hash_mesh(communicator, surface.mesh, numbering);
   const Shape shape = measure(communicator, surface.mesh, surface.field);
   const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
+  const Decomposition decomposition = inspect_pieces(communicator, surface.mesh);
   if (write) io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
   if (!communicator.is_root()) return;
   double sharpest = 180;
-  int sharp = 0;
+  int sharp = 0, bins[6] = {0, 0, 0, 0, 0, 0};
   for (const surface::CutAngle& angle : surface.report.cut_angles) {
     sharpest = std::min(sharpest, angle.degrees);
     sharp += angle.degrees < 30;
+    ++bins[std::min(5, static_cast<int>(angle.degrees / 10))];
   }
   const double total = stage.cpu_seconds_mean * communicator.size();
   const auto triangles = static_cast<double>(surface.report.triangles);
   std::printf(
-      "RESULT ranks=%d pieces=%d triangles=%.0f valid=%d wall_seconds=%.3f cpu_total=%.3f cpu_max=%.3f "
+      "RESULT ranks=%d pieces=%d triangles=%.0f valid=%d wall_seconds=%.3f cpu_total=%.3f sizing_cpu=%.3f cpu_max=%.3f "
       "busiest=%.3f serial_share=%.4f triangles_per_cpu_second=%.0f load_error_90=%.3f rounds=%d\n"
       "       min_angle=%.2f mean_ratio=%.4f good_edges=%.4f cut_triangles=%.0f cut_mean_ratio=%.4f "
       "other_mean_ratio=%.4f cut_worst=%.3f other_worst=%.3f cut_min_angle=%.2f "
-      "cut_places=%zu cut_places_below_30=%d cut_angle_min=%.2f hash=%s\n",
-      communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
+      "cut_places=%zu cut_places_below_30=%d cut_angle_min=%.2f "
+      "cut_edges=%.0f imbalance=%.3f cut_angles_by_10=%d,%d,%d,%d,%d,%d hash=%s\n",
+      communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total, sizing,
       stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
       stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
       surface.report.mending_rounds, quality.min_dihedral.minimum, quality.mean_ratio.mean,
       shape.good_edges / shape.edges, shape.count[1], shape.mean_ratio[1], shape.mean_ratio[0],
       shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1],
-      surface.report.cut_angles.size(), sharp, sharpest, hash.c_str());
+      surface.report.cut_angles.size(), sharp, sharpest,
+      decomposition.cut_edges, decomposition.imbalance, bins[0], bins[1], bins[2], bins[3], bins[4], bins[5],
+      hash.c_str());
 }
 
 }  // namespace
