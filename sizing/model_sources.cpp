@@ -212,6 +212,8 @@ std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::Fac
   std::vector<SizeSource> sources = FaceSampler(model, face, far_field, options).run(facets);
   const std::vector<SizeSource> strips = strip_sources(model, facets, options);
   sources.insert(sources.end(), strips.begin(), strips.end());
+  const std::vector<SizeSource> corners = corner_sources(model, face, options);
+  sources.insert(sources.end(), corners.begin(), corners.end());
   return sources;
 }
 

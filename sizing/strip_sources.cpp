@@ -38,7 +38,8 @@ public:
   }
 
 private:
-  /// Pairs of lines without a common vertex that some facet joins, in both orders.
+  /// Pairs of lines without a common vertex that some facet joins, or the facets around a point inside, in both
+  /// orders.
   std::set<std::pair<int, int>> facing_lines() const {
     std::vector<std::vector<int>> lines_of(_facets.points.size());
     for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
@@ -46,15 +47,24 @@ private:
         lines_of[node].push_back(static_cast<int>(line));
     }
     std::set<std::pair<int, int>> pairs;
+    const auto join = [&](const auto& first, const auto& second) {
+      for (const int a : first) {
+        for (const int b : second) {
+          if (a != b && !share_vertex(a, b)) pairs.insert({a, b}), pairs.insert({b, a});
+        }
+      }
+    };
+    std::vector<std::set<int>> lines_around(_facets.points.size());
     for (const auto& t : _facets.triangles) {
       for (int i = 0; i < 3; ++i) {
-        for (const int a : lines_of[t[i]]) {
-          for (const int b : lines_of[t[(i + 1) % 3]]) {
-            if (a != b && !share_vertex(a, b)) pairs.insert({a, b}), pairs.insert({b, a});
-          }
+        const std::int32_t from = t[i], to = t[(i + 1) % 3];
+        join(lines_of[from], lines_of[to]);
+        for (const auto& [inner, other] : {std::pair{from, to}, std::pair{to, from}}) {
+          if (lines_of[inner].empty()) lines_around[inner].insert(lines_of[other].begin(), lines_of[other].end());
         }
       }
     }
+    for (const auto& lines : lines_around) join(lines, lines);
     return pairs;
   }
 

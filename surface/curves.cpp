@@ -1,7 +1,9 @@
 #include "surface/curves.hpp"
 
+#include "geometry/face_corners.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/schedule.hpp"
+#include "surface/corner_legs.hpp"
 #include "surface/curve_metric.hpp"
 #include "surface/curve_segments.hpp"
 
@@ -27,11 +29,36 @@ struct PlacedVertex {
   Vec3 point;
 };
 
-MetricLength metric_length(const Model& model, const sizing::SizeField& field, EdgeId edge) {
+/// The part of an edge between its legs, where the field alone spreads vertices.
+struct Stretch {
+  double from, to;  // parameters
+  int legs = 0;
+
+  bool has_leg_at_first(const Edge& edge) const { return from > edge.first_parameter; }
+  bool has_leg_at_last(const Edge& edge) const { return to < edge.last_parameter; }
+};
+
+Stretch between_legs(const Model& model, EdgeId id, const std::array<double, 2>& legs) {
+  const Edge& edge = model.edge(id);
+  Stretch stretch{edge.first_parameter, edge.last_parameter};
+  if (legs[0] > 0) stretch.from = geometry::parameter_at(model, {id, true}, legs[0]).value_or(stretch.from);
+  if (legs[1] > 0) stretch.to = geometry::parameter_at(model, {id, false}, legs[1]).value_or(stretch.to);
+  if (!(stretch.from < stretch.to)) return {edge.first_parameter, edge.last_parameter};
+  stretch.legs = (stretch.has_leg_at_first(edge) ? 1 : 0) + (stretch.has_leg_at_last(edge) ? 1 : 0);
+  return stretch;
+}
+
+MetricLength metric_length(const Model& model, const sizing::SizeField& field, EdgeId edge,
+                           const Stretch& stretch) {
   auto density = [&model, &field, edge](double t) {
     return geometry::norm(model.edge_tangent(edge, t)) / field(model.edge_point(edge, t));
   };
-  return {density, model.edge_breaks(edge)};
+  std::vector<double> breaks{stretch.from};
+  for (const double t : model.edge_breaks(edge)) {
+    if (t > stretch.from && t < stretch.to) breaks.push_back(t);
+  }
+  breaks.push_back(stretch.to);
+  return {density, breaks};
 }
 
 /// A cheap guess of the segments of an edge, as its load.
@@ -50,10 +77,11 @@ double estimate_load(const Model& model, const sizing::SizeField& field, EdgeId 
 }
 
 /// Length, chord and turning of an edge beside its length in the metric.
-EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& length) {
+EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& length, int legs) {
   constexpr int samples = 32;
   const Edge& edge = model.edge(id);
-  EdgeMeasure measure{id, length.total(), 0, 0, 0};
+  const double between = legs > 0 ? std::max(1.0, length.total()) : length.total();
+  EdgeMeasure measure{id, between + legs, 0, 0, 0};
   std::optional<Vec3> direction;
   Vec3 from = model.edge_point(id, edge.first_parameter);
   const Vec3 start = from;
@@ -77,9 +105,11 @@ EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& leng
 }
 
 std::vector<PlacedVertex> place_vertices(const Model& model, EdgeId id, const MetricLength& length,
-                                         int segments) {
+                                         const Stretch& stretch, int segments) {
   const Edge& edge = model.edge(id);
-  std::vector<double> parameters = equal_parts(length, segments);
+  std::vector<double> parameters = equal_parts(length, segments - stretch.legs);
+  if (stretch.has_leg_at_first(edge)) parameters.insert(parameters.begin(), stretch.from);
+  if (stretch.has_leg_at_last(edge)) parameters.push_back(stretch.to);
   // An edge without length still gets distinct parameters.
   if (!(length.total() > 0)) {
     for (int i = 1; i < segments; ++i) {
@@ -196,6 +226,8 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   std::vector<EdgeId> mine;
   std::vector<MetricLength> lengths;
   std::vector<EdgeMeasure> measures;
+  std::vector<Stretch> stretches;
+  const auto legs = corner_legs(communicator, model, field, clock);
   parallel::agree(communicator, [&] {
     {
       const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
@@ -209,8 +241,9 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
     const auto assignment = parallel::assign_largest_first(loads, communicator.size());
     for (const int task : parallel::tasks_of_rank(assignment, loads, communicator.rank())) {
       mine.push_back(edges[task]);
-      lengths.push_back(metric_length(model, field, edges[task]));
-      measures.push_back(measure_edge(model, edges[task], lengths.back()));
+      stretches.push_back(between_legs(model, edges[task], legs[edges[task]]));
+      lengths.push_back(metric_length(model, field, edges[task], stretches.back()));
+      measures.push_back(measure_edge(model, edges[task], lengths.back(), stretches.back().legs));
     }
   });
   measures = communicator.all_gather_items(std::span<const EdgeMeasure>(measures));
@@ -223,7 +256,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
     }();
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
     for (std::size_t i = 0; i < mine.size(); ++i) {
-      const auto vertices = place_vertices(model, mine[i], lengths[i], segments[mine[i]]);
+      const auto vertices = place_vertices(model, mine[i], lengths[i], stretches[i], segments[mine[i]]);
       placed.insert(placed.end(), vertices.begin(), vertices.end());
     }
   });

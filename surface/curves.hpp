@@ -47,7 +47,8 @@ bool is_constraining(const geometry::Model& model, geometry::EdgeId edge);
 
 /// Spreads vertices so that each segment has length 1 in the metric of the field (equal parts of the integral
 /// of ds/h, at least enough segments that no two curves share both ends of a segment: three on a closed edge,
-/// two where another edge joins the same vertices). Each edge is discretised by one rank, the result is
+/// two where another edge joins the same vertices). At sharp corners of faces the first segment is longer
+/// (corner_legs.hpp). Each edge is discretised by one rank, the result is
 /// shared. Collective.
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const geometry::Model& model,
                             const sizing::SizeField& field, parallel::StageClock& clock);

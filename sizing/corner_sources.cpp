@@ -1,0 +1,48 @@
+// Sharp corners of faces: what lies between two edges that meet at a small angle is as narrow as a strip.
+#include "geometry/face_corners.hpp"
+#include "sizing/model_sources.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace aeroloom::sizing {
+namespace {
+
+/// Corners below this angle (degrees) have a triangle of their own; sources begin behind it.
+constexpr double sharp = 30;
+/// Distances from the corner at which sources are put follow each other by this ratio.
+constexpr double step = 1.15;
+/// Behind this many steps (a factor of a thousand) a corner is none any more.
+constexpr int most_steps = 50;
+
+/// A part of the shorter edge, so that there is something behind the corner.
+double nearest_reach(const geometry::Model& model, const geometry::FaceCorner& corner) {
+  constexpr double part = 0.25;
+  double shortest = std::numeric_limits<double>::max();
+  for (const geometry::EdgeId id : {corner.arriving.edge, corner.leaving.edge}) {
+    const geometry::Edge& edge = model.edge(id);
+    const geometry::Vec3 middle = model.edge_point(id, 0.5 * (edge.first_parameter + edge.last_parameter));
+    shortest = std::min(shortest, 2 * distance(middle, model.vertex(corner.vertex)));
+  }
+  return part * shortest;
+}
+
+}  // namespace
+
+std::vector<SizeSource> corner_sources(const geometry::Model& model, geometry::FaceId face,
+                                       const SizingOptions& options) {
+  std::vector<SizeSource> sources;
+  for (const geometry::FaceCorner& corner : geometry::corners_of(model, face)) {
+    double reach = std::min(options.minimum, nearest_reach(model, corner));
+    for (int k = 0; k < most_steps; ++k, reach *= step) {
+      const auto opening = geometry::open_corner(model, corner, reach);
+      if (!opening || (k == 0 && opening->degrees >= sharp)) break;
+      const double size = std::max(opening->width, least_part_of_minimum * options.minimum);
+      if (size >= options.maximum || opening->degrees > 2 * sharp) break;
+      for (const geometry::Vec3 point : opening->points) sources.push_back({point, size});
+    }
+  }
+  return sources;
+}
+
+}  // namespace aeroloom::sizing
