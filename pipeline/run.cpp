@@ -62,6 +62,7 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
   record.regions = model.region_count();
   record.faces = model.face_count();
   record.edges = model.edge_count();
+  for (geometry::FaceId f = 0; f < model.face_count(); ++f) record.face_names.push_back(model.face(f).name);
   const geometry::Vec3 size = model.body_bounds().size();
   parallel::log_info(
       fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",

@@ -43,6 +43,7 @@ struct RunRecord {
   double unit_in_metres = 0;
   geometry::Box bounds;
   std::int32_t regions = 0, faces = 0, edges = 0;
+  std::vector<std::string> face_names;  ///< by face id
   sizing::SizingOptions sizes;
   sizing::PredictedCounts predicted;
   std::int64_t size_field_leaves = 0;

@@ -3,9 +3,9 @@
 #include "geometry/face_corners.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/schedule.hpp"
-#include "surface/corner_legs.hpp"
 #include "surface/curve_metric.hpp"
 #include "surface/curve_segments.hpp"
+#include "surface/sharp_corners.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -227,7 +227,8 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   std::vector<MetricLength> lengths;
   std::vector<EdgeMeasure> measures;
   std::vector<Stretch> stretches;
-  const auto legs = corner_legs(communicator, model, field, clock);
+  std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field, clock);
+  const auto legs = legs_of_edges(model, corners);
   parallel::agree(communicator, [&] {
     {
       const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
@@ -260,7 +261,9 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
       placed.insert(placed.end(), vertices.begin(), vertices.end());
     }
   });
-  return assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
+  CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
+  mesh.sharp_corners = std::move(corners);
+  return mesh;
 }
 
 }  // namespace aeroloom::surface

@@ -6,6 +6,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
+#include "surface/sharp_corners.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -21,6 +22,7 @@ struct CurveMesh {
   std::vector<geometry::Vec3> points;        ///< by curve vertex
   std::vector<std::int32_t> first_interior;  ///< (edges + 1): the interior vertices of edge e are [e], [e+1]
   std::vector<double> parameters;  ///< by curve vertex minus the model's vertex count: on its edge, ascending
+  std::vector<SharpCorner> sharp_corners;  ///< of all faces
 
   /// The vertices of an edge in the direction of its parameter, ends included; empty when it carries none.
   std::vector<CurveVertex> chain(const geometry::Model& model, geometry::EdgeId edge) const;
@@ -48,7 +50,7 @@ bool is_constraining(const geometry::Model& model, geometry::EdgeId edge);
 /// Spreads vertices so that each segment has length 1 in the metric of the field (equal parts of the integral
 /// of ds/h, at least enough segments that no two curves share both ends of a segment: three on a closed edge,
 /// two where another edge joins the same vertices). At sharp corners of faces the first segment is longer
-/// (corner_legs.hpp). Each edge is discretised by one rank, the result is
+/// (sharp_corners.hpp). Each edge is discretised by one rank, the result is
 /// shared. Collective.
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const geometry::Model& model,
                             const sizing::SizeField& field, parallel::StageClock& clock);

@@ -71,6 +71,14 @@ Conflicts share(const parallel::Communicator& communicator, const Conflicts& min
                   conflicts.complaint, options.mending_rounds));
 }
 
+std::vector<ListedCorner> list_corners(const geometry::Model& model, const CurveMesh& curves) {
+  std::vector<ListedCorner> corners;
+  for (const SharpCorner& corner : curves.sharp_corners) {
+    corners.push_back({corner.face, model.vertex(corner.vertex), corner.degrees});
+  }
+  return corners;
+}
+
 }  // namespace
 
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geometry::Model& model,
@@ -83,6 +91,7 @@ SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geome
     if (conflicts.complaint.empty()) {
       result.mesh = pool.assemble();
       result.report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
+      result.report.sharp_corners = list_corners(model, curves);
       conflicts = find_conflicts(communicator, model, result.field, result.mesh, pool, clock);
     }
     if (conflicts.complaint.empty()) break;

@@ -1,6 +1,5 @@
-#include "surface/corner_legs.hpp"
+#include "surface/sharp_corners.hpp"
 
-#include "geometry/face_corners.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -38,52 +37,59 @@ bool is_straight(const Model& model, EdgeEnd end, double parameter, Vec3 point) 
   return true;
 }
 
-/// The leg of one corner, 0 when it is not sharp or no leg fits.
-double leg_of(const Model& model, const sizing::SizeField& field, const FaceCorner& corner) {
-  const EdgeEnd ends[2] = {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)};
+std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& field,
+                                   const FaceCorner& corner) {
+  SharpCorner result{corner.face,
+                     corner.vertex,
+                     {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)}};
   double reach = field(model.vertex(corner.vertex));
   for (int k = 0; k < most_steps; ++k, reach *= step) {
     const auto opening = geometry::open_corner(model, corner, reach);
-    if (!opening || opening->degrees >= sharp) return 0;
+    if (!opening || opening->degrees >= sharp) break;
+    if (k == 0) result.degrees = opening->degrees;
+    bool both_straight = true;
     for (int i = 0; i < 2; ++i) {
-      if (!is_straight(model, ends[i], opening->parameters[i], opening->points[i])) return 0;
+      both_straight &= is_straight(model, result.ends[i], opening->parameters[i], opening->points[i]);
     }
+    if (!both_straight) break;
     const double size = std::min(field(opening->points[0]), field(opening->points[1]));
-    if (opening->width >= fitting * size) return reach;
+    if (opening->width >= fitting * size) {
+      result.leg = reach;
+      break;
+    }
   }
-  return 0;
+  if (!(result.degrees > 0)) return std::nullopt;
+  return result;
 }
-
-struct Leg {
-  geometry::VertexId vertex;
-  std::array<EdgeEnd, 2> ends;
-  double length;
-};
 
 }  // namespace
 
-std::vector<std::array<double, 2>> corner_legs(const parallel::Communicator& communicator, const Model& model,
-                                               const sizing::SizeField& field, parallel::StageClock& clock) {
-  std::vector<Leg> legs;
+std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator, const Model& model,
+                                            const sizing::SizeField& field, parallel::StageClock& clock) {
+  std::vector<SharpCorner> corners;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
     for (geometry::FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       for (const FaceCorner& corner : geometry::corners_of(model, f)) {
-        const double length = leg_of(model, field, corner);
-        if (!(length > 0)) continue;
-        legs.push_back({corner.vertex,
-                        {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)},
-                        length});
+        if (const auto found = examine(model, field, corner)) corners.push_back(*found);
       }
     }
   });
-  legs = communicator.all_gather_items<Leg>(legs);
-  // Corners at one vertex may share an edge: they take the longest leg together.
+  corners = communicator.all_gather_items<SharpCorner>(corners);
+  std::stable_sort(corners.begin(), corners.end(),
+                   [](const SharpCorner& a, const SharpCorner& b) { return a.face < b.face; });
+  return corners;
+}
+
+std::vector<std::array<double, 2>> legs_of_edges(const Model& model, const std::vector<SharpCorner>& corners) {
   std::vector<double> longest(model.vertex_count(), 0);
-  for (const Leg& leg : legs) longest[leg.vertex] = std::max(longest[leg.vertex], leg.length);
+  for (const SharpCorner& corner : corners) {
+    longest[corner.vertex] = std::max(longest[corner.vertex], corner.leg);
+  }
   std::vector<std::array<double, 2>> result(model.edge_count(), {0, 0});
-  for (const Leg& leg : legs) {
-    for (const EdgeEnd& end : leg.ends) result[end.edge][end.first ? 0 : 1] = longest[leg.vertex];
+  for (const SharpCorner& corner : corners) {
+    if (!(corner.leg > 0)) continue;
+    for (const EdgeEnd& end : corner.ends) result[end.edge][end.first ? 0 : 1] = longest[corner.vertex];
   }
   return result;
 }
