@@ -89,6 +89,7 @@ void declare_geometry(KeyTable& root, Draft& draft) {
 
 void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   keys.number("minimum", sizing.minimum, Range::above(0, length));
+  keys.number("feature_minimum", sizing.feature_minimum, Range::above(0, length));
   keys.number("maximum", sizing.maximum, Range::above(0, length));
   keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length));
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"));

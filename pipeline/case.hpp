@@ -18,6 +18,7 @@ namespace aeroloom::pipeline {
 /// What the user said about sizes; what is left out comes from the preset. Lengths in the model's unit.
 struct SizingRequest {
   std::optional<double> minimum, maximum;  ///< minimum <= maximum
+  std::optional<double> feature_minimum;   ///< smallest size at short edges, narrow faces, sharp corners
   std::optional<double> surface_maximum;   ///< largest size on faces that are not far field
   std::optional<double> curvature_angle;   ///< degrees
   std::optional<double> growth;            ///< ratio of neighbouring sizes

@@ -38,6 +38,7 @@ Json geometry_json(const RunRecord& record) {
 
 Json sizing_json(const RunRecord& record) {
   return {{"minimum", record.sizes.minimum},
+          {"feature_minimum", sizing::smallest_feature_size(record.sizes)},
           {"maximum", record.sizes.maximum},
           {"surface_maximum", record.sizes.surface_maximum},
           {"curvature_angle", record.sizes.curvature_angle},

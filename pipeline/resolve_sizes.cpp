@@ -12,7 +12,8 @@ sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, 
   if (!request.minimum || !request.maximum) {
     sizes = sizing::choose_sizes(communicator, model, request.target_tetrahedra, clock);
   }
-  if (request.minimum) sizes.minimum = *request.minimum;
+  if (request.minimum) sizes.minimum = *request.minimum, sizes.feature_minimum = 0;
+  if (request.feature_minimum) sizes.feature_minimum = *request.feature_minimum;
   if (request.maximum) sizes.maximum = *request.maximum;
   if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;
   if (request.proximity) sizes.proximity = *request.proximity;

@@ -1,5 +1,4 @@
 // Sharp corners of faces: what lies between two edges that meet at a small angle is as narrow as a strip.
-#include "geometry/face_corners.hpp"
 #include "sizing/model_sources.hpp"
 
 #include <algorithm>
@@ -29,18 +28,25 @@ double nearest_reach(const geometry::Model& model, const geometry::FaceCorner& c
 
 }  // namespace
 
-std::vector<SizeSource> corner_sources(const geometry::Model& model, geometry::FaceId face,
-                                       const SizingOptions& options) {
+bool may_be_sharp(const geometry::Model& model, const geometry::FaceCorner& corner) {
+  const double farthest = nearest_reach(model, corner);
+  for (const double part : {1.0, 0.1, 0.01}) {
+    const auto opening = geometry::open_corner(model, corner, part * farthest);
+    if (opening && opening->degrees < sharp) return true;
+  }
+  return false;
+}
+
+std::vector<SizeSource> corner_sources(const geometry::Model& model, const geometry::FaceCorner& corner,
+                                       double reach, const SizingOptions& options) {
   std::vector<SizeSource> sources;
-  for (const geometry::FaceCorner& corner : geometry::corners_of(model, face)) {
-    double reach = std::min(options.minimum, nearest_reach(model, corner));
-    for (int k = 0; k < most_steps; ++k, reach *= step) {
-      const auto opening = geometry::open_corner(model, corner, reach);
-      if (!opening || (k == 0 && opening->degrees >= sharp)) break;
-      const double size = std::max(opening->width, least_part_of_minimum * options.minimum);
-      if (size >= options.maximum || opening->degrees > 2 * sharp) break;
-      for (const geometry::Vec3 point : opening->points) sources.push_back({point, size});
-    }
+  reach = std::min(reach, nearest_reach(model, corner));
+  for (int k = 0; k < most_steps; ++k, reach *= step) {
+    const auto opening = geometry::open_corner(model, corner, reach);
+    if (!opening || (k == 0 && opening->degrees >= sharp)) break;
+    const double size = std::max(opening->width, smallest_feature_size(options));
+    if (size >= options.maximum || opening->degrees > 2 * sharp) break;
+    for (const geometry::Vec3 point : opening->points) sources.push_back({point, size});
   }
   return sources;
 }

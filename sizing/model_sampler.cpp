@@ -5,6 +5,7 @@
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace aeroloom::sizing {
@@ -82,7 +83,12 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geo
     const auto owners = parallel::assign_largest_first(loads, communicator.size());
     _faces = parallel::tasks_of_rank(owners, loads, communicator.rank());
     std::sort(_faces.begin(), _faces.end());
-    for (const FaceId f : _faces) _facets.push_back(sampling_facets(model, f, _far_field[f]));
+    for (const FaceId f : _faces) {
+      _facets.push_back(sampling_facets(model, f, _far_field[f]));
+      for (const geometry::FaceCorner& corner : geometry::corners_of(model, f)) {
+        if (may_be_sharp(model, corner)) _corners.push_back(corner);
+      }
+    }
   });
   gather_triangles();
 }
@@ -144,6 +150,20 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options) const
   return mine;
 }
 
+std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource> sources,
+                                                     const SizingOptions& options) const {
+  const double slope = std::log(options.growth);
+  std::vector<SizeSource> mine;
+  for (const geometry::FaceCorner& corner : _corners) {
+    const geometry::Vec3 point = _model.vertex(corner.vertex);
+    double size = options.maximum;
+    for (const SizeSource& s : sources) size = std::min(size, s.size + slope * distance(s.point, point));
+    const auto more = corner_sources(_model, corner, size, options);
+    mine.insert(mine.end(), more.begin(), more.end());
+  }
+  return mine;
+}
+
 SizeField ModelSampler::build_field(const SizingOptions& options) const {
   check_options(options);
   std::vector<SizeSource> mine;
@@ -151,7 +171,13 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     mine = sample(options);
   });
-  const std::vector<SizeSource> all = _communicator.all_gather_items<SizeSource>(mine);
+  std::vector<SizeSource> all = _communicator.all_gather_items<SizeSource>(mine);
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    mine = sample_corners(all, options);
+  });
+  const std::vector<SizeSource> behind_corners = _communicator.all_gather_items<SizeSource>(mine);
+  all.insert(all.end(), behind_corners.begin(), behind_corners.end());
   ScopedCpu cpu(_clock, ScopedCpu::As::serial);
   return FieldBuilder(_model.bounds(), options).build(all);
 }

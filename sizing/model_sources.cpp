@@ -161,7 +161,7 @@ private:
   void ask_for_own_length() {
     const geometry::Edge& edge = _model.edge(_edge);
     if (_length >= _options.maximum) return;
-    const double size = std::max(_length, least_part_of_minimum * _options.minimum);
+    const double size = std::max(_length, smallest_feature_size(_options));
     _sources.push_back({_model.edge_point(_edge, 0.5 * (edge.first_parameter + edge.last_parameter)), size});
   }
 
@@ -212,8 +212,6 @@ std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::Fac
   std::vector<SizeSource> sources = FaceSampler(model, face, far_field, options).run(facets);
   const std::vector<SizeSource> strips = strip_sources(model, facets, options);
   sources.insert(sources.end(), strips.begin(), strips.end());
-  const std::vector<SizeSource> corners = corner_sources(model, face, options);
-  sources.insert(sources.end(), corners.begin(), corners.end());
   return sources;
 }
 

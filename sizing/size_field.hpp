@@ -23,7 +23,13 @@ struct SizingOptions {
   double surface_maximum =
       0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
   double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
+  double feature_minimum = 0;  ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
 };
+
+/// Short edges, narrow faces and sharp corners may ask for sizes down to this.
+inline double smallest_feature_size(const SizingOptions& options) {
+  return options.feature_minimum > 0 ? options.feature_minimum : 0.05 * options.minimum;
+}
 
 /// A point that asks for a size.
 struct SizeSource {
@@ -35,7 +41,7 @@ struct SizeSource {
 /// most the size asked for there (to single precision) and less only where a neighbour asks for less: a
 /// source asks for its size in the whole leaf around it, whose edge is at most that size. From there h grows
 /// by ln(growth) per length. minimum <= h <= maximum, except that `minimum` does not bind against short
-/// edges, narrow faces and what refined() asks for. Immutable and identical on every rank.
+/// edges, narrow faces, sharp corners and what refined() asks for. Immutable and identical on every rank.
 class SizeField {
 public:
   /// Builds the field over `domain` from sources, their sizes raised to the minimum; sources outside count at

@@ -85,7 +85,7 @@ private:
     return nearest;
   }
 
-  double size_of(double width) const { return std::max(width, least_part_of_minimum * _options.minimum); }
+  double size_of(double width) const { return std::max(width, smallest_feature_size(_options)); }
 
   void cover(Vec3 a, double width_a, Vec3 b, double width_b, int line, int depth) {
     const double length = distance(a, b);

@@ -97,7 +97,12 @@ TEST(ModelField, ShortEdgesAskForTheirLength) {
   const Model plate = make_primitive_domain(PrimitiveKind::box, dimensions);
   EXPECT_NEAR(build(plate, {0.01, 1, 12, 1.3, 0})({2, 2, 0}), 0.05, 1e-6);
   EXPECT_NEAR(build(plate, {0.1, 1, 12, 1.3, 0})({2, 2, 0}), 0.05, 1e-6);
-  EXPECT_NEAR(build(plate, {0.8, 1, 12, 1.3, 0})({2, 2, 0}), 0.2, 1e-6);
+  EXPECT_NEAR(build(plate, {0.8, 1, 12, 1.3, 0})({2, 2, 0}), 0.05, 1e-6);
+  // The minimum binds features at a twentieth of it, or as told.
+  EXPECT_NEAR(build(plate, {2, 3, 12, 1.3, 0})({2, 2, 0}), 0.1, 1e-6);
+  SizingOptions bound{0.8, 1, 12, 1.3, 0};
+  bound.feature_minimum = 0.2;
+  EXPECT_NEAR(build(plate, bound)({2, 2, 0}), 0.2, 1e-6);
 }
 
 TEST(ModelField, NarrowFacesAskForTheirWidth) {

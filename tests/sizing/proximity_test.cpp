@@ -92,3 +92,29 @@ TEST(Proximity, ASharpEdgeDoesNotDriveSizesDown) {
   }
   EXPECT_GT(least, 0.05);
 }
+
+// Behind the corners of the slender side faces elements fit between the edges, and nothing is finer than that.
+TEST(SharpCorners, SizesFitBetweenTheEdges) {
+  const double half = 5 * M_PI / 180;
+  const Model sharp = wedge(10);
+  SizingOptions options{1e-4, 1, 30, 1.3, 0.2, 0};
+  parallel::StageClock clock;
+  const auto least_on_bisector = [&](double feature_minimum) {
+    options.feature_minimum = feature_minimum;
+    const SizeField field = sizing::build_size_field(parallel::Communicator::world(), sharp, options, clock);
+    double least = 1;
+    for (double r = 0.02; r < 1; r += 0.01) {
+      // The sharp corners lie at x = 1, z = 0 and 1; the other sides at x = 0.
+      for (const double z : {0.0, 1.0}) {
+        const double size = field({1 - r * std::cos(half), r * std::sin(half), z});
+        least = std::min(least, size);
+        if (r > 0.25 && r < 0.4) {
+          EXPECT_LE(size, std::max(feature_minimum, 1.15 * 2 * r * std::sin(half)));
+        }
+      }
+    }
+    return least;
+  };
+  EXPECT_GT(least_on_bisector(0), 0.5 * 0.2 * 2 * std::sin(half));
+  EXPECT_GE(least_on_bisector(0.1), 0.0999);
+}

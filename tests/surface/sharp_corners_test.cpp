@@ -1,0 +1,87 @@
+/// One triangle fills a sharp corner of a face, and the elements behind it are as good as elsewhere.
+#include "surface/sharp_corners.hpp"
+
+#include "mesh/quality.hpp"
+#include "surface/surface_mesher.hpp"
+#include "tests/geometry/cad_shapes.hpp"
+#include "tests/surface/face_fixture.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::Model;
+using geometry::Vec3;
+
+constexpr double sharp_degrees = 12;
+
+/// A right triangle whose corner at the origin is sharp, drawn out along y.
+Model sharp_prism() {
+  BRepBuilderAPI_MakePolygon polygon;
+  polygon.Add(gp_Pnt(0, 0, 0));
+  polygon.Add(gp_Pnt(3, 0, 0));
+  polygon.Add(gp_Pnt(3, 0, 3 * std::tan(sharp_degrees * std::numbers::pi / 180)));
+  polygon.Close();
+  return geometry::shapes::prepare_fluid(
+             BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 1, 0)).Shape())
+      .model;
+}
+
+sizing::SizeField field_of(const Model& model) {
+  parallel::StageClock clock;
+  return sizing::build_size_field(parallel::Communicator::world(), model, {0.05, 0.2, 12, 1.3, 0}, clock);
+}
+
+TEST(SharpCorners, AreFoundWithEqualLegs) {
+  const Model model = sharp_prism();
+  const sizing::SizeField field = field_of(model);
+  parallel::StageClock clock;
+  const auto corners = find_sharp_corners(parallel::Communicator::world(), model, field, clock);
+  ASSERT_EQ(corners.size(), 2u);
+  const CurveMesh curves = testing::curves_of(model, field);
+  for (const SharpCorner& corner : corners) {
+    EXPECT_NEAR(corner.degrees, sharp_degrees, 1e-6);
+    EXPECT_GT(corner.leg, 0.05);
+    EXPECT_LT(corner.leg, 0.3);
+    const Vec3 vertex = model.vertex(corner.vertex);
+    for (const geometry::EdgeEnd& end : corner.ends) {
+      const auto chain = curves.chain(model, end.edge);
+      const CurveVertex second = end.first ? chain[1] : chain[chain.size() - 2];
+      EXPECT_NEAR(distance(curves.points[second], vertex), corner.leg, 1e-9);
+    }
+  }
+}
+
+TEST(SharpCorners, HoldOneTriangle) {
+  const Model model = sharp_prism();
+  parallel::StageClock clock;
+  const auto communicator = parallel::Communicator::world();
+  const SurfaceMesh surface = mesh_surface(communicator, model, field_of(model), {}, clock);
+  ASSERT_EQ(surface.report.sharp_corners.size(), 2u);
+  std::int64_t below_corner = 0, below_twenty = 0;
+  for (const mesh::Piece& piece : surface.mesh.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const double degrees =
+          mesh::smallest_angle(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]));
+      below_corner += degrees < sharp_degrees - 1e-3;
+      below_twenty += degrees < 20;
+    }
+  }
+  EXPECT_EQ(communicator.sum(below_corner), 0);
+  EXPECT_EQ(communicator.sum(below_twenty), 2);
+  for (const ListedCorner& corner : surface.report.sharp_corners) {
+    EXPECT_NEAR(corner.degrees, sharp_degrees, 1e-6);
+    EXPECT_LT(std::hypot(corner.point.x, corner.point.z), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
