@@ -9,14 +9,16 @@
 #include "parallel/environment.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/load_domain.hpp"
-#include "pipeline/resolve_sizes.hpp"
+#include "pipeline/size_domain.hpp"
 #include "surface/surface_mesher.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <set>
 #include <string>
+#include <tuple>
 
 namespace {
 
@@ -78,6 +80,37 @@ Shape measure(const Communicator& communicator, const mesh::DistributedMesh& sur
   return all;
 }
 
+/// Triangles away from listed corners: how sharp the sharpest is, and how many are below 20 and 10 degrees.
+struct Sharp {
+  double least = 180;
+  std::int64_t below_20 = 0, below_10 = 0;
+};
+
+Sharp measure_sharp(const Communicator& communicator, const surface::SurfaceMesh& surface) {
+  using Place = std::tuple<geometry::FaceId, double, double, double>;
+  std::set<Place> listed;
+  for (const surface::ListedCorner& c : surface.report.sharp_corners) {
+    listed.insert({c.face, c.point.x, c.point.y, c.point.z});
+  }
+  Sharp sharp;
+  for (const mesh::Piece& piece : surface.mesh.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const geometry::Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
+      const double angle = mesh::smallest_angle(p[0], p[1], p[2]);
+      if (angle >= 20 && angle >= sharp.least) continue;
+      const bool at_corner = std::any_of(p, p + 3, [&](geometry::Vec3 q) {
+        return listed.count({piece.common_face(), q.x, q.y, q.z}) > 0;
+      });
+      if (at_corner) continue;
+      sharp.least = std::min(sharp.least, angle);
+      sharp.below_20 += angle < 20;
+      sharp.below_10 += angle < 10;
+    }
+  }
+  return {communicator.minimum(sharp.least), communicator.sum(sharp.below_20), communicator.sum(sharp.below_10)};
+}
+
 /// What the decomposition of faces made: how many fine edges its cuts have, and how much heavier than the mean
 /// piece of its face the heaviest one is (the worst face).
 struct Decomposition {
@@ -118,12 +151,12 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
   const geometry::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
   clock.end();
   clock.begin("sizing");
-  const sizing::SizingOptions sizes = pipeline::resolve_sizes(communicator, model, input.sizing, clock);
-  const sizing::SizeField field = sizing::build_size_field(communicator, model, sizes, clock);
+  const pipeline::SizedDomain sized =
+      pipeline::size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
   clock.end();
   clock.begin("surface");
   const surface::SurfaceMesh surface =
-      surface::mesh_surface(communicator, model, field, input.surface, clock);
+      surface::mesh_surface(communicator, sized.model, sized.field, input.surface, clock);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   const parallel::StageSummary& stage = stages.back();
@@ -133,6 +166,7 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
   const std::string hash = mesh::hash_mesh(communicator, surface.mesh, numbering);
   const Shape shape = measure(communicator, surface.mesh, surface.field);
   const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
+  const Sharp apart = measure_sharp(communicator, surface);
   const Decomposition decomposition = inspect_pieces(communicator, surface.mesh);
   if (write) io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
   if (!communicator.is_root()) return;
@@ -151,7 +185,8 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
       "       min_angle=%.2f mean_ratio=%.4f good_edges=%.4f cut_triangles=%.0f cut_mean_ratio=%.4f "
       "other_mean_ratio=%.4f cut_worst=%.3f other_worst=%.3f cut_min_angle=%.2f "
       "cut_places=%zu cut_places_below_30=%d cut_angle_min=%.2f "
-      "cut_edges=%.0f imbalance=%.3f cut_angles_by_10=%d,%d,%d,%d,%d,%d hash=%s\n",
+      "cut_edges=%.0f imbalance=%.3f cut_angles_by_10=%d,%d,%d,%d,%d,%d\n"
+      "       joined_faces=%zu sharp_corners=%zu min_angle_apart=%.2f below_20_apart=%lld below_10_apart=%lld hash=%s\n",
       communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total, sizing,
       stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
       stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
@@ -160,7 +195,8 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
       shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1],
       surface.report.cut_angles.size(), sharp, sharpest,
       decomposition.cut_edges, decomposition.imbalance, bins[0], bins[1], bins[2], bins[3], bins[4], bins[5],
-      hash.c_str());
+      sized.joined.size(), surface.report.sharp_corners.size(), apart.least, static_cast<long long>(apart.below_20),
+      static_cast<long long>(apart.below_10), hash.c_str());
 }
 
 }  // namespace

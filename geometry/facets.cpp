@@ -3,6 +3,7 @@
 #include "geometry/occ_guard.hpp"
 #include "geometry/pole_facets.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/sheets.hpp"
 #include "geometry/step_trace.hpp"
 
 #include <algorithm>
@@ -167,6 +168,7 @@ double folded_share(const Facets& facets) {
 }  // namespace
 
 Facets Model::facets(FaceId id, double deflection, double angle) const {
+  if (_data->joined) return _data->joined->facets(id, deflection, angle);
   const FaceEvaluator& evaluator = _data->face_evaluators.at(id);
   const std::string doing = "triangulating " + _data->describe_face(id);
   tell_step(doing);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,8 @@ struct Snap {
   }
 };
 
+struct JoinedFaces;
+
 struct Model::Data {
   std::vector<std::byte> bytes;
   TopoDS_Shape shape;
@@ -115,6 +118,7 @@ struct Model::Data {
   std::string unit_name;
   double unit_in_metres = 1;
   double gap = 0;
+  std::shared_ptr<const JoinedFaces> joined;  ///< where faces are joined: evaluators and snaps are its base's
 
   /// "face 12 'wing_upper' near (x, y, z)", for messages.
   std::string describe_face(FaceId id) const;

@@ -1,5 +1,6 @@
 #include "geometry/model_data.hpp"
 #include "geometry/occ_guard.hpp"
+#include "geometry/sheets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,13 @@ double Model::edge_curvature(EdgeId id, double parameter) const {
 // Curve and parameter curve of an edge trace the same line, in many files not at the same pace: the parameter
 // curve gives a guess, the point of the edge decides.
 Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFace& all = joined->faces.at(face);
+    if (all.sheets.size() == 1) return joined->base.edge_uv(all.sheets.front().face, use, parameter);
+    const JoinedFace::Use& own = all.use(use);
+    return all.from_member(own.sheet,
+                           joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
+  }
   const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
   const UseCurve& on_face = evaluator.use(use);
   const Edge& edge = _data->edges[use.edge];
@@ -133,10 +141,18 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_point(at.face, at.uv);
+  }
   return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_frame(at.face, at.uv);
+  }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const SurfaceJet jet = face.surface.jet(uv, 1);
   SurfaceFrame frame{_data->face_snaps[id](jet.point), jet.du, jet.dv, {}};
@@ -149,6 +165,10 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 }
 
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_curvatures(at.face, at.uv);
+  }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {0, 0, true};
   const SurfaceJet jet = face.surface.jet(uv, 2);
@@ -167,21 +187,65 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
   return {std::max(first, second), std::min(first, second), true};
 }
 
-Vec2 Model::parameter_periods(FaceId id) const {
+Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.parameter_periods(at.face, at.uv);
+  }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.repeats_after(), face.v.repeats_after()};
 }
 
 Vec2 Model::wrap(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->faces[id].from_member(at.sheet, joined->base.wrap(at.face, at.uv));
+  }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.wrap(uv.x), face.v.wrap(uv.y)};
 }
 
 bool Model::is_planar(FaceId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const auto& sheets = joined->faces.at(id).sheets;
+    return sheets.size() == 1 && joined->base.is_planar(sheets.front().face);
+  }
   return _data->face_evaluators.at(id).planar;
 }
 
+bool Model::is_exact_plane(FaceId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const auto& sheets = joined->faces.at(id).sheets;
+    return sheets.size() == 1 && joined->base.is_exact_plane(sheets.front().face);
+  }
+  const auto& fixed = _data->face_snaps.at(id).fixed;
+  return fixed[0] || fixed[1] || fixed[2];
+}
+
+std::int32_t Model::sheet_count(FaceId id) const {
+  return _data->joined ? static_cast<std::int32_t>(_data->joined->faces.at(id).sheets.size()) : 1;
+}
+
+std::int32_t Model::sheet(FaceId id, Vec2 uv) const {
+  return _data->joined ? _data->joined->locate(id, uv).sheet : 0;
+}
+
+bool Model::is_seam(EdgeId id) const {
+  const Edge& edge = _data->edges.at(id);
+  if (edge.faces.size() != 1) return false;
+  int uses = 0;
+  for (const auto& loop : _data->faces[edge.faces.front()].loops) {
+    for (const EdgeUse& use : loop) uses += use.edge == id;
+  }
+  return uses > 1;
+}
+
 double Model::face_area(FaceId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    double area = 0;
+    for (const Sheet& sheet : joined->faces.at(id).sheets) area += joined->base.face_area(sheet.face);
+    return area;
+  }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.area < 0) {
     face.area = guarded("integrating the area of " + _data->describe_face(id), [&] {

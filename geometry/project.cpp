@@ -1,5 +1,6 @@
 #include "geometry/model_data.hpp"
 #include "geometry/occ_guard.hpp"
+#include "geometry/sheets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -215,6 +216,7 @@ Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double to
 }
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
+  if (_data->joined) return _data->joined->project(id, point, guess);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const Projector projector(face, point, 1e-11 * _data->bounds.diagonal());
   Projection best = projector.from(guess);

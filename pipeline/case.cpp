@@ -61,6 +61,8 @@ void declare_geometry(KeyTable& root, Draft& draft) {
   keys.choice<DomainKind>(
       "domain", draft.result.domain.kind,
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
+  keys.choice<NarrowFaces>("narrow_faces", draft.result.narrow_faces,
+                           {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}});
   using Sabotage = geometry::DomainOptions::Sabotage;
   keys.choice<Sabotage>("inject", draft.result.domain.sabotage,
                         {{"none", Sabotage::none},

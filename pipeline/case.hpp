@@ -26,6 +26,9 @@ struct SizingRequest {
   double target_tetrahedra = 1'000'000;    ///< what sizes chosen from the model aim at
 };
 
+/// What happens to faces narrower than the smallest size that go on smoothly in a neighbour.
+enum class NarrowFaces { join, keep };
+
 struct OutputOptions {
   std::string directory = "out";                        ///< relative to the working directory
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
@@ -33,6 +36,7 @@ struct OutputOptions {
 
 struct Case {
   geometry::DomainOptions domain;
+  NarrowFaces narrow_faces = NarrowFaces::join;
   SizingRequest sizing;
   surface::SurfaceOptions surface;
   volume::VolumeOptions volume;

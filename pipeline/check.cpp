@@ -2,7 +2,7 @@
 
 #include "parallel/collective_error.hpp"
 #include "pipeline/load_domain.hpp"
-#include "pipeline/resolve_sizes.hpp"
+#include "pipeline/size_domain.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -28,9 +28,10 @@ Forecast forecast_run(const parallel::Communicator& communicator, const geometry
                       const Case& input) {
   parallel::StageClock clock;
   Forecast forecast;
-  forecast.sizes = resolve_sizes(communicator, model, input.sizing, clock);
-  const sizing::SizeField field = sizing::build_size_field(communicator, model, forecast.sizes, clock);
-  forecast.counts = sizing::predict_counts(communicator, model, field, clock);
+  const SizedDomain sized = size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
+  forecast.sizes = sized.sizes;
+  forecast.joined = sized.joined;
+  forecast.counts = sizing::predict_counts(communicator, sized.model, sized.field, clock);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
   forecast.seconds = seconds_per_triangle * triangles + seconds_per_tetrahedron * tetrahedra;
   forecast.bytes = base_bytes * communicator.size() + bytes_per_tetrahedron * tetrahedra;
@@ -103,7 +104,11 @@ std::string describe_domain(const geometry::Domain& domain) {
 }
 
 std::string describe_forecast(const Forecast& forecast, int ranks) {
-  return fmt::format(
+  std::string text;
+  for (const geometry::Change& change : forecast.joined) {
+    text += "would be joined: " + geometry::describe(change) + "\n";
+  }
+  return text + fmt::format(
       "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
       "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
       "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
@@ -161,7 +166,8 @@ Json forecast_json(const Forecast& forecast) {
   return {{"minimum", forecast.sizes.minimum},           {"maximum", forecast.sizes.maximum},
           {"triangles", forecast.counts.triangles},      {"tetrahedra", forecast.counts.tetrahedra},
           {"seconds_on_one_core", forecast.seconds},     {"bytes", forecast.bytes},
-          {"piece_triangles", forecast.piece_triangles}, {"piece_tets", forecast.piece_tets}};
+          {"piece_triangles", forecast.piece_triangles}, {"piece_tets", forecast.piece_tets},
+          {"joined_faces", to_json(forecast.joined)}};
 }
 
 Json record_json(const Case& input, const CheckRecord& record) {

@@ -23,6 +23,7 @@ struct FaceContact {
 /// What a run would cost, from the prediction and the constants in docs/usage.md.
 struct Forecast {
   sizing::SizingOptions sizes;
+  geometry::Changes joined;  ///< narrow faces that would vanish in their neighbours
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together

@@ -14,6 +14,16 @@ Json to_json(geometry::Vec3 p) {
   return Json::array({p.x, p.y, p.z});
 }
 
+Json changes_json(const geometry::Changes& changes) {
+  Json json = Json::array();
+  for (const geometry::Change& change : changes) {
+    json.push_back({{"what", change.what},
+                    {"where", change.where ? to_json(*change.where) : Json()},
+                    {"how_much", change.how_much}});
+  }
+  return json;
+}
+
 Json geometry_json(const RunRecord& record) {
   Json json;
   json["unit"] = record.unit;
@@ -27,12 +37,7 @@ Json geometry_json(const RunRecord& record) {
                                                                       : "auto";
   json["domain_reason"] = record.domain.reason;
   json["reference_length"] = record.domain.reference_length;
-  json["changes"] = Json::array();
-  for (const geometry::Change& change : record.domain.changes) {
-    json["changes"].push_back({{"what", change.what},
-                               {"where", change.where ? to_json(*change.where) : Json()},
-                               {"how_much", change.how_much}});
-  }
+  json["changes"] = changes_json(record.domain.changes);
   return json;
 }
 
@@ -43,6 +48,7 @@ Json sizing_json(const RunRecord& record) {
           {"surface_maximum", record.sizes.surface_maximum},
           {"curvature_angle", record.sizes.curvature_angle},
           {"growth", record.sizes.growth},
+          {"joined_faces", changes_json(record.joined_faces)},
           {"octree_leaves", record.size_field_leaves},
           {"predicted_triangles", record.predicted.triangles},
           {"predicted_tetrahedra", record.predicted.tetrahedra}};

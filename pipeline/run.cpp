@@ -4,7 +4,7 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/load_domain.hpp"
-#include "pipeline/resolve_sizes.hpp"
+#include "pipeline/size_domain.hpp"
 
 #include <cmath>
 
@@ -62,7 +62,6 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
   record.regions = model.region_count();
   record.faces = model.face_count();
   record.edges = model.edge_count();
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) record.face_names.push_back(model.face(f).name);
   const geometry::Vec3 size = model.body_bounds().size();
   parallel::log_info(
       fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",
@@ -74,16 +73,23 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
   }
 }
 
-sizing::SizeField build_sizes(const Communicator& communicator, const geometry::Model& model,
-                              const Case& input, RunRecord& record) {
-  record.sizes = resolve_sizes(communicator, model, input.sizing, record.clock);
-  sizing::SizeField field = sizing::build_size_field(communicator, model, record.sizes, record.clock);
-  record.size_field_leaves = field.leaf_count();
+/// Sizes, and the model they are for.
+SizedDomain build_sizes(const Communicator& communicator, const geometry::Model& model, const Case& input,
+                        NarrowFaces narrow_faces, RunRecord& record) {
+  SizedDomain sized = size_domain(communicator, model, input.sizing, narrow_faces, record.clock);
+  record.sizes = sized.sizes;
+  record.size_field_leaves = sized.field.leaf_count();
+  record.face_names.clear();
+  for (geometry::FaceId f = 0; f < sized.model.face_count(); ++f) {
+    record.face_names.push_back(sized.model.face(f).name);
+  }
+  record.joined_faces = sized.joined;
+  for (const geometry::Change& change : sized.joined) parallel::log_info("sizing: " + geometry::describe(change));
   parallel::log_info(
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
                   record.sizes.growth, record.size_field_leaves));
-  return field;
+  return sized;
 }
 
 /// One volume piece per region for now: what they will hold together is predicted, and refused when it is too
@@ -181,6 +187,23 @@ FinishedSurface build_surface(const Communicator& communicator, const geometry::
   return finished;
 }
 
+/// The surface of the sized domain. Where joined faces cannot be meshed, that of the model as it was, and
+/// `sized` becomes its.
+FinishedSurface build_surface(const Communicator& communicator, const geometry::Model& model, const Case& input,
+                              SizedDomain& sized, RunRecord& record) {
+  if (sized.joined.empty()) return build_surface(communicator, sized.model, sized.field, input, record);
+  try {
+    return build_surface(communicator, sized.model, sized.field, input, record);
+  } catch (const parallel::CollectiveError& error) {
+    if (error.kind() != parallel::FailureKind::input) throw;
+    parallel::log_info(fmt::format("surface: with joined faces: {}; again without", error.what()));
+  } catch (const surface::SurfaceError& error) {
+    parallel::log_info(fmt::format("surface: with joined faces: {}; again without", error.what()));
+  }
+  sized = build_sizes(communicator, model, input, NarrowFaces::keep, record);
+  return build_surface(communicator, sized.model, sized.field, input, record);
+}
+
 /// Tetrahedra and volume by region; sums run in the order of the pieces.
 std::vector<RegionRow> table_of_regions(const Communicator& communicator,
                                         const mesh::DistributedMesh& volume) {
@@ -250,21 +273,22 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   const double start = parallel::wall_seconds();
   const std::string& directory = input.output.directory;
 
-  const geometry::Model model = run_stage(record, "geometry", ExitCode::cad, [&] {
-    geometry::Model loaded = load_domain(communicator, input.domain, record.clock, record.domain);
-    describe_domain(loaded, record);
-    return loaded;
+  const geometry::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
+    geometry::Model model = load_domain(communicator, input.domain, record.clock, record.domain);
+    describe_domain(model, record);
+    return model;
   });
-  const sizing::SizeField field = run_stage(record, "sizing", ExitCode::cad,
-                                            [&] { return build_sizes(communicator, model, input, record); });
+  SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
+    return build_sizes(communicator, loaded, input, input.narrow_faces, record);
+  });
   run_stage(record, "decompose", ExitCode::resources,
-            [&] { decompose(communicator, model, field, input, record); });
+            [&] { decompose(communicator, sized.model, sized.field, input, record); });
   const FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
-    return build_surface(communicator, model, field, input, record);
+    return build_surface(communicator, loaded, input, sized, record);
   });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
     mesh::DistributedMesh filled =
-        mesh_volume(communicator, model, surface.mesh, surface.numbering, surface.field, input.volume,
+        mesh_volume(communicator, sized.model, surface.mesh, surface.numbering, surface.field, input.volume,
                     directory + "/offending_triangles.vtp", record.clock, record.volume);
     inspect_volume(communicator, filled, surface.mesh, record);
     parallel::log_info(

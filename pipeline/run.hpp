@@ -44,6 +44,7 @@ struct RunRecord {
   geometry::Box bounds;
   std::int32_t regions = 0, faces = 0, edges = 0;
   std::vector<std::string> face_names;  ///< by face id
+  geometry::Changes joined_faces;       ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
   sizing::PredictedCounts predicted;
   std::int64_t size_field_leaves = 0;

@@ -217,7 +217,9 @@ std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::Fac
 
 std::vector<SizeSource> edge_sources(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
                                      const SizingOptions& options) {
-  if (model.edge(edge).degenerate) return {};
+  const auto& faces = model.edge(edge).faces;
+  const bool vanishes = model.is_seam(edge) && model.sheet_count(faces.front()) > 1;
+  if (model.edge(edge).degenerate || vanishes) return {};
   return EdgeSampler(model, edge, far_field, options).run();
 }
 

@@ -43,6 +43,7 @@ private:
   std::set<std::pair<int, int>> facing_lines() const {
     std::vector<std::vector<int>> lines_of(_facets.points.size());
     for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
+      if (_model.is_seam(_facets.boundary[line].use.edge)) continue;  // carries no elements
       for (const std::int32_t node : _facets.boundary[line].nodes)
         lines_of[node].push_back(static_cast<int>(line));
     }

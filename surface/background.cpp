@@ -34,11 +34,12 @@ double unwrap(double parameter, double reference, double period) {
 
 /// Parameters at the corners of each triangle, without jumps inside it: those of vertices beyond a seam are
 /// moved by a period, and the direction that means nothing at a pole is taken from the other corners. A
-/// triangle around a pole gets those of one corner everywhere: there is no better linear guess.
+/// triangle around a pole, or across sheets of a joined face, gets those of one corner everywhere: there is no
+/// better linear guess.
 class CornerParameters {
 public:
   CornerParameters(const Model& model, const FaceMesh& mesh)
-      : _mesh(mesh), _periods(model.parameter_periods(mesh.face)), _collapsed(mesh.points.size()) {
+      : _model(model), _mesh(mesh), _collapsed(mesh.points.size()) {
     if (model.is_planar(mesh.face)) return;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       const geometry::SurfaceFrame frame = model.face_frame(mesh.face, mesh.uv[v]);
@@ -49,10 +50,15 @@ public:
   }
 
   std::array<Vec2, 3> operator()(const std::array<std::int32_t, 3>& triangle) const {
+    const Vec2 first = _mesh.uv[triangle[0]];
+    for (const std::int32_t v : triangle) {
+      if (_model.sheet(_mesh.face, _mesh.uv[v]) != _model.sheet(_mesh.face, first)) return {first, first, first};
+    }
+    const Vec2 periods = _model.parameter_periods(_mesh.face, first);
     std::array<Vec2, 3> uv;
     std::array<std::array<double, 3>, 2> values;
     for (int direction = 0; direction < 2; ++direction) {
-      const double period = direction == 0 ? _periods.x : _periods.y;
+      const double period = direction == 0 ? periods.x : periods.y;
       int reference = -1;
       double sum = 0;
       int count = 0;
@@ -70,7 +76,7 @@ public:
       }
     }
     for (int i = 0; i < 3; ++i) uv[i] = {values[0][i], values[1][i]};
-    if (goes_round(values[0], _periods.x) || goes_round(values[1], _periods.y)) uv[1] = uv[2] = uv[0];
+    if (goes_round(values[0], periods.x) || goes_round(values[1], periods.y)) uv[1] = uv[2] = uv[0];
     return uv;
   }
 
@@ -81,8 +87,8 @@ private:
     return period > 0 && high - low > part * period;
   }
 
+  const Model& _model;
   const FaceMesh& _mesh;
-  Vec2 _periods;
   std::vector<std::array<bool, 2>> _collapsed;  // per vertex: u means nothing there, v means nothing there
 };
 
@@ -179,7 +185,8 @@ private:
 
   /// The parameters of the same point nearest to others.
   Vec2 near(Vec2 uv, Vec2 others) const {
-    const Vec2 periods = _model.parameter_periods(_support.face);
+    if (_model.sheet(_support.face, uv) != _model.sheet(_support.face, others)) return others;
+    const Vec2 periods = _model.parameter_periods(_support.face, others);
     return {unwrap(uv.x, others.x, periods.x), unwrap(uv.y, others.y, periods.y)};
   }
 

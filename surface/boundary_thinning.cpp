@@ -20,7 +20,7 @@ double unwrap(double parameter, double reference, double period) {
 class BoundaryThinner {
 public:
   BoundaryThinner(const geometry::Model& model, Support& support)
-      : _periods(model.parameter_periods(support.face)), _support(support), _around(support.points.size()) {
+      : _model(model), _support(support), _around(support.points.size()) {
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(support.triangles.size()); ++t) {
       for (const std::int32_t p : support.triangles[t]) _around[p].push_back(t);
     }
@@ -56,7 +56,10 @@ public:
       }
       const int k = corner(t, gone);
       Vec2& at = _support.corner_uv[t][k];
-      at = {unwrap(uv.x, at.x, _periods.x), unwrap(uv.y, at.y, _periods.y)};
+      if (_model.sheet(_support.face, uv) == _model.sheet(_support.face, at)) {
+        const Vec2 periods = _model.parameter_periods(_support.face, at);
+        at = {unwrap(uv.x, at.x, periods.x), unwrap(uv.y, at.y, periods.y)};
+      }
       _support.triangles[t][k] = kept;
       _around[kept].push_back(t);
     }
@@ -98,7 +101,7 @@ private:
     return p[0] == point ? 0 : p[1] == point ? 1 : p[2] == point ? 2 : -1;
   }
 
-  Vec2 _periods;
+  const geometry::Model& _model;
   Support& _support;
   std::vector<std::vector<std::int32_t>> _around;  // triangles per point
   std::vector<char> _alive;                        // per triangle

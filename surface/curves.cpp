@@ -211,12 +211,7 @@ bool is_cut_token(mesh::SharedToken token) {
 bool is_constraining(const Model& model, EdgeId id) {
   const Edge& edge = model.edge(id);
   if (edge.degenerate) return false;
-  if (edge.faces.size() != 1) return !edge.faces.empty();
-  int uses = 0;
-  for (const auto& loop : model.face(edge.faces.front()).loops) {
-    for (const auto& use : loop) uses += use.edge == id;
-  }
-  return uses < 2;
+  return !edge.faces.empty() && !model.is_seam(id);
 }
 
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const Model& model,

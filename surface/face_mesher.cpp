@@ -1,5 +1,6 @@
 #include "surface/face_mesher.hpp"
 
+#include "geometry/face_width.hpp"
 #include "surface/support_mesher.hpp"
 
 #include <algorithm>
@@ -36,27 +37,6 @@ mesh::Piece piece_of(const geometry::Model& model, const FaceVertices& vertices,
   return piece;
 }
 
-/// Twice the area over the perimeter: about the width of a strip, whatever its length.
-double mean_width(const geometry::Model& model, geometry::FaceId face) {
-  constexpr int intervals = 16;  // of an edge; its length is needed to a few percent
-  double perimeter = 0;
-  for (const auto& loop : model.face(face).loops) {
-    for (const geometry::EdgeUse& use : loop) {
-      const geometry::Edge& edge = model.edge(use.edge);
-      if (edge.degenerate) continue;
-      Vec3 last = model.edge_point(use.edge, edge.first_parameter);
-      for (int i = 1; i <= intervals; ++i) {
-        const double along = static_cast<double>(i) / intervals;
-        const Vec3 next = model.edge_point(
-            use.edge, edge.first_parameter + along * (edge.last_parameter - edge.first_parameter));
-        perimeter += distance(last, next);
-        last = next;
-      }
-    }
-  }
-  return perimeter > 0 ? 2 * model.face_area(face) / perimeter : 0;
-}
-
 }  // namespace
 
 geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId face,
@@ -66,7 +46,7 @@ geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId f
   constexpr double part_of_model = 1e-3, part_of_width = 0.03, least_part_of_model = 1e-6;
   const double scale = model.is_far_field(face) ? model.bounds().diagonal() : model.body_bounds().diagonal();
   const double deflection =
-      std::clamp(part_of_width * mean_width(model, face), least_part_of_model * scale, part_of_model * scale);
+      std::clamp(part_of_width * geometry::mean_width(model, face), least_part_of_model * scale, part_of_model * scale);
   return model.facets(face, deflection, options.support_angle * std::numbers::pi / 180);
 }
 

@@ -1,0 +1,14 @@
+/// How wide faces are.
+#pragma once
+
+#include "geometry/model.hpp"
+
+namespace aeroloom::geometry {
+
+/// Length of an edge to a few percent.
+double rough_length(const Model& model, EdgeId edge);
+
+/// Twice the area over the perimeter: about the width of a strip, whatever its length. Seams do not count.
+double mean_width(const Model& model, FaceId face);
+
+}  // namespace aeroloom::geometry

@@ -1,0 +1,34 @@
+/// Faces narrower than elements are meant to be, and which of their neighbours can take them in.
+#pragma once
+
+#include "geometry/model.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// A face that one of its neighbours takes in.
+struct NarrowFace {
+  geometry::FaceId face = geometry::no_entity, into = geometry::no_entity;
+  double width = 0;      ///< 2 area / perimeter
+  double degrees = 0;    ///< largest turn of the surface across the edges that vanish
+  double deviation = 0;  ///< width * sin(turn): how far the mesh may leave the surface there
+  geometry::Vec3 place;  ///< on an edge that vanishes
+};
+
+/// Faces narrower than `width` which have a neighbour in the same patch, between the same regions, that goes on
+/// from them smoothly: across every edge between the two the surface turns by less than 20 degrees and the
+/// deviation is at most `tolerance`. Of several neighbours the one with the longest common border; a blunt
+/// trailing edge has none. No far field, no exact planes. By face, the same on every rank. Collective.
+std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator,
+                                          const geometry::Model& model, double width, double tolerance,
+                                          parallel::StageClock& clock);
+
+/// Groups for geometry::join_faces: of those found, all that can vanish together.
+std::vector<std::vector<geometry::FaceId>> group_narrow_faces(const geometry::Model& model,
+                                                              std::vector<NarrowFace>& narrow,
+                                                              double tolerance);
+
+}  // namespace aeroloom::sizing
