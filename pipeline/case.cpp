@@ -95,6 +95,7 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   keys.number("maximum", sizing.maximum, Range::above(0, length));
   keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length));
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"));
+  keys.number("chordal_deviation", sizing.chordal_deviation, Range::above(0, length));
   keys.number("growth", sizing.growth, Range::above(1, 3));
   keys.number("proximity", sizing.proximity, Range::between(0, 20, "elements"));
   keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10));

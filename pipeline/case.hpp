@@ -21,6 +21,7 @@ struct SizingRequest {
   std::optional<double> feature_minimum;   ///< smallest size at short edges, narrow faces, sharp corners
   std::optional<double> surface_maximum;   ///< largest size on faces that are not far field
   std::optional<double> curvature_angle;   ///< degrees
+  std::optional<double> chordal_deviation;  ///< of triangles from curved faces
   std::optional<double> growth;            ///< ratio of neighbouring sizes
   std::optional<double> proximity;         ///< elements across thin parts and gaps; 0: any
   double target_tetrahedra = 1'000'000;    ///< what sizes chosen from the model aim at

@@ -47,6 +47,7 @@ Json sizing_json(const RunRecord& record) {
           {"maximum", record.sizes.maximum},
           {"surface_maximum", record.sizes.surface_maximum},
           {"curvature_angle", record.sizes.curvature_angle},
+          {"chordal_deviation", record.sizes.chordal_deviation},
           {"growth", record.sizes.growth},
           {"joined_faces", changes_json(record.joined_faces)},
           {"octree_leaves", record.size_field_leaves},

@@ -50,6 +50,7 @@ sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, 
   if (request.feature_minimum) sizes.feature_minimum = *request.feature_minimum;
   if (request.maximum) sizes.maximum = *request.maximum;
   if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;
+  if (request.chordal_deviation) sizes.chordal_deviation = *request.chordal_deviation;
   if (request.proximity) sizes.proximity = *request.proximity;
   if (request.growth) sizes.growth = *request.growth;
   if (request.surface_maximum) sizes.surface_maximum = *request.surface_maximum;

@@ -29,9 +29,15 @@ double radians_per_element(bool far_field, const SizingOptions& options) {
   return degrees * std::numbers::pi / 180;
 }
 
+/// A triangle with edges h leaves a surface of curvature k by k R^2 / 2 in its middle, R = h / sqrt(3).
+double size_for_deviation(double curvature, const SizingOptions& options) {
+  return std::max(std::sqrt(6 * options.chordal_deviation / curvature), smallest_feature_size(options));
+}
+
 double size_for_curvature(double curvature, double angle, double largest, const SizingOptions& options) {
   const double k = std::abs(curvature);
-  return k * largest > angle ? std::max(angle / k, options.minimum) : largest;
+  const double size = k * largest > angle ? std::max(angle / k, options.minimum) : largest;
+  return options.chordal_deviation > 0 && k > 0 ? std::min(size, size_for_deviation(k, options)) : size;
 }
 
 struct FaceSample {

@@ -20,14 +20,11 @@ using geometry::Vec3;
 
 constexpr double largest_turn = 20;  // degrees
 
-bool may_vanish(const Model& model, FaceId face) {
-  return !model.is_far_field(face) && !model.is_exact_plane(face);
-}
-
+/// An exact plane stays one: it joins its like alone.
 bool may_join(const Model& model, FaceId a, FaceId b) {
   const geometry::Face &first = model.face(a), &second = model.face(b);
-  return may_vanish(model, a) && may_vanish(model, b) && first.patch == second.patch &&
-         first.front == second.front && first.back == second.back;
+  return !model.is_far_field(b) && model.is_exact_plane(a) == model.is_exact_plane(b) &&
+         first.patch == second.patch && first.front == second.front && first.back == second.back;
 }
 
 /// The face on the other side of an edge; no_entity where it is not used by exactly two faces, once each.
@@ -78,7 +75,7 @@ struct Border {
 };
 
 std::optional<NarrowFace> examine(const Model& model, FaceId face, double width, double tolerance) {
-  if (!may_vanish(model, face)) return std::nullopt;
+  if (model.is_far_field(face)) return std::nullopt;
   NarrowFace found;
   found.face = face;
   found.width = geometry::mean_width(model, face);

@@ -13,11 +13,15 @@ using geometry::Vec3;
 
 constexpr int deepest_bisection = 40;
 
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+/// Where on the segment, from 0 to 1, the nearest point is.
+double part_along(Vec3 p, Vec3 a, Vec3 b) {
   const Vec3 along = b - a;
   const double square = dot(along, along);
-  const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
-  return distance(p, a + t * along);
+  return square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
+}
+
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  return distance(p, a + part_along(p, a, b) * (b - a));
 }
 
 /// The boundary lines of one face, which of them lie opposite each other, and how far apart.
@@ -66,7 +70,66 @@ private:
       }
     }
     for (const auto& lines : lines_around) join(lines, lines);
+    add_pairs_behind_ends(pairs);
     return pairs;
+  }
+
+  /// Where the short end of a strip has nodes of its own, no facet joins the long sides: they are facing if
+  /// facets lie between the places where they are nearest.
+  void add_pairs_behind_ends(std::set<std::pair<int, int>>& pairs) const {
+    std::vector<int> lines;
+    std::vector<geometry::Box> boxes(_facets.boundary.size());
+    for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
+      const auto& nodes = _facets.boundary[line].nodes;
+      if (nodes.size() < 2 || _model.is_seam(_facets.boundary[line].use.edge)) continue;
+      lines.push_back(static_cast<int>(line));
+      for (const std::int32_t node : nodes) boxes[line].add(_facets.points[node]);
+    }
+    for (const int a : lines) {
+      for (const int b : lines) {
+        if (a >= b || share_vertex(a, b) || pairs.count({a, b}) > 0) continue;
+        if (gap(boxes[a], boxes[b]) < _options.maximum && (is_faced(a, b) || is_faced(b, a)))
+          pairs.insert({a, b}), pairs.insert({b, a});
+      }
+    }
+  }
+
+  static double gap(const geometry::Box& a, const geometry::Box& b) {
+    Vec3 apart;
+    for (int axis = 0; axis < 3; ++axis) {
+      apart[axis] = std::max({a.low[axis] - b.high[axis], b.low[axis] - a.high[axis], 0.0});
+    }
+    return norm(apart);
+  }
+
+  /// Whether the face is between the node of one line that is nearest to the other, and the other.
+  bool is_faced(int from, int to) const {
+    const auto& nodes = _facets.boundary[to].nodes;
+    double least = _options.maximum;
+    geometry::Vec2 middle;
+    for (const std::int32_t node : _facets.boundary[from].nodes) {
+      const Vec3 p = _facets.points[node];
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
+        const double t = part_along(p, a, b), away = distance(p, a + t * (b - a));
+        if (away >= least) continue;
+        least = away;
+        const geometry::Vec2 foot = (1 - t) * _facets.uv[nodes[i]] + t * _facets.uv[nodes[i + 1]];
+        middle = 0.5 * (_facets.uv[node] + foot);
+      }
+    }
+    return least < _options.maximum && lies_inside(middle);
+  }
+
+  /// Whether some facet holds the parameters.
+  bool lies_inside(geometry::Vec2 uv) const {
+    const auto side = [&](geometry::Vec2 a, geometry::Vec2 b) { return cross(b - a, uv - a); };
+    for (const auto& t : _facets.triangles) {
+      const geometry::Vec2 a = _facets.uv[t[0]], b = _facets.uv[t[1]], c = _facets.uv[t[2]];
+      const double first = side(a, b), second = side(b, c), third = side(c, a);
+      if (std::min({first, second, third}) >= 0 || std::max({first, second, third}) <= 0) return true;
+    }
+    return false;
   }
 
   bool share_vertex(int a, int b) const {

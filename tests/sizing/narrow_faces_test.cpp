@@ -1,0 +1,52 @@
+#include "sizing/narrow_faces.hpp"
+
+#include "tests/geometry/strip_shapes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Model;
+
+std::vector<NarrowFace> find(const Model& model, double width, double tolerance) {
+  parallel::StageClock clock;
+  return find_narrow_faces(parallel::Communicator::world(), model, width, tolerance, clock);
+}
+
+TEST(NarrowFaces, AreFoundWithTheirNeighbours) {
+  const Model model = geometry::shapes::split_cylinder(3, 2);
+  const double width = 3 * std::numbers::pi / 180;
+  EXPECT_TRUE(find(model, 0.9 * width, 1).empty());
+  const auto found = find(model, 1.1 * width, 1e-6);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].width, width, 0.05 * width);
+  EXPECT_LT(found[0].degrees, 1e-4);
+  EXPECT_LT(found[0].deviation, 1e-6);
+  EXPECT_FALSE(model.is_planar(found[0].into));
+  EXPECT_NE(found[0].into, found[0].face);
+  EXPECT_NEAR(std::hypot(found[0].place.x, found[0].place.y), 1, 1e-9);
+  auto narrow = found;
+  const auto groups = group_narrow_faces(model, narrow, 1e-6);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groups[0].size(), 2u);
+}
+
+TEST(NarrowFaces, ABluntTrailingEdgeStays) {
+  const Model model = geometry::shapes::blunt_wedge(0.01);
+  EXPECT_TRUE(find(model, 0.02, 1).empty());
+}
+
+// Two strips side by side, bent against each other by more than the tolerance allows: neither takes the other.
+TEST(NarrowFaces, CreasesStay) {
+  const Model model = geometry::shapes::blunt_wedge(0.39);
+  const auto all = find(model, 10, 10);
+  for (const NarrowFace& face : all) EXPECT_LE(face.degrees, 20);
+  EXPECT_TRUE(all.empty());
+}
+
+}  // namespace
+}  // namespace aeroloom::sizing

@@ -1,0 +1,96 @@
+/// The borders of narrow faces vanish from the mesh, whole or in pieces, and the surface stays what it was.
+#include "geometry/joined_faces.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "sizing/narrow_faces.hpp"
+#include "surface/surface_mesher.hpp"
+#include "tests/geometry/strip_shapes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::Model;
+using geometry::Vec3;
+using parallel::Communicator;
+
+constexpr double size = 0.12, strip_degrees = 1.5;
+
+Model joined_cylinder(const Communicator& communicator) {
+  const Model apart = geometry::shapes::split_cylinder(strip_degrees, 2);
+  parallel::StageClock clock;
+  auto narrow = sizing::find_narrow_faces(communicator, apart, size, 0.05 * size, clock);
+  return geometry::join_faces(apart, sizing::group_narrow_faces(apart, narrow, 0.05 * size));
+}
+
+struct Meshed {
+  SurfaceMesh surface;
+  mesh::Numbering numbering;
+};
+
+Meshed mesh_model(const Communicator& communicator, const Model& model, const SurfaceOptions& options) {
+  parallel::StageClock clock;
+  const sizing::SizeField field =
+      sizing::build_size_field(communicator, model, {size, size, 30, 1.3, 0}, clock);
+  SurfaceMesh surface = mesh_surface(communicator, model, field, options, clock);
+  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  return {std::move(surface), std::move(numbering)};
+}
+
+void expect_sound(const Communicator& communicator, const Meshed& meshed) {
+  const auto report = mesh::check_surface_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+  EXPECT_TRUE(report.valid()) << report.violations.front();
+  const double volume = 2 * std::numbers::pi;
+  EXPECT_NEAR(report.volume, volume, 0.01 * volume);
+  std::int64_t small = 0, off = 0;
+  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const Vec3 p = piece.point(v);
+      const double radius = std::hypot(p.x, p.y);
+      const bool on_side = std::abs(radius - 1) < 1e-7;
+      const bool on_end = std::abs(p.z) < 1e-9 || std::abs(p.z - 2) < 1e-9;
+      off += !(on_side || (on_end && radius < 1));
+    }
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), c = piece.point(v[2]);
+      const double middle = (a.z + b.z + c.z) / 3;
+      if (middle < 0.5 || middle > 1.5) continue;  // near the ends the strip's short edges ask for their length
+      small += std::min({distance(a, b), distance(b, c), distance(c, a)}) < 0.5 * size;
+    }
+  }
+  EXPECT_EQ(communicator.sum(off), 0);
+  EXPECT_EQ(communicator.sum(small), 0);
+}
+
+TEST(JoinedFacesMesh, StripsLeaveNoTrace) {
+  const Communicator communicator = Communicator::world();
+  const Model model = joined_cylinder(communicator);
+  ASSERT_EQ(model.face_count(), 3);
+  for (const std::int64_t piece_triangles : {50'000, 150}) {
+    const Meshed meshed = mesh_model(communicator, model, {.piece_triangles = piece_triangles});
+    expect_sound(communicator, meshed);
+    EXPECT_EQ(meshed.surface.report.divided_faces > 0, piece_triangles == 150);
+    if (communicator.size() == 1) continue;
+    const std::string together = mesh::hash_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+    const Communicator alone = Communicator::self();
+    const Meshed again = mesh_model(alone, model, {.piece_triangles = piece_triangles});
+    EXPECT_EQ(together, mesh::hash_mesh(alone, again.surface.mesh, again.numbering));
+  }
+}
+
+// The same solid as it is: the strip's long edges are in the mesh.
+TEST(JoinedFacesMesh, KeptStripsForceSmallElements) {
+  const Communicator communicator = Communicator::world();
+  const Model apart = geometry::shapes::split_cylinder(strip_degrees, 2);
+  const Meshed meshed = mesh_model(communicator, apart, {});
+  const Meshed joined = mesh_model(communicator, joined_cylinder(communicator), {});
+  EXPECT_GT(4 * meshed.surface.report.triangles, 5 * joined.surface.report.triangles);
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
