@@ -1,5 +1,7 @@
 #include "geometry/face_width.hpp"
 
+#include <cmath>
+
 namespace aeroloom::geometry {
 
 double rough_length(const Model& model, EdgeId id) {
@@ -25,7 +27,8 @@ double mean_width(const Model& model, FaceId face) {
       if (!model.is_seam(use.edge)) perimeter += rough_length(model, use.edge);
     }
   }
-  return perimeter > 0 ? 2 * model.face_area(face) / perimeter : 0;
+  const double area = model.face_area(face);
+  return perimeter > 0 ? 2 * area / perimeter : std::sqrt(area);
 }
 
 }  // namespace aeroloom::geometry

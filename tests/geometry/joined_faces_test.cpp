@@ -1,6 +1,7 @@
 #include "geometry/joined_faces.hpp"
 
 #include "geometry/face_width.hpp"
+#include "geometry/primitives.hpp"
 #include "tests/geometry/strip_shapes.hpp"
 
 #include <algorithm>
@@ -132,6 +133,11 @@ TEST(FaceWidth, IsThatOfAStrip) {
   for (FaceId f = 0; f < model.face_count(); ++f) least = std::min(least, mean_width(model, f));
   const double width = strip_degrees * std::numbers::pi / 180;
   EXPECT_NEAR(least, 2 * 20 * width / (2 * (20 + width)), 1e-4);
+}
+
+TEST(FaceWidth, OfAClosedSurfaceIsItsExtent) {
+  EXPECT_NEAR(mean_width(make_primitive_domain(PrimitiveKind::sphere, {.radius = 2}), 0),
+              std::sqrt(16 * std::numbers::pi), 1e-9);
 }
 
 }  // namespace

@@ -71,6 +71,34 @@ TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
   }
 }
 
+/// How far the middles of triangles are inside the unit sphere or cylinder around z, at most.
+TEST(SurfaceMesher, ChordalDeviationIsBounded) {
+  const Communicator world = Communicator::world();
+  for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::cylinder}) {
+    const geometry::Model model = geometry::make_primitive_domain(kind, {.radius = 1, .height = 1});
+    for (const double wanted : {1e-2, 1e-3}) {
+      parallel::StageClock clock;
+      sizing::SizingOptions sizes{.minimum = 1, .maximum = 1, .curvature_angle = 60, .growth = 1.3};
+      sizes.chordal_deviation = wanted;
+      const SurfaceMesh surface = mesh_surface(
+          world, model, sizing::build_size_field(world, model, sizes, clock), {}, clock);
+      double largest = 0;
+      for (const mesh::Piece& piece : surface.mesh.pieces) {
+        if (model.is_planar(piece.common_face())) continue;
+        for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+          const mesh::LocalIndex* v = piece.cell(t);
+          geometry::Vec3 middle = (1.0 / 3) * (piece.point(v[0]) + piece.point(v[1]) + piece.point(v[2]));
+          if (kind == PrimitiveKind::cylinder) middle.z = 0;
+          largest = std::max(largest, 1 - norm(middle));
+        }
+      }
+      largest = world.maximum(largest);
+      EXPECT_LE(largest, wanted);
+      EXPECT_GT(largest, 0.3 * wanted);
+    }
+  }
+}
+
 class SurfaceShapes : public testing::TestWithParam<PrimitiveKind> {};
 
 TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
