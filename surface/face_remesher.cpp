@@ -11,15 +11,13 @@ using geometry::Vec3;
 
 namespace {
 
-/// Triangles may turn from the surface by 45 degrees; what is further off must not get worse.
-constexpr double facing_limit = 0.5;
 /// A mean ratio that needs no protection.
 constexpr double good_mean_ratio = 0.65;
 
 }  // namespace
 
 bool is_acceptable(const PatchShape& before, const PatchShape& after) {
-  return after.facing >= std::min(before.facing, facing_limit) &&
+  return after.facing >= std::min(before.facing, least_facing) &&
          after.mean_ratio >= std::min(before.mean_ratio, good_mean_ratio);
 }
 

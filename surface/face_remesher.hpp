@@ -33,6 +33,8 @@ public:
   void divide_long_edges();
   void flip_edges();
   void smooth();
+  /// Moves vertices of triangles below 26 degrees where the smallest angle around them is largest.
+  void widen_sharp_triangles();
   /// One sweep of straighten_cuts().
   void straighten(const std::vector<std::int32_t>& part, double smallest_angle);
   /// Ends a sweep: the next one looks only at what this one changed.
@@ -88,6 +90,8 @@ private:
   double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;
   geometry::Vec3 ideal_place(std::int32_t vertex) const;
   void smooth_vertex(std::int32_t vertex);
+  double smallest_sine_around(std::int32_t vertex);
+  bool widen_vertex(std::int32_t vertex);
   /// The ends of the borders that leave a vertex, counter-clockwise; edges of one triangle are borders too.
   void gather_borders(std::int32_t vertex, const std::vector<std::int32_t>& part);
   double smallest_border_angle(std::int32_t vertex, const std::vector<std::int32_t>& part);
@@ -105,6 +109,9 @@ private:
   std::vector<HalfEdge> _stack;
   std::vector<StarEdge> _star, _replaced;
 };
+
+/// Triangles may turn from the surface by 45 degrees (squared cosine); what is further off must not get worse.
+inline constexpr double least_facing = 0.5;
 
 /// Whether a change is allowed: nothing folds, and nothing gets worse than it was, unless it is still good.
 bool is_acceptable(const PatchShape& before, const PatchShape& after);

@@ -17,6 +17,7 @@ void remesh_interior(const geometry::Model& model, const sizing::SizeField& fiel
     remesher.flip_edges();
     remesher.settle();
   }
+  if (options.resizes) remesher.widen_sharp_triangles();
   remesher.finish();
 }
 
