@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -90,7 +91,7 @@ private:
   double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;
   geometry::Vec3 ideal_place(std::int32_t vertex) const;
   void smooth_vertex(std::int32_t vertex);
-  double smallest_sine_around(std::int32_t vertex);
+  std::optional<double> judge_fan(const std::vector<double>& before) const;
   bool widen_vertex(std::int32_t vertex);
   /// The ends of the borders that leave a vertex, counter-clockwise; edges of one triangle are borders too.
   void gather_borders(std::int32_t vertex, const std::vector<std::int32_t>& part);
@@ -106,6 +107,7 @@ private:
   std::vector<std::uint8_t> _movable;        // per vertex
   std::vector<std::uint8_t> _active, _next;  // per vertex: looked at in this sweep, in the next
   std::vector<std::int32_t> _fan, _other_fan, _borders;
+  std::vector<double> _fan_sines;
   std::vector<HalfEdge> _stack;
   std::vector<StarEdge> _star, _replaced;
 };

@@ -1,5 +1,5 @@
 // The few triangles that are sharp in the end, most of them beside a long edge on the border: their vertices move
-// where the smallest angle around them is largest (Freitag, Jones and Plassmann, An efficient parallel algorithm
+// where the smallest angle around them gets largest (Freitag, Jones and Plassmann, An efficient parallel algorithm
 // for mesh smoothing, 4th International Meshing Roundtable, 1995), with a search by pattern.
 #include "surface/face_remesher.hpp"
 
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace aeroloom::surface {
 
@@ -15,41 +16,49 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr double sharp_degrees = 26;
-constexpr int rounds = 8;
+// Squared sines of angles. Triangles below the first are worked on; no other may fall below the second for them.
+const double sharp_sine = std::pow(std::sin(26 * std::numbers::pi / 180), 2);
+const double guarded_sine = std::pow(std::sin(18 * std::numbers::pi / 180), 2);
+constexpr int rounds = 6;
 constexpr int directions = 8;
 /// Steps of the search, in lengths of the shortest edge around the vertex.
 constexpr std::array<double, 4> steps{0.5, 0.25, 0.12, 0.05};
 
 }  // namespace
 
-double FaceRemesher::smallest_sine_around(std::int32_t vertex) {
-  _links.gather_fan(vertex, _fan);
+/// The smallest angle around the vertex as it is now, if no triangle of the fan has got sharp, or sharper, for it;
+/// `before` has their angles. Angles are squared sines.
+std::optional<double> FaceRemesher::judge_fan(const std::vector<double>& before) const {
   double least = 1;
-  for (const std::int32_t t : _fan) {
-    const auto& v = _links.triangles[t].vertices;
-    least = std::min(least, smallest_sine(v[0], v[1], v[2]));
+  for (std::size_t i = 0; i < _fan.size(); ++i) {
+    const auto& v = _links.triangles[_fan[i]].vertices;
+    const double sine = smallest_sine(v[0], v[1], v[2]);
+    if (sine < std::min(before[i], guarded_sine)) return std::nullopt;
+    least = std::min(least, sine);
   }
   return least;
 }
 
 bool FaceRemesher::widen_vertex(std::int32_t vertex) {
   if (!_links.gather_fan(vertex, _fan)) return false;
-  double shortest = std::numeric_limits<double>::max();
+  double shortest = std::numeric_limits<double>::max(), best = 1;
   PatchShape before;
+  std::vector<double>& sines = _fan_sines;
+  sines.clear();
   for (const std::int32_t t : _fan) {
     before.add(shape(t));
-    for (const std::int32_t v : _links.triangles[t].vertices) {
-      if (v != vertex) shortest = std::min(shortest, distance(_mesh.points[v], _mesh.points[vertex]));
+    const auto& v = _links.triangles[t].vertices;
+    sines.push_back(smallest_sine(v[0], v[1], v[2]));
+    best = std::min(best, sines.back());
+    for (const std::int32_t w : v) {
+      if (w != vertex) shortest = std::min(shortest, distance(_mesh.points[w], _mesh.points[vertex]));
     }
   }
   bool moved = false;
-  double best = smallest_sine_around(vertex);
   for (const double step : steps) {
     const Place start = place_of(vertex);
-    const Vec3 normal = start.normal;
-    const Vec3 away = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 first = normalized(cross(normal, away)), second = cross(normal, first);
+    const Vec3 away = std::abs(start.normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 first = normalized(cross(start.normal, away)), second = cross(start.normal, first);
     Place chosen = start;
     for (int i = 0; i < directions; ++i) {
       const double angle = 2 * std::numbers::pi * i / directions;
@@ -59,10 +68,10 @@ bool FaceRemesher::widen_vertex(std::int32_t vertex) {
       if (!project(start.point + step * shortest * direction, vertex, step * shortest, place)) continue;
       PatchShape after;
       for (const std::int32_t t : _fan) after.add(shape_with(t, vertex, place));
-      if (!(after.facing >= std::min(before.facing, least_facing))) continue;
+      if (after.facing < std::min(before.facing, least_facing)) continue;
       put(vertex, place);
-      const double sine = smallest_sine_around(vertex);
-      if (sine > best * (1 + 1e-6)) best = sine, chosen = place, moved = true;
+      const auto sine = judge_fan(sines);
+      if (sine && *sine > best * (1 + 1e-6)) best = *sine, chosen = place, moved = true;
     }
     put(vertex, chosen);
   }
@@ -70,25 +79,25 @@ bool FaceRemesher::widen_vertex(std::int32_t vertex) {
 }
 
 void FaceRemesher::widen_sharp_triangles() {
-  const double limit = std::pow(std::sin(sharp_degrees * std::numbers::pi / 180), 2);
+  std::fill(_active.begin(), _active.end(), 1);
   for (int round = 0; round < rounds; ++round) {
-    std::fill(_active.begin(), _active.end(), 0);
+    std::fill(_next.begin(), _next.end(), 0);
     bool changed = false;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
       if (!is_live(t)) continue;
       const std::array<std::int32_t, 3> corners{_links.triangles[t].vertices[0], _links.triangles[t].vertices[1],
                                                 _links.triangles[t].vertices[2]};
-      if (smallest_sine(corners[0], corners[1], corners[2]) >= limit) continue;
+      if (smallest_sine(corners[0], corners[1], corners[2]) >= sharp_sine) continue;
       for (const std::int32_t v : corners) {
-        _active[v] = 1;
-        if (!is_free(v) || !widen_vertex(v)) continue;
+        if (!_active[v] || !is_free(v) || !widen_vertex(v)) continue;
         changed = true;
         for (const std::int32_t s : _fan) {
-          for (const std::int32_t w : _links.triangles[s].vertices) _active[w] = 1;
+          for (const std::int32_t w : _links.triangles[s].vertices) _next[w] = 1;
         }
       }
     }
     if (!changed) return;
+    settle();
     flip_edges();
   }
 }
