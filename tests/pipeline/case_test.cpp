@@ -79,8 +79,10 @@ geometry:
     horizontal_tail: {half_span: 7}
     vertical_tail: {sweep: 40.5}
   domain: body
+  narrow_faces: keep
 farfield: {shape: box, extent: 12.5}
-sizing: {minimum: 0.01, maximum: 1.5, surface_maximum: 0.5, curvature_angle: 15, growth: 1.2, target_tetrahedra: 2e6}
+sizing: {minimum: 0.01, maximum: 1.5, surface_maximum: 0.5, curvature_angle: 15, growth: 1.2, target_tetrahedra: 2e6,
+         feature_minimum: 0.002, chordal_deviation: 1e-4}
 surface: {piece_triangles: 1000, decomposition: faces}
 volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.1, inject: aborts}
 improve: {enabled: false, target_angle: 18, sweeps: 3}
@@ -118,6 +120,9 @@ output: {directory: out/a, log: verbose}
   EXPECT_EQ(input.sizing.curvature_angle, 15);
   EXPECT_EQ(input.sizing.growth, 1.2);
   EXPECT_EQ(input.sizing.target_tetrahedra, 2e6);
+  EXPECT_EQ(input.sizing.feature_minimum, 0.002);
+  EXPECT_EQ(input.sizing.chordal_deviation, 1e-4);
+  EXPECT_EQ(input.narrow_faces, NarrowFaces::keep);
   EXPECT_EQ(input.surface.piece_triangles, 1000);
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::faces);
   EXPECT_EQ(input.piece_tets, 300'000);
