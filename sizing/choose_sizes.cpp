@@ -17,8 +17,7 @@ constexpr double body_size_over_minimum = 10;
 // Short edges and narrow faces may ask for this part of the minimum; for the larger part where they alone
 // would use up the elements asked for.
 constexpr double fine_features = 0.05, coarse_features = 0.25;
-constexpr double out_of_reach = 0.2;   // logarithm of the count over the target
-constexpr double fewest_on_body = 20;  // elements along the largest extent of the body
+constexpr double out_of_reach = 0.2;  // logarithm of the count over the target
 constexpr double domain_over_maximum = 20;  // diagonal of everything
 constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
 constexpr double body_over_finest = 5000;
@@ -87,8 +86,7 @@ SizingOptions choose_sizes(const parallel::Communicator& communicator, const geo
   const ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity);
   Preset preset{model.bounds().diagonal() / domain_over_maximum, model.sewn_gap(), fine_features};
   Choice choice = search(sampler, target_tetrahedra, preset);
-  const bool used_up = fewest_on_body * choice.body_size > largest_extent(sampler.body_box());
-  if (choice.error > out_of_reach || used_up) {
+  if (choice.error > out_of_reach) {
     preset.feature_part = coarse_features;
     choice = search(sampler, target_tetrahedra, preset);
   }
