@@ -1,6 +1,7 @@
 #include "improve/cavity_insertion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace aeroloom::improve {
@@ -120,7 +121,34 @@ bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, Cavity& ca
   _tets.assign(1, t);
   const Corners& c = mesh.corners(t);
   _point = 0.25 * (mesh.point(c[0]) + mesh.point(c[1]) + mesh.point(c[2]) + mesh.point(c[3]));
-  return propose(mesh, mesh.vertex_count(), cavity);
+  if (propose(mesh, mesh.vertex_count(), cavity)) return true;
+  return start_behind(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
+}
+
+// From inside a tetrahedron that lies flat on the boundary every cone is flat.
+bool CavityInsertion::start_behind(const TetMesh& mesh, LocalIndex t) {
+  _tets.assign(1, t);
+  bool on_boundary = false;
+  for (int f = 0; f < 4; ++f) {
+    const HalfFace other = mesh.mate(4 * t + f);
+    on_boundary = on_boundary || other < 0;
+    if (other >= 0 && !contains(other >> 2)) _tets.push_back(other >> 2);
+  }
+  if (!on_boundary || _tets.size() < 2) return false;
+  Vec3 sum;
+  double weight = 0;
+  for (const LocalIndex each : _tets) {
+    const Corners& c = mesh.corners(each);
+    const Vec3 p = mesh.point(c[0]);
+    const double volume =
+        std::abs(geometry::volume6(p, mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])));
+    for (const LocalIndex v : c) sum += 0.25 * volume * (mesh.point(v) - p);
+    sum += volume * p;
+    weight += volume;
+  }
+  if (!(weight > 0)) return false;
+  _point = (1 / weight) * sum;
+  return true;
 }
 
 }  // namespace aeroloom::improve

@@ -33,6 +33,8 @@ private:
     double quality;  ///< of the cone to it
   };
   bool propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity);
+  /// Begins with a tetrahedron on the boundary and its neighbours; false where it is not on the boundary.
+  bool start_behind(const TetMesh& mesh, LocalIndex t);
   void collect_walls(const TetMesh& mesh);
   void grow(const TetMesh& mesh);
   void add_walls(const TetMesh& mesh, LocalIndex t);
