@@ -9,6 +9,7 @@ namespace {
 
 constexpr int rounds = 3;            // of growing the cavity and placing the point
 constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain
+constexpr double flat = 0.1;         // of the target: tetrahedra of less than about a degree
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
 
 }  // namespace
@@ -122,7 +123,8 @@ bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, Cavity& ca
   const Corners& c = mesh.corners(t);
   _point = 0.25 * (mesh.point(c[0]) + mesh.point(c[1]) + mesh.point(c[2]) + mesh.point(c[3]));
   if (propose(mesh, mesh.vertex_count(), cavity)) return true;
-  return start_behind(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
+  const bool is_flat = mesh.quality(t) < flat * mesh.measure().target();
+  return is_flat && start_behind(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
 }
 
 // From inside a tetrahedron that lies flat on the boundary every cone is flat.

@@ -248,5 +248,37 @@ TEST(CavityInsertion, PlacesANewVertexInAFlatCavity) {
   EXPECT_NEAR(volume(piece), before, 1e-14);
 }
 
+// A prism whose left side ends in a tetrahedron without thickness, because the boundary's diagonal there is not
+// that of the tetrahedra inside: no cone from within that tetrahedron is any better.
+TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
+  enum { ridge0, ridge1, left0, left1, right0, right1 };
+  mesh::Piece piece =
+      make_piece({{0, 0, 0.8}, {0, 1, 0.8 + 1e-9}, {-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}, {1, 1, 0}},
+                 {left0, right0, left1, ridge0, right1, ridge0, ridge1, left1, right1, ridge0, left1, right0,
+                  ridge0, ridge1, left1, left0});
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    LocalIndex* c = piece.cells.data() + 4 * t;
+    if (volume6(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) < 0)
+      std::swap(c[0], c[1]);
+  }
+  const double before = volume(piece);
+  EXPECT_NEAR(before, 0.8, 1e-8);
+  TetMesh mesh(piece, measure);
+  CavityInsertion insertion;
+  Cavity cavity;
+  ASSERT_TRUE(insertion.propose_new_vertex(mesh, 3, cavity));
+  EXPECT_LT(cavity.before, 1e-6);
+  mesh.add_vertex(insertion.position(), 0);
+  std::vector<LocalIndex> placed;
+  mesh.replace(cavity, placed);
+  mesh.finish();
+  EXPECT_NEAR(volume(piece), before, 1e-14);
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* c = piece.cell(t);
+    EXPECT_GT(mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])).smallest,
+              10);
+  }
+}
+
 }  // namespace
 }  // namespace aeroloom::improve
