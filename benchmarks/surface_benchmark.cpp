@@ -108,11 +108,12 @@ Sharp measure_sharp(const Communicator& communicator, const surface::SurfaceMesh
       sharp.below_10 += angle < 10;
     }
   }
-  return {communicator.minimum(sharp.least), communicator.sum(sharp.below_20), communicator.sum(sharp.below_10)};
+  return {communicator.minimum(sharp.least), communicator.sum(sharp.below_20),
+          communicator.sum(sharp.below_10)};
 }
 
-/// What the decomposition of faces made: how many fine edges its cuts have, and how much heavier than the mean
-/// piece of its face the heaviest one is (the worst face).
+/// What the decomposition of faces made: how many fine edges its cuts have, and how much heavier than the
+/// mean piece of its face the heaviest one is (the worst face).
 struct Decomposition {
   double cut_edges = 0, imbalance = 1;
 };
@@ -180,22 +181,24 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
   const double total = stage.cpu_seconds_mean * communicator.size();
   const auto triangles = static_cast<double>(surface.report.triangles);
   std::printf(
-      "RESULT ranks=%d pieces=%d triangles=%.0f valid=%d wall_seconds=%.3f cpu_total=%.3f sizing_cpu=%.3f cpu_max=%.3f "
+      "RESULT ranks=%d pieces=%d triangles=%.0f valid=%d wall_seconds=%.3f cpu_total=%.3f sizing_cpu=%.3f "
+      "cpu_max=%.3f "
       "busiest=%.3f serial_share=%.4f triangles_per_cpu_second=%.0f load_error_90=%.3f rounds=%d\n"
       "       min_angle=%.2f mean_ratio=%.4f good_edges=%.4f cut_triangles=%.0f cut_mean_ratio=%.4f "
       "other_mean_ratio=%.4f cut_worst=%.3f other_worst=%.3f cut_min_angle=%.2f "
       "cut_places=%zu cut_places_below_30=%d cut_angle_min=%.2f "
       "cut_edges=%.0f imbalance=%.3f cut_angles_by_10=%d,%d,%d,%d,%d,%d\n"
-      "       joined_faces=%zu sharp_corners=%zu min_angle_apart=%.2f below_20_apart=%lld below_10_apart=%lld hash=%s\n",
-      communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total, sizing,
-      stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
+      "       joined_faces=%zu sharp_corners=%zu min_angle_apart=%.2f below_20_apart=%lld "
+      "below_10_apart=%lld hash=%s\n",
+      communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
+      sizing, stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
       stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
       surface.report.mending_rounds, quality.min_dihedral.minimum, quality.mean_ratio.mean,
       shape.good_edges / shape.edges, shape.count[1], shape.mean_ratio[1], shape.mean_ratio[0],
       shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1],
-      surface.report.cut_angles.size(), sharp, sharpest,
-      decomposition.cut_edges, decomposition.imbalance, bins[0], bins[1], bins[2], bins[3], bins[4], bins[5],
-      sized.joined.size(), surface.report.sharp_corners.size(), apart.least, static_cast<long long>(apart.below_20),
+      surface.report.cut_angles.size(), sharp, sharpest, decomposition.cut_edges, decomposition.imbalance,
+      bins[0], bins[1], bins[2], bins[3], bins[4], bins[5], sized.joined.size(),
+      surface.report.sharp_corners.size(), apart.least, static_cast<long long>(apart.below_20),
       static_cast<long long>(apart.below_10), hash.c_str());
 }
 

@@ -35,10 +35,10 @@ std::optional<double> parameter_at(const Model& model, EdgeEnd end, double dista
 
 /// A corner cut off at the same distance on both edges.
 struct CornerOpening {
-  std::array<Vec3, 2> points;       ///< on the arriving and on the leaving edge
+  std::array<Vec3, 2> points;  ///< on the arriving and on the leaving edge
   std::array<double, 2> parameters;
-  double width = 0;                 ///< between the points
-  double degrees = 0;               ///< seen from the vertex, inside the face, 0 to 180
+  double width = 0;    ///< between the points
+  double degrees = 0;  ///< seen from the vertex, inside the face, 0 to 180
 };
 
 /// Nothing where the corner is reflex, or an edge ends before that distance.

@@ -65,9 +65,10 @@ void take_uses(const Model& base, JoinedFace& joined, Face& face) {
     for (auto loop : base.face(joined.sheets[s].face).loops) {
       for (EdgeUse& use : loop) {
         const EdgeUse own = use;
-        const bool taken = std::any_of(joined.uses.begin(), joined.uses.end(), [&](const JoinedFace::Use& other) {
-          return other.use.edge == use.edge && other.use.use == use.use;
-        });
+        const bool taken =
+            std::any_of(joined.uses.begin(), joined.uses.end(), [&](const JoinedFace::Use& other) {
+              return other.use.edge == use.edge && other.use.use == use.use;
+            });
         if (taken) use.use = 1 - use.use;
         joined.uses.push_back({use, own, static_cast<std::int32_t>(s)});
       }
@@ -106,7 +107,8 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
     require_joinable(model, group);
     std::sort(group.begin(), group.end());
     for (const FaceId id : group) {
-      if (taken[id]) throw std::invalid_argument(fmt::format("face '{}' is joined twice", model.face(id).name));
+      if (taken[id])
+        throw std::invalid_argument(fmt::format("face '{}' is joined twice", model.face(id).name));
       taken[id] = 1;
     }
     members[group.front()] = std::move(group);

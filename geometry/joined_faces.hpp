@@ -14,9 +14,9 @@ namespace aeroloom::geometry {
 
 /// The model with each group of faces seen as one, which takes the name of the member with the largest area;
 /// faces keep their order, that of a group being that of its first member. Members of a group lie in one
-/// patch, between the same regions, and share edges; nobody is a member twice, no member is far field, and all
-/// or none are exact planes (Model::is_exact_plane); otherwise throws std::invalid_argument. serialise() gives
-/// the model without groups.
+/// patch, between the same regions, and share edges; nobody is a member twice, no member is far field, and
+/// all or none are exact planes (Model::is_exact_plane); otherwise throws std::invalid_argument. serialise()
+/// gives the model without groups.
 Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& groups);
 
 }  // namespace aeroloom::geometry

@@ -135,13 +135,13 @@ public:
   bool is_exact_plane(FaceId id) const;
   /// CAD faces that this one consists of; more than one where narrow faces were joined (joined_faces.hpp).
   std::int32_t sheet_count(FaceId id) const;
-  /// Which of them a point of the parameter plane belongs to. Between points of different sheets nothing can be
-  /// interpolated.
+  /// Which of them a point of the parameter plane belongs to. Between points of different sheets nothing can
+  /// be interpolated.
   std::int32_t sheet(FaceId id, Vec2 uv) const;
   /// Whether one face passes the edge twice and no other face does: it constrains nothing.
   bool is_seam(EdgeId id) const;
-  /// The lengths after which the surface comes back to the same points in u and v; 0 where it does not. Those of
-  /// the sheet at `uv`.
+  /// The lengths after which the surface comes back to the same points in u and v; 0 where it does not. Those
+  /// of the sheet at `uv`.
   Vec2 parameter_periods(FaceId id, Vec2 uv) const;
   /// The parameters of the same point inside the surface's range, where the surface closes.
   Vec2 wrap(FaceId id, Vec2 uv) const;

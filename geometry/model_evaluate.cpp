@@ -108,8 +108,7 @@ Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
     const JoinedFace& all = joined->faces.at(face);
     if (all.sheets.size() == 1) return joined->base.edge_uv(all.sheets.front().face, use, parameter);
     const JoinedFace::Use& own = all.use(use);
-    return all.from_member(own.sheet,
-                           joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
+    return all.from_member(own.sheet, joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
   }
   const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
   const UseCurve& on_face = evaluator.use(use);

@@ -13,8 +13,8 @@ namespace aeroloom::geometry {
 /// A face of the base model in the parameter plane of a joined one.
 struct Sheet {
   FaceId face = no_entity;
-  double low = 0, high = 0;  ///< of u in the joined plane
-  double shift = 0;          ///< of u from the member's plane to the joined one
+  double low = 0, high = 0;                              ///< of u in the joined plane
+  double shift = 0;                                      ///< of u from the member's plane to the joined one
   std::shared_ptr<BRepTopAdaptor_FClass2d> inside = {};  ///< of the member's loops; where there are several
 };
 

@@ -29,8 +29,7 @@ void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
     angle += fans.angles[fans.first[fan] + (start + k) % size];
     const std::int32_t to = fans.closed[fan] ? (start + k + 1) % size : start + k + 1;
     if (!is_border(surface, part, fans.edge(fan, to))) continue;
-    const bool forced =
-        is_feature(surface, fans.edge(fan, from)) && is_feature(surface, fans.edge(fan, to));
+    const bool forced = is_feature(surface, fans.edge(fan, from)) && is_feature(surface, fans.edge(fan, to));
     if (!forced && !(from == to)) visit(Wedge{fan, from, to, angle});
     from = to;
     angle = 0;
@@ -74,8 +73,7 @@ private:
       const HalfEdge h = _fans.edge(wedge.fan, edge);
       if (_surface.twins[h] < 0) continue;
       // The part on the far side of the edge.
-      const std::int32_t other =
-          _part[h / 3] == mine ? _part[_surface.twins[h] / 3] : _part[h / 3];
+      const std::int32_t other = _part[h / 3] == mine ? _part[_surface.twins[h] / 3] : _part[h / 3];
       if (other == mine) continue;
       set(triangles, other);
       const double after = missing_around(triangles);

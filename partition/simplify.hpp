@@ -15,7 +15,7 @@ namespace aeroloom::partition {
 
 struct SimplifyOptions {
   double smallest_angle = 40;  ///< degrees that permitted cuts make with each other and with feature curves
-  double largest_load = 0;     ///< a cluster does not grow beyond this load; what that leaves is repaired later
+  double largest_load = 0;  ///< a cluster does not grow beyond this load; what that leaves is repaired later
 };
 
 /// The contracted dual graph: clusters of triangles.

@@ -17,14 +17,14 @@ namespace aeroloom::pipeline {
 
 /// What the user said about sizes; what is left out comes from the preset. Lengths in the model's unit.
 struct SizingRequest {
-  std::optional<double> minimum, maximum;  ///< minimum <= maximum
-  std::optional<double> feature_minimum;   ///< smallest size at short edges, narrow faces, sharp corners
-  std::optional<double> surface_maximum;   ///< largest size on faces that are not far field
-  std::optional<double> curvature_angle;   ///< degrees
+  std::optional<double> minimum, maximum;   ///< minimum <= maximum
+  std::optional<double> feature_minimum;    ///< smallest size at short edges, narrow faces, sharp corners
+  std::optional<double> surface_maximum;    ///< largest size on faces that are not far field
+  std::optional<double> curvature_angle;    ///< degrees
   std::optional<double> chordal_deviation;  ///< of triangles from curved faces
-  std::optional<double> growth;            ///< ratio of neighbouring sizes
-  std::optional<double> proximity;         ///< elements across thin parts and gaps; 0: any
-  double target_tetrahedra = 1'000'000;    ///< what sizes chosen from the model aim at
+  std::optional<double> growth;             ///< ratio of neighbouring sizes
+  std::optional<double> proximity;          ///< elements across thin parts and gaps; 0: any
+  double target_tetrahedra = 1'000'000;     ///< what sizes chosen from the model aim at
 };
 
 /// What happens to faces narrower than the smallest size that go on smoothly in a neighbour.

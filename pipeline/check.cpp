@@ -109,13 +109,14 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
     text += "would be joined: " + geometry::describe(change) + "\n";
   }
   return text + fmt::format(
-      "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
-      "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
-      "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
-      "a volume can be meshed\n",
-      forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
-      forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
-      forecast.bytes / (1024.0 * 1024 * 1024), ranks, forecast.piece_triangles, forecast.piece_tets);
+                    "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
+                    "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
+                    "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
+                    "a volume can be meshed\n",
+                    forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
+                    forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
+                    forecast.bytes / (1024.0 * 1024 * 1024), ranks, forecast.piece_triangles,
+                    forecast.piece_tets);
 }
 
 Json to_json(geometry::Vec3 p) {

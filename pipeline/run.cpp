@@ -84,7 +84,8 @@ SizedDomain build_sizes(const Communicator& communicator, const geometry::Model&
     record.face_names.push_back(sized.model.face(f).name);
   }
   record.joined_faces = sized.joined;
-  for (const geometry::Change& change : sized.joined) parallel::log_info("sizing: " + geometry::describe(change));
+  for (const geometry::Change& change : sized.joined)
+    parallel::log_info("sizing: " + geometry::describe(change));
   parallel::log_info(
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
@@ -97,9 +98,9 @@ SizedDomain build_sizes(const Communicator& communicator, const geometry::Model&
 void decompose(const Communicator& communicator, const geometry::Model& model, const sizing::SizeField& field,
                const Case& input, RunRecord& record) {
   record.predicted = sizing::predict_counts(communicator, model, field, record.clock);
-  parallel::log_info(fmt::format(
-      "decompose: {} volume piece(s); predicted {:.3g} triangles, {:.3g} tetrahedra",
-      model.region_count(), record.predicted.triangles, record.predicted.tetrahedra));
+  parallel::log_info(
+      fmt::format("decompose: {} volume piece(s); predicted {:.3g} triangles, {:.3g} tetrahedra",
+                  model.region_count(), record.predicted.triangles, record.predicted.tetrahedra));
   if (record.predicted.tetrahedra > 1.5 * double(input.volume.largest_piece)) {
     throw std::runtime_error(
         fmt::format("the sizes ask for about {:.3g} tetrahedra, more than one volume piece holds ({}). "
@@ -182,15 +183,15 @@ FinishedSurface build_surface(const Communicator& communicator, const geometry::
   parallel::log_info(
       fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
                   "average",
-                  record.surface.triangles, record.surface.pieces, record.surface_quality->min_dihedral.minimum,
-                  record.surface_quality->mean_ratio.mean));
+                  record.surface.triangles, record.surface.pieces,
+                  record.surface_quality->min_dihedral.minimum, record.surface_quality->mean_ratio.mean));
   return finished;
 }
 
 /// The surface of the sized domain. Where joined faces cannot be meshed, that of the model as it was, and
 /// `sized` becomes its.
-FinishedSurface build_surface(const Communicator& communicator, const geometry::Model& model, const Case& input,
-                              SizedDomain& sized, RunRecord& record) {
+FinishedSurface build_surface(const Communicator& communicator, const geometry::Model& model,
+                              const Case& input, SizedDomain& sized, RunRecord& record) {
   if (sized.joined.empty()) return build_surface(communicator, sized.model, sized.field, input, record);
   try {
     return build_surface(communicator, sized.model, sized.field, input, record);

@@ -29,11 +29,11 @@ std::optional<geometry::Model> join_narrow_faces(const parallel::Communicator& c
     joined = geometry::join_faces(model, sizing::group_narrow_faces(model, narrow, tolerance));
   });
   for (const sizing::NarrowFace& each : narrow) {
-    changes.push_back({fmt::format("face '{}' is {:.3g} wide, less than the smallest size, and was joined with "
-                                   "'{}', from which it turns by {:.2g} degrees",
-                                   model.face(each.face).name, each.width, model.face(each.into).name,
-                                   each.degrees),
-                       each.place, each.deviation});
+    changes.push_back(
+        {fmt::format("face '{}' is {:.3g} wide, less than the smallest size, and was joined with "
+                     "'{}', from which it turns by {:.2g} degrees",
+                     model.face(each.face).name, each.width, model.face(each.into).name, each.degrees),
+         each.place, each.deviation});
   }
   return joined;
 }

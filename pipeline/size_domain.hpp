@@ -22,8 +22,8 @@ struct SizedDomain {
   geometry::Changes joined;  ///< one for each face that vanished
 };
 
-/// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. The same on every rank.
-/// Collective. Throws as resolve_sizes.
+/// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. The same on every
+/// rank. Collective. Throws as resolve_sizes.
 SizedDomain size_domain(const parallel::Communicator& communicator, const geometry::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock);
 

@@ -17,7 +17,7 @@ constexpr double body_size_over_minimum = 10;
 // Short edges and narrow faces may ask for this part of the minimum; for the larger part where they alone
 // would use up the elements asked for.
 constexpr double fine_features = 0.05, coarse_features = 0.25;
-constexpr double out_of_reach = 0.2;  // logarithm of the count over the target
+constexpr double out_of_reach = 0.2;        // logarithm of the count over the target
 constexpr double domain_over_maximum = 20;  // diagonal of everything
 constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
 constexpr double body_over_finest = 5000;

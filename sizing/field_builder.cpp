@@ -77,7 +77,8 @@ void check_options(const SizingOptions& options) {
   require(options.growth > 1 && options.growth <= 10, "growth must lie in (1, 10]", options.growth);
   require(options.curvature_angle > 0 && options.curvature_angle < 180,
           "curvature_angle must lie in (0, 180)", options.curvature_angle);
-  require(options.chordal_deviation >= 0, "chordal_deviation must not be negative", options.chordal_deviation);
+  require(options.chordal_deviation >= 0, "chordal_deviation must not be negative",
+          options.chordal_deviation);
   require(options.surface_maximum == 0 || options.surface_maximum >= options.minimum,
           "surface_maximum must be 0 or at least minimum", options.surface_maximum);
 }

@@ -33,7 +33,8 @@ private:
   void gather_triangles();
   void measure_gaps(std::vector<Triangle> walls, std::vector<geometry::FaceId> faces);
   std::vector<SizeSource> sample(const SizingOptions& options) const;
-  std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources, const SizingOptions& options) const;
+  std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources,
+                                         const SizingOptions& options) const;
   double count_triangles(const SizeField& field) const;
   double count_tetrahedra(const SizeField& field) const;
 
@@ -44,11 +45,11 @@ private:
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;
-  std::vector<geometry::FaceId> _faces;   // of this rank, ascending
-  std::vector<geometry::Facets> _facets;  // of those
+  std::vector<geometry::FaceId> _faces;        // of this rank, ascending
+  std::vector<geometry::Facets> _facets;       // of those
   std::vector<geometry::FaceCorner> _corners;  // of those, where may_be_sharp
-  std::vector<Triangle> _boundary;        // facets of all faces that bound the domain, in the order of faces
-  std::vector<Gap> _gaps;                 // seen from the faces of this rank
+  std::vector<Triangle> _boundary;  // facets of all faces that bound the domain, in the order of faces
+  std::vector<Gap> _gaps;           // seen from the faces of this rank
   geometry::Box _body_box;
 };
 

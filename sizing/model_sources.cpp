@@ -29,8 +29,8 @@ double radians_per_element(bool far_field, const SizingOptions& options) {
   return degrees * std::numbers::pi / 180;
 }
 
-/// A triangle with edges l leaves a surface of curvature k by k R^2 / 2 in its middle, R = l / sqrt(3); edges may
-/// be 1.4 times as long as the size.
+/// A triangle with edges l leaves a surface of curvature k by k R^2 / 2 in its middle, R = l / sqrt(3); edges
+/// may be 1.4 times as long as the size.
 double size_for_deviation(double curvature, const SizingOptions& options) {
   return std::max(std::sqrt(3 * options.chordal_deviation / curvature), smallest_feature_size(options));
 }

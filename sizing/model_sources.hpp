@@ -32,8 +32,8 @@ std::vector<SizeSource> strip_sources(const geometry::Model& model, const geomet
 /// Whether elements of some size see the corner below 30 degrees.
 bool may_be_sharp(const geometry::Model& model, const geometry::FaceCorner& corner);
 
-/// Sources behind sharp corners of faces. One triangle fills such a corner, about as large as `reach`, the size
-/// at the corner without these sources; behind it elements fit between the two edges, down to
+/// Sources behind sharp corners of faces. One triangle fills such a corner, about as large as `reach`, the
+/// size at the corner without these sources; behind it elements fit between the two edges, down to
 /// smallest_feature_size().
 std::vector<SizeSource> corner_sources(const geometry::Model& model, const geometry::FaceCorner& corner,
                                        double reach, const SizingOptions& options);

@@ -18,10 +18,11 @@ struct NarrowFace {
   geometry::Vec3 place;  ///< on an edge that vanishes
 };
 
-/// Faces narrower than `width` which have a neighbour in the same patch, between the same regions, that goes on
-/// from them smoothly: across every edge between the two the surface turns by less than 20 degrees and the
+/// Faces narrower than `width` which have a neighbour in the same patch, between the same regions, that goes
+/// on from them smoothly: across every edge between the two the surface turns by less than 20 degrees and the
 /// deviation is at most `tolerance`. Of several neighbours the one with the longest common border; a blunt
-/// trailing edge has none. Not on the far field; an exact plane joins its like alone. By face, the same on every rank. Collective.
+/// trailing edge has none. Not on the far field; an exact plane joins its like alone. By face, the same on
+/// every rank. Collective.
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator,
                                           const geometry::Model& model, double width, double tolerance,
                                           parallel::StageClock& clock);

@@ -60,9 +60,8 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
 
 SizeField SizeField::scaled(double factor) const {
   SizeField result = *this;
-  for (double* bound :
-       {&result._options.minimum, &result._options.maximum, &result._options.surface_maximum,
-        &result._options.feature_minimum}) {
+  for (double* bound : {&result._options.minimum, &result._options.maximum, &result._options.surface_maximum,
+                        &result._options.feature_minimum}) {
     *bound *= factor;
   }
   for (float& size : result._corner_sizes) size = static_cast<float>(size * factor);

@@ -23,7 +23,8 @@ struct SizingOptions {
   double surface_maximum =
       0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
   double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
-  double feature_minimum = 0;  ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
+  double feature_minimum =
+      0;  ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
   double chordal_deviation =
       0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
 };

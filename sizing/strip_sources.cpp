@@ -42,8 +42,8 @@ public:
   }
 
 private:
-  /// Pairs of lines without a common vertex that some facet joins, or the facets around a point inside, in both
-  /// orders.
+  /// Pairs of lines without a common vertex that some facet joins, or the facets around a point inside, in
+  /// both orders.
   std::set<std::pair<int, int>> facing_lines() const {
     std::vector<std::vector<int>> lines_of(_facets.points.size());
     for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
@@ -65,7 +65,8 @@ private:
         const std::int32_t from = t[i], to = t[(i + 1) % 3];
         join(lines_of[from], lines_of[to]);
         for (const auto& [inner, other] : {std::pair{from, to}, std::pair{to, from}}) {
-          if (lines_of[inner].empty()) lines_around[inner].insert(lines_of[other].begin(), lines_of[other].end());
+          if (lines_of[inner].empty())
+            lines_around[inner].insert(lines_of[other].begin(), lines_of[other].end());
         }
       }
     }

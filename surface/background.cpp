@@ -34,8 +34,8 @@ double unwrap(double parameter, double reference, double period) {
 
 /// Parameters at the corners of each triangle, without jumps inside it: those of vertices beyond a seam are
 /// moved by a period, and the direction that means nothing at a pole is taken from the other corners. A
-/// triangle around a pole, or across sheets of a joined face, gets those of one corner everywhere: there is no
-/// better linear guess.
+/// triangle around a pole, or across sheets of a joined face, gets those of one corner everywhere: there is
+/// no better linear guess.
 class CornerParameters {
 public:
   CornerParameters(const Model& model, const FaceMesh& mesh)
@@ -52,7 +52,8 @@ public:
   std::array<Vec2, 3> operator()(const std::array<std::int32_t, 3>& triangle) const {
     const Vec2 first = _mesh.uv[triangle[0]];
     for (const std::int32_t v : triangle) {
-      if (_model.sheet(_mesh.face, _mesh.uv[v]) != _model.sheet(_mesh.face, first)) return {first, first, first};
+      if (_model.sheet(_mesh.face, _mesh.uv[v]) != _model.sheet(_mesh.face, first))
+        return {first, first, first};
     }
     const Vec2 periods = _model.parameter_periods(_mesh.face, first);
     std::array<Vec2, 3> uv;
@@ -239,8 +240,7 @@ std::optional<Background> mesh_background(const Model& model, const PieceSeed& s
                                .least_part = std::min(1.0, fine_edges / factor),
                                .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
-    background.mesh =
-        mesh_support(model, coarse, std::move(thin.support), std::move(thin.vertices), meshing);
+    background.mesh = mesh_support(model, coarse, std::move(thin.support), std::move(thin.vertices), meshing);
   } catch (const FaceConflict&) {
     return std::nullopt;
   } catch (const SurfaceError&) {  // no chart under these sizes

@@ -14,14 +14,14 @@ namespace aeroloom::surface {
 
 /// Triangles on the CAD surface. Their vertices on the loops of the piece are a subset of the fine ones.
 struct Background {
-  FaceMesh mesh;                      ///< its first `mesh.fixed` vertices lie on the loops
+  FaceMesh mesh;                       ///< its first `mesh.fixed` vertices lie on the loops
   std::vector<std::int32_t> on_loops;  ///< for those: the vertex of the seed
   CoarseLoops loops;
 };
 
-/// Meshes the piece under `coarse` sizes, `factor` times the fine ones; an edge turns by at most 30 degrees. Nothing where it has no such
-/// mesh: its loops cross, or no chart holds it, when they are as coarse as that. Not collective. Throws
-/// geometry::CadError.
+/// Meshes the piece under `coarse` sizes, `factor` times the fine ones; an edge turns by at most 30 degrees.
+/// Nothing where it has no such mesh: its loops cross, or no chart holds it, when they are as coarse as that.
+/// Not collective. Throws geometry::CadError.
 std::optional<Background> mesh_background(const geometry::Model& model, const PieceSeed& seed,
                                           const sizing::SizeField& coarse, double factor,
                                           const SurfaceOptions& options);

@@ -47,7 +47,8 @@ public:
       for (int i = 0; i < 3; ++i) p[i] = points[i] == gone ? target : _support.points[points[i]];
       const Vec3 after = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
       // It may tilt by 45 degrees, not more, and must keep some area.
-      if (dot(before, after) < 0.7 * norm(before) * norm(after) || norm(after) < 1e-3 * norm(before)) return false;
+      if (dot(before, after) < 0.7 * norm(before) * norm(after) || norm(after) < 1e-3 * norm(before))
+        return false;
     }
     for (const std::int32_t t : _around[gone]) {
       if (corner(t, kept) >= 0) {

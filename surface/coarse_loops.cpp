@@ -86,13 +86,12 @@ private:
   /// Appends positions after `from` up to `to`.
   void spread(std::size_t from, std::size_t to, std::vector<std::size_t>& kept) const {
     const double total = _worth[to] - _worth[from];
-    const auto segments =
-        std::min(static_cast<std::size_t>(std::max(1.0, std::round(total))), to - from);
+    const auto segments = std::min(static_cast<std::size_t>(std::max(1.0, std::round(total))), to - from);
     std::size_t last = from;
     for (std::size_t k = 1; k < segments; ++k) {
       const double wanted = _worth[from] + total * static_cast<double>(k) / static_cast<double>(segments);
-      auto at = static_cast<std::size_t>(std::lower_bound(_worth.begin(), _worth.end(), wanted) -
-                                         _worth.begin());
+      auto at =
+          static_cast<std::size_t>(std::lower_bound(_worth.begin(), _worth.end(), wanted) - _worth.begin());
       if (at > 0 && wanted - _worth[at - 1] < _worth[at] - wanted) --at;
       // Every segment has a fine edge at least.
       last = std::clamp(at, last + 1, to - (segments - k));
@@ -121,10 +120,11 @@ private:
 
 const CoarseSegment* CoarseLoops::find(std::int32_t from, std::int32_t to) const {
   for (const auto& [a, b] : {std::pair{from, to}, std::pair{to, from}}) {
-    const auto at = std::lower_bound(segments.begin(), segments.end(), std::pair{a, b},
-                                     [](const CoarseSegment& s, const std::pair<std::int32_t, std::int32_t>& k) {
-                                       return std::pair{s.from, s.to} < k;
-                                     });
+    const auto at =
+        std::lower_bound(segments.begin(), segments.end(), std::pair{a, b},
+                         [](const CoarseSegment& s, const std::pair<std::int32_t, std::int32_t>& k) {
+                           return std::pair{s.from, s.to} < k;
+                         });
     if (at != segments.end() && at->from == a && at->to == b) return &*at;
   }
   return nullptr;
@@ -153,9 +153,10 @@ CoarseLoops coarsen_loops(const PieceSeed& seed, const sizing::SizeField& coarse
       result.segments.push_back(segment);
     }
   }
-  std::sort(result.segments.begin(), result.segments.end(), [](const CoarseSegment& a, const CoarseSegment& b) {
-    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-  });
+  std::sort(result.segments.begin(), result.segments.end(),
+            [](const CoarseSegment& a, const CoarseSegment& b) {
+              return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+            });
   return result;
 }
 

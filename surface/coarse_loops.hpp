@@ -11,8 +11,8 @@ namespace aeroloom::surface {
 
 /// A stretch of a loop between two vertices that are kept. Vertices are those of the seed.
 struct CoarseSegment {
-  std::int32_t from, to;     ///< kept
-  std::int32_t begin, end;   ///< of CoarseLoops::inside: the vertices between, in this direction
+  std::int32_t from, to;    ///< kept
+  std::int32_t begin, end;  ///< of CoarseLoops::inside: the vertices between, in this direction
 };
 
 struct CoarseLoops {
@@ -23,10 +23,10 @@ struct CoarseLoops {
   const CoarseSegment* find(std::int32_t from, std::int32_t to) const;
 };
 
-/// Keeps corners of the loops (turns above `largest_turn`, radians), and between them vertices so that segments
-/// follow `coarse` sizes and turn by at most `largest_turn`, as far as the fine edges allow it. Every loop has
-/// three segments at least. What two pieces share need not be coarsened alike: fine vertices tie them
-/// together.
+/// Keeps corners of the loops (turns above `largest_turn`, radians), and between them vertices so that
+/// segments follow `coarse` sizes and turn by at most `largest_turn`, as far as the fine edges allow it.
+/// Every loop has three segments at least. What two pieces share need not be coarsened alike: fine vertices
+/// tie them together.
 CoarseLoops coarsen_loops(const PieceSeed& seed, const sizing::SizeField& coarse, double largest_turn);
 
 }  // namespace aeroloom::surface

@@ -77,9 +77,10 @@ std::vector<CutAngle> measure_cut_angles(const std::vector<PieceSeed>& seeds, co
       const bool forced = features.contains(here, token(before)) && features.contains(here, token(after));
       if (forced) continue;
       const Vec3 at = support.points[p];
-      found.push_back({here,
-                       {support.face, at,
-                        interior_angle(normals[p], support.points[after] - at, support.points[before] - at)}});
+      found.push_back(
+          {here,
+           {support.face, at,
+            interior_angle(normals[p], support.points[after] - at, support.points[before] - at)}});
     }
   }
   std::vector<CutAngle> angles;

@@ -16,8 +16,8 @@ using geometry::Vec3;
 /// distance.
 constexpr double snap_part = 0.03;
 
-/// One stretch of a cut between mesh vertices or meetings of cuts, or a closed one: half-edges with the higher
-/// part on their left.
+/// One stretch of a cut between mesh vertices or meetings of cuts, or a closed one: half-edges with the
+/// higher part on their left.
 using Chain = std::vector<SupportHalfEdge>;
 
 std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<SupportHalfEdge>& twins) {

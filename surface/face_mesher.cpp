@@ -45,8 +45,8 @@ geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId f
   // must not fold over itself.
   constexpr double part_of_model = 1e-3, part_of_width = 0.03, least_part_of_model = 1e-6;
   const double scale = model.is_far_field(face) ? model.bounds().diagonal() : model.body_bounds().diagonal();
-  const double deflection =
-      std::clamp(part_of_width * geometry::mean_width(model, face), least_part_of_model * scale, part_of_model * scale);
+  const double deflection = std::clamp(part_of_width * geometry::mean_width(model, face),
+                                       least_part_of_model * scale, part_of_model * scale);
   return model.facets(face, deflection, options.support_angle * std::numbers::pi / 180);
 }
 

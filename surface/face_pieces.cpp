@@ -19,7 +19,8 @@ using geometry::Vec3;
 
 /// Background triangles in a piece, about.
 constexpr double triangles_per_piece = 64;
-/// So often the background gets twice as fine where its loops cross; a seed that is still no good stays whole.
+/// So often the background gets twice as fine where its loops cross; a seed that is still no good stays
+/// whole.
 constexpr int most_halvings = 4;
 /// A seed of more pieces is cut twice.
 constexpr double most_pieces_at_once = 24;

@@ -112,7 +112,8 @@ private:
   std::vector<StarEdge> _star, _replaced;
 };
 
-/// Triangles may turn from the surface by 45 degrees (squared cosine); what is further off must not get worse.
+/// Triangles may turn from the surface by 45 degrees (squared cosine); what is further off must not get
+/// worse.
 inline constexpr double least_facing = 0.5;
 
 /// Whether a change is allowed: nothing folds, and nothing gets worse than it was, unless it is still good.

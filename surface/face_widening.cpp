@@ -1,6 +1,6 @@
-// The few triangles that are sharp in the end, most of them beside a long edge on the border: their vertices move
-// where the smallest angle around them gets largest (Freitag, Jones and Plassmann, An efficient parallel algorithm
-// for mesh smoothing, 4th International Meshing Roundtable, 1995), with a search by pattern.
+// The few triangles that are sharp in the end, most of them beside a long edge on the border: their vertices
+// move where the smallest angle around them gets largest (Freitag, Jones and Plassmann, An efficient parallel
+// algorithm for mesh smoothing, 4th International Meshing Roundtable, 1995), with a search by pattern.
 #include "surface/face_remesher.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ using geometry::Vec3;
 
 namespace {
 
-// Squared sines of angles. Triangles below the first are worked on; no other may fall below the second for them.
+// Squared sines of angles. Triangles below the first are worked on; no other may fall below the second for
+// them.
 const double sharp_sine = std::pow(std::sin(26 * std::numbers::pi / 180), 2);
 const double guarded_sine = std::pow(std::sin(18 * std::numbers::pi / 180), 2);
 constexpr int rounds = 6;
@@ -26,8 +27,8 @@ constexpr std::array<double, 4> steps{0.5, 0.25, 0.12, 0.05};
 
 }  // namespace
 
-/// The smallest angle around the vertex as it is now, if no triangle of the fan has got sharp, or sharper, for it;
-/// `before` has their angles. Angles are squared sines.
+/// The smallest angle around the vertex as it is now, if no triangle of the fan has got sharp, or sharper,
+/// for it; `before` has their angles. Angles are squared sines.
 std::optional<double> FaceRemesher::judge_fan(const std::vector<double>& before) const {
   double least = 1;
   for (std::size_t i = 0; i < _fan.size(); ++i) {
@@ -85,8 +86,8 @@ void FaceRemesher::widen_sharp_triangles() {
     bool changed = false;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
       if (!is_live(t)) continue;
-      const std::array<std::int32_t, 3> corners{_links.triangles[t].vertices[0], _links.triangles[t].vertices[1],
-                                                _links.triangles[t].vertices[2]};
+      const std::array<std::int32_t, 3> corners{
+          _links.triangles[t].vertices[0], _links.triangles[t].vertices[1], _links.triangles[t].vertices[2]};
       if (smallest_sine(corners[0], corners[1], corners[2]) >= sharp_sine) continue;
       for (const std::int32_t v : corners) {
         if (!_active[v] || !is_free(v) || !widen_vertex(v)) continue;

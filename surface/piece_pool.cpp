@@ -229,7 +229,10 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
   for (const auto& [key, seed] : seeds) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     try {
-      Meshed meshed{mesh_piece(_model, seed, field, _options), {}, edge_vertices(curves, key[0]), seed.load,
+      Meshed meshed{mesh_piece(_model, seed, field, _options),
+                    {},
+                    edge_vertices(curves, key[0]),
+                    seed.load,
                     places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       _meshed.emplace(key, std::move(meshed));

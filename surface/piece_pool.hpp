@@ -72,19 +72,19 @@ private:
   std::vector<Row> tabulate(const Seeds& seeds) const;
   std::vector<double> burdens() const;
   Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
-  Conflicts mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
-                       const CurveMesh& curves, const sizing::SizeField& field);
+  Conflicts mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places, const CurveMesh& curves,
+                       const sizing::SizeField& field);
 
   const parallel::Communicator& _communicator;
   const geometry::Model& _model;
   const SurfaceOptions& _options;
   parallel::StageClock& _clock;
   bool _started = false;
-  std::vector<std::int32_t> _parts;                       // per face: pieces, 0 before it is divided
-  std::vector<char> _whole;                               // per face: 1 where it must not be divided
-  std::map<Key, Meshed> _meshed;                          // on this rank
+  std::vector<std::int32_t> _parts;              // per face: pieces, 0 before it is divided
+  std::vector<char> _whole;                      // per face: 1 where it must not be divided
+  std::map<Key, Meshed> _meshed;                 // on this rank
   std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
-  double _divide_seconds = 0;  // on this rank, in this round
+  double _divide_seconds = 0;                    // on this rank, in this round
 };
 
 }  // namespace aeroloom::surface

@@ -21,11 +21,11 @@ double predict_triangles(const Support& support, const sizing::SizeField& field)
     vertices += 2 / std::numbers::sqrt3 * area * density;
   }
   const auto twins = match_half_edges(support.triangles);
-  const auto edges = (static_cast<double>(twins.size()) +
-                      static_cast<double>(std::count(twins.begin(), twins.end(), -1))) /
-                     2;
-  const double euler = static_cast<double>(support.points.size()) - edges +
-                       static_cast<double>(support.triangles.size());
+  const auto edges =
+      (static_cast<double>(twins.size()) + static_cast<double>(std::count(twins.begin(), twins.end(), -1))) /
+      2;
+  const double euler =
+      static_cast<double>(support.points.size()) - edges + static_cast<double>(support.triangles.size());
   const auto border = static_cast<double>(support.loop_edges.size());
   const double inside = std::max(0.0, vertices - border / 2 + euler);
   return std::max(1.0, 2 * inside + border - 2 * euler);

@@ -17,7 +17,7 @@ struct FaceMesh {
   std::vector<geometry::Vec3> points;
   std::vector<geometry::Vec2> uv;                      ///< parameters of each point on the CAD surface
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
-  std::int32_t fixed = 0;  ///< the first `fixed` vertices lie on borders and stay
+  std::int32_t fixed = 0;                              ///< the first `fixed` vertices lie on borders and stay
 };
 
 struct Remeshing {

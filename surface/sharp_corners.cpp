@@ -81,7 +81,8 @@ std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& commun
   return corners;
 }
 
-std::vector<std::array<double, 2>> legs_of_edges(const Model& model, const std::vector<SharpCorner>& corners) {
+std::vector<std::array<double, 2>> legs_of_edges(const Model& model,
+                                                 const std::vector<SharpCorner>& corners) {
   std::vector<double> longest(model.vertex_count(), 0);
   for (const SharpCorner& corner : corners) {
     longest[corner.vertex] = std::max(longest[corner.vertex], corner.leg);

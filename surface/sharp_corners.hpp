@@ -18,8 +18,8 @@ struct SharpCorner {
   geometry::VertexId vertex = geometry::no_entity;
   std::array<geometry::EdgeEnd, 2> ends;
   double degrees = 0;
-  /// Length of the first segment on both edges, so that one triangle fills the corner and elements fit between
-  /// the edges behind it; 0 where the edges bend too much or are too short for one.
+  /// Length of the first segment on both edges, so that one triangle fills the corner and elements fit
+  /// between the edges behind it; 0 where the edges bend too much or are too short for one.
   double leg = 0;
 };
 

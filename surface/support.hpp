@@ -31,8 +31,8 @@ struct Support {
 /// names and stay, then those on the cuts between its charts.
 struct FaceVertices {
   std::vector<geometry::Vec3> points;
-  std::vector<geometry::Vec2> uv;          ///< one valid parameter pair on the face for each
-  std::vector<mesh::SharedToken> tokens;   ///< of the vertices on borders, ascending
+  std::vector<geometry::Vec2> uv;         ///< one valid parameter pair on the face for each
+  std::vector<mesh::SharedToken> tokens;  ///< of the vertices on borders, ascending
 
   std::int32_t border_count() const { return static_cast<std::int32_t>(tokens.size()); }
   /// The vertex on the border of that name, which must be known.

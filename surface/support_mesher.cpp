@@ -104,8 +104,8 @@ FaceConflict conflict_of(const geometry::Model& model, geometry::FaceId face, co
           std::move(remedy)};
 }
 
-/// Per point of the chart's support, the length over which the surface turns by an angle; infinite where it is
-/// flat.
+/// Per point of the chart's support, the length over which the surface turns by an angle; infinite where it
+/// is flat.
 std::vector<double> turning_lengths(const geometry::Model& model, const Support& support, double angle) {
   std::vector<double> lengths(support.points.size(), -1);
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
@@ -163,8 +163,8 @@ void fill_chart(const geometry::Model& model, const sizing::SizeField& field, co
   const ChartSizes sizes(model, field, chart, locator, options);
   FrontResult filled;
   try {
-    filled = fill_front(boundary.input,
-                        [&sizes](Vec2 point, std::int32_t& hint) { return sizes(point, hint); });
+    filled =
+        fill_front(boundary.input, [&sizes](Vec2 point, std::int32_t& hint) { return sizes(point, hint); });
   } catch (const FrontError& error) {
     throw conflict_of(model, face, error, boundary, vertices);
   }

@@ -1,5 +1,5 @@
-/// Fills what a piece is made of: a support, the vertices on its loops, and sizes. Nothing else is known here,
-/// so a whole face and a part of one are meshed alike.
+/// Fills what a piece is made of: a support, the vertices on its loops, and sizes. Nothing else is known
+/// here, so a whole face and a part of one are meshed alike.
 #pragma once
 
 #include "surface/remesh.hpp"

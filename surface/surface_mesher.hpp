@@ -28,7 +28,7 @@ struct SurfaceOptions {
   SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
   std::int64_t piece_triangles = 50'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
-  FaceDivider divider = {};  ///< cuts every face this way instead; empty: by load
+  FaceDivider divider = {};   ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
   double chart_spread =
       60;  ///< degrees normals of one chart may spread from their axis before the chart is split
@@ -60,8 +60,8 @@ struct ListedCorner {
 struct SurfaceReport {
   std::int64_t curve_vertices = 0;
   std::int64_t pieces = 0;
-  std::int64_t divided_faces = 0;     ///< CAD faces of more than one piece
-  std::vector<CutAngle> cut_angles;   ///< where cuts end, by face and angle, the same on every rank
+  std::int64_t divided_faces = 0;           ///< CAD faces of more than one piece
+  std::vector<CutAngle> cut_angles;         ///< where cuts end, by face and angle, the same on every rank
   std::vector<ListedCorner> sharp_corners;  ///< by face, the same on every rank
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds in which sizes had to fall

@@ -64,9 +64,11 @@ TEST(FaceCorners, MeasureTheWidthAtEqualDistances) {
       ++sharp;
       EXPECT_NEAR(opening->width, 2 * 1.25 * std::sin(5 * std::numbers::pi / 180), 1e-9);
       for (int i = 0; i < 2; ++i) {
-        const EdgeEnd end = i == 0 ? end_at_corner(corner.arriving, false) : end_at_corner(corner.leaving, true);
+        const EdgeEnd end =
+            i == 0 ? end_at_corner(corner.arriving, false) : end_at_corner(corner.leaving, true);
         EXPECT_NEAR(distance(opening->points[i], model.vertex(corner.vertex)), 1.25, 1e-9);
-        EXPECT_NEAR(distance(opening->points[i], model.edge_point(end.edge, opening->parameters[i])), 0, 1e-12);
+        EXPECT_NEAR(distance(opening->points[i], model.edge_point(end.edge, opening->parameters[i])), 0,
+                    1e-12);
       }
     }
   }
@@ -74,15 +76,15 @@ TEST(FaceCorners, MeasureTheWidthAtEqualDistances) {
 }
 
 TEST(FaceCorners, ReflexCornersDoNotOpen) {
-  const Model model =
-      prepare_fluid(prism({{0, 0}, {3, 0}, {3, 1}, {1.5, 0.2}, {0, 1}}, 2)).model;
+  const Model model = prepare_fluid(prism({{0, 0}, {3, 0}, {3, 1}, {1.5, 0.2}, {0, 1}}, 2)).model;
   EXPECT_EQ(angles_of(model, 5, 0.05).size(), 2 * 4u);
 }
 
 TEST(FaceCorners, SeamsHaveNone) {
   const Model model = prepare_fluid(BRepPrimAPI_MakeCylinder(1, 2).Shape()).model;
   for (FaceId f = 0; f < model.face_count(); ++f) {
-    for (const FaceCorner& corner : corners_of(model, f)) EXPECT_EQ(corner.arriving.edge, corner.leaving.edge);
+    for (const FaceCorner& corner : corners_of(model, f))
+      EXPECT_EQ(corner.arriving.edge, corner.leaving.edge);
   }
 }
 
@@ -94,8 +96,8 @@ TEST(FaceCorners, ParametersReachHalfAnEdge) {
     for (const bool first : {true, false}) {
       const auto near = parameter_at(model, {e, first}, 0.49 * length);
       ASSERT_TRUE(near.has_value());
-      EXPECT_NEAR(distance(model.edge_point(e, *near), model.vertex(first ? edge.first : edge.last)), 0.49 * length,
-                  1e-9);
+      EXPECT_NEAR(distance(model.edge_point(e, *near), model.vertex(first ? edge.first : edge.last)),
+                  0.49 * length, 1e-9);
       EXPECT_FALSE(parameter_at(model, {e, first}, 0.51 * length).has_value());
     }
   }

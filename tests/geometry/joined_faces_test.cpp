@@ -46,7 +46,8 @@ TEST(JoinedFaces, KeepsEverythingElse) {
   EXPECT_EQ(seams, 2);
   // The name is that of the larger one.
   const auto faces = curved_faces(joined.apart);
-  const FaceId wide = joined.apart.face_area(faces[0]) > joined.apart.face_area(faces[1]) ? faces[0] : faces[1];
+  const FaceId wide =
+      joined.apart.face_area(faces[0]) > joined.apart.face_area(faces[1]) ? faces[0] : faces[1];
   EXPECT_EQ(joined.model.face(joined.side).name, joined.apart.face(wide).name);
 }
 
@@ -58,7 +59,8 @@ TEST(JoinedFaces, EvaluatesOnEverySheet) {
       for (const double share : {0.0, 0.3, 0.8, 1.0}) {
         const double t = edge.first_parameter + share * (edge.last_parameter - edge.first_parameter);
         const Vec2 uv = joined.model.edge_uv(joined.side, use, t);
-        EXPECT_LT(distance(joined.model.face_point(joined.side, uv), joined.model.edge_point(use.edge, t)), 1e-9);
+        EXPECT_LT(distance(joined.model.face_point(joined.side, uv), joined.model.edge_point(use.edge, t)),
+                  1e-9);
         const Vec3 p = joined.model.edge_point(use.edge, t);
         const SurfaceFrame frame = joined.model.face_frame(joined.side, uv);
         EXPECT_LT(distance(frame.normal, {p.x, p.y, 0}), 1e-9);
@@ -74,7 +76,8 @@ TEST(JoinedFaces, ProjectsAcrossBorders) {
     const double a = degrees * std::numbers::pi / 180;
     return Vec3{std::cos(a), std::sin(a), z};
   };
-  Projection last = joined.model.project(joined.side, at(180, 1), joined.model.facets(joined.side, 0.1, 0.5).uv[0]);
+  Projection last =
+      joined.model.project(joined.side, at(180, 1), joined.model.facets(joined.side, 0.1, 0.5).uv[0]);
   ASSERT_TRUE(last.converged);
   std::vector<char> seen(2, 0);
   // Small steps through the strip and back out, as smoothing makes them.
@@ -89,8 +92,7 @@ TEST(JoinedFaces, ProjectsAcrossBorders) {
     if (std::abs(degrees) < 0.1 || std::abs(degrees - strip_degrees) < 0.1) continue;
     const bool in_strip = degrees > 0 && degrees < strip_degrees;
     const auto faces = curved_faces(joined.apart);
-    const std::int32_t narrow =
-        joined.apart.face_area(faces[0]) < joined.apart.face_area(faces[1]) ? 0 : 1;
+    const std::int32_t narrow = joined.apart.face_area(faces[0]) < joined.apart.face_area(faces[1]) ? 0 : 1;
     EXPECT_EQ(joined.model.sheet(joined.side, last.uv) == narrow, in_strip) << degrees;
   }
   EXPECT_TRUE(seen[0] && seen[1]);

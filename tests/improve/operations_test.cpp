@@ -248,8 +248,8 @@ TEST(CavityInsertion, PlacesANewVertexInAFlatCavity) {
   EXPECT_NEAR(volume(piece), before, 1e-14);
 }
 
-// A prism whose left side ends in a tetrahedron without thickness, because the boundary's diagonal there is not
-// that of the tetrahedra inside: no cone from within that tetrahedron is any better.
+// A prism whose left side ends in a tetrahedron without thickness, because the boundary's diagonal there is
+// not that of the tetrahedra inside: no cone from within that tetrahedron is any better.
 TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
   enum { ridge0, ridge1, left0, left1, right0, right1 };
   mesh::Piece piece =
@@ -275,7 +275,8 @@ TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
   EXPECT_NEAR(volume(piece), before, 1e-14);
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* c = piece.cell(t);
-    EXPECT_GT(mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])).smallest,
+    EXPECT_GT(mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3]))
+                  .smallest,
               10);
   }
 }

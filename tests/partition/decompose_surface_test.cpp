@@ -56,7 +56,8 @@ BackgroundSurface plate(int columns, int rows, double stretch, double shake) {
 BackgroundSurface sphere(int divisions) {
   BackgroundSurface surface;
   surface.points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  surface.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  surface.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                       {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   for (int k = 0; k < divisions; ++k) {
     std::map<std::array<std::int32_t, 2>, std::int32_t> middles;
     const auto middle = [&](std::int32_t a, std::int32_t b) {
@@ -172,7 +173,8 @@ TEST(Simplify, NoTwoPermittedCutsMeetSharply) {
 
 TEST(Simplify, ClustersKeepTheLoadAndObeyItsLimit) {
   const BackgroundSurface surface = plate(20, 20, 3, 0.25);
-  const Clusters clusters = simplify(surface, gather_fans(surface), {.smallest_angle = 60, .largest_load = 95});
+  const Clusters clusters =
+      simplify(surface, gather_fans(surface), {.smallest_angle = 60, .largest_load = 95});
   EXPECT_NEAR(std::accumulate(clusters.loads.begin(), clusters.loads.end(), 0.0), 8000, 1e-9);
   EXPECT_LE(*std::max_element(clusters.loads.begin(), clusters.loads.end()), 95);
   EXPECT_GT(clusters.unresolved, 0);

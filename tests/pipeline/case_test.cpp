@@ -196,8 +196,9 @@ TEST_F(CaseTest, WrongTypes) {
             "case.yaml:2:20: 'improve.enabled': expected true or false, got 'maybe'");
   EXPECT_EQ(error_of(transport + "improve: {sweeps: 2.5}\n"),
             "case.yaml:2:19: 'improve.sweeps': expected a whole number, got '2.5'");
-  EXPECT_EQ(error_of(transport + "farfield: {shape: cube}\n"),
-            "case.yaml:2:19: 'farfield.shape': expected one of sphere, box, hemisphere, cylinder, got 'cube'");
+  EXPECT_EQ(
+      error_of(transport + "farfield: {shape: cube}\n"),
+      "case.yaml:2:19: 'farfield.shape': expected one of sphere, box, hemisphere, cylinder, got 'cube'");
   EXPECT_EQ(error_of(transport + "output: {directory: ''}\n"),
             "case.yaml:2:21: 'output.directory': expected a text, got ''");
   EXPECT_EQ(error_of("- a\n- b\n"), "case.yaml:1:1: expected keys, got a list");

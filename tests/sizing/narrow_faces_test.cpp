@@ -40,7 +40,8 @@ TEST(NarrowFaces, ABluntTrailingEdgeStays) {
   EXPECT_TRUE(find(model, 0.02, 1).empty());
 }
 
-// Two strips side by side, bent against each other by more than the tolerance allows: neither takes the other.
+// Two strips side by side, bent against each other by more than the tolerance allows: neither takes the
+// other.
 TEST(NarrowFaces, CreasesStay) {
   const Model model = geometry::shapes::blunt_wedge(0.39);
   const auto all = find(model, 10, 10);

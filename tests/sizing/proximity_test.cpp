@@ -93,7 +93,8 @@ TEST(Proximity, ASharpEdgeDoesNotDriveSizesDown) {
   EXPECT_GT(least, 0.05);
 }
 
-// Behind the corners of the slender side faces elements fit between the edges, and nothing is finer than that.
+// Behind the corners of the slender side faces elements fit between the edges, and nothing is finer than
+// that.
 TEST(SharpCorners, SizesFitBetweenTheEdges) {
   const double half = 5 * M_PI / 180;
   const Model sharp = wedge(10);

@@ -59,7 +59,8 @@ void expect_sound(const Communicator& communicator, const Meshed& meshed) {
       const mesh::LocalIndex* v = piece.cell(t);
       const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), c = piece.point(v[2]);
       const double middle = (a.z + b.z + c.z) / 3;
-      if (middle < 0.5 || middle > 1.5) continue;  // near the ends the strip's short edges ask for their length
+      if (middle < 0.5 || middle > 1.5)
+        continue;  // near the ends the strip's short edges ask for their length
       small += std::min({distance(a, b), distance(b, c), distance(c, a)}) < 0.5 * size;
     }
   }

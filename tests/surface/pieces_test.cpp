@@ -1,11 +1,10 @@
 /// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
-#include "surface/piece_pool.hpp"
-
 #include "geometry/primitives.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "surface/coarse_loops.hpp"
 #include "surface/face_mesher.hpp"
+#include "surface/piece_pool.hpp"
 #include "surface/surface_mesher.hpp"
 #include "tests/surface/face_fixture.hpp"
 
@@ -105,7 +104,8 @@ TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
   EXPECT_LT(meshed.surface.report.load_error_90, 0.15);
   ASSERT_FALSE(meshed.surface.report.cut_angles.empty());
   for (const CutAngle& angle : meshed.surface.report.cut_angles) {
-    EXPECT_GE(angle.degrees, 30) << "near " << angle.point.x << ", " << angle.point.y << ", " << angle.point.z;
+    EXPECT_GE(angle.degrees, 30) << "near " << angle.point.x << ", " << angle.point.y << ", "
+                                 << angle.point.z;
   }
   const Seam seam = measure_seam(world, meshed.surface.mesh);
   EXPECT_GT(seam.count[1], 100);

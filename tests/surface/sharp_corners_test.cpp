@@ -69,8 +69,7 @@ TEST(SharpCorners, HoldOneTriangle) {
   for (const mesh::Piece& piece : surface.mesh.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
-      const double degrees =
-          mesh::smallest_angle(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]));
+      const double degrees = mesh::smallest_angle(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]));
       below_corner += degrees < sharp_degrees - 1e-3;
       below_twenty += degrees < 20;
     }

@@ -80,8 +80,8 @@ TEST(SurfaceMesher, ChordalDeviationIsBounded) {
       parallel::StageClock clock;
       sizing::SizingOptions sizes{.minimum = 1, .maximum = 1, .curvature_angle = 60, .growth = 1.3};
       sizes.chordal_deviation = wanted;
-      const SurfaceMesh surface = mesh_surface(
-          world, model, sizing::build_size_field(world, model, sizes, clock), {}, clock);
+      const SurfaceMesh surface =
+          mesh_surface(world, model, sizing::build_size_field(world, model, sizes, clock), {}, clock);
       double largest = 0;
       for (const mesh::Piece& piece : surface.mesh.pieces) {
         if (model.is_planar(piece.common_face())) continue;
