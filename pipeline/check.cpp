@@ -1,5 +1,6 @@
 #include "pipeline/check.hpp"
 
+#include "pipeline/change_json.hpp"
 #include "parallel/collective_error.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
@@ -117,20 +118,6 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
                     forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
                     forecast.bytes / (1024.0 * 1024 * 1024), ranks, forecast.piece_triangles,
                     forecast.piece_tets);
-}
-
-Json to_json(geometry::Vec3 p) {
-  return Json::array({p.x, p.y, p.z});
-}
-
-Json to_json(const geometry::Changes& changes) {
-  Json json = Json::array();
-  for (const geometry::Change& change : changes) {
-    json.push_back({{"what", change.what},
-                    {"where", change.where ? to_json(*change.where) : Json()},
-                    {"how_much", change.how_much}});
-  }
-  return json;
 }
 
 Json read_json(const Case& input, const geometry::Diagnosis& found) {

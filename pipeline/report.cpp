@@ -1,5 +1,7 @@
 #include "pipeline/report.hpp"
 
+#include "pipeline/change_json.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -9,20 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int schema_version = 1;
-
-Json to_json(geometry::Vec3 p) {
-  return Json::array({p.x, p.y, p.z});
-}
-
-Json changes_json(const geometry::Changes& changes) {
-  Json json = Json::array();
-  for (const geometry::Change& change : changes) {
-    json.push_back({{"what", change.what},
-                    {"where", change.where ? to_json(*change.where) : Json()},
-                    {"how_much", change.how_much}});
-  }
-  return json;
-}
 
 Json geometry_json(const RunRecord& record) {
   Json json;
@@ -37,7 +25,7 @@ Json geometry_json(const RunRecord& record) {
                                                                       : "auto";
   json["domain_reason"] = record.domain.reason;
   json["reference_length"] = record.domain.reference_length;
-  json["changes"] = changes_json(record.domain.changes);
+  json["changes"] = to_json(record.domain.changes);
   return json;
 }
 
@@ -49,7 +37,7 @@ Json sizing_json(const RunRecord& record) {
           {"curvature_angle", record.sizes.curvature_angle},
           {"chordal_deviation", record.sizes.chordal_deviation},
           {"growth", record.sizes.growth},
-          {"joined_faces", changes_json(record.joined_faces)},
+          {"joined_faces", to_json(record.joined_faces)},
           {"octree_leaves", record.size_field_leaves},
           {"predicted_triangles", record.predicted.triangles},
           {"predicted_tetrahedra", record.predicted.tetrahedra}};

@@ -1,0 +1,24 @@
+/// Points and changes of the geometry as the project's JSON files have them.
+#pragma once
+
+#include "geometry/change.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+
+inline nlohmann::ordered_json to_json(geometry::Vec3 p) {
+  return nlohmann::ordered_json::array({p.x, p.y, p.z});
+}
+
+inline nlohmann::ordered_json to_json(const geometry::Changes& changes) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const geometry::Change& change : changes) {
+    json.push_back({{"what", change.what},
+                    {"where", change.where ? to_json(*change.where) : nlohmann::ordered_json()},
+                    {"how_much", change.how_much}});
+  }
+  return json;
+}
+
+}  // namespace aeroloom::pipeline
