@@ -1,7 +1,7 @@
 #include "pipeline/check.hpp"
 
-#include "pipeline/change_json.hpp"
 #include "parallel/collective_error.hpp"
+#include "pipeline/change_json.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
 
