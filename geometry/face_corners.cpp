@@ -7,15 +7,6 @@
 namespace aeroloom::geometry {
 namespace {
 
-/// An edge that the face passes twice carries no corner of its own.
-bool is_seam(const Face& face, EdgeId edge) {
-  int uses = 0;
-  for (const auto& loop : face.loops) {
-    for (const EdgeUse& use : loop) uses += use.edge == edge;
-  }
-  return uses > 1;
-}
-
 /// The normal of the face at the vertex, or nearby where the surface is singular there.
 Vec3 normal_at(const Model& model, const FaceCorner& corner) {
   const EdgeEnd end = end_at_corner(corner.leaving, true);
@@ -43,7 +34,7 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
     }
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const EdgeUse &arriving = loop[i], &leaving = loop[(i + 1) % loop.size()];
-      if (is_seam(face, arriving.edge) || is_seam(face, leaving.edge)) continue;
+      if (model.is_seam(arriving.edge) || model.is_seam(leaving.edge)) continue;
       const Edge& edge = model.edge(leaving.edge);
       corners.push_back({id, leaving.reversed ? edge.last : edge.first, arriving, leaving});
     }

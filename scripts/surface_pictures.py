@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Pictures of a surface mesh, each piece in a colour of its own.
 
 usage: surface_pictures.py SURFACE.pvtp PREFIX BOX NAME=X,Y,Z,RADIUS[,DX,DY,DZ] ...

@@ -1,6 +1,7 @@
 #include "surface/background.hpp"
 
 #include "surface/boundary_thinning.hpp"
+#include "surface/parameters.hpp"
 #include "surface/support_mesher.hpp"
 #include "surface/support_topology.hpp"
 
@@ -26,11 +27,6 @@ constexpr int smoothing_sweeps = 3;
 /// in so many rounds.
 constexpr double facet_turn = 12 * degree;
 constexpr int dividing_rounds = 3;
-
-/// The parameter nearest to `reference` of those that stand for the same place.
-double unwrap(double parameter, double reference, double period) {
-  return period > 0 ? parameter - period * std::round((parameter - reference) / period) : parameter;
-}
 
 /// Parameters at the corners of each triangle, without jumps inside it: those of vertices beyond a seam are
 /// moved by a period, and the direction that means nothing at a pole is taken from the other corners. A
@@ -184,12 +180,7 @@ private:
     }
   }
 
-  /// The parameters of the same point nearest to others.
-  Vec2 near(Vec2 uv, Vec2 others) const {
-    if (_model.sheet(_support.face, uv) != _model.sheet(_support.face, others)) return others;
-    const Vec2 periods = _model.parameter_periods(_support.face, others);
-    return {unwrap(uv.x, others.x, periods.x), unwrap(uv.y, others.y, periods.y)};
-  }
+  Vec2 near(Vec2 uv, Vec2 others) const { return unwrap(_model, _support.face, uv, others); }
 
   bool turns(SupportHalfEdge h) const {
     const auto normal = [&](Vec2 uv) {

@@ -1,5 +1,6 @@
 #include "surface/boundary_thinning.hpp"
 
+#include "surface/parameters.hpp"
 #include "surface/support_flips.hpp"
 #include "surface/support_topology.hpp"
 
@@ -11,11 +12,6 @@ namespace {
 
 using geometry::Vec2;
 using geometry::Vec3;
-
-/// The parameter nearest to `reference` of those that stand for the same place.
-double unwrap(double parameter, double reference, double period) {
-  return period > 0 ? parameter - period * std::round((parameter - reference) / period) : parameter;
-}
 
 class BoundaryThinner {
 public:
@@ -57,10 +53,7 @@ public:
       }
       const int k = corner(t, gone);
       Vec2& at = _support.corner_uv[t][k];
-      if (_model.sheet(_support.face, uv) == _model.sheet(_support.face, at)) {
-        const Vec2 periods = _model.parameter_periods(_support.face, at);
-        at = {unwrap(uv.x, at.x, periods.x), unwrap(uv.y, at.y, periods.y)};
-      }
+      at = unwrap(_model, _support.face, uv, at);
       _support.triangles[t][k] = kept;
       _around[kept].push_back(t);
     }

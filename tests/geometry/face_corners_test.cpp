@@ -1,6 +1,7 @@
 #include "geometry/face_corners.hpp"
 
 #include "tests/geometry/cad_shapes.hpp"
+#include "tests/geometry/prisms.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,23 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakePrism.hxx>
 #include <gtest/gtest.h>
 
 namespace aeroloom::geometry {
 namespace {
 
 using shapes::prepare_fluid;
-
-TopoDS_Shape prism(const std::vector<std::pair<double, double>>& profile, double length) {
-  BRepBuilderAPI_MakePolygon polygon;
-  for (const auto& [x, z] : profile) polygon.Add(gp_Pnt(x, 0, z));
-  polygon.Close();
-  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, length, 0)).Shape();
-}
+using shapes::prism;
 
 double tangent(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180);

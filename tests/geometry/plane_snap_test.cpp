@@ -2,6 +2,7 @@
 
 #include "tests/geometry/cad_shapes.hpp"
 #include "tests/geometry/model_checks.hpp"
+#include "tests/geometry/prisms.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,18 +13,16 @@
 #include <utility>
 #include <vector>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakePrism.hxx>
 #include <gp_Trsf.hxx>
 
 namespace aeroloom::geometry {
 namespace {
 
 using shapes::prepare_fluid;
+using shapes::prism;
 
 /// The lowest and highest coordinate that the model gives anywhere on a face.
 struct Spread {
@@ -88,14 +87,6 @@ TopoDS_Shape turned(const TopoDS_Shape& shape, const gp_Dir& about, double angle
   gp_Trsf turn;
   turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), about), angle);
   return BRepBuilderAPI_Transform(shape, turn, true).Shape();
-}
-
-/// A profile in the plane y = 0, given by x and z, drawn out along y.
-TopoDS_Shape prism(const std::vector<std::pair<double, double>>& profile, double length) {
-  BRepBuilderAPI_MakePolygon polygon;
-  for (const auto& [x, z] : profile) polygon.Add(gp_Pnt(x, 0, z));
-  polygon.Close();
-  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, length, 0)).Shape();
 }
 
 /// Two towers side by side, the second taller by a step.

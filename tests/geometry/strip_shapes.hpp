@@ -2,13 +2,13 @@
 #pragma once
 
 #include "tests/geometry/cad_shapes.hpp"
+#include "tests/geometry/prisms.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <gp_Ax2.hxx>
@@ -29,14 +29,16 @@ inline Model split_cylinder(double degrees, double height) {
 
 /// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.
 inline Model blunt_wedge(double thickness) {
-  BRepBuilderAPI_MakePolygon polygon;
-  polygon.Add(gp_Pnt(0, 0, -0.2));
-  polygon.Add(gp_Pnt(1, 0, -0.5 * thickness));
-  polygon.Add(gp_Pnt(1, 0, 0.5 * thickness));
-  polygon.Add(gp_Pnt(0, 0, 0.2));
-  polygon.Close();
+  return prepare_fluid(prism({{0, -0.2}, {1, -0.5 * thickness}, {1, 0.5 * thickness}, {0, 0.2}}, 1)).model;
+}
+
+/// A prism along y with a side that bends by so many degrees before its end: what is behind the bend is a
+/// strip 0.05 wide. No other edge of it is smooth.
+inline Model creased_prism(double degrees) {
+  const double slope = std::atan(0.3) + degrees * std::numbers::pi / 180, width = 0.05;
   return prepare_fluid(
-             BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 1, 0)).Shape())
+             prism({{0, 0}, {1, 0.3}, {1 + width * std::cos(slope), 0.3 + width * std::sin(slope)}, {0.1, 2}},
+                   1))
       .model;
 }
 

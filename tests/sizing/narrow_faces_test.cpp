@@ -40,13 +40,17 @@ TEST(NarrowFaces, ABluntTrailingEdgeStays) {
   EXPECT_TRUE(find(model, 0.02, 1).empty());
 }
 
-// Two strips side by side, bent against each other by more than the tolerance allows: neither takes the
-// other.
+// A strip behind a bend is taken in while that moves the surface by less than the tolerance, and never where
+// the surface turns by 20 degrees.
 TEST(NarrowFaces, CreasesStay) {
-  const Model model = geometry::shapes::blunt_wedge(0.39);
-  const auto all = find(model, 10, 10);
-  for (const NarrowFace& face : all) EXPECT_LE(face.degrees, 20);
-  EXPECT_TRUE(all.empty());
+  const Model bent = geometry::shapes::creased_prism(10);
+  const double deviation = 0.05 * std::sin(10 * std::numbers::pi / 180);
+  const auto found = find(bent, 0.06, 1.2 * deviation);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].degrees, 10, 1e-6);
+  EXPECT_NEAR(found[0].deviation, deviation, 0.1 * deviation);
+  EXPECT_TRUE(find(bent, 0.06, 0.8 * deviation).empty());
+  EXPECT_TRUE(find(geometry::shapes::creased_prism(25), 0.06, 1).empty());
 }
 
 }  // namespace

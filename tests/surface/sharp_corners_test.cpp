@@ -4,14 +4,12 @@
 #include "mesh/quality.hpp"
 #include "surface/surface_mesher.hpp"
 #include "tests/geometry/cad_shapes.hpp"
+#include "tests/geometry/prisms.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepPrimAPI_MakePrism.hxx>
 #include <gtest/gtest.h>
 
 namespace aeroloom::surface {
@@ -24,14 +22,8 @@ constexpr double sharp_degrees = 12;
 
 /// A right triangle whose corner at the origin is sharp, drawn out along y.
 Model sharp_prism() {
-  BRepBuilderAPI_MakePolygon polygon;
-  polygon.Add(gp_Pnt(0, 0, 0));
-  polygon.Add(gp_Pnt(3, 0, 0));
-  polygon.Add(gp_Pnt(3, 0, 3 * std::tan(sharp_degrees * std::numbers::pi / 180)));
-  polygon.Close();
-  return geometry::shapes::prepare_fluid(
-             BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 1, 0)).Shape())
-      .model;
+  const double height = 3 * std::tan(sharp_degrees * std::numbers::pi / 180);
+  return geometry::shapes::prepare_fluid(geometry::shapes::prism({{0, 0}, {3, 0}, {3, height}}, 1)).model;
 }
 
 sizing::SizeField field_of(const Model& model) {
