@@ -42,6 +42,7 @@ struct Case {
   surface::SurfaceOptions surface;
   volume::VolumeOptions volume;
   std::int64_t piece_tets = 250'000;  ///< wanted size of a volume piece
+  double interface_angle = 45;        ///< degrees between interfaces, and to the boundary, wanted; 0: any
   improve::ImproveOptions improve;
   OutputOptions output;
 };

@@ -93,23 +93,6 @@ SizedDomain build_sizes(const Communicator& communicator, const geometry::Model&
   return sized;
 }
 
-/// One volume piece per region for now: what they will hold together is predicted, and refused when it is too
-/// much for one piece.
-void decompose(const Communicator& communicator, const geometry::Model& model, const sizing::SizeField& field,
-               const Case& input, RunRecord& record) {
-  record.predicted = sizing::predict_counts(communicator, model, field, record.clock);
-  parallel::log_info(
-      fmt::format("decompose: {} volume piece(s); predicted {:.3g} triangles, {:.3g} tetrahedra",
-                  model.region_count(), record.predicted.triangles, record.predicted.tetrahedra));
-  if (record.predicted.tetrahedra > 1.5 * double(input.volume.largest_piece)) {
-    throw std::runtime_error(
-        fmt::format("the sizes ask for about {:.3g} tetrahedra, more than one volume piece holds ({}). "
-                    "Remedy: larger sizing.minimum, "
-                    "sizing.maximum or curvature_angle",
-                    record.predicted.tetrahedra, input.volume.largest_piece));
-  }
-}
-
 /// An invalid mesh is a defect of the program that must not reach a file unnoticed.
 double require_valid(const std::string& what, const mesh::ValidityReport& report) {
   if (report.valid()) return report.volume;
@@ -163,6 +146,20 @@ struct FinishedSurface : NumberedMesh {
   sizing::SizeField field;
 };
 
+/// The boundary of the domain: the surface without its inner faces, those between two regions. With `inner`,
+/// those faces alone. Pieces keep their ids, left out ones are empty.
+mesh::DistributedMesh part_of_surface(const mesh::DistributedMesh& surface, bool inner) {
+  mesh::DistributedMesh part = surface;
+  for (mesh::Piece& piece : part.pieces) {
+    if (surface.sides_of(piece.common_face()).is_inner() == inner) continue;
+    mesh::Piece empty;
+    empty.id = piece.id;
+    empty.kind = piece.kind;
+    piece = std::move(empty);
+  }
+  return part;
+}
+
 NumberedMesh number_part(const Communicator& communicator, const mesh::DistributedMesh& surface, bool inner) {
   NumberedMesh part{part_of_surface(surface, inner), {}};
   part.numbering = mesh::number_mesh(communicator, part.mesh);
@@ -203,6 +200,35 @@ FinishedSurface build_surface(const Communicator& communicator, const geometry::
   }
   sized = build_sizes(communicator, model, input, NarrowFaces::keep, record);
   return build_surface(communicator, sized.model, sized.field, input, record);
+}
+
+/// The parts of the volume and the interfaces between them.
+struct Decomposition {
+  VolumePlan plan;
+  InterfaceMesh interfaces;
+};
+
+Decomposition decompose(const Communicator& communicator, const geometry::Model& model,
+                        const FinishedSurface& surface, const Case& input, RunRecord& record) {
+  record.predicted = sizing::predict_counts(communicator, model, surface.field, record.clock);
+  VolumePlanOptions options;
+  options.piece_tets = static_cast<double>(input.piece_tets);
+  options.predicted_tets = record.predicted.tetrahedra;
+  options.smallest_angle = input.interface_angle;
+  Decomposition result;
+  result.plan =
+      plan_volume(communicator, surface.mesh, surface.numbering, surface.field, options, record.clock);
+  result.interfaces = mesh_interfaces(communicator, result.plan, surface.numbering.vertex_count,
+                                      surface.field, record.clock);
+  record.plan = result.plan.report;
+  record.parts = result.plan.parts;
+  record.interface_triangles = result.interfaces.triangle_count;
+  parallel::log_info(fmt::format(
+      "decompose: predicted {:.3g} tetrahedra, {} piece(s) from {} background tetrahedra in {} clusters, "
+      "heaviest {:.2f} of the mean; {} triangles on interfaces",
+      record.predicted.tetrahedra, record.parts, record.plan.background_tets, record.plan.clusters,
+      record.plan.imbalance, record.interface_triangles));
+  return result;
 }
 
 /// Tetrahedra and volume by region; sums run in the order of the pieces.
@@ -282,15 +308,19 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
     return build_sizes(communicator, loaded, input, input.narrow_faces, record);
   });
-  run_stage(record, "decompose", ExitCode::resources,
-            [&] { decompose(communicator, sized.model, sized.field, input, record); });
   const FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface(communicator, loaded, input, sized, record);
   });
+  std::optional<Decomposition> decomposition = run_stage(record, "decompose", ExitCode::resources, [&] {
+    return std::optional(decompose(communicator, sized.model, surface, input, record));
+  });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
-    mesh::DistributedMesh filled =
-        mesh_volume(communicator, sized.model, surface.mesh, surface.numbering, surface.field, input.volume,
-                    directory + "/offending_triangles.vtp", record.clock, record.volume);
+    const BoundaryMeshes boundary{surface.mesh, surface.numbering, decomposition->interfaces};
+    mesh::DistributedMesh filled = mesh_volume(communicator,
+                                               {sized.model, boundary, decomposition->plan, surface.field,
+                                                input.volume, directory + "/offending_triangles.vtp"},
+                                               record.clock, record.volume);
+    decomposition.reset();
     inspect_volume(communicator, filled, surface.mesh, record);
     parallel::log_info(
         fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));

@@ -9,7 +9,7 @@
 #include "parallel/timers.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
-#include "pipeline/volume_piece.hpp"
+#include "pipeline/mesh_volume.hpp"
 #include "sizing/size_field.hpp"
 #include "surface/surface_mesher.hpp"
 
@@ -49,6 +49,9 @@ struct RunRecord {
   sizing::PredictedCounts predicted;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
+  VolumePlanReport plan;
+  std::int32_t parts = 0;                ///< of the volume, before any were merged
+  std::int64_t interface_triangles = 0;  ///< between them
   VolumeReport volume;
   improve::ImproveReport improve;
   mesh::MeshCounts counts;
