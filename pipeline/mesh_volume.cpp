@@ -130,6 +130,7 @@ public:
       });
       wanted = merge_failed(failures);
     }
+    _report.angles = summarise_interfaces(_communicator, _corners);
     return std::move(_pieces);
   }
 
@@ -144,6 +145,8 @@ private:
       _clock.add_task_cpu(filled.cpu_seconds);
       _clock.note_child_memory(filled.child_peak_bytes);
       _clock.add_pieces(1);
+      const auto corners = find_interface_corners(boundary, _task.plan, _parts, part);
+      _corners.insert(_corners.end(), corners.begin(), corners.end());
       _pieces.push_back(piece_of(_task.boundary.surface, _contacts, boundary, part,
                                  _task.plan.region_of[part], std::move(filled)));
       boundary = {};
@@ -196,6 +199,8 @@ private:
     std::vector<char> wanted(_task.plan.parts, 0);
     for (const Merge& merge : merges) wanted[_parts.root(merge.part)] = 1;
     std::erase_if(_pieces, [&](const Piece& piece) { return wanted[_parts.root(piece.id)] != 0; });
+    std::erase_if(_corners,
+                  [&](const InterfaceCorner& corner) { return wanted[_parts.root(corner.part)] != 0; });
     _report.merges.insert(_report.merges.end(), merges.begin(), merges.end());
     return wanted;
   }
@@ -208,6 +213,7 @@ private:
   MergedParts _parts;
   std::vector<parallel::Rank> _owners;
   std::vector<Piece> _pieces;
+  std::vector<InterfaceCorner> _corners;
 };
 
 /// The relative error that 90 % of the predicted loads stay below.

@@ -5,6 +5,7 @@
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
+#include "pipeline/interface_angles.hpp"
 #include "pipeline/interfaces.hpp"
 #include "pipeline/piece_boundary.hpp"
 #include "pipeline/volume_plan.hpp"
@@ -27,6 +28,7 @@ struct VolumeReport {
   std::int64_t steiner_points = 0;
   int attempts = 1;            ///< of the piece that took most
   std::vector<Merge> merges;
+  InterfaceAngles angles;
   double load_error_90 = 0;    ///< the relative error that 90 % of the predicted loads stay below
 };
 

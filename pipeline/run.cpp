@@ -321,6 +321,12 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
                                                 input.volume, directory + "/offending_triangles.vtp"},
                                                record.clock, record.volume);
     decomposition.reset();
+    const InterfaceAngles& angles = record.volume.angles;
+    if (angles.edges > 0) {
+      parallel::log_info(fmt::format(
+          "volume: interfaces meet at {:.1f} degrees at least, {} of {} edges below {:g}, {} of them forced",
+          angles.smallest, angles.below, angles.edges, InterfaceAngles::threshold, angles.forced));
+    }
     inspect_volume(communicator, filled, surface.mesh, record);
     parallel::log_info(
         fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));

@@ -23,12 +23,12 @@ using geometry::Vec3;
 using mesh::RegionId;
 
 /// Background tetrahedra a part has, about.
-constexpr double tets_per_part = 300;
+constexpr double tets_per_part = 1000;
 /// Width of a background element in local sizes, at least: finer ones would have nothing to simplify.
 constexpr double smallest_width = 3;
 constexpr int most_rounds = 24;
 /// Growth of the background's sizes, per background element.
-constexpr double background_growth = 1.6;
+constexpr double background_growth = 2.5;
 /// Regions of less than this many wanted parts stay whole.
 constexpr double whole_below = 1.5;
 
@@ -90,34 +90,34 @@ sizing::SizeField background_field(const RegionSurface& region, const sizing::Si
   return sizing::SizeField::build(field.domain(), sources, options);
 }
 
+/// A tetrahedron with the sizes at its corners.
+struct SizedTet {
+  std::array<Vec3, 4> p;
+  std::array<double, 4> h;
+};
+
 /// The integral of 6 sqrt(2) / h^3 over a tetrahedron, by halving until h varies little.
-double load_of(std::array<Vec3, 4> p, const sizing::SizeField& field, int depth) {
-  constexpr int deepest = 12;
-  constexpr double even = 1.25;
-  double low = 1e300, high = 0, mean = 0;
-  for (const Vec3& v : p) {
-    const double h = field(v);
-    low = std::min(low, h);
-    high = std::max(high, h);
-    mean += std::log(h) / 5;
+double load_of(SizedTet tet, const sizing::SizeField& field, int depth) {
+  constexpr int deepest = 14;
+  constexpr double even = 1.4;
+  const auto [low, high] = std::minmax_element(tet.h.begin(), tet.h.end());
+  if (depth == deepest || *high <= even * *low) {
+    const double volume = std::abs(geometry::volume6(tet.p[0], tet.p[1], tet.p[2], tet.p[3])) / 6;
+    const double mean = std::sqrt(std::sqrt(tet.h[0] * tet.h[1]) * std::sqrt(tet.h[2] * tet.h[3]));
+    return 6 * std::numbers::sqrt2 * volume / (mean * mean * mean);
   }
-  const double middle = field(0.25 * (p[0] + p[1] + p[2] + p[3]));
-  low = std::min(low, middle);
-  high = std::max(high, middle);
-  mean += std::log(middle) / 5;
-  if (depth == deepest || high <= even * low) {
-    const double volume = std::abs(geometry::volume6(p[0], p[1], p[2], p[3])) / 6;
-    return 6 * std::numbers::sqrt2 * volume * std::exp(-3 * mean);
+  int i = 0, j = 1;
+  double longest = 0;
+  for (const auto& edge : mesh::tetrahedron_edges) {
+    const Vec3 along = tet.p[edge[1]] - tet.p[edge[0]];
+    if (dot(along, along) > longest) longest = dot(along, along), i = edge[0], j = edge[1];
   }
-  std::array<int, 2> longest{0, 1};
-  for (const auto& [i, j] : mesh::tetrahedron_edges) {
-    if (distance(p[i], p[j]) > distance(p[longest[0]], p[longest[1]])) longest = {i, j};
-  }
-  const Vec3 half = 0.5 * (p[longest[0]] + p[longest[1]]);
-  std::array<Vec3, 4> q = p;
-  q[longest[0]] = half;
-  p[longest[1]] = half;
-  return load_of(p, field, depth + 1) + load_of(q, field, depth + 1);
+  const Vec3 middle = 0.5 * (tet.p[i] + tet.p[j]);
+  const double size = field(middle);
+  SizedTet other = tet;
+  other.p[i] = tet.p[j] = middle;
+  other.h[i] = tet.h[j] = size;
+  return load_of(tet, field, depth + 1) + load_of(other, field, depth + 1);
 }
 
 using ChordIndex = std::vector<std::array<std::int32_t, 3>>;  // from, to, chord; sorted
@@ -243,9 +243,14 @@ void describe_boundary(const RegionSurface& region, const partition::CoarseSurfa
 RegionBackground fill_background(const RegionSurface& region, const partition::CoarseSurface& coarse,
                                  const ChordIndex& chords, const sizing::SizeField& field, double width,
                                  parallel::StageClock& clock) {
+  double t1=parallel::cpu_seconds();
+  auto bf=background_field(region, field, width);
+  fprintf(stderr,"DBGT -- field %.3f leaves %ld of %ld\n",parallel::cpu_seconds()-t1,(long)bf.leaf_count(),(long)field.leaf_count());
   volume::FilledVolume filled =
-      volume::fill_volume(region.surface, background_field(region, field, width), volume::VolumeOptions{});
+      volume::fill_volume(region.surface, bf, volume::VolumeOptions{});
+  fprintf(stderr,"DBGT -- fill %.3f att %d\n",filled.cpu_seconds,filled.attempts);
   clock.note_child_memory(filled.child_peak_bytes);
+  double t0=parallel::cpu_seconds(); auto lap=[&](const char*w){double t=parallel::cpu_seconds(); fprintf(stderr,"DBGT - %s %.3f\n",w,t-t0); t0=t;};
   RegionBackground background;
   partition::BackgroundVolume& volume = background.volume;
   for (std::size_t i = 0; i < filled.coordinates.size(); i += 3)
@@ -260,14 +265,21 @@ RegionBackground fill_background(const RegionSurface& region, const partition::C
   volume.closed_vertices.assign(volume.points.size(), 0);
   for (std::size_t v = 0; v < region.vertex.size(); ++v)
     volume.closed_vertices[v] = coarse.is_apex[region.vertex[v]];
+  lap("link");
+  std::vector<double> sizes;
+  for (const Vec3& p : volume.points) sizes.push_back(field(p));
   for (const auto& v : volume.tets) {
-    const std::array<Vec3, 4> p{volume.points[v[0]], volume.points[v[1]], volume.points[v[2]],
-                                volume.points[v[3]]};
-    volume.loads.push_back(load_of(p, field, 0));
-    volume.sizes.push_back(
-        std::exp(0.25 * (std::log(field(p[0])) + std::log(field(p[1])) + std::log(field(p[2])) +
-                         std::log(field(p[3])))));
+    SizedTet tet;
+    double product = 1;
+    for (int k = 0; k < 4; ++k) {
+      tet.p[k] = volume.points[v[k]];
+      tet.h[k] = sizes[v[k]];
+      product *= std::sqrt(std::sqrt(tet.h[k]));
+    }
+    volume.loads.push_back(load_of(tet, field, 0));
+    volume.sizes.push_back(product);
   }
+  lap("load");
   link_boundary(region, background);
   describe_boundary(region, coarse, chords, background);
   return background;
@@ -443,8 +455,10 @@ Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface,
                 const sizing::SizeField& field, const VolumePlanOptions& options, double width,
                 parallel::StageClock& clock) {
   Round round;
+  double t0=parallel::cpu_seconds(); auto lap=[&](const char*w){double t=parallel::cpu_seconds(); fprintf(stderr,"DBGT %s %.3f\n",w,t-t0); t0=t;};
   const partition::CoarseSurface coarse =
       partition::build_coarse_surface(std::move(rims.edges), std::move(rims.vertices), rims.cells);
+  lap("coarse");
   std::vector<RegionSurface> regions;
   round.unfit = coarse.unfit;
   fprintf(stderr,"DBG cells %zu tri %zu chords %zu unfit %zu\n",rims.cells.size(),coarse.triangles.size(),coarse.chords.size(),coarse.unfit.size());
@@ -457,10 +471,12 @@ Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface,
   std::sort(round.unfit.begin(), round.unfit.end());
   round.unfit.erase(std::unique(round.unfit.begin(), round.unfit.end()), round.unfit.end());
   if (!round.unfit.empty()) return round;
+  lap("check");
   PlanBuilder builder(coarse, rims.cells);
   for (RegionId r = 0; r < surface.region_count(); ++r) {
     const RegionBackground background =
         fill_background(regions[r], coarse, builder.chords(), field, width, clock);
+    lap("fill");
     const auto& loads = background.volume.loads;
     const double load = std::accumulate(loads.begin(), loads.end(), 0.0);
     if (load < whole_below * options.piece_tets) {
@@ -470,8 +486,10 @@ Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface,
     const auto parts = static_cast<std::int32_t>(std::lround(load / options.piece_tets));
     builder.add(r, background, partition::decompose_volume(background.volume, {parts, options.smallest_angle}),
                 rims.cells, surface);
+    lap("decompose");
   }
   round.plan = builder.take();
+  fprintf(stderr,"DBG largest %.3f unresolved %ld moves %ld pinches %ld\n",round.plan->report.largest_cluster,(long)round.plan->report.unresolved,(long)round.plan->report.moves,(long)round.plan->report.pinches);
   return round;
 }
 
