@@ -113,6 +113,7 @@ void declare_stages(KeyTable& root, Case& result) {
   surface_keys.number("cut_angle", result.surface.cut_angle, Range::between(0, 60, "degrees"));
   KeyTable& volume = root.section("volume");
   volume.integer("piece_tets", result.piece_tets, piece_size);
+  volume.flag("erase_interfaces", result.erase_interfaces);
   volume.number("interface_angle", result.interface_angle, Range::between(0, 60, "degrees"));
   volume.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"));
   volume.number("perturbation", result.volume.perturbation, Range::between(0, 0.25, "local sizes"));

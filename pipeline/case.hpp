@@ -43,6 +43,7 @@ struct Case {
   volume::VolumeOptions volume;
   std::int64_t piece_tets = 250'000;  ///< wanted size of a volume piece
   double interface_angle = 45;        ///< degrees between interfaces, and to the boundary, wanted; 0: any
+  bool erase_interfaces = true;       ///< refill the layer around them with the lattice continued
   improve::ImproveOptions improve;
   OutputOptions output;
 };

@@ -327,6 +327,15 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
           "volume: interfaces meet at {:.1f} degrees at least, {} of {} edges below {:g}, {} of them forced",
           angles.smallest, angles.below, angles.edges, InterfaceAngles::threshold, angles.forced));
     }
+    if (input.erase_interfaces) {
+      record.erasure = erase_interfaces(communicator, filled,
+                                        static_cast<mesh::SharedToken>(surface.numbering.vertex_count),
+                                        surface.field, input.volume, record.clock);
+      parallel::log_info(fmt::format(
+          "volume: {} of {} vertices of interfaces erased in {} rounds, {} of {} cavities refilled",
+          record.erasure.vertices_before - record.erasure.vertices_left, record.erasure.vertices_before,
+          record.erasure.rounds, record.erasure.refilled, record.erasure.cavities));
+    }
     inspect_volume(communicator, filled, surface.mesh, record);
     parallel::log_info(
         fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));

@@ -8,6 +8,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "pipeline/case.hpp"
+#include "pipeline/erase_interfaces.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/mesh_volume.hpp"
 #include "sizing/size_field.hpp"
@@ -53,6 +54,7 @@ struct RunRecord {
   std::int32_t parts = 0;                ///< of the volume, before any were merged
   std::int64_t interface_triangles = 0;  ///< between them
   VolumeReport volume;
+  ErasureReport erasure;
   improve::ImproveReport improve;
   mesh::MeshCounts counts;
   double mesh_volume = 0;

@@ -57,7 +57,8 @@ FillRequest prepare(const ClosedSurface& surface, const BoundaryDistance& bounda
     const auto lattice =
         body_centred_lattice(boundary, field,
                              {rung.clearance_factor * options.lattice_clearance, options.perturbation,
-                              attempt, options.largest_piece / tetrahedra_per_point + 1});
+                              attempt, options.largest_piece / tetrahedra_per_point + 1,
+                              rung.clearance_factor * options.continued_clearance, surface.continued});
     request.interior_points = lattice.points.size();
     request.points.insert(request.points.end(), lattice.points.begin(), lattice.points.end());
     if (rung.interior == InteriorPoints::at_once) {

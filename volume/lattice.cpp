@@ -167,7 +167,8 @@ private:
 
   void offer_near_boundary(Vec3 p, double size, std::int32_t guess) {
     const auto limit = [&](std::int32_t triangle) {
-      return _options.clearance *
+      const bool continued = !_options.continued.empty() && _options.continued[triangle];
+      return (continued ? _options.continued_clearance : _options.clearance) *
              std::clamp(_boundary.mean_edge(triangle), smallest_edge * size, largest_edge * size);
     };
     const double largest_limit = _options.clearance * largest_edge * size;

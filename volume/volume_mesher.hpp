@@ -19,10 +19,13 @@ namespace aeroloom::volume {
 struct ClosedSurface {
   std::vector<geometry::Vec3> points;
   std::vector<std::array<mesh::LocalIndex, 3>> triangles;  ///< counter-clockwise seen from outside the volume
+  /// Per triangle: 1 where the lattice goes on behind it, as around a cavity in a mesh; empty: nowhere.
+  std::vector<std::uint8_t> continued;
 };
 
 struct VolumeOptions {
   double lattice_clearance = 0.75;         ///< distance lattice points keep from the boundary, in local sizes
+  double continued_clearance = 0.5;        ///< the same from triangles behind which the lattice goes on
   double perturbation = 0.05;              ///< of lattice points, in local sizes
   std::int64_t largest_piece = 5'000'000;  ///< predicted tetrahedra above which a piece is refused
   int retries = 3;                         ///< rungs of the ladder after the first try

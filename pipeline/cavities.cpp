@@ -1,0 +1,583 @@
+#include "pipeline/cavities.hpp"
+
+#include "mesh/delivery.hpp"
+#include "mesh/findings.hpp"
+#include "mesh/mixing.hpp"
+#include "parallel/collective_error.hpp"
+#include "parallel/schedule.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::Piece;
+using mesh::PieceId;
+using mesh::SharedToken;
+
+/// Tokens of vertices that become shared in a round, and of new ones, lie above all others.
+SharedToken token_of_inner(int round, PieceId piece, LocalIndex vertex) {
+  return (SharedToken{1} << 63) | (static_cast<SharedToken>(round) << 58) |
+         (static_cast<SharedToken>(piece) << 31) | static_cast<SharedToken>(vertex);
+}
+SharedToken token_of_new(int round, std::int64_t index) {
+  return (SharedToken{1} << 63) | (SharedToken{1} << 62) | (static_cast<SharedToken>(round) << 58) |
+         static_cast<SharedToken>(index);
+}
+
+struct WireTet {
+  CavityId cavity;
+  PieceId piece;
+  mesh::RegionId region;
+  std::array<SharedToken, 4> vertices;
+};
+struct WireVertex {
+  CavityId cavity;
+  SharedToken token;
+  Vec3 point;
+  std::int32_t dimension, entity;
+};
+struct WireTriangle {
+  CavityId cavity;
+  std::array<SharedToken, 3> vertices;
+  std::int32_t face, patch;
+};
+
+/// What became of a cavity; the same on every rank.
+struct Outcome {
+  CavityId cavity;
+  PieceId taker;  ///< piece that gets its tetrahedra; -1: it stays as it was
+  std::int32_t added;
+};
+
+template <class T, class Less>
+void sort_by(std::vector<T>& items, const Less& less) {
+  std::sort(items.begin(), items.end(), less);
+}
+
+/// The names of a piece's vertices in this round.
+std::vector<SharedToken> tokens_of(const Piece& piece, int round) {
+  std::vector<SharedToken> tokens(piece.vertex_count());
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) tokens[v] = token_of_inner(round, piece.id, v);
+  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
+    tokens[piece.shared_vertices[s]] = piece.shared_tokens[s];
+  return tokens;
+}
+
+/// Withdraws wishes of vertices with a neighbour in another cavity, in any piece.
+void settle_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                   CavityWishes& wishes) {
+  struct Veto {
+    SharedToken token;
+    parallel::Rank rank;
+    std::int32_t refused;
+  };
+  std::vector<Veto> vetoes;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    std::vector<char> refused(piece.vertex_count(), 0);
+    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const LocalIndex* v = piece.cell(c);
+      CavityId met = no_cavity;
+      bool several = false;
+      for (int k = 0; k < 4; ++k) {
+        const CavityId wish = wishes[p][v[k]];
+        if (wish == no_cavity) continue;
+        several = several || (met != no_cavity && met != wish);
+        met = wish;
+      }
+      for (int k = 0; several && k < 4; ++k) refused[v[k]] = 1;
+    }
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (refused[v]) wishes[p][v] = no_cavity;
+    }
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+      const LocalIndex v = piece.shared_vertices[s];
+      if (wishes[p][v] != no_cavity || refused[v])
+        vetoes.push_back({piece.shared_tokens[s], communicator.rank(), refused[v]});
+    }
+  }
+  std::vector<Veto> met = mesh::deliver(communicator, vetoes, [&](const Veto& v) {
+    return mesh::meeting_rank(mesh::mix_in(0, v.token), communicator.size());
+  });
+  sort_by(met, [](const Veto& a, const Veto& b) {
+    return a.token != b.token ? a.token < b.token : a.rank < b.rank;
+  });
+  std::vector<Veto> answers;
+  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
+    bool refused = false;
+    for (; j < met.size() && met[j].token == met[i].token; ++j) refused = refused || met[j].refused;
+    for (std::size_t k = i; refused && k < j; ++k) {
+      if (k == i || met[k].rank != met[k - 1].rank) answers.push_back(met[k]);
+    }
+  }
+  const std::vector<Veto> arrived =
+      mesh::deliver(communicator, answers, [](const Veto& v) { return v.rank; });
+  std::vector<SharedToken> refused;
+  for (const Veto& v : arrived) refused.push_back(v.token);
+  std::sort(refused.begin(), refused.end());
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+      if (std::binary_search(refused.begin(), refused.end(), piece.shared_tokens[s]))
+        wishes[p][piece.shared_vertices[s]] = no_cavity;
+    }
+  }
+}
+
+CavityId cavity_of(const std::vector<CavityId>& wishes, const LocalIndex* vertices, int count) {
+  for (int k = 0; k < count; ++k) {
+    if (wishes[vertices[k]] != no_cavity) return wishes[vertices[k]];
+  }
+  return no_cavity;
+}
+
+std::array<LocalIndex, 3> sorted(std::array<LocalIndex, 3> v) {
+  std::sort(v.begin(), v.end());
+  return v;
+}
+
+/// What this rank's pieces give to cavities.
+struct Contribution {
+  std::vector<WireTet> tets;
+  std::vector<WireVertex> vertices;
+  std::vector<WireTriangle> triangles;
+  std::vector<std::vector<CavityId>> of_cell;      ///< per local piece, per cell
+  std::vector<std::vector<CavityId>> of_triangle;  ///< per local piece, per boundary triangle
+  std::vector<std::vector<SharedToken>> tokens;    ///< per local piece, per vertex
+};
+
+/// The boundary triangles of a piece whose tetrahedron is in a cavity.
+void mark_triangles(const Piece& piece, const std::vector<CavityId>& of_cell,
+                    std::vector<CavityId>& of_triangle) {
+  struct Face {
+    std::array<LocalIndex, 3> vertices;
+    CavityId cavity;
+  };
+  std::vector<char> on_boundary(piece.vertex_count(), 0);
+  for (const LocalIndex v : piece.boundary) on_boundary[v] = 1;
+  std::vector<Face> faces;
+  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+    if (of_cell[c] == no_cavity) continue;
+    for (const auto& f : mesh::tetrahedron_faces) {
+      const LocalIndex* v = piece.cell(c);
+      if (!on_boundary[v[f[0]]] || !on_boundary[v[f[1]]] || !on_boundary[v[f[2]]]) continue;
+      faces.push_back({sorted({v[f[0]], v[f[1]], v[f[2]]}), of_cell[c]});
+    }
+  }
+  const auto less = [](const Face& a, const Face& b) { return a.vertices < b.vertices; };
+  std::sort(faces.begin(), faces.end(), less);
+  of_triangle.assign(piece.boundary_count(), no_cavity);
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    const Face wanted{sorted({v[0], v[1], v[2]}), no_cavity};
+    const auto at = std::lower_bound(faces.begin(), faces.end(), wanted, less);
+    if (at != faces.end() && at->vertices == wanted.vertices) of_triangle[t] = at->cavity;
+  }
+}
+
+Contribution collect(const mesh::DistributedMesh& mesh, const CavityWishes& wishes, int round) {
+  Contribution result;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    const std::vector<SharedToken>& token = result.tokens.emplace_back(tokens_of(piece, round));
+    std::vector<CavityId>& of_cell = result.of_cell.emplace_back(piece.cell_count(), no_cavity);
+    std::vector<std::pair<CavityId, LocalIndex>> used;
+    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const LocalIndex* v = piece.cell(c);
+      of_cell[c] = cavity_of(wishes[p], v, 4);
+      if (of_cell[c] == no_cavity) continue;
+      result.tets.push_back(
+          {of_cell[c], piece.id, piece.region, {token[v[0]], token[v[1]], token[v[2]], token[v[3]]}});
+      for (int k = 0; k < 4; ++k) used.push_back({of_cell[c], v[k]});
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const auto& [cavity, v] : used)
+      result.vertices.push_back(
+          {cavity, token[v], piece.point(v), piece.vertex_dimension[v], piece.vertex_entity[v]});
+    mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
+    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+      const CavityId cavity = result.of_triangle.back()[t];
+      if (cavity == no_cavity) continue;
+      const LocalIndex* v = piece.boundary_triangle(t);
+      result.triangles.push_back(
+          {cavity, {token[v[0]], token[v[1]], token[v[2]]}, piece.triangle_face[t], piece.triangle_patch[t]});
+    }
+  }
+  return result;
+}
+
+/// The cavities of all ranks with their sizes, ascending, the same on every rank.
+struct CavityTable {
+  std::vector<CavityId> ids;
+  std::vector<double> loads;
+  std::vector<parallel::Rank> owners;
+
+  std::size_t slot(CavityId id) const {
+    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+  }
+  parallel::Rank owner(CavityId id) const { return owners[slot(id)]; }
+};
+
+CavityTable list_cavities(const parallel::Communicator& communicator, const Contribution& mine) {
+  struct Row {
+    CavityId cavity;
+    std::int64_t tets;
+  };
+  std::vector<CavityId> all;
+  for (const WireTet& t : mine.tets) all.push_back(t.cavity);
+  std::sort(all.begin(), all.end());
+  std::vector<Row> rows;
+  for (std::size_t i = 0, j = 0; i < all.size(); i = j) {
+    while (j < all.size() && all[j] == all[i]) ++j;
+    rows.push_back({all[i], static_cast<std::int64_t>(j - i)});
+  }
+  std::vector<Row> table = communicator.all_gather_items<Row>(rows);
+  std::sort(table.begin(), table.end(), [](const Row& a, const Row& b) { return a.cavity < b.cavity; });
+  CavityTable result;
+  for (const Row& row : table) {
+    if (result.ids.empty() || result.ids.back() != row.cavity) {
+      result.ids.push_back(row.cavity);
+      result.loads.push_back(0);
+    }
+    result.loads.back() += static_cast<double>(row.tets);
+  }
+  result.owners = parallel::assign_largest_first(result.loads, communicator.size());
+  return result;
+}
+
+/// A cavity on the rank that refills it.
+struct OwnedCavity {
+  Cavity cavity;
+  std::vector<SharedToken> tokens;    ///< per point, ascending
+  std::vector<std::int32_t> entity;   ///< per point
+  PieceId taker = -1;                 ///< the piece most of it comes from
+  std::optional<Refilling> refilling;
+};
+
+std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
+                                  Contribution& mine) {
+  const auto owner = [&](const auto& item) { return table.owner(item.cavity); };
+  auto tets = mesh::deliver(communicator, mine.tets, owner);
+  auto vertices = mesh::deliver(communicator, mine.vertices, owner);
+  auto triangles = mesh::deliver(communicator, mine.triangles, owner);
+  mine.tets = {};
+  mine.vertices = {};
+  mine.triangles = {};
+  // Within a piece the order of tetrahedra is kept: it depends on no rank.
+  std::stable_sort(tets.begin(), tets.end(), [](const WireTet& a, const WireTet& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.piece < b.piece;
+  });
+  sort_by(vertices, [](const WireVertex& a, const WireVertex& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.token < b.token;
+  });
+  sort_by(triangles, [](const WireTriangle& a, const WireTriangle& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
+  });
+  std::vector<OwnedCavity> cavities;
+  std::size_t v = 0, s = 0;
+  for (std::size_t i = 0, j = 0; i < tets.size(); i = j) {
+    OwnedCavity& owned = cavities.emplace_back();
+    owned.cavity.id = tets[i].cavity;
+    owned.cavity.region = tets[i].region;
+    for (; v < vertices.size() && vertices[v].cavity == owned.cavity.id; ++v) {
+      if (!owned.tokens.empty() && owned.tokens.back() == vertices[v].token) continue;
+      owned.tokens.push_back(vertices[v].token);
+      owned.entity.push_back(vertices[v].entity);
+      owned.cavity.points.push_back(vertices[v].point);
+      owned.cavity.dimension.push_back(static_cast<std::int8_t>(vertices[v].dimension));
+    }
+    const auto local = [&](SharedToken token) {
+      return static_cast<LocalIndex>(std::lower_bound(owned.tokens.begin(), owned.tokens.end(), token) -
+                                     owned.tokens.begin());
+    };
+    std::map<PieceId, std::int64_t> shares;
+    for (; j < tets.size() && tets[j].cavity == owned.cavity.id; ++j) {
+      const auto& w = tets[j].vertices;
+      owned.cavity.tets.push_back({local(w[0]), local(w[1]), local(w[2]), local(w[3])});
+      ++shares[tets[j].piece];
+    }
+    std::int64_t most = 0;
+    for (const auto& [piece, share] : shares) {
+      if (share > most) most = share, owned.taker = piece;
+    }
+    for (; s < triangles.size() && triangles[s].cavity == owned.cavity.id; ++s) {
+      const auto& w = triangles[s].vertices;
+      owned.cavity.triangles.push_back(
+          {{local(w[0]), local(w[1]), local(w[2])}, triangles[s].face, triangles[s].patch});
+    }
+  }
+  return cavities;
+}
+
+/// A refilled cavity on its way to the piece that takes it.
+struct Delivery {
+  std::vector<WireTet> tets;  ///< piece: the taker
+  std::vector<WireVertex> vertices;
+  std::vector<WireTriangle> triangles;
+};
+
+Delivery deliver_refilled(const parallel::Communicator& communicator,
+                          const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
+                          const std::vector<parallel::Rank>& owner_of_piece, int round) {
+  Delivery out;
+  std::int64_t first_new = 0;
+  std::size_t next = 0;
+  for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
+    const std::int64_t first = first_new;
+    first_new += outcome.added;
+    if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
+    const OwnedCavity& owned = cavities[next++];
+    if (!owned.refilling) continue;
+    const CavityId id = owned.cavity.id;
+    const auto known = static_cast<LocalIndex>(owned.tokens.size());
+    const auto token = [&](LocalIndex v) {
+      return v < known ? owned.tokens[v] : token_of_new(round, first + (v - known));
+    };
+    std::vector<char> used(owned.tokens.size(), 0);
+    for (const auto& t : owned.refilling->tets) {
+      out.tets.push_back(
+          {id, owned.taker, owned.cavity.region, {token(t[0]), token(t[1]), token(t[2]), token(t[3])}});
+      for (const LocalIndex v : t) {
+        if (v < known) used[v] = 1;
+      }
+    }
+    for (LocalIndex v = 0; v < known; ++v) {
+      if (used[v])
+        out.vertices.push_back(
+            {id, owned.tokens[v], owned.cavity.points[v], owned.cavity.dimension[v], owned.entity[v]});
+    }
+    for (std::size_t i = 0; i < owned.refilling->added.size(); ++i)
+      out.vertices.push_back({id, token(known + static_cast<LocalIndex>(i)), owned.refilling->added[i], 3,
+                              owned.cavity.region});
+    for (const CavityTriangle& t : owned.cavity.triangles)
+      out.triangles.push_back(
+          {id, {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])}, t.face, t.patch});
+  }
+  const auto taker_rank = [&](const auto& item) {
+    const auto at = std::lower_bound(outcomes.begin(), outcomes.end(), item.cavity,
+                                     [](const Outcome& o, CavityId id) { return o.cavity < id; });
+    return owner_of_piece[at->taker];
+  };
+  Delivery in;
+  in.tets = mesh::deliver(communicator, out.tets, taker_rank);
+  in.vertices = mesh::deliver(communicator, out.vertices, taker_rank);
+  in.triangles = mesh::deliver(communicator, out.triangles, taker_rank);
+  std::stable_sort(in.tets.begin(), in.tets.end(), [](const WireTet& a, const WireTet& b) {
+    return a.piece != b.piece ? a.piece < b.piece : a.cavity < b.cavity;
+  });
+  sort_by(in.vertices, [](const WireVertex& a, const WireVertex& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.token < b.token;
+  });
+  sort_by(in.triangles, [](const WireTriangle& a, const WireTriangle& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
+  });
+  return in;
+}
+
+/// A piece without what was taken and with what it got.
+class PieceUpdate {
+public:
+  PieceUpdate(const Piece& old, const std::vector<SharedToken>& tokens) : _old(old), _tokens(tokens) {
+    _number.assign(old.vertex_count(), -1);
+    _named.assign(old.vertex_count(), 0);
+    for (const LocalIndex v : old.shared_vertices) _named[v] = 1;
+    _piece.id = old.id;
+    _piece.kind = old.kind;
+    _piece.region = old.region;
+  }
+
+  /// Vertices of cells that leave: those that stay behind are shared from now on.
+  void leave(LocalIndex cell) {
+    for (int k = 0; k < 4; ++k) _named[_old.cell(cell)[k]] = 1;
+  }
+  void keep(LocalIndex cell) {
+    for (int k = 0; k < 4; ++k) _number[_old.cell(cell)[k]] = 0;
+    _kept.push_back(cell);
+  }
+  void keep_triangle(LocalIndex t) { _kept_triangles.push_back(t); }
+
+  Piece finish(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices,
+               const std::vector<WireTriangle>& triangles) {
+    number_old();
+    std::vector<SharedToken> wanted;
+    for (const WireTet& t : tets) wanted.insert(wanted.end(), t.vertices.begin(), t.vertices.end());
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    add_vertices(wanted, vertices);
+    for (const LocalIndex c : _kept) {
+      for (int k = 0; k < 4; ++k) _piece.cells.push_back(_number[_old.cell(c)[k]]);
+    }
+    for (const WireTet& t : tets) {
+      for (const SharedToken token : t.vertices) _piece.cells.push_back(find(token));
+    }
+    for (const LocalIndex t : _kept_triangles) {
+      for (int k = 0; k < 3; ++k) _piece.boundary.push_back(_number[_old.boundary_triangle(t)[k]]);
+      _piece.triangle_face.push_back(_old.triangle_face[t]);
+      _piece.triangle_patch.push_back(_old.triangle_patch[t]);
+    }
+    for (const WireTriangle& t : triangles) {
+      for (const SharedToken token : t.vertices) _piece.boundary.push_back(find(token));
+      _piece.triangle_face.push_back(t.face);
+      _piece.triangle_patch.push_back(t.patch);
+    }
+    list_shared();
+    return std::move(_piece);
+  }
+
+private:
+  struct Named {
+    SharedToken token;
+    LocalIndex vertex;
+  };
+
+  void number_old() {
+    for (LocalIndex v = 0; v < _old.vertex_count(); ++v) {
+      if (_number[v] < 0) continue;
+      _number[v] = add(_old.point(v), _old.vertex_dimension[v], _old.vertex_entity[v]);
+      if (_named[v]) _names.push_back({_tokens[v], _number[v]});
+    }
+    sort_names();
+  }
+
+  LocalIndex add(Vec3 p, std::int32_t dimension, std::int32_t entity) {
+    const LocalIndex v = _piece.vertex_count();
+    _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
+    _piece.vertex_dimension.push_back(static_cast<std::int8_t>(dimension));
+    _piece.vertex_entity.push_back(entity);
+    return v;
+  }
+
+  void add_vertices(const std::vector<SharedToken>& wanted, const std::vector<WireVertex>& vertices) {
+    std::vector<const WireVertex*> missing;
+    for (const WireVertex& v : vertices) {
+      if (std::binary_search(wanted.begin(), wanted.end(), v.token) && find(v.token) < 0)
+        missing.push_back(&v);
+    }
+    std::sort(missing.begin(), missing.end(),
+              [](const WireVertex* a, const WireVertex* b) { return a->token < b->token; });
+    SharedToken last = 0;
+    std::vector<Named> names;
+    for (const WireVertex* v : missing) {
+      if (!names.empty() && v->token == last) continue;
+      last = v->token;
+      names.push_back({v->token, add(v->point, v->dimension, v->entity)});
+    }
+    _names.insert(_names.end(), names.begin(), names.end());
+    sort_names();
+  }
+
+  void sort_names() {
+    std::sort(_names.begin(), _names.end(), [](const Named& a, const Named& b) { return a.token < b.token; });
+  }
+
+  LocalIndex find(SharedToken token) const {
+    const auto at = std::lower_bound(_names.begin(), _names.end(), token,
+                                     [](const Named& n, SharedToken t) { return n.token < t; });
+    return at != _names.end() && at->token == token ? at->vertex : -1;
+  }
+
+  void list_shared() {
+    std::sort(_names.begin(), _names.end(),
+              [](const Named& a, const Named& b) { return a.vertex < b.vertex; });
+    for (const Named& n : _names) {
+      _piece.shared_vertices.push_back(n.vertex);
+      _piece.shared_tokens.push_back(n.token);
+    }
+  }
+
+  const Piece& _old;
+  const std::vector<SharedToken>& _tokens;
+  Piece _piece;
+  std::vector<LocalIndex> _number;  // new number of an old vertex, -1: gone
+  std::vector<char> _named;
+  std::vector<LocalIndex> _kept, _kept_triangles;
+  std::vector<Named> _names;
+};
+
+void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine, const std::vector<Outcome>& outcomes,
+                   const Delivery& delivery) {
+  const auto outcome_of = [&](CavityId id) {
+    return std::lower_bound(outcomes.begin(), outcomes.end(), id,
+                            [](const Outcome& o, CavityId c) { return o.cavity < c; });
+  };
+  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->taker >= 0; };
+  std::vector<std::vector<WireTriangle>> triangles(mesh.pieces.size());
+  const auto local_piece = [&](PieceId id) {
+    const auto at = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
+                                     [](const Piece& piece, PieceId p) { return piece.id < p; });
+    return static_cast<std::size_t>(at - mesh.pieces.begin());
+  };
+  std::vector<std::vector<WireVertex>> vertices(mesh.pieces.size());
+  for (const WireVertex& v : delivery.vertices)
+    vertices[local_piece(outcome_of(v.cavity)->taker)].push_back(v);
+  for (const WireTriangle& t : delivery.triangles)
+    triangles[local_piece(outcome_of(t.cavity)->taker)].push_back(t);
+  std::size_t first = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    Piece& piece = mesh.pieces[p];
+    std::size_t last = first;
+    while (last < delivery.tets.size() && delivery.tets[last].piece == piece.id) ++last;
+    const bool touched = last > first || std::any_of(mine.of_cell[p].begin(), mine.of_cell[p].end(), gone);
+    if (touched) {
+      PieceUpdate update(piece, mine.tokens[p]);
+      for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+        if (gone(mine.of_cell[p][c])) {
+          update.leave(c);
+        } else {
+          update.keep(c);
+        }
+      }
+      for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+        if (!gone(mine.of_triangle[p][t])) update.keep_triangle(t);
+      }
+      piece = update.finish({delivery.tets.data() + first, last - first}, vertices[p], triangles[p]);
+    }
+    first = last;
+  }
+}
+
+}  // namespace
+
+CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                            const CavityWishes& wishes, int round, const RefillCavity& refill,
+                            parallel::StageClock& clock) {
+  CavityWishes settled = wishes;
+  settle_wishes(communicator, mesh, settled);
+  Contribution mine;
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    mine = collect(mesh, settled, round);
+  }
+  const CavityTable table = list_cavities(communicator, mine);
+  std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);
+  std::vector<Outcome> outcomes;
+  parallel::agree(communicator, [&] {
+    for (OwnedCavity& owned : cavities) {
+      owned.refilling = refill(owned.cavity);
+      const auto added = owned.refilling ? static_cast<std::int32_t>(owned.refilling->added.size()) : 0;
+      outcomes.push_back({owned.cavity.id, owned.refilling ? owned.taker : -1, added});
+    }
+  });
+  outcomes = communicator.all_gather_items<Outcome>(outcomes);
+  std::sort(outcomes.begin(), outcomes.end(),
+            [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
+  std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
+  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(communicator, mesh, here);
+  const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    update_pieces(mesh, mine, outcomes, delivery);
+  }
+  CavityRound result;
+  result.cavities = static_cast<std::int64_t>(outcomes.size());
+  for (const Outcome& outcome : outcomes) result.refilled += outcome.taker >= 0;
+  return result;
+}
+
+}  // namespace aeroloom::pipeline

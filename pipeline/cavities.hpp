@@ -1,0 +1,64 @@
+/// Cavities that reach over several pieces: tetrahedra around chosen vertices are taken out, brought together
+/// on one rank, replaced by others, and given back to one of the pieces. Pieces change their outline by this;
+/// the mesh stays one mesh, whatever the rank count.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// Cavities are named by numbers that follow from the mesh alone.
+using CavityId = std::uint64_t;
+inline constexpr CavityId no_cavity = 0;
+
+/// A triangle of the surface mesh that bounds a cavity.
+struct CavityTriangle {
+  std::array<mesh::LocalIndex, 3> vertices;
+  std::int32_t face, patch;
+};
+
+/// One cavity before it is refilled. Vertices are numbered within the cavity; those that pieces share come
+/// by token, the others by piece, so the order is the same for any rank count.
+struct Cavity {
+  CavityId id = no_cavity;
+  mesh::RegionId region = 0;
+  std::vector<geometry::Vec3> points;
+  std::vector<std::int8_t> dimension;  ///< per point: classification
+  std::vector<std::array<mesh::LocalIndex, 4>> tets;
+  std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
+};
+
+/// What takes the place of a cavity's tetrahedra. They cover the same region with the same boundary faces.
+struct Refilling {
+  std::vector<geometry::Vec3> added;  ///< vertices, numbered behind those of the cavity
+  std::vector<std::array<mesh::LocalIndex, 4>> tets;
+};
+
+/// Refills a cavity; nothing: it stays as it was. Must be a function of its argument alone.
+using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
+
+/// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. Copies of a
+/// shared vertex must agree.
+using CavityWishes = std::vector<std::vector<CavityId>>;
+
+struct CavityRound {
+  std::int64_t cavities = 0, refilled = 0;
+};
+
+/// One round. A vertex's star is taken when no neighbour is wished for by another cavity, so cavities do not
+/// touch in a tetrahedron; the others have to wait for another round with other wishes. `round` is below 16
+/// and never the same for two rounds on one mesh: it makes new tokens unique. Deals cavities out by size.
+/// Collective. Throws CollectiveError.
+CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                            const CavityWishes& wishes, int round, const RefillCavity& refill,
+                            parallel::StageClock& clock);
+
+}  // namespace aeroloom::pipeline

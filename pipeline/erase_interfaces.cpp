@@ -1,0 +1,222 @@
+#include "pipeline/erase_interfaces.hpp"
+
+#include "mesh/delivery.hpp"
+#include "mesh/findings.hpp"
+#include "mesh/mixing.hpp"
+#include "pipeline/cavities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::Piece;
+
+constexpr int most_rounds = 10;
+/// Width of a cell of the grid, in local sizes, up to eight times as much: sizes may grow a lot within a cell.
+constexpr double cell_width = 8;
+/// Tokens above this are not those of interfaces: vertices of pieces that became shared later.
+constexpr mesh::SharedToken last_token = mesh::SharedToken{1} << 62;
+/// Shifts of the grid per round, in cells: far from each other in every direction.
+constexpr double shift_per_round[3] = {0.5, 0.382, 0.618};
+
+/// The cell of the round's grid at a point where the size is h.
+CavityId cell_at(Vec3 p, double h, int round) {
+  const double shift = 0.38 * round;
+  const double level = std::floor(std::log2(cell_width * h) / 3 + shift);
+  const double edge = std::exp2(3 * (level + 1 - shift));
+  std::uint64_t id = mesh::mix_in(static_cast<std::uint64_t>(round),
+                                  static_cast<std::uint64_t>(static_cast<std::int64_t>(level)));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double index = std::floor(p[axis] / edge + round * shift_per_round[axis]);
+    id = mesh::mix_in(id, static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
+  }
+  return id == no_cavity ? CavityId{1} : id;
+}
+
+/// The closed boundary of a cavity.
+struct Shell {
+  volume::ClosedSurface surface;
+  std::vector<LocalIndex> vertex;  ///< of the cavity, per point
+};
+
+Shell shell_of(const Cavity& cavity) {
+  struct Face {
+    std::array<LocalIndex, 3> key, vertices;
+  };
+  std::vector<Face> faces;
+  faces.reserve(4 * cavity.tets.size());
+  for (const auto& tet : cavity.tets) {
+    for (const auto& f : mesh::tetrahedron_faces) {
+      Face face{{}, {tet[f[0]], tet[f[1]], tet[f[2]]}};
+      face.key = face.vertices;
+      std::sort(face.key.begin(), face.key.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  Shell shell;
+  std::vector<LocalIndex> local(cavity.points.size(), -1);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i + 1 < faces.size() && faces[i].key == faces[i + 1].key) {
+      ++i;
+      continue;
+    }
+    for (const LocalIndex v : faces[i].vertices) local[v] = 0;
+  }
+  for (std::size_t v = 0; v < local.size(); ++v) {
+    if (local[v] < 0) continue;
+    local[v] = static_cast<LocalIndex>(shell.vertex.size());
+    shell.vertex.push_back(static_cast<LocalIndex>(v));
+    shell.surface.points.push_back(cavity.points[v]);
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i + 1 < faces.size() && faces[i].key == faces[i + 1].key) {
+      ++i;
+      continue;
+    }
+    const auto& v = faces[i].vertices;
+    shell.surface.triangles.push_back({local[v[0]], local[v[1]], local[v[2]]});
+    const bool inside = std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return cavity.dimension[w] == 3; });
+    shell.surface.continued.push_back(inside);
+  }
+  return shell;
+}
+
+/// Fills the cavity anew with the lattice; nothing when that does not work.
+std::optional<Refilling> refill(const Cavity& cavity, const sizing::SizeField& field,
+                                const volume::VolumeOptions& options, parallel::StageClock& clock) {
+  const Shell shell = shell_of(cavity);
+  volume::FilledVolume filled;
+  try {
+    filled = volume::fill_volume(shell.surface, field, options);
+  } catch (const volume::VolumeError&) {
+    return std::nullopt;
+  }
+  clock.add_task_cpu(filled.cpu_seconds);
+  clock.note_child_memory(filled.child_peak_bytes);
+  Refilling result;
+  const auto known = static_cast<LocalIndex>(shell.vertex.size());
+  const auto all = static_cast<LocalIndex>(cavity.points.size());
+  for (std::size_t i = 3 * shell.vertex.size(); i < filled.coordinates.size(); i += 3)
+    result.added.push_back({filled.coordinates[i], filled.coordinates[i + 1], filled.coordinates[i + 2]});
+  for (std::size_t i = 0; i < filled.tetrahedra.size(); i += 4) {
+    auto& tet = result.tets.emplace_back();
+    for (int k = 0; k < 4; ++k) {
+      const LocalIndex v = filled.tetrahedra[i + k];
+      tet[k] = v < known ? shell.vertex[v] : all + (v - known);
+    }
+  }
+  return result;
+}
+
+/// Calls visit(piece index, vertex, token) for the vertices of interfaces.
+template <class Visit>
+void for_each_interface_vertex(const mesh::DistributedMesh& mesh, mesh::SharedToken first_token,
+                               const Visit& visit) {
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+      const mesh::SharedToken token = piece.shared_tokens[s];
+      if (token >= first_token && token < last_token) visit(p, piece.shared_vertices[s], token);
+    }
+  }
+}
+
+CavityWishes no_wishes(const mesh::DistributedMesh& mesh) {
+  CavityWishes wishes;
+  for (const Piece& piece : mesh.pieces) wishes.emplace_back(piece.vertex_count(), no_cavity);
+  return wishes;
+}
+
+/// Vertices that just two pieces share wish for the cavity between these two.
+CavityWishes wish_by_pieces(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                            mesh::SharedToken first_token) {
+  struct Share {
+    mesh::SharedToken token;
+    mesh::PieceId piece;
+    parallel::Rank rank;
+    CavityId cavity;
+  };
+  std::vector<Share> mine;
+  for_each_interface_vertex(mesh, first_token, [&](std::size_t p, LocalIndex, mesh::SharedToken token) {
+    mine.push_back({token, mesh.pieces[p].id, communicator.rank(), no_cavity});
+  });
+  std::vector<Share> met = mesh::deliver(communicator, mine, [&](const Share& s) {
+    return mesh::meeting_rank(mesh::mix_in(0, s.token), communicator.size());
+  });
+  std::sort(met.begin(), met.end(), [](const Share& a, const Share& b) {
+    return a.token != b.token ? a.token < b.token : a.piece < b.piece;
+  });
+  std::vector<Share> answers;
+  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
+    while (j < met.size() && met[j].token == met[i].token) ++j;
+    if (j - i != 2) continue;
+    const CavityId id = mesh::mix_in(static_cast<std::uint64_t>(met[i].piece),
+                                     static_cast<std::uint64_t>(met[i + 1].piece));
+    for (std::size_t k = i; k < j; ++k) {
+      answers.push_back(met[k]);
+      answers.back().cavity = id == no_cavity ? CavityId{1} : id;
+    }
+  }
+  std::vector<Share> arrived = mesh::deliver(communicator, answers, [](const Share& s) { return s.rank; });
+  const auto less = [](const Share& a, const Share& b) {
+    return a.piece != b.piece ? a.piece < b.piece : a.token < b.token;
+  };
+  std::sort(arrived.begin(), arrived.end(), less);
+  CavityWishes wishes = no_wishes(mesh);
+  for_each_interface_vertex(mesh, first_token, [&](std::size_t p, LocalIndex v, mesh::SharedToken token) {
+    const Share wanted{token, mesh.pieces[p].id, 0, no_cavity};
+    const auto at = std::lower_bound(arrived.begin(), arrived.end(), wanted, less);
+    if (at != arrived.end() && at->token == token && at->piece == wanted.piece) wishes[p][v] = at->cavity;
+  });
+  return wishes;
+}
+
+/// Vertices wish for the cavity of the grid's cell that they are in.
+CavityWishes wish_by_place(const mesh::DistributedMesh& mesh, mesh::SharedToken first_token,
+                           const sizing::SizeField& field, int round) {
+  CavityWishes wishes = no_wishes(mesh);
+  for_each_interface_vertex(mesh, first_token, [&](std::size_t p, LocalIndex v, mesh::SharedToken) {
+    const Vec3 x = mesh.pieces[p].point(v);
+    wishes[p][v] = cell_at(x, field(x), round);
+  });
+  return wishes;
+}
+
+/// Vertices of interfaces left, those that pieces share counted as often.
+std::int64_t count_left(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                        mesh::SharedToken first_token) {
+  std::int64_t count = 0;
+  for_each_interface_vertex(mesh, first_token, [&](std::size_t, LocalIndex, mesh::SharedToken) { ++count; });
+  return communicator.sum(count);
+}
+
+}  // namespace
+
+ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                               mesh::SharedToken first_token, const sizing::SizeField& field,
+                               const volume::VolumeOptions& options, parallel::StageClock& clock) {
+  ErasureReport report;
+  volume::VolumeOptions once = options;
+  once.retries = 1;
+  report.vertices_before = report.vertices_left = count_left(communicator, mesh, first_token);
+  for (int round = 0; round < most_rounds && report.vertices_left > 0; ++round) {
+    const CavityWishes wishes = round == 0 ? wish_by_pieces(communicator, mesh, first_token)
+                                           : wish_by_place(mesh, first_token, field, round);
+    const CavityRound done = refill_cavities(
+        communicator, mesh, wishes, round,
+        [&](const Cavity& cavity) { return refill(cavity, field, once, clock); }, clock);
+    report.rounds = round + 1;
+    report.cavities += done.cavities;
+    report.refilled += done.refilled;
+    report.vertices_left = count_left(communicator, mesh, first_token);
+    fprintf(stderr,"DBGE round %d cav %ld refilled %ld left %ld cpu %.2f\n",round,(long)done.cavities,(long)done.refilled,(long)report.vertices_left,parallel::cpu_seconds());
+  }
+  return report;
+}
+
+}  // namespace aeroloom::pipeline
