@@ -204,7 +204,7 @@ private:
       return;
     }
     const std::size_t before = _result.triangles.size();
-    if (_cells[cell].apex >= 0 && !getenv("NOAPEX")) {
+    if (_cells[cell].apex >= 0) {
       const auto apex = static_cast<std::int32_t>(_result.vertices.size());
       _result.vertices.push_back({_cells[cell].apex, _cells[cell].apex_point, 2, _cells[cell].face});
       _result.is_apex.push_back(1);

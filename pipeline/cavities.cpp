@@ -136,6 +136,39 @@ CavityId cavity_of(const std::vector<CavityId>& wishes, const LocalIndex* vertic
   return no_cavity;
 }
 
+/// Adds the inner vertices next to each cavity: to it, if they are next to no other.
+void widen(const Piece& piece, std::vector<CavityId>& wishes) {
+  std::vector<char> barred(piece.vertex_count(), 0);
+  for (const LocalIndex v : piece.shared_vertices) barred[v] = 1;
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+    if (piece.vertex_dimension[v] < 3 || wishes[v] != no_cavity) barred[v] = 1;
+  }
+  std::vector<CavityId> next(piece.vertex_count(), no_cavity);
+  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+    const LocalIndex* v = piece.cell(c);
+    const CavityId cavity = cavity_of(wishes, v, 4);
+    if (cavity == no_cavity) continue;
+    for (int k = 0; k < 4; ++k) {
+      if (barred[v[k]]) continue;
+      if (next[v[k]] == no_cavity) next[v[k]] = cavity;
+      if (next[v[k]] != cavity) barred[v[k]] = 1, next[v[k]] = no_cavity;
+    }
+  }
+  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+    const LocalIndex* v = piece.cell(c);
+    const CavityId settled = cavity_of(wishes, v, 4), cavity = cavity_of(next, v, 4);
+    if (cavity == no_cavity) continue;
+    for (int k = 0; k < 4; ++k) {
+      const CavityId other = next[v[k]];
+      if (other == no_cavity || (other == cavity && (settled == no_cavity || settled == other))) continue;
+      for (int i = 0; i < 4; ++i) barred[v[i]] = 1;
+    }
+  }
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+    if (!barred[v]) wishes[v] = next[v];
+  }
+}
+
 std::array<LocalIndex, 3> sorted(std::array<LocalIndex, 3> v) {
   std::sort(v.begin(), v.end());
   return v;
@@ -544,6 +577,10 @@ void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine, const 
 
 }  // namespace
 
+bool is_placed_by_refilling(SharedToken token) {
+  return token >> 62 == 3;
+}
+
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                             const CavityWishes& wishes, int round, const RefillCavity& refill,
                             parallel::StageClock& clock) {
@@ -552,6 +589,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   Contribution mine;
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (std::size_t p = 0; p < mesh.pieces.size(); ++p) widen(mesh.pieces[p], settled[p]);
     mine = collect(mesh, settled, round);
   }
   const CavityTable table = list_cavities(communicator, mine);

@@ -53,8 +53,12 @@ struct CavityRound {
   std::int64_t cavities = 0, refilled = 0;
 };
 
+/// Whether a vertex with this token was placed by a refilling.
+bool is_placed_by_refilling(mesh::SharedToken token);
+
 /// One round. A vertex's star is taken when no neighbour is wished for by another cavity, so cavities do not
-/// touch in a tetrahedron; the others have to wait for another round with other wishes. `round` is below 16
+/// touch in a tetrahedron; the others have to wait for another round with other wishes. Then the stars of
+/// their neighbours are taken as well, where these lie inside a piece and near one cavity only. `round` is below 16
 /// and never the same for two rounds on one mesh: it makes new tokens unique. Deals cavities out by size.
 /// Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,

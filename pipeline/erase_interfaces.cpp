@@ -3,6 +3,7 @@
 #include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/quality.hpp"
 #include "pipeline/cavities.hpp"
 
 #include <algorithm>
@@ -195,6 +196,29 @@ std::int64_t count_left(const parallel::Communicator& communicator, const mesh::
   return communicator.sum(count);
 }
 
+void measure(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+             ErasureReport& report) {
+  double sums[2] = {0, 0};
+  std::int64_t counts[2] = {0, 0};
+  for (const Piece& piece : mesh.pieces) {
+    std::vector<char> placed(piece.vertex_count(), 0);
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
+      placed[piece.shared_vertices[s]] = is_placed_by_refilling(piece.shared_tokens[s]);
+    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const LocalIndex* v = piece.cell(c);
+      if (std::any_of(v, v + 4, [&](LocalIndex w) { return piece.vertex_dimension[w] < 3; })) continue;
+      const int kind = std::any_of(v, v + 4, [&](LocalIndex w) { return placed[w]; }) ? 0 : 1;
+      sums[kind] += mesh::mean_ratio(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3]));
+      ++counts[kind];
+    }
+  }
+  for (int kind = 0; kind < 2; ++kind) {
+    const double mean = communicator.sum(sums[kind]) /
+                        static_cast<double>(std::max<std::int64_t>(1, communicator.sum(counts[kind])));
+    (kind == 0 ? report.mean_ratio_refilled : report.mean_ratio_elsewhere) = mean;
+  }
+}
+
 }  // namespace
 
 ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
@@ -216,6 +240,8 @@ ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh:
     report.vertices_left = count_left(communicator, mesh, first_token);
     fprintf(stderr,"DBGE round %d cav %ld refilled %ld left %ld cpu %.2f\n",round,(long)done.cavities,(long)done.refilled,(long)report.vertices_left,parallel::cpu_seconds());
   }
+  measure(communicator, mesh, report);
+  fprintf(stderr,"DBGE mean ratio %.4f / %.4f\n",report.mean_ratio_refilled,report.mean_ratio_elsewhere);
   return report;
 }
 

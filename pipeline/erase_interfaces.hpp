@@ -16,6 +16,8 @@ struct ErasureReport {
   int rounds = 0;
   std::int64_t cavities = 0, refilled = 0;
   std::int64_t vertices_before = 0, vertices_left = 0;  ///< of interfaces
+  /// Mean ratio on average, of tetrahedra off the surface: with a vertex the refilling placed, and the others.
+  double mean_ratio_refilled = 0, mean_ratio_elsewhere = 0;
 };
 
 /// Erases the vertices whose tokens are those of interfaces: from `first_token` on, as mesh_interfaces numbers

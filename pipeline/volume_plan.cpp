@@ -23,7 +23,7 @@ using geometry::Vec3;
 using mesh::RegionId;
 
 /// Background tetrahedra a part has, about.
-constexpr double tets_per_part = 1000;
+constexpr double tets_per_part = 600;
 /// Width of a background element in local sizes, at least: finer ones would have nothing to simplify.
 constexpr double smallest_width = 3;
 constexpr int most_rounds = 24;
