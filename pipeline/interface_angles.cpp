@@ -24,20 +24,31 @@ double inner_angle(Vec3 a, Vec3 b, Vec3 first, Vec3 second) {
   return angle < 0 ? angle + 360 : angle;
 }
 
-}  // namespace
+/// An edge of a piece where different interfaces, or an interface and the surface, meet.
+struct Hinge {
+  LocalIndex a, b;              // ends of the edge, ascending
+  std::int32_t along, against;  // the triangle that runs from a to b, and the other one
+  LocalIndex along_apex, against_apex;
+  double angle;                 // degrees, inside
+};
 
-std::vector<InterfaceCorner> find_interface_corners(const PieceBoundary& boundary, const VolumePlan& plan,
-                                                    const MergedParts& parts, std::int32_t part) {
+/// Calls visit(hinge) for all of them but those where the piece touches itself.
+template <class Visit>
+void for_each_hinge(const PieceBoundary& boundary, const VolumePlan& plan, const MergedParts& parts,
+                    std::int32_t part, const Visit& visit) {
   struct Side {
     LocalIndex low, high;
     std::int32_t triangle;
+    bool along;
+    LocalIndex apex;
   };
   const auto& triangles = boundary.surface.triangles;
   std::vector<Side> sides;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const LocalIndex a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t)});
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), a < b,
+                       triangles[t][(k + 2) % 3]});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
@@ -49,31 +60,57 @@ std::vector<InterfaceCorner> find_interface_corners(const PieceBoundary& boundar
     const std::int32_t a = parts.root(plan.faces[f].part), b = parts.root(plan.faces[f].beyond);
     return a == part ? b : a;
   };
-  std::vector<InterfaceCorner> corners;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
     while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-    if (j - i != 2) continue;
-    std::int32_t s = sides[i].triangle, t = sides[i + 1].triangle;
-    if (beyond(s) == beyond(t)) continue;
-    const LocalIndex a = sides[i].low, b = sides[i].high;
-    const auto runs_along = [&](std::int32_t triangle) {
-      for (int k = 0; k < 3; ++k) {
-        if (triangles[triangle][k] == a && triangles[triangle][(k + 1) % 3] == b) return true;
-      }
-      return false;
-    };
-    if (!runs_along(s)) std::swap(s, t);
-    const auto apex = [&](std::int32_t triangle) {
-      const auto& v = triangles[triangle];
-      return boundary.surface.points[v[0] != a && v[0] != b ? v[0] : v[1] != a && v[1] != b ? v[1] : v[2]];
-    };
-    const Vec3 x = boundary.surface.points[a], y = boundary.surface.points[b];
-    const bool on_surface = boundary.triangle_face[s] >= 0 || boundary.triangle_face[t] >= 0 ||
-                            (boundary.vertex_dimension[a] < 3 && boundary.vertex_dimension[b] < 3);
-    corners.push_back({boundary.vertex_number[a], boundary.vertex_number[b], part, on_surface,
-                       inner_angle(x, y, apex(s), apex(t)), 0.5 * (x + y)});
+    if (j - i != 2 || beyond(sides[i].triangle) == beyond(sides[i + 1].triangle)) continue;
+    const Side& s = sides[i].along ? sides[i] : sides[i + 1];
+    const Side& t = sides[i].along ? sides[i + 1] : sides[i];
+    const auto& x = boundary.surface.points;
+    visit(Hinge{s.low, s.high, s.triangle, t.triangle, s.apex, t.apex,
+                inner_angle(x[s.low], x[s.high], x[s.apex], x[t.apex])});
   }
+}
+
+/// A point turned around the line through a and b, counter-clockwise seen from b.
+Vec3 turned(Vec3 p, Vec3 a, Vec3 b, double degrees) {
+  const Vec3 along = normalized(b - a);
+  const Vec3 foot = a + dot(p - a, along) * along, out = p - foot;
+  const double angle = degrees * std::numbers::pi / 180;
+  return foot + std::cos(angle) * out + std::sin(angle) * cross(along, out);
+}
+
+}  // namespace
+
+std::vector<InterfaceCorner> find_interface_corners(const PieceBoundary& boundary, const VolumePlan& plan,
+                                                    const MergedParts& parts, std::int32_t part) {
+  std::vector<InterfaceCorner> corners;
+  for_each_hinge(boundary, plan, parts, part, [&](const Hinge& h) {
+    const bool on_surface = boundary.vertex_dimension[h.a] < 3 && boundary.vertex_dimension[h.b] < 3;
+    corners.push_back({boundary.vertex_number[h.a], boundary.vertex_number[h.b], part, on_surface, h.angle,
+                       0.5 * (boundary.surface.points[h.a] + boundary.surface.points[h.b])});
+  });
   return corners;
+}
+
+std::vector<VertexWish> wish_wider_angles(const PieceBoundary& boundary, const VolumePlan& plan,
+                                          const MergedParts& parts, std::int32_t part, double wanted) {
+  std::vector<VertexWish> wishes;
+  const auto& x = boundary.surface.points;
+  for_each_hinge(boundary, plan, parts, part, [&](const Hinge& h) {
+    if (h.angle >= wanted) return;
+    const bool first = boundary.vertex_dimension[h.along_apex] == 3;
+    const bool second = boundary.vertex_dimension[h.against_apex] == 3;
+    if (!first && !second) return;
+    const double turn = (wanted - h.angle) / (first && second ? 2 : 1);
+    const auto wish = [&](LocalIndex v, double degrees) {
+      wishes.push_back(
+          {boundary.vertex_number[v], part, 0, turned(x[v], x[h.a], x[h.b], degrees) - x[v]});
+    };
+    // Outward triangles: the inside lies clockwise of the one that runs along, seen from b.
+    if (first) wish(h.along_apex, turn);
+    if (second) wish(h.against_apex, -turn);
+  });
+  return wishes;
 }
 
 InterfaceAngles summarise_interfaces(const parallel::Communicator& communicator,

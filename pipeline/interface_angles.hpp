@@ -23,6 +23,18 @@ struct InterfaceCorner {
 std::vector<InterfaceCorner> find_interface_corners(const PieceBoundary& boundary, const VolumePlan& plan,
                                                     const MergedParts& parts, std::int32_t part);
 
+/// A wish to move a vertex of an interface so that an angle opens.
+struct VertexWish {
+  mesh::GlobalIndex number;
+  std::int32_t part, unused = 0;
+  geometry::Vec3 displacement;
+};
+
+/// Where an angle of the piece is below `wanted` degrees: the vertices of the interface triangles there that
+/// are off the surface, turned around the edge until it is as wanted.
+std::vector<VertexWish> wish_wider_angles(const PieceBoundary& boundary, const VolumePlan& plan,
+                                          const MergedParts& parts, std::int32_t part, double wanted);
+
 /// An edge with a small angle.
 struct SharpInterface {
   geometry::Vec3 point;

@@ -5,6 +5,7 @@
 #include "parallel/log.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
+#include "pipeline/widen_interfaces.hpp"
 
 #include <cmath>
 
@@ -208,6 +209,9 @@ struct Decomposition {
   InterfaceMesh interfaces;
 };
 
+/// Angles between fine triangles are repaired up to this, degrees: a margin to what is asked for in the end.
+constexpr double widest_repair = 40;
+
 Decomposition decompose(const Communicator& communicator, const geometry::Model& model,
                         const FinishedSurface& surface, const Case& input, RunRecord& record) {
   record.predicted = sizing::predict_counts(communicator, model, surface.field, record.clock);
@@ -220,6 +224,10 @@ Decomposition decompose(const Communicator& communicator, const geometry::Model&
       plan_volume(communicator, surface.mesh, surface.numbering, surface.field, options, record.clock);
   result.interfaces = mesh_interfaces(communicator, result.plan, surface.numbering.vertex_count,
                                       surface.field, record.clock);
+  const std::int64_t moved =
+      widen_interfaces(communicator, surface.mesh, surface.numbering, result.plan,
+                       std::min(input.interface_angle, widest_repair), result.interfaces, record.clock);
+  parallel::log_verbose(fmt::format("decompose: {} vertices of interfaces moved to open angles", moved));
   record.plan = result.plan.report;
   record.parts = result.plan.parts;
   record.interface_triangles = result.interfaces.triangle_count;
