@@ -1,5 +1,6 @@
 #include "improve/improver.hpp"
 
+#include "improve/cavity_improver.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
 #include "improve/tet_quality.hpp"
@@ -58,6 +59,35 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
   return report;
 }
 
+namespace {
+
+/// The rounds in which borders of pieces are inside of cavities.
+void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                    const ImproveOptions& options, ImproveReport& total, parallel::StageClock& clock) {
+  if (!options.enabled || mesh.piece_count < 2) return;
+  for (int shift = 0; shift < options.shifted_rounds; ++shift) {
+    mesh::CavityWishes wishes;
+    if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
+    refill_cavities(
+        communicator, mesh, wishes,
+        [&](const mesh::Cavity& cavity) {
+          const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+          return improve_cavity(cavity, options, total);
+        },
+        clock);
+  }
+  const TetQuality measure(options.target_angle);
+  total.bad_after = 0;
+  total.min_angle_after = 180;
+  for (const mesh::Piece& piece : mesh.pieces) {
+    const PieceState state = examine(piece, measure);
+    total.bad_after += state.bad;
+    total.min_angle_after = std::min(total.min_angle_after, state.least_angle);
+  }
+}
+
+}  // namespace
+
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock) {
   ImproveReport total;
@@ -77,6 +107,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
       clock.add_pieces(1);
     }
   });
+  improve_across(communicator, mesh, options, total, clock);
   for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps}) {
     *count = communicator.sum(*count);
   }

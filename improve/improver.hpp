@@ -15,6 +15,7 @@ struct ImproveOptions {
   double target_angle = 15;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
                              ///< minus 1.5 times this, are worked on
   int sweeps = 12;           ///< at most; ends earlier when a sweep gains nothing
+  int shifted_rounds = 6;    ///< at most, across the borders of pieces; ends earlier when nothing is left
 };
 
 struct ImproveReport {
@@ -31,7 +32,8 @@ struct ImproveReport {
 /// angle is not within (0, 50] degrees, std::logic_error when three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options);
 
-/// Improves all pieces of a mesh. Collective.
+/// Improves all pieces of a mesh, their borders frozen, then what is left in cavities in which those borders
+/// are inside (mesh/cavities.hpp), shifted from round to round. Collective.
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock);
 

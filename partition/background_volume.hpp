@@ -20,10 +20,10 @@ struct TraceCorner {
 struct BackgroundVolume {
   std::vector<geometry::Vec3> points;
   std::vector<std::array<std::int32_t, 4>> tets;
-  std::vector<std::array<std::int32_t, 4>> neighbours;  ///< across the face opposite vertex k; -1: boundary
-  std::vector<double> loads;                            ///< per tet: predicted fine tetrahedra
-  std::vector<double> sizes;                            ///< per tet: mean fine size
-  std::vector<std::int8_t> closed_vertices;             ///< per point: 1 where no cut may pass
+  std::vector<std::array<std::int32_t, 4>> neighbours;    ///< across the face opposite vertex k; -1: boundary
+  std::vector<double> loads;                              ///< per tet: predicted fine tetrahedra
+  std::vector<double> sizes;                              ///< per tet: mean fine size
+  std::vector<std::int8_t> closed_vertices;               ///< per point: 1 where no cut may pass
   std::vector<std::array<std::int32_t, 2>> closed_edges;  ///< boundary edges no cut may pass; ends ascending
   std::vector<TraceCorner> corners;
 };
@@ -32,14 +32,14 @@ struct BackgroundVolume {
 std::vector<std::array<std::int32_t, 4>> link_tetrahedra(
     const std::vector<std::array<std::int32_t, 4>>& tets);
 
-/// The tetrahedra around the edges, in order. Around an inner edge the ring is closed; an edge of the boundary
-/// has an open fan from boundary face to boundary face, several where the boundary touches itself.
+/// The tetrahedra around the edges, in order. Around an inner edge the ring is closed; an edge of the
+/// boundary has an open fan from boundary face to boundary face, several where the boundary touches itself.
 struct EdgeRings {
   std::vector<std::array<std::int32_t, 2>> edges;  ///< per ring, ends ascending
   std::vector<std::int8_t> closed;                 ///< per ring
   std::vector<std::int32_t> first;                 ///< (rings + 1) into tets
   std::vector<std::int32_t> tets;
-  std::vector<double> angles;                      ///< per entry: dihedral angle, degrees
+  std::vector<double> angles;  ///< per entry: dihedral angle, degrees
 
   std::int32_t count() const { return static_cast<std::int32_t>(edges.size()); }
   std::int32_t size(std::int32_t ring) const { return first[ring + 1] - first[ring]; }

@@ -50,10 +50,9 @@ private:
   void list_vertices(std::vector<FineVertex> vertices) {
     std::sort(vertices.begin(), vertices.end(),
               [](const FineVertex& a, const FineVertex& b) { return a.number < b.number; });
-    vertices.erase(
-        std::unique(vertices.begin(), vertices.end(),
-                    [](const FineVertex& a, const FineVertex& b) { return a.number == b.number; }),
-        vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end(),
+                               [](const FineVertex& a, const FineVertex& b) { return a.number == b.number; }),
+                   vertices.end());
     _result.rim = std::move(vertices);
   }
 
@@ -270,7 +269,8 @@ private:
     }
     std::vector<std::pair<std::size_t, std::size_t>> stack{{0, n - 1}};
     const auto note_diagonal = [&](std::size_t i, std::size_t j) {
-      if (j - i > 1) _diagonals.push_back({std::min(polygon[i], polygon[j]), std::max(polygon[i], polygon[j]), cell});
+      if (j - i > 1)
+        _diagonals.push_back({std::min(polygon[i], polygon[j]), std::max(polygon[i], polygon[j]), cell});
     };
     while (!stack.empty()) {
       const auto [i, j] = stack.back();
@@ -302,7 +302,7 @@ private:
   const std::vector<Cell>& _cells;
   CoarseSurface _result;
   std::vector<std::array<std::int32_t, 3>> _diagonals;  // ends ascending, cell
-  std::vector<Directed> _directed;  // by cell, then start
+  std::vector<Directed> _directed;                      // by cell, then start
   std::vector<Link> _links;
   std::vector<std::vector<std::int32_t>> _around;  // links at each rim vertex
   std::vector<char> _used;

@@ -43,8 +43,9 @@ WeightedGraph contracted_graph(const BackgroundVolume& volume, const VolumeClust
       arcs.push_back({b, a, weight});
     }
   }
-  std::stable_sort(arcs.begin(), arcs.end(),
-                   [](const Arc& a, const Arc& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
+  std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
+    return a.from != b.from ? a.from < b.from : a.to < b.to;
+  });
   WeightedGraph graph;
   graph.first.assign(clusters.loads.size() + 1, 0);
   for (std::size_t i = 0, j = 0; i < arcs.size(); i = j) {
@@ -80,8 +81,7 @@ VolumeDecomposition decompose_volume(const BackgroundVolume& volume,
   const EdgeRings rings = gather_rings(volume);
   const double total = std::accumulate(volume.loads.begin(), volume.loads.end(), 0.0);
   const double wanted = total / options.parts;
-  const VolumeClusters clusters =
-      simplify(volume, rings, options.smallest_angle, largest_cluster * wanted);
+  const VolumeClusters clusters = simplify(volume, rings, options.smallest_angle, largest_cluster * wanted);
   result.clusters = clusters.count();
   result.largest_cluster = *std::max_element(clusters.loads.begin(), clusters.loads.end()) / wanted;
   result.unresolved = clusters.unresolved;

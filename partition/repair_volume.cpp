@@ -78,7 +78,8 @@ private:
   }
 
   void assign(std::int32_t cluster, Label to) {
-    for (std::int32_t i = _first_member[cluster]; i < _first_member[cluster + 1]; ++i) _part[_members[i]] = to;
+    for (std::int32_t i = _first_member[cluster]; i < _first_member[cluster + 1]; ++i)
+      _part[_members[i]] = to;
   }
 
   /// Gives all but the heaviest component of each part to the neighbour it shares the most faces with.
@@ -163,8 +164,8 @@ private:
     return load;
   }
 
-  /// The stretch to give away: the narrowest below the threshold, else the lightest next to a part that occurs
-  /// twice; -1: all is well.
+  /// The stretch to give away: the narrowest below the threshold, else the lightest next to a part that
+  /// occurs twice; -1: all is well.
   std::int32_t worst_stretch(std::int32_t ring, const std::vector<Stretch>& stretches) const {
     const auto count = static_cast<std::int32_t>(stretches.size());
     if (count < 2) return -1;
@@ -266,7 +267,8 @@ private:
   };
 
   Pinch find_pinch(std::int32_t vertex) {
-    const auto by_part = groups_of(vertex, [&](std::int32_t s, std::int32_t t) { return _part[s] == _part[t]; });
+    const auto by_part =
+        groups_of(vertex, [&](std::int32_t s, std::int32_t t) { return _part[s] == _part[t]; });
     if (by_part.size() < 2) return {};
     Pinch pinch;
     double lightest = 1e300;
@@ -282,9 +284,8 @@ private:
     if (pinch.to >= 0) return pinch;
     for (const StarGroup& around : by_part) {  // a part that goes around something at the vertex
       const Label label = _part[around.tets.front()];
-      const auto rest = groups_of(vertex, [&](std::int32_t s, std::int32_t t) {
-        return (_part[s] == label) == (_part[t] == label);
-      });
+      const auto rest = groups_of(
+          vertex, [&](std::int32_t s, std::int32_t t) { return (_part[s] == label) == (_part[t] == label); });
       std::int32_t beside = 0, outside = 0;
       for (const StarGroup& group : rest) {
         if (_part[group.tets.front()] == label) continue;

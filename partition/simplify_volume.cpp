@@ -78,7 +78,8 @@ void list_wedges(const EdgeRings& rings, const std::vector<std::int32_t>& label,
       const auto at = [&](std::int32_t i) { return rings.tets[first + (i + size) % size]; };
       const bool begins = !rings.closed[r] && s.from == 0, ends = !rings.closed[r] && s.to == size;
       if (begins && ends) continue;  // the input's own angle
-      wedges.push_back({s.angle, at(s.from), at(s.to - 1), begins ? -1 : at(s.from - 1), ends ? -1 : at(s.to)});
+      wedges.push_back(
+          {s.angle, at(s.from), at(s.to - 1), begins ? -1 : at(s.from - 1), ends ? -1 : at(s.to)});
     }
   }
 }

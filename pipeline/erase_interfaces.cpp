@@ -1,10 +1,10 @@
 #include "pipeline/erase_interfaces.hpp"
 
+#include "mesh/cavities.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
 #include "mesh/quality.hpp"
-#include "pipeline/cavities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,30 +13,20 @@ namespace aeroloom::pipeline {
 namespace {
 
 using geometry::Vec3;
+using mesh::Cavity;
+using mesh::CavityId;
+using mesh::CavityRound;
+using mesh::CavityWishes;
 using mesh::LocalIndex;
+using mesh::no_cavity;
 using mesh::Piece;
+using mesh::Refilling;
 
 constexpr int most_rounds = 10;
-/// Width of a cell of the grid, in local sizes, up to eight times as much: sizes may grow a lot within a cell.
+/// Width of a cell of the grid, in local sizes, at least.
 constexpr double cell_width = 8;
 /// Tokens above this are not those of interfaces: vertices of pieces that became shared later.
 constexpr mesh::SharedToken last_token = mesh::SharedToken{1} << 62;
-/// Shifts of the grid per round, in cells: far from each other in every direction.
-constexpr double shift_per_round[3] = {0.5, 0.382, 0.618};
-
-/// The cell of the round's grid at a point where the size is h.
-CavityId cell_at(Vec3 p, double h, int round) {
-  const double shift = 0.38 * round;
-  const double level = std::floor(std::log2(cell_width * h) / 3 + shift);
-  const double edge = std::exp2(3 * (level + 1 - shift));
-  std::uint64_t id = mesh::mix_in(static_cast<std::uint64_t>(round),
-                                  static_cast<std::uint64_t>(static_cast<std::int64_t>(level)));
-  for (int axis = 0; axis < 3; ++axis) {
-    const double index = std::floor(p[axis] / edge + round * shift_per_round[axis]);
-    id = mesh::mix_in(id, static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
-  }
-  return id == no_cavity ? CavityId{1} : id;
-}
 
 /// The closed boundary of a cavity.
 struct Shell {
@@ -81,7 +71,8 @@ Shell shell_of(const Cavity& cavity) {
     }
     const auto& v = faces[i].vertices;
     shell.surface.triangles.push_back({local[v[0]], local[v[1]], local[v[2]]});
-    const bool inside = std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return cavity.dimension[w] == 3; });
+    const bool inside =
+        std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return cavity.dimension[w] == 3; });
     shell.surface.continued.push_back(inside);
   }
   return shell;
@@ -156,8 +147,8 @@ CavityWishes wish_by_pieces(const parallel::Communicator& communicator, const me
   for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
     while (j < met.size() && met[j].token == met[i].token) ++j;
     if (j - i != 2) continue;
-    const CavityId id = mesh::mix_in(static_cast<std::uint64_t>(met[i].piece),
-                                     static_cast<std::uint64_t>(met[i + 1].piece));
+    const CavityId id =
+        mesh::mix_in(static_cast<std::uint64_t>(met[i].piece), static_cast<std::uint64_t>(met[i + 1].piece));
     for (std::size_t k = i; k < j; ++k) {
       answers.push_back(met[k]);
       answers.back().cavity = id == no_cavity ? CavityId{1} : id;
@@ -183,7 +174,7 @@ CavityWishes wish_by_place(const mesh::DistributedMesh& mesh, mesh::SharedToken 
   CavityWishes wishes = no_wishes(mesh);
   for_each_interface_vertex(mesh, first_token, [&](std::size_t p, LocalIndex v, mesh::SharedToken) {
     const Vec3 x = mesh.pieces[p].point(v);
-    wishes[p][v] = cell_at(x, field(x), round);
+    wishes[p][v] = mesh::cavity_at(x, field(x), cell_width, round);
   });
   return wishes;
 }
@@ -203,12 +194,13 @@ void measure(const parallel::Communicator& communicator, const mesh::Distributed
   for (const Piece& piece : mesh.pieces) {
     std::vector<char> placed(piece.vertex_count(), 0);
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-      placed[piece.shared_vertices[s]] = is_placed_by_refilling(piece.shared_tokens[s]);
+      placed[piece.shared_vertices[s]] = mesh::is_placed_by_refilling(piece.shared_tokens[s]);
     for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
       const LocalIndex* v = piece.cell(c);
       if (std::any_of(v, v + 4, [&](LocalIndex w) { return piece.vertex_dimension[w] < 3; })) continue;
       const int kind = std::any_of(v, v + 4, [&](LocalIndex w) { return placed[w]; }) ? 0 : 1;
-      sums[kind] += mesh::mean_ratio(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3]));
+      sums[kind] +=
+          mesh::mean_ratio(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3]));
       ++counts[kind];
     }
   }
@@ -232,16 +224,14 @@ ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh:
     const CavityWishes wishes = round == 0 ? wish_by_pieces(communicator, mesh, first_token)
                                            : wish_by_place(mesh, first_token, field, round);
     const CavityRound done = refill_cavities(
-        communicator, mesh, wishes, round,
-        [&](const Cavity& cavity) { return refill(cavity, field, once, clock); }, clock);
+        communicator, mesh, wishes, [&](const Cavity& cavity) { return refill(cavity, field, once, clock); },
+        clock);
     report.rounds = round + 1;
     report.cavities += done.cavities;
     report.refilled += done.refilled;
     report.vertices_left = count_left(communicator, mesh, first_token);
-    fprintf(stderr,"DBGE round %d cav %ld refilled %ld left %ld cpu %.2f\n",round,(long)done.cavities,(long)done.refilled,(long)report.vertices_left,parallel::cpu_seconds());
   }
   measure(communicator, mesh, report);
-  fprintf(stderr,"DBGE mean ratio %.4f / %.4f\n",report.mean_ratio_refilled,report.mean_ratio_elsewhere);
   return report;
 }
 

@@ -19,7 +19,8 @@ constexpr std::size_t most_listed = 20;
 /// The angle on the inner side of two outward triangles at the edge (a,b), the first one running from a to b.
 double inner_angle(Vec3 a, Vec3 b, Vec3 first, Vec3 second) {
   const Vec3 along = normalized(b - a);
-  const Vec3 p = (first - a) - dot(first - a, along) * along, q = (second - a) - dot(second - a, along) * along;
+  const Vec3 p = (first - a) - dot(first - a, along) * along,
+             q = (second - a) - dot(second - a, along) * along;
   const double angle = std::atan2(dot(along, cross(q, p)), dot(p, q)) * 180 / std::numbers::pi;
   return angle < 0 ? angle + 360 : angle;
 }
@@ -29,7 +30,7 @@ struct Hinge {
   LocalIndex a, b;              // ends of the edge, ascending
   std::int32_t along, against;  // the triangle that runs from a to b, and the other one
   LocalIndex along_apex, against_apex;
-  double angle;                 // degrees, inside
+  double angle;  // degrees, inside
 };
 
 /// Calls visit(hinge) for all of them but those where the piece touches itself.
@@ -47,8 +48,8 @@ void for_each_hinge(const PieceBoundary& boundary, const VolumePlan& plan, const
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const LocalIndex a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), a < b,
-                       triangles[t][(k + 2) % 3]});
+      sides.push_back(
+          {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), a < b, triangles[t][(k + 2) % 3]});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
@@ -103,8 +104,7 @@ std::vector<VertexWish> wish_wider_angles(const PieceBoundary& boundary, const V
     if (!first && !second) return;
     const double turn = (wanted - h.angle) / (first && second ? 2 : 1);
     const auto wish = [&](LocalIndex v, double degrees) {
-      wishes.push_back(
-          {boundary.vertex_number[v], part, 0, turned(x[v], x[h.a], x[h.b], degrees) - x[v]});
+      wishes.push_back({boundary.vertex_number[v], part, 0, turned(x[v], x[h.a], x[h.b], degrees) - x[v]});
     };
     // Outward triangles: the inside lies clockwise of the one that runs along, seen from b.
     if (first) wish(h.along_apex, turn);

@@ -14,8 +14,8 @@ namespace aeroloom::pipeline {
 struct InterfaceCorner {
   mesh::GlobalIndex low, high;  ///< vertex numbers of the edge
   std::int32_t part;
-  std::int32_t on_surface;      ///< 1: the edge is a trace on the surface
-  double angle;                 ///< degrees inside the piece
+  std::int32_t on_surface;  ///< 1: the edge is a trace on the surface
+  double angle;             ///< degrees inside the piece
   geometry::Vec3 middle;
 };
 
@@ -38,8 +38,8 @@ std::vector<VertexWish> wish_wider_angles(const PieceBoundary& boundary, const V
 /// An edge with a small angle.
 struct SharpInterface {
   geometry::Vec3 point;
-  double angle;         ///< the smallest around the edge, degrees
-  double whole_angle;   ///< of all pieces around the edge together
+  double angle;        ///< the smallest around the edge, degrees
+  double whole_angle;  ///< of all pieces around the edge together
 };
 
 struct InterfaceAngles {

@@ -3,6 +3,7 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/schedule.hpp"
 #include "surface/curve_metric.hpp"
+#include "surface/front.hpp"
 #include "surface/triangle_patch.hpp"
 
 #include <algorithm>
@@ -46,7 +47,8 @@ EdgePoints divide_edges(const parallel::Communicator& communicator, const Volume
     for (std::size_t e = communicator.rank(); e < plan.edges.size(); e += communicator.size()) {
       const InterfaceEdge& edge = plan.edges[e];
       if (is_trace(edge)) continue;
-      const std::vector<Vec3> inner = divide(plan.vertices[edge.from].point, plan.vertices[edge.to].point, field);
+      const std::vector<Vec3> inner =
+          divide(plan.vertices[edge.from].point, plan.vertices[edge.to].point, field);
       rows.push_back({static_cast<std::int32_t>(e), static_cast<std::int32_t>(inner.size())});
       points.insert(points.end(), inner.begin(), inner.end());
     }
@@ -102,7 +104,8 @@ public:
       result.triangles.push_back({{number(t[0]), number(t[1]), number(t[2])}, f});
     result.vertices.insert(result.vertices.end(), rim.begin(), rim.end());
     for (std::size_t i = 0; i < patch.inner.size(); ++i)
-      result.vertices.push_back({-1 - static_cast<GlobalIndex>(i), patch.inner[i], 3, _plan.region_of[face.part]});
+      result.vertices.push_back(
+          {-1 - static_cast<GlobalIndex>(i), patch.inner[i], 3, _plan.region_of[face.part]});
     result.faces.push_back(f);
     result.first_triangle.push_back(static_cast<std::int32_t>(result.triangles.size()));
     result.first_vertex.push_back(static_cast<std::int32_t>(result.vertices.size()));
@@ -116,8 +119,7 @@ private:
     const mesh::RegionId region = _plan.region_of[face.part];
     std::vector<BoundaryPoint> side;
     if (is_trace(edge)) {
-      for (std::int32_t i = edge.first_path; i < edge.last_path; ++i)
-        side.push_back(_plan.path[i]);
+      for (std::int32_t i = edge.first_path; i < edge.last_path; ++i) side.push_back(_plan.path[i]);
     } else {
       side.push_back(_vertices[edge.from]);
       for (std::int32_t i = _edges.first[e]; i < _edges.first[e + 1]; ++i)
@@ -193,9 +195,16 @@ InterfaceMesh mesh_interfaces(const parallel::Communicator& communicator, const 
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     for (std::size_t f = 0; f < plan.faces.size(); ++f) {
-      if (owners[f] == communicator.rank()) mesher.mesh(static_cast<std::int32_t>(f), result);
+      if (owners[f] != communicator.rank()) continue;
+      try {
+        mesher.mesh(static_cast<std::int32_t>(f), result);
+      } catch (const surface::FrontError&) {
+        result.failed.push_back(static_cast<std::int32_t>(f));
+      }
     }
   });
+  result.failed = communicator.all_gather_items<std::int32_t>(result.failed);
+  std::sort(result.failed.begin(), result.failed.end());
   number_inner(communicator, plan, mesher.first_inner_number(), result);
   result.triangle_count = communicator.sum(static_cast<std::int64_t>(result.triangles.size()));
   return result;

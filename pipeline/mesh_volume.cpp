@@ -114,11 +114,17 @@ public:
         _clock(clock),
         _report(report),
         _contacts(task.model),
-        _parts(task.plan.parts),
+        _parts(merge_at_failed(task.plan, task.boundary.interfaces)),
         _owners(parallel::assign_largest_first(task.plan.loads, communicator.size())) {}
 
   std::vector<Piece> run() {
-    std::vector<char> wanted(_task.plan.parts, 1);
+    std::vector<char> wanted(_task.plan.parts, 0);
+    for (std::int32_t p = 0; p < _task.plan.parts; ++p) wanted[_parts.root(p)] = 1;
+    for (const std::int32_t f : _task.boundary.interfaces.failed) {
+      const InterfaceFace& face = _task.plan.faces[f];
+      _report.merges.push_back(
+          {face.part, face.beyond, "an interface between them is too thin to be meshed"});
+    }
     while (std::find(wanted.begin(), wanted.end(), 1) != wanted.end()) {
       std::vector<PieceBoundary> boundaries =
           gather_boundaries(_communicator, _task.boundary, _task.plan, _parts, wanted, _owners);
@@ -165,8 +171,8 @@ private:
       const std::string where = _task.boundary.surface.region_count() > 1
                                     ? fmt::format("region '{}': ", _task.model.region_name(region))
                                     : std::string();
-      throw std::runtime_error(
-          where + explain(error, boundary, _task.boundary.surface.faces, _task.offenders_file));
+      throw std::runtime_error(where +
+                               explain(error, boundary, _task.boundary.surface.faces, _task.offenders_file));
     }
   }
 
@@ -192,8 +198,8 @@ private:
     }
     std::sort(merges.begin(), merges.end(), [](const Merge& a, const Merge& b) { return a.part < b.part; });
     for (const Merge& merge : merges) {
-      parallel::log_info(fmt::format("volume: piece {} is merged with piece {}: {}", merge.part, merge.with,
-                                     merge.reason));
+      parallel::log_info(
+          fmt::format("volume: piece {} is merged with piece {}: {}", merge.part, merge.with, merge.reason));
       _parts.merge(merge.part, merge.with);
     }
     std::vector<char> wanted(_task.plan.parts, 0);

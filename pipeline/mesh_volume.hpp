@@ -26,10 +26,10 @@ struct Merge {
 /// What the volume stage tells beyond its mesh.
 struct VolumeReport {
   std::int64_t steiner_points = 0;
-  int attempts = 1;            ///< of the piece that took most
+  int attempts = 1;  ///< of the piece that took most
   std::vector<Merge> merges;
   InterfaceAngles angles;
-  double load_error_90 = 0;    ///< the relative error that 90 % of the predicted loads stay below
+  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
 };
 
 struct VolumeTask {
@@ -42,9 +42,9 @@ struct VolumeTask {
 };
 
 /// Fills the parts, dealt out largest first. A part that no rung of the ladder fills is merged with its
-/// neighbour across the offending interface; one without neighbours ends the run. Pieces are numbered by their
-/// lowest part. The triangles of a face between two regions belong to pieces of its front region. Collective.
-/// Throws CollectiveError.
+/// neighbour across the offending interface; one without neighbours ends the run. Pieces are numbered by
+/// their lowest part. The triangles of a face between two regions belong to pieces of its front region.
+/// Collective. Throws CollectiveError.
 mesh::DistributedMesh mesh_volume(const parallel::Communicator& communicator, const VolumeTask& task,
                                   parallel::StageClock& clock, VolumeReport& report);
 

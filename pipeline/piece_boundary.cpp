@@ -73,12 +73,8 @@ public:
         const int second = part == a ? 1 : 2;
         for (std::int32_t t = mesh.first_triangle[i]; t < mesh.first_triangle[i + 1]; ++t) {
           const auto& v = mesh.triangles[t].vertices;
-          triangles.push_back({part,
-                               -1,
-                               first + (t - mesh.first_triangle[i]),
-                               {v[0], v[second], v[3 - second]},
-                               -1,
-                               f});
+          triangles.push_back(
+              {part, -1, first + (t - mesh.first_triangle[i]), {v[0], v[second], v[3 - second]}, -1, f});
         }
         for (std::int32_t v = mesh.first_vertex[i]; v < mesh.first_vertex[i + 1]; ++v) {
           const BoundaryPoint& vertex = mesh.vertices[v];
@@ -145,6 +141,12 @@ std::int32_t MergedParts::root(std::int32_t part) const {
 void MergedParts::merge(std::int32_t a, std::int32_t b) {
   const std::int32_t low = std::min(_root[a], _root[b]), high = std::max(_root[a], _root[b]);
   std::replace(_root.begin(), _root.end(), high, low);
+}
+
+MergedParts merge_at_failed(const VolumePlan& plan, const InterfaceMesh& interfaces) {
+  MergedParts parts(plan.parts);
+  for (const std::int32_t f : interfaces.failed) parts.merge(plan.faces[f].part, plan.faces[f].beyond);
+  return parts;
 }
 
 std::vector<PieceBoundary> gather_boundaries(const parallel::Communicator& communicator,

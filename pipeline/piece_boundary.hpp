@@ -37,6 +37,9 @@ private:
   std::vector<std::int32_t> _root;  // per part
 };
 
+/// The parts on either side of an interface that could not be meshed, merged.
+MergedParts merge_at_failed(const VolumePlan& plan, const InterfaceMesh& interfaces);
+
 /// The mesh of the surface with its numbers, and that of the interfaces.
 struct BoundaryMeshes {
   const mesh::DistributedMesh& surface;

@@ -222,8 +222,8 @@ Decomposition decompose(const Communicator& communicator, const geometry::Model&
   Decomposition result;
   result.plan =
       plan_volume(communicator, surface.mesh, surface.numbering, surface.field, options, record.clock);
-  result.interfaces = mesh_interfaces(communicator, result.plan, surface.numbering.vertex_count,
-                                      surface.field, record.clock);
+  result.interfaces =
+      mesh_interfaces(communicator, result.plan, surface.numbering.vertex_count, surface.field, record.clock);
   const std::int64_t moved =
       widen_interfaces(communicator, surface.mesh, surface.numbering, result.plan,
                        std::min(input.interface_angle, widest_repair), result.interfaces, record.clock);

@@ -130,9 +130,11 @@ SurfaceCells::Rims SurfaceCells::gather() const {
         ++i;
         continue;
       }
-      edges.push_back({number[sides[i].from], number[sides[i].to], _cell[p].empty() ? 0 : mine[sides[i].cell].id});
+      edges.push_back(
+          {number[sides[i].from], number[sides[i].to], _cell[p].empty() ? 0 : mine[sides[i].cell].id});
       for (const LocalIndex v : {sides[i].from, sides[i].to}) {
-        if (!sent[v]) vertices.push_back({number[v], piece.point(v), piece.vertex_dimension[v], piece.vertex_entity[v]});
+        if (!sent[v])
+          vertices.push_back({number[v], piece.point(v), piece.vertex_dimension[v], piece.vertex_entity[v]});
         sent[v] = 1;
       }
     }

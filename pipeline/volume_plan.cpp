@@ -171,8 +171,9 @@ void link_boundary(const RegionSurface& region, RegionBackground& background) {
   for (std::size_t t = 0; t < region.surface.triangles.size(); ++t) {
     auto v = region.surface.triangles[t];
     std::sort(v.begin(), v.end());
-    const auto at = std::lower_bound(open.begin(), open.end(), v,
-                                     [](const Face& f, const std::array<std::int32_t, 3>& w) { return f.v < w; });
+    const auto at =
+        std::lower_bound(open.begin(), open.end(), v,
+                         [](const Face& f, const std::array<std::int32_t, 3>& w) { return f.v < w; });
     background.boundary.push_back({at->owner, region.cell[t]});
   }
 }
@@ -243,14 +244,9 @@ void describe_boundary(const RegionSurface& region, const partition::CoarseSurfa
 RegionBackground fill_background(const RegionSurface& region, const partition::CoarseSurface& coarse,
                                  const ChordIndex& chords, const sizing::SizeField& field, double width,
                                  parallel::StageClock& clock) {
-  double t1=parallel::cpu_seconds();
-  auto bf=background_field(region, field, width);
-  fprintf(stderr,"DBGT -- field %.3f leaves %ld of %ld\n",parallel::cpu_seconds()-t1,(long)bf.leaf_count(),(long)field.leaf_count());
   volume::FilledVolume filled =
-      volume::fill_volume(region.surface, bf, volume::VolumeOptions{});
-  fprintf(stderr,"DBGT -- fill %.3f att %d\n",filled.cpu_seconds,filled.attempts);
+      volume::fill_volume(region.surface, background_field(region, field, width), volume::VolumeOptions{});
   clock.note_child_memory(filled.child_peak_bytes);
-  double t0=parallel::cpu_seconds(); auto lap=[&](const char*w){double t=parallel::cpu_seconds(); fprintf(stderr,"DBGT - %s %.3f\n",w,t-t0); t0=t;};
   RegionBackground background;
   partition::BackgroundVolume& volume = background.volume;
   for (std::size_t i = 0; i < filled.coordinates.size(); i += 3)
@@ -265,7 +261,6 @@ RegionBackground fill_background(const RegionSurface& region, const partition::C
   volume.closed_vertices.assign(volume.points.size(), 0);
   for (std::size_t v = 0; v < region.vertex.size(); ++v)
     volume.closed_vertices[v] = coarse.is_apex[region.vertex[v]];
-  lap("link");
   std::vector<double> sizes;
   for (const Vec3& p : volume.points) sizes.push_back(field(p));
   for (const auto& v : volume.tets) {
@@ -279,7 +274,6 @@ RegionBackground fill_background(const RegionSurface& region, const partition::C
     volume.loads.push_back(load_of(tet, field, 0));
     volume.sizes.push_back(product);
   }
-  lap("load");
   link_boundary(region, background);
   describe_boundary(region, coarse, chords, background);
   return background;
@@ -338,8 +332,8 @@ public:
   }
 
 private:
-  void add_faces(RegionId region, const RegionBackground& background,
-                 const std::vector<std::int32_t>& part, std::int32_t first) {
+  void add_faces(RegionId region, const RegionBackground& background, const std::vector<std::int32_t>& part,
+                 std::int32_t first) {
     const partition::BackgroundVolume& volume = background.volume;
     std::vector<std::int32_t> number(volume.points.size(), -1);
     for (std::size_t t = 0; t < volume.tets.size(); ++t) {
@@ -377,7 +371,8 @@ private:
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(face.vertices[k], face.vertices[(k + 1) % 3]);
         face.edges[k] = static_cast<std::int32_t>(
-            std::lower_bound(edges.begin(), edges.end(), std::array<std::int32_t, 2>{low, high}) - edges.begin());
+            std::lower_bound(edges.begin(), edges.end(), std::array<std::int32_t, 2>{low, high}) -
+            edges.begin());
       }
     }
     for (const auto& [from, to] : edges) {
@@ -446,22 +441,17 @@ void list_offenders(const RegionSurface& region, std::vector<std::int32_t>& unfi
     const volume::BoundaryDistance tree(region.surface.points, region.surface.triangles);
     defect = volume::find_intersections(region.surface, tree);
   }
-  fprintf(stderr,"DBG defect %s: %zu of %zu\n",defect.what.c_str(),defect.triangles.size(),region.surface.triangles.size());
   for (const std::int32_t t : defect.triangles) unfit.push_back(region.cell[t]);
 }
 
 /// On rank 0: coarse surface, background, decomposition.
-Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface,
-                const sizing::SizeField& field, const VolumePlanOptions& options, double width,
-                parallel::StageClock& clock) {
+Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface, const sizing::SizeField& field,
+                const VolumePlanOptions& options, double width, parallel::StageClock& clock) {
   Round round;
-  double t0=parallel::cpu_seconds(); auto lap=[&](const char*w){double t=parallel::cpu_seconds(); fprintf(stderr,"DBGT %s %.3f\n",w,t-t0); t0=t;};
   const partition::CoarseSurface coarse =
       partition::build_coarse_surface(std::move(rims.edges), std::move(rims.vertices), rims.cells);
-  lap("coarse");
   std::vector<RegionSurface> regions;
   round.unfit = coarse.unfit;
-  fprintf(stderr,"DBG cells %zu tri %zu chords %zu unfit %zu\n",rims.cells.size(),coarse.triangles.size(),coarse.chords.size(),coarse.unfit.size());
   if (round.unfit.empty()) {
     for (RegionId r = 0; r < surface.region_count(); ++r) {
       regions.push_back(surface_of(coarse, rims.cells, surface, r));
@@ -471,12 +461,10 @@ Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface,
   std::sort(round.unfit.begin(), round.unfit.end());
   round.unfit.erase(std::unique(round.unfit.begin(), round.unfit.end()), round.unfit.end());
   if (!round.unfit.empty()) return round;
-  lap("check");
   PlanBuilder builder(coarse, rims.cells);
   for (RegionId r = 0; r < surface.region_count(); ++r) {
     const RegionBackground background =
         fill_background(regions[r], coarse, builder.chords(), field, width, clock);
-    lap("fill");
     const auto& loads = background.volume.loads;
     const double load = std::accumulate(loads.begin(), loads.end(), 0.0);
     if (load < whole_below * options.piece_tets) {
@@ -484,12 +472,11 @@ Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface,
       continue;
     }
     const auto parts = static_cast<std::int32_t>(std::lround(load / options.piece_tets));
-    builder.add(r, background, partition::decompose_volume(background.volume, {parts, options.smallest_angle}),
-                rims.cells, surface);
-    lap("decompose");
+    builder.add(r, background,
+                partition::decompose_volume(background.volume, {parts, options.smallest_angle}), rims.cells,
+                surface);
   }
   round.plan = builder.take();
-  fprintf(stderr,"DBG largest %.3f unresolved %ld moves %ld pinches %ld\n",round.plan->report.largest_cluster,(long)round.plan->report.unresolved,(long)round.plan->report.moves,(long)round.plan->report.pinches);
   return round;
 }
 

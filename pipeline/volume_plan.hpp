@@ -25,7 +25,7 @@ using BoundaryPoint = partition::FineVertex;
 
 /// A straight background edge on an interface, or the chord of a trace on the surface.
 struct InterfaceEdge {
-  std::int32_t from, to;             ///< background vertices, from < to
+  std::int32_t from, to;               ///< background vertices, from < to
   std::int32_t first_path, last_path;  ///< into VolumePlan::path, from end to end; equal: not on the surface
 };
 
@@ -37,9 +37,9 @@ struct InterfaceFace {
 };
 
 struct VolumePlanOptions {
-  double piece_tets = 250'000;      ///< wanted size of a part
-  double predicted_tets = 0;        ///< of the whole mesh: below 1.5 pieces nothing is divided
-  double smallest_angle = 45;       ///< see partition::VolumeDecompositionOptions
+  double piece_tets = 250'000;  ///< wanted size of a part
+  double predicted_tets = 0;    ///< of the whole mesh: below 1.5 pieces nothing is divided
+  double smallest_angle = 45;   ///< see partition::VolumeDecompositionOptions
 };
 
 /// What the decomposition tells.
@@ -47,17 +47,17 @@ struct VolumePlanReport {
   std::int64_t cells = 0, coarse_triangles = 0, background_tets = 0, clusters = 0;
   double largest_cluster = 0;  ///< in wanted loads of a part
   std::int64_t unresolved = 0, moves = 0, pinches = 0;
-  int rounds = 0;              ///< in which the coarse surface was refined
-  double imbalance = 1;        ///< heaviest part over the mean, predicted
+  int rounds = 0;        ///< in which the coarse surface was refined
+  double imbalance = 1;  ///< heaviest part over the mean, predicted
 };
 
 /// The same on every rank, but for `cell`.
 struct VolumePlan {
   std::int32_t parts = 0;
-  std::vector<mesh::RegionId> region_of;  ///< per part
-  std::vector<double> loads;              ///< per part: predicted tetrahedra
+  std::vector<mesh::RegionId> region_of;                  ///< per part
+  std::vector<double> loads;                              ///< per part: predicted tetrahedra
   std::vector<std::array<std::int32_t, 2>> part_of_cell;  ///< behind the front side of a cell, and its back
-  std::vector<BoundaryPoint> vertices;    ///< background vertices on interfaces
+  std::vector<BoundaryPoint> vertices;                    ///< background vertices on interfaces
   std::vector<InterfaceEdge> edges;
   std::vector<InterfaceFace> faces;
   std::vector<BoundaryPoint> path;

@@ -50,15 +50,17 @@ std::int64_t widen_interfaces(const parallel::Communicator& communicator,
                               const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
                               const VolumePlan& plan, double wanted, InterfaceMesh& interfaces,
                               parallel::StageClock& clock) {
-  const MergedParts parts(plan.parts);
+  const MergedParts parts = merge_at_failed(plan, interfaces);
   const std::vector<parallel::Rank> owners = parallel::assign_largest_first(plan.loads, communicator.size());
-  std::vector<char> concerned(plan.parts, plan.faces.empty() ? 0 : 1);
+  std::vector<char> concerned(plan.parts, 0);
+  for (const InterfaceFace& face : plan.faces)
+    concerned[parts.root(face.part)] = concerned[parts.root(face.beyond)] = 1;
   std::int64_t moved = 0;
   for (int round = 0; round < most_rounds; ++round) {
     if (std::find(concerned.begin(), concerned.end(), 1) == concerned.end()) break;
     std::vector<VertexWish> wishes;
-    const std::vector<PieceBoundary> boundaries = gather_boundaries(
-        communicator, {surface, numbering, interfaces}, plan, parts, concerned, owners);
+    const std::vector<PieceBoundary> boundaries =
+        gather_boundaries(communicator, {surface, numbering, interfaces}, plan, parts, concerned, owners);
     {
       const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
       for (std::int32_t p = 0; p < plan.parts; ++p) {

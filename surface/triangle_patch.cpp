@@ -84,8 +84,7 @@ PatchMesh fill_triangle(const std::array<PatchSide, 3>& sides, const std::functi
   }
   const auto count = static_cast<std::int32_t>(boundary.points.size());
   for (std::int32_t i = 0; i < count; ++i) boundary.edges.push_back({i, (i + 1) % count});
-  FrontResult front =
-      fill_front(boundary, [&](Vec2 p, std::int32_t&) { return size(blend.to_space(p)); });
+  FrontResult front = fill_front(boundary, [&](Vec2 p, std::int32_t&) { return size(blend.to_space(p)); });
   PatchMesh patch;
   for (std::size_t i = static_cast<std::size_t>(count); i < front.points.size(); ++i)
     patch.inner.push_back(blend.to_space(front.points[i]));

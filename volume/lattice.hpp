@@ -16,7 +16,7 @@ struct LatticeOptions {
   double perturbation = 0.05;              ///< in local sizes
   int variant = 0;                         ///< another number gives other perturbations
   std::int64_t largest_count = INT64_MAX;  ///< give up above this many points
-  double continued_clearance = 0.25;       ///< from triangles behind which the lattice goes on, in local sizes
+  double continued_clearance = 0.25;  ///< from triangles behind which the lattice goes on, in local sizes
   std::span<const std::uint8_t> continued = {};  ///< per triangle: 1 for those; empty: none
 };
 

@@ -25,7 +25,7 @@ struct ClosedSurface {
 
 struct VolumeOptions {
   double lattice_clearance = 0.75;         ///< distance lattice points keep from the boundary, in local sizes
-  double continued_clearance = 0.25;        ///< the same from triangles behind which the lattice goes on
+  double continued_clearance = 0.25;       ///< the same from triangles behind which the lattice goes on
   double perturbation = 0.05;              ///< of lattice points, in local sizes
   std::int64_t largest_piece = 5'000'000;  ///< predicted tetrahedra above which a piece is refused
   int retries = 3;                         ///< rungs of the ladder after the first try

@@ -13,15 +13,19 @@
 #include <optional>
 #include <vector>
 
-namespace aeroloom::pipeline {
+namespace aeroloom::mesh {
 
 /// Cavities are named by numbers that follow from the mesh alone.
 using CavityId = std::uint64_t;
 inline constexpr CavityId no_cavity = 0;
 
+/// A cavity per cell of a grid whose cells are `width` times as wide as `size`, up to eight times that: sizes
+/// may grow a lot within a cell. Another `shift` gives a grid whose borders lie elsewhere.
+CavityId cavity_at(geometry::Vec3 p, double size, double width, int shift);
+
 /// A triangle of the surface mesh that bounds a cavity.
 struct CavityTriangle {
-  std::array<mesh::LocalIndex, 3> vertices;
+  std::array<LocalIndex, 3> vertices;
   std::int32_t face, patch;
 };
 
@@ -29,24 +33,24 @@ struct CavityTriangle {
 /// by token, the others by piece, so the order is the same for any rank count.
 struct Cavity {
   CavityId id = no_cavity;
-  mesh::RegionId region = 0;
+  RegionId region = 0;
   std::vector<geometry::Vec3> points;
   std::vector<std::int8_t> dimension;  ///< per point: classification
-  std::vector<std::array<mesh::LocalIndex, 4>> tets;
+  std::vector<std::array<LocalIndex, 4>> tets;
   std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
 };
 
 /// What takes the place of a cavity's tetrahedra. They cover the same region with the same boundary faces.
 struct Refilling {
   std::vector<geometry::Vec3> added;  ///< vertices, numbered behind those of the cavity
-  std::vector<std::array<mesh::LocalIndex, 4>> tets;
+  std::vector<std::array<LocalIndex, 4>> tets;
 };
 
 /// Refills a cavity; nothing: it stays as it was. Must be a function of its argument alone.
 using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
 
-/// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. Copies of a
-/// shared vertex must agree.
+/// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. What one
+/// piece wishes for a shared vertex, the others do too; where they differ the higher number counts.
 using CavityWishes = std::vector<std::vector<CavityId>>;
 
 struct CavityRound {
@@ -54,15 +58,14 @@ struct CavityRound {
 };
 
 /// Whether a vertex with this token was placed by a refilling.
-bool is_placed_by_refilling(mesh::SharedToken token);
+bool is_placed_by_refilling(SharedToken token);
 
 /// One round. A vertex's star is taken when no neighbour is wished for by another cavity, so cavities do not
 /// touch in a tetrahedron; the others have to wait for another round with other wishes. Then the stars of
-/// their neighbours are taken as well, where these lie inside a piece and near one cavity only. `round` is below 16
-/// and never the same for two rounds on one mesh: it makes new tokens unique. Deals cavities out by size.
-/// Collective. Throws CollectiveError.
-CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, int round, const RefillCavity& refill,
+/// their neighbours are taken as well, where these lie inside a piece and near one cavity only. Deals
+/// cavities out by size. At most 255 rounds on one mesh. Collective. Throws CollectiveError.
+CavityRound refill_cavities(const parallel::Communicator& communicator, DistributedMesh& mesh,
+                            const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock);
 
-}  // namespace aeroloom::pipeline
+}  // namespace aeroloom::mesh

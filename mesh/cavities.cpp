@@ -1,4 +1,4 @@
-#include "pipeline/cavities.hpp"
+#include "mesh/cavities.hpp"
 
 #include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
@@ -7,32 +7,33 @@
 #include "parallel/schedule.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
-namespace aeroloom::pipeline {
+namespace aeroloom::mesh {
 namespace {
 
 using geometry::Vec3;
-using mesh::LocalIndex;
-using mesh::Piece;
-using mesh::PieceId;
-using mesh::SharedToken;
 
-/// Tokens of vertices that become shared in a round, and of new ones, lie above all others.
+/// Tokens of vertices that become shared in a round, and of new ones, lie above all others. Bits from the
+/// top: 1, whether the vertex is new, 8 for the round, 54 for piece and vertex or for a running number.
+constexpr SharedToken late_token = SharedToken{1} << 63, new_token = SharedToken{1} << 62;
+constexpr std::int32_t most_rounds = 255;
+
 SharedToken token_of_inner(int round, PieceId piece, LocalIndex vertex) {
-  return (SharedToken{1} << 63) | (static_cast<SharedToken>(round) << 58) |
-         (static_cast<SharedToken>(piece) << 31) | static_cast<SharedToken>(vertex);
+  return late_token | (static_cast<SharedToken>(round) << 54) | (static_cast<SharedToken>(piece) << 31) |
+         static_cast<SharedToken>(vertex);
 }
 SharedToken token_of_new(int round, std::int64_t index) {
-  return (SharedToken{1} << 63) | (SharedToken{1} << 62) | (static_cast<SharedToken>(round) << 58) |
-         static_cast<SharedToken>(index);
+  return late_token | new_token | (static_cast<SharedToken>(round) << 54) | static_cast<SharedToken>(index);
 }
 
 struct WireTet {
   CavityId cavity;
   PieceId piece;
-  mesh::RegionId region;
+  RegionId region;
   std::array<SharedToken, 4> vertices;
 };
 struct WireVertex {
@@ -68,63 +69,107 @@ std::vector<SharedToken> tokens_of(const Piece& piece, int round) {
   return tokens;
 }
 
-/// Withdraws wishes of vertices with a neighbour in another cavity, in any piece.
-void settle_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                   CavityWishes& wishes) {
-  struct Veto {
-    SharedToken token;
-    parallel::Rank rank;
-    std::int32_t refused;
-  };
-  std::vector<Veto> vetoes;
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const Piece& piece = mesh.pieces[p];
-    std::vector<char> refused(piece.vertex_count(), 0);
-    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
-      const LocalIndex* v = piece.cell(c);
-      CavityId met = no_cavity;
-      bool several = false;
-      for (int k = 0; k < 4; ++k) {
-        const CavityId wish = wishes[p][v[k]];
-        if (wish == no_cavity) continue;
-        several = several || (met != no_cavity && met != wish);
-        met = wish;
-      }
-      for (int k = 0; several && k < 4; ++k) refused[v[k]] = 1;
-    }
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (refused[v]) wishes[p][v] = no_cavity;
-    }
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      const LocalIndex v = piece.shared_vertices[s];
-      if (wishes[p][v] != no_cavity || refused[v])
-        vetoes.push_back({piece.shared_tokens[s], communicator.rank(), refused[v]});
-    }
-  }
-  std::vector<Veto> met = mesh::deliver(communicator, vetoes, [&](const Veto& v) {
-    return mesh::meeting_rank(mesh::mix_in(0, v.token), communicator.size());
+/// A wish, or a refusal, for a shared vertex on its way to the other pieces.
+struct Voice {
+  SharedToken token;
+  CavityId wish;
+  parallel::Rank rank;
+  std::int32_t refused;
+};
+
+/// Brings together what the pieces say of each shared vertex: `mine` has a row per piece and vertex. The
+/// answers are for the vertices on this rank that anyone has a wish or a refusal for, by token: the highest
+/// wish, and whether anyone refused.
+std::vector<Voice> agree_on(const parallel::Communicator& communicator, const std::vector<Voice>& mine) {
+  std::vector<Voice> met = deliver(communicator, mine, [&](const Voice& v) {
+    return meeting_rank(mix_in(0, v.token), communicator.size());
   });
-  sort_by(met, [](const Veto& a, const Veto& b) {
+  sort_by(met, [](const Voice& a, const Voice& b) {
     return a.token != b.token ? a.token < b.token : a.rank < b.rank;
   });
-  std::vector<Veto> answers;
+  std::vector<Voice> answers;
   for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    bool refused = false;
-    for (; j < met.size() && met[j].token == met[i].token; ++j) refused = refused || met[j].refused;
-    for (std::size_t k = i; refused && k < j; ++k) {
-      if (k == i || met[k].rank != met[k - 1].rank) answers.push_back(met[k]);
+    Voice all{met[i].token, no_cavity, 0, 0};
+    for (; j < met.size() && met[j].token == met[i].token; ++j) {
+      all.wish = std::max(all.wish, met[j].wish);
+      all.refused = all.refused || met[j].refused;
+    }
+    if (all.wish == no_cavity && !all.refused) continue;
+    for (std::size_t k = i; k < j; ++k) {
+      if (k > i && met[k].rank == met[k - 1].rank) continue;
+      all.rank = met[k].rank;
+      answers.push_back(all);
     }
   }
-  const std::vector<Veto> arrived =
-      mesh::deliver(communicator, answers, [](const Veto& v) { return v.rank; });
-  std::vector<SharedToken> refused;
-  for (const Veto& v : arrived) refused.push_back(v.token);
-  std::sort(refused.begin(), refused.end());
+  std::vector<Voice> arrived = deliver(communicator, answers, [](const Voice& v) { return v.rank; });
+  sort_by(arrived, [](const Voice& a, const Voice& b) { return a.token < b.token; });
+  return arrived;
+}
+
+const Voice* find_answer(const std::vector<Voice>& answers, SharedToken token) {
+  const auto at = std::lower_bound(answers.begin(), answers.end(), token,
+                                   [](const Voice& v, SharedToken t) { return v.token < t; });
+  return at != answers.end() && at->token == token ? &*at : nullptr;
+}
+
+/// All pieces wish the same for shared vertices.
+void spread_wishes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                   CavityWishes& wishes) {
+  std::vector<Voice> voices;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
+      voices.push_back({piece.shared_tokens[s], wishes[p][piece.shared_vertices[s]], communicator.rank(), 0});
+  }
+  const std::vector<Voice> answers = agree_on(communicator, voices);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const Piece& piece = mesh.pieces[p];
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      if (std::binary_search(refused.begin(), refused.end(), piece.shared_tokens[s]))
-        wishes[p][piece.shared_vertices[s]] = no_cavity;
+      if (const Voice* answer = find_answer(answers, piece.shared_tokens[s]))
+        wishes[p][piece.shared_vertices[s]] = answer->wish;
+    }
+  }
+}
+
+/// 1 for the vertices of tetrahedra that different cavities wish for.
+std::vector<char> find_contested(const Piece& piece, const std::vector<CavityId>& wishes) {
+  std::vector<char> contested(piece.vertex_count(), 0);
+  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+    const LocalIndex* v = piece.cell(c);
+    CavityId met = no_cavity;
+    bool several = false;
+    for (int k = 0; k < 4; ++k) {
+      if (wishes[v[k]] == no_cavity) continue;
+      several = several || (met != no_cavity && met != wishes[v[k]]);
+      met = wishes[v[k]];
+    }
+    for (int k = 0; several && k < 4; ++k) contested[v[k]] = 1;
+  }
+  return contested;
+}
+
+/// Withdraws wishes of vertices with a neighbour in another cavity, in any piece.
+void settle_wishes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                   CavityWishes& wishes) {
+  std::vector<Voice> voices;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    const std::vector<char> contested = find_contested(piece, wishes[p]);
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+      const LocalIndex v = piece.shared_vertices[s];
+      if (wishes[p][v] != no_cavity)
+        voices.push_back({piece.shared_tokens[s], wishes[p][v], communicator.rank(), contested[v]});
+    }
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (contested[v]) wishes[p][v] = no_cavity;
+    }
+  }
+  const std::vector<Voice> answers = agree_on(communicator, voices);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const Piece& piece = mesh.pieces[p];
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+      const Voice* answer = find_answer(answers, piece.shared_tokens[s]);
+      if (answer && answer->refused) wishes[p][piece.shared_vertices[s]] = no_cavity;
     }
   }
 }
@@ -196,7 +241,7 @@ void mark_triangles(const Piece& piece, const std::vector<CavityId>& of_cell,
   std::vector<Face> faces;
   for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
     if (of_cell[c] == no_cavity) continue;
-    for (const auto& f : mesh::tetrahedron_faces) {
+    for (const auto& f : tetrahedron_faces) {
       const LocalIndex* v = piece.cell(c);
       if (!on_boundary[v[f[0]]] || !on_boundary[v[f[1]]] || !on_boundary[v[f[2]]]) continue;
       faces.push_back({sorted({v[f[0]], v[f[1]], v[f[2]]}), of_cell[c]});
@@ -213,7 +258,7 @@ void mark_triangles(const Piece& piece, const std::vector<CavityId>& of_cell,
   }
 }
 
-Contribution collect(const mesh::DistributedMesh& mesh, const CavityWishes& wishes, int round) {
+Contribution collect(const DistributedMesh& mesh, const CavityWishes& wishes, int round) {
   Contribution result;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const Piece& piece = mesh.pieces[p];
@@ -287,18 +332,18 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
 /// A cavity on the rank that refills it.
 struct OwnedCavity {
   Cavity cavity;
-  std::vector<SharedToken> tokens;    ///< per point, ascending
-  std::vector<std::int32_t> entity;   ///< per point
-  PieceId taker = -1;                 ///< the piece most of it comes from
+  std::vector<SharedToken> tokens;   ///< per point, ascending
+  std::vector<std::int32_t> entity;  ///< per point
+  PieceId taker = -1;                ///< the piece most of it comes from
   std::optional<Refilling> refilling;
 };
 
 std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
                                   Contribution& mine) {
   const auto owner = [&](const auto& item) { return table.owner(item.cavity); };
-  auto tets = mesh::deliver(communicator, mine.tets, owner);
-  auto vertices = mesh::deliver(communicator, mine.vertices, owner);
-  auto triangles = mesh::deliver(communicator, mine.triangles, owner);
+  auto tets = deliver(communicator, mine.tets, owner);
+  auto vertices = deliver(communicator, mine.vertices, owner);
+  auto triangles = deliver(communicator, mine.triangles, owner);
   mine.tets = {};
   mine.vertices = {};
   mine.triangles = {};
@@ -386,8 +431,8 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
             {id, owned.tokens[v], owned.cavity.points[v], owned.cavity.dimension[v], owned.entity[v]});
     }
     for (std::size_t i = 0; i < owned.refilling->added.size(); ++i)
-      out.vertices.push_back({id, token(known + static_cast<LocalIndex>(i)), owned.refilling->added[i], 3,
-                              owned.cavity.region});
+      out.vertices.push_back(
+          {id, token(known + static_cast<LocalIndex>(i)), owned.refilling->added[i], 3, owned.cavity.region});
     for (const CavityTriangle& t : owned.cavity.triangles)
       out.triangles.push_back(
           {id, {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])}, t.face, t.patch});
@@ -398,9 +443,9 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     return owner_of_piece[at->taker];
   };
   Delivery in;
-  in.tets = mesh::deliver(communicator, out.tets, taker_rank);
-  in.vertices = mesh::deliver(communicator, out.vertices, taker_rank);
-  in.triangles = mesh::deliver(communicator, out.triangles, taker_rank);
+  in.tets = deliver(communicator, out.tets, taker_rank);
+  in.vertices = deliver(communicator, out.vertices, taker_rank);
+  in.triangles = deliver(communicator, out.triangles, taker_rank);
   std::stable_sort(in.tets.begin(), in.tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.piece != b.piece ? a.piece < b.piece : a.cavity < b.cavity;
   });
@@ -533,7 +578,7 @@ private:
   std::vector<Named> _names;
 };
 
-void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine, const std::vector<Outcome>& outcomes,
+void update_pieces(DistributedMesh& mesh, const Contribution& mine, const std::vector<Outcome>& outcomes,
                    const Delivery& delivery) {
   const auto outcome_of = [&](CavityId id) {
     return std::lower_bound(outcomes.begin(), outcomes.end(), id,
@@ -577,14 +622,28 @@ void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine, const 
 
 }  // namespace
 
+CavityId cavity_at(Vec3 p, double size, double width, int shift) {
+  // Far from each other in every direction, so that few places are at borders twice.
+  constexpr double step[3] = {0.5, 0.382, 0.618}, level_step = 0.38;
+  const double level = std::floor(std::log2(width * size) / 3 + level_step * shift);
+  const double edge = std::exp2(3 * (level + 1 - level_step * shift));
+  const auto bits = [](double whole) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(whole)); };
+  std::uint64_t id = mix_in(static_cast<std::uint64_t>(shift), bits(level));
+  for (int axis = 0; axis < 3; ++axis) id = mix_in(id, bits(std::floor(p[axis] / edge + shift * step[axis])));
+  return id == no_cavity ? CavityId{1} : id;
+}
+
 bool is_placed_by_refilling(SharedToken token) {
   return token >> 62 == 3;
 }
 
-CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, int round, const RefillCavity& refill,
+CavityRound refill_cavities(const parallel::Communicator& communicator, DistributedMesh& mesh,
+                            const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock) {
+  const int round = mesh.cavity_rounds++;
+  if (round >= most_rounds) throw std::logic_error("refill_cavities: too many rounds");
   CavityWishes settled = wishes;
+  spread_wishes(communicator, mesh, settled);
   settle_wishes(communicator, mesh, settled);
   Contribution mine;
   {
@@ -606,7 +665,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   std::sort(outcomes.begin(), outcomes.end(),
             [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
-  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(communicator, mesh, here);
+  const std::vector<parallel::Rank> owner_of_piece = gather_by_piece(communicator, mesh, here);
   const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
@@ -618,4 +677,4 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   return result;
 }
 
-}  // namespace aeroloom::pipeline
+}  // namespace aeroloom::mesh
