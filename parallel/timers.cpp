@@ -76,37 +76,39 @@ std::int64_t resident_bytes() {
 }
 
 void StageClock::begin(const std::string& name) {
-  if (_open) throw std::logic_error("stage '" + name + "' begins inside '" + _costs.back().name + "'");
+  if (_open) throw std::logic_error("stage '" + name + "' begins inside '" + current().name + "'");
   restart_peak();
   _open = true;
-  _costs.push_back({});
-  _costs.back().name = name;
+  const auto known =
+      std::find_if(_costs.begin(), _costs.end(), [&](const StageCost& cost) { return cost.name == name; });
+  _current = static_cast<std::size_t>(known - _costs.begin());
+  if (known == _costs.end()) _costs.emplace_back().name = name;
   _wall_start = wall_seconds();
 }
 
 void StageClock::end() {
   if (!_open) throw std::logic_error("a stage ends that has not begun");
-  StageCost& cost = _costs.back();
-  cost.wall_seconds = wall_seconds() - _wall_start;
+  StageCost& cost = current();
+  cost.wall_seconds += wall_seconds() - _wall_start;
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, status_bytes("VmHWM"));
   _open = false;
 }
 
 void StageClock::add_task_cpu(double seconds) {
-  if (_open) _costs.back().task_cpu_seconds += seconds;
+  if (_open) current().task_cpu_seconds += seconds;
 }
 
 void StageClock::add_serial_cpu(double seconds) {
-  if (_open) _costs.back().serial_cpu_seconds += seconds;
+  if (_open) current().serial_cpu_seconds += seconds;
 }
 
 void StageClock::add_pieces(std::int64_t count) {
-  if (_open) _costs.back().pieces += count;
+  if (_open) current().pieces += count;
 }
 
 void StageClock::note_child_memory(std::int64_t bytes) {
   if (!_open) return;
-  std::int64_t& peak = _costs.back().peak_resident_bytes;
+  std::int64_t& peak = current().peak_resident_bytes;
   peak = std::max(peak, resident_bytes() + bytes);
 }
 

@@ -42,7 +42,7 @@ struct StageSummary {
 /// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
 class StageClock {
 public:
-  /// Throws std::logic_error when a stage is open.
+  /// A stage begun again goes on where it was. Throws std::logic_error when a stage is open.
   void begin(const std::string& name);
   void end();
   /// Adds to the open stage; ignored when none is open.
@@ -56,7 +56,10 @@ public:
   std::vector<StageSummary> summarise(const Communicator& communicator) const;
 
 private:
-  std::vector<StageCost> _costs;
+  StageCost& current() { return _costs[_current]; }
+
+  std::vector<StageCost> _costs;  // in the order in which they were begun first
+  std::size_t _current = 0;
   bool _open = false;
   double _wall_start = 0;
 };

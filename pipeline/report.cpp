@@ -143,6 +143,60 @@ Json regions_json(const RunRecord& record) {
   return json;
 }
 
+Json decompose_json(const RunRecord& record) {
+  const VolumePlanReport& plan = record.plan;
+  return {{"pieces", record.parts},
+          {"cells", plan.cells},
+          {"coarse_triangles", plan.coarse_triangles},
+          {"background_tetrahedra", plan.background_tets},
+          {"clusters", plan.clusters},
+          {"largest_cluster", plan.largest_cluster},
+          {"unresolved_wedges", plan.unresolved},
+          {"moved_clusters", plan.moves},
+          {"pinches", plan.pinches},
+          {"rounds", plan.rounds},
+          {"imbalance", plan.imbalance},
+          {"interface_triangles", record.interface_triangles},
+          {"moved_vertices", record.moved_vertices}};
+}
+
+Json interfaces_json(const InterfaceAngles& angles) {
+  Json sharpest = Json::array();
+  for (const SharpInterface& s : angles.sharpest) {
+    sharpest.push_back({{"point", {s.point.x, s.point.y, s.point.z}},
+                        {"degrees", s.angle},
+                        {"degrees_of_all_pieces", s.whole_angle}});
+  }
+  return {{"edges", angles.edges},
+          {"smallest_deg", angles.edges > 0 ? Json(angles.smallest) : Json()},
+          {"counts_by_10_deg", angles.histogram},
+          {"below_35_deg", angles.below},
+          {"forced", angles.forced},
+          {"sharpest", sharpest}};
+}
+
+Json volume_json(const RunRecord& record) {
+  Json merges = Json::array();
+  for (const Merge& merge : record.volume.merges)
+    merges.push_back({{"piece", merge.part}, {"with", merge.with}, {"reason", merge.reason}});
+  const ErasureReport& erasure = record.erasure;
+  return {{"steiner_points", record.volume.steiner_points},
+          {"attempts", record.volume.attempts},
+          {"merges", merges},
+          {"load_error_90", record.volume.load_error_90},
+          {"interface_angles", interfaces_json(record.volume.angles)},
+          {"erasure",
+           {{"rounds", erasure.rounds},
+            {"cavities", erasure.cavities},
+            {"refilled", erasure.refilled},
+            {"vertices_before", erasure.vertices_before},
+            {"vertices_left", erasure.vertices_left},
+            {"mean_ratio_refilled", erasure.mean_ratio_refilled},
+            {"mean_ratio_elsewhere", erasure.mean_ratio_elsewhere}}},
+          {"good_edges", record.conformity.good_edges},
+          {"mean_edge", record.conformity.mean_edge}};
+}
+
 Json stages_json(const std::vector<parallel::StageSummary>& stages) {
   Json json = Json::array();
   for (const parallel::StageSummary& stage : stages) {
@@ -178,7 +232,8 @@ std::string report_json(const Case& input, const RunRecord& record,
   json["surface"] = surface_json(record);
   json["mesh"] = mesh_json(record);
   if (record.quality) json["quality"] = quality_json(*record.quality);
-  json["volume"] = {{"steiner_points", record.volume.steiner_points}, {"attempts", record.volume.attempts}};
+  json["decompose"] = decompose_json(record);
+  json["volume"] = volume_json(record);
   json["improve"] = {{"bad_before", record.improve.bad_before},
                      {"bad_after", record.improve.bad_after},
                      {"smoothed", record.improve.smoothed},

@@ -212,9 +212,8 @@ struct Decomposition {
 /// Angles between fine triangles are repaired up to this, degrees: a margin to what is asked for in the end.
 constexpr double widest_repair = 40;
 
-Decomposition decompose(const Communicator& communicator, const geometry::Model& model,
-                        const FinishedSurface& surface, const Case& input, RunRecord& record) {
-  record.predicted = sizing::predict_counts(communicator, model, surface.field, record.clock);
+Decomposition decompose(const Communicator& communicator, const FinishedSurface& surface, const Case& input,
+                        RunRecord& record) {
   VolumePlanOptions options;
   options.piece_tets = static_cast<double>(input.piece_tets);
   options.predicted_tets = record.predicted.tetrahedra;
@@ -224,18 +223,17 @@ Decomposition decompose(const Communicator& communicator, const geometry::Model&
       plan_volume(communicator, surface.mesh, surface.numbering, surface.field, options, record.clock);
   result.interfaces =
       mesh_interfaces(communicator, result.plan, surface.numbering.vertex_count, surface.field, record.clock);
-  const std::int64_t moved =
+  record.moved_vertices =
       widen_interfaces(communicator, surface.mesh, surface.numbering, result.plan,
                        std::min(input.interface_angle, widest_repair), result.interfaces, record.clock);
-  parallel::log_verbose(fmt::format("decompose: {} vertices of interfaces moved to open angles", moved));
   record.plan = result.plan.report;
   record.parts = result.plan.parts;
   record.interface_triangles = result.interfaces.triangle_count;
-  parallel::log_info(fmt::format(
-      "decompose: predicted {:.3g} tetrahedra, {} piece(s) from {} background tetrahedra in {} clusters, "
-      "heaviest {:.2f} of the mean; {} triangles on interfaces",
-      record.predicted.tetrahedra, record.parts, record.plan.background_tets, record.plan.clusters,
-      record.plan.imbalance, record.interface_triangles));
+  parallel::log_info(
+      fmt::format("decompose: {} piece(s) from {} background tetrahedra in {} clusters, "
+                  "heaviest {:.2f} of the mean; {} triangles on interfaces",
+                  record.parts, record.plan.background_tets, record.plan.clusters, record.plan.imbalance,
+                  record.interface_triangles));
   return result;
 }
 
@@ -316,11 +314,16 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
     return build_sizes(communicator, loaded, input, input.narrow_faces, record);
   });
+  run_stage(record, "decompose", ExitCode::resources, [&] {
+    record.predicted = sizing::predict_counts(communicator, sized.model, sized.field, record.clock);
+    parallel::log_info(fmt::format("decompose: predicted {:.3g} triangles, {:.3g} tetrahedra",
+                                   record.predicted.triangles, record.predicted.tetrahedra));
+  });
   const FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface(communicator, loaded, input, sized, record);
   });
   std::optional<Decomposition> decomposition = run_stage(record, "decompose", ExitCode::resources, [&] {
-    return std::optional(decompose(communicator, sized.model, surface, input, record));
+    return std::optional(decompose(communicator, surface, input, record));
   });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
     const BoundaryMeshes boundary{surface.mesh, surface.numbering, decomposition->interfaces};
@@ -345,6 +348,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
           record.erasure.rounds, record.erasure.refilled, record.erasure.cavities));
     }
     inspect_volume(communicator, filled, surface.mesh, record);
+    record.conformity = measure_conformity(communicator, filled, surface.field);
     parallel::log_info(
         fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));
     return filled;

@@ -11,6 +11,7 @@
 #include "pipeline/erase_interfaces.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/mesh_volume.hpp"
+#include "pipeline/size_conformity.hpp"
 #include "sizing/size_field.hpp"
 #include "surface/surface_mesher.hpp"
 
@@ -53,8 +54,10 @@ struct RunRecord {
   VolumePlanReport plan;
   std::int32_t parts = 0;                ///< of the volume, before any were merged
   std::int64_t interface_triangles = 0;  ///< between them
+  std::int64_t moved_vertices = 0;       ///< of interfaces, to open small angles
   VolumeReport volume;
   ErasureReport erasure;
+  SizeConformity conformity;  ///< before improvement
   improve::ImproveReport improve;
   mesh::MeshCounts counts;
   double mesh_volume = 0;

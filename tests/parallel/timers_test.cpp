@@ -81,6 +81,19 @@ TEST(StageClockTest, AddsToTheOpenStageOnly) {
   EXPECT_GT(cost.peak_resident_bytes, 0);
 }
 
+TEST(StageClockTest, GoesOnWithAStageBegunAgain) {
+  StageClock clock;
+  for (const char* name : {"decompose", "surface", "decompose"}) {
+    clock.begin(name);
+    clock.add_task_cpu(1.5);
+    clock.end();
+  }
+  ASSERT_EQ(clock.costs().size(), 2u);
+  EXPECT_EQ(clock.costs()[0].name, "decompose");
+  EXPECT_EQ(clock.costs()[0].task_cpu_seconds, 3);
+  EXPECT_EQ(clock.costs()[1].task_cpu_seconds, 1.5);
+}
+
 TEST(StageClockTest, RefusesNestedStages) {
   StageClock clock;
   EXPECT_THROW(clock.end(), std::logic_error);

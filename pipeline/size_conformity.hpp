@@ -1,0 +1,21 @@
+/// How well a mesh keeps to the sizes asked for.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "sizing/size_field.hpp"
+
+namespace aeroloom::pipeline {
+
+struct SizeConformity {
+  /// Part of the edges with 0.7 to 1.4 times the mean size of their ends; an edge counts as often as it has
+  /// tetrahedra.
+  double good_edges = 0;
+  double mean_edge = 0;  ///< in local sizes
+};
+
+/// Collective. A report: sums depend on how pieces are spread over ranks in the last bits.
+SizeConformity measure_conformity(const parallel::Communicator& communicator,
+                                  const mesh::DistributedMesh& mesh, const sizing::SizeField& field);
+
+}  // namespace aeroloom::pipeline
