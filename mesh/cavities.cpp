@@ -258,6 +258,12 @@ void mark_triangles(const Piece& piece, const std::vector<CavityId>& of_cell,
   }
 }
 
+/// A cavity lies in one region: a wish on the face between two makes one on either side.
+CavityId within_region(CavityId wish, RegionId region) {
+  const CavityId id = mix_in(wish, static_cast<std::uint64_t>(region));
+  return id == no_cavity ? CavityId{1} : id;
+}
+
 Contribution collect(const DistributedMesh& mesh, const CavityWishes& wishes, int round) {
   Contribution result;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
@@ -267,8 +273,9 @@ Contribution collect(const DistributedMesh& mesh, const CavityWishes& wishes, in
     std::vector<std::pair<CavityId, LocalIndex>> used;
     for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
       const LocalIndex* v = piece.cell(c);
-      of_cell[c] = cavity_of(wishes[p], v, 4);
-      if (of_cell[c] == no_cavity) continue;
+      const CavityId wish = cavity_of(wishes[p], v, 4);
+      if (wish == no_cavity) continue;
+      of_cell[c] = within_region(wish, piece.region);
       result.tets.push_back(
           {of_cell[c], piece.id, piece.region, {token[v[0]], token[v[1]], token[v[2]], token[v[3]]}});
       for (int k = 0; k < 4; ++k) used.push_back({of_cell[c], v[k]});

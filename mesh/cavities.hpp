@@ -60,10 +60,11 @@ struct CavityRound {
 /// Whether a vertex with this token was placed by a refilling.
 bool is_placed_by_refilling(SharedToken token);
 
-/// One round. A vertex's star is taken when no neighbour is wished for by another cavity, so cavities do not
-/// touch in a tetrahedron; the others have to wait for another round with other wishes. Then the stars of
-/// their neighbours are taken as well, where these lie inside a piece and near one cavity only. Deals
-/// cavities out by size. At most 255 rounds on one mesh. Collective. Throws CollectiveError.
+/// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
+/// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
+/// another round with other wishes. Then the stars of their neighbours are taken as well, where these lie
+/// inside a piece and near one cavity only. Deals cavities out by size. At most 255 rounds on one mesh.
+/// Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, DistributedMesh& mesh,
                             const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock);

@@ -13,7 +13,7 @@ namespace aeroloom::partition {
 
 struct CellOptions {
   double width = 14;    ///< of a cell, in local sizes, about
-  double turning = 90;  ///< degrees the surface turns from one end of a cell to the other, about
+  double turning = 60;  ///< degrees the surface turns from one end of a cell to the other, about
 };
 
 /// A patch of a fine surface.

@@ -123,6 +123,7 @@ void declare_stages(KeyTable& root, Case& result) {
                                           {"aborts", VolumeOptions::Sabotage::aborts},
                                           {"hangs", VolumeOptions::Sabotage::hangs},
                                           {"exhausts_memory", VolumeOptions::Sabotage::exhausts_memory}});
+  volume.integer("inject_piece", result.sabotaged_piece, Range::between(-1, 1e9));
   KeyTable& improve = root.section("improve");
   improve.flag("enabled", result.improve.enabled);
   improve.number("target_angle", result.improve.target_angle, Range::between(0, 60, "degrees"));

@@ -219,6 +219,7 @@ ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh:
   ErasureReport report;
   volume::VolumeOptions once = options;
   once.retries = 1;
+  once.sabotage = volume::VolumeOptions::Sabotage::none;  // it is meant for the pieces
   report.vertices_before = report.vertices_left = count_left(communicator, mesh, first_token);
   for (int round = 0; round < most_rounds && report.vertices_left > 0; ++round) {
     const CavityWishes wishes = round == 0 ? wish_by_pieces(communicator, mesh, first_token)

@@ -145,7 +145,7 @@ public:
 private:
   void fill(std::int32_t part, PieceBoundary& boundary, std::vector<Failure>& failures) {
     try {
-      volume::FilledVolume filled = volume::fill_volume(boundary.surface, _task.field, _task.options);
+      volume::FilledVolume filled = volume::fill_volume(boundary.surface, _task.field, options_for(part));
       _report.steiner_points += filled.steiner_points;
       _report.attempts = std::max(_report.attempts, filled.attempts);
       _clock.add_task_cpu(filled.cpu_seconds);
@@ -174,6 +174,15 @@ private:
       throw std::runtime_error(where +
                                explain(error, boundary, _task.boundary.surface.faces, _task.offenders_file));
     }
+  }
+
+  volume::VolumeOptions options_for(std::int32_t part) const {
+    volume::VolumeOptions options = _task.options;
+    if (_task.sabotaged < 0) return options;
+    bool alone = true;
+    for (std::int32_t p = 0; p < _parts.count(); ++p) alone = alone && (p == part || _parts.root(p) != part);
+    if (part != _task.sabotaged || !alone) options.sabotage = volume::VolumeOptions::Sabotage::none;
+    return options;
   }
 
   /// Merges each failed part with its neighbour, on every rank alike; returns which parts are to be filled

@@ -38,7 +38,8 @@ struct VolumeTask {
   const VolumePlan& plan;
   const sizing::SizeField& field;
   const volume::VolumeOptions& options;
-  std::string offenders_file;  ///< triangles of a failure are written there
+  std::string offenders_file;   ///< triangles of a failure are written there
+  std::int64_t sabotaged = -1;  ///< the part that the options' sabotage strikes until it is merged; -1: all
 };
 
 /// Fills the parts, dealt out largest first. A part that no rung of the ladder fills is merged with its

@@ -327,10 +327,11 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
     const BoundaryMeshes boundary{surface.mesh, surface.numbering, decomposition->interfaces};
-    mesh::DistributedMesh filled = mesh_volume(communicator,
-                                               {sized.model, boundary, decomposition->plan, surface.field,
-                                                input.volume, directory + "/offending_triangles.vtp"},
-                                               record.clock, record.volume);
+    mesh::DistributedMesh filled =
+        mesh_volume(communicator,
+                    {sized.model, boundary, decomposition->plan, surface.field, input.volume,
+                     directory + "/offending_triangles.vtp", input.sabotaged_piece},
+                    record.clock, record.volume);
     decomposition.reset();
     const InterfaceAngles& angles = record.volume.angles;
     if (angles.edges > 0) {

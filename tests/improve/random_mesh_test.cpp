@@ -1,6 +1,8 @@
 #include "improve/improver.hpp"
 #include "tests/improve/shaken.hpp"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace aeroloom::improve {
@@ -14,24 +16,21 @@ using mesh::DistributedMesh;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// The points of shared vertices by token.
-std::map<mesh::SharedToken, std::array<double, 3>> shared_points(const Piece& piece) {
-  std::map<mesh::SharedToken, std::array<double, 3>> points;
-  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-    const Vec3 p = piece.point(piece.shared_vertices[s]);
-    points[piece.shared_tokens[s]] = {p.x, p.y, p.z};
+/// The boundary triangles of all pieces with their corners, face and patch; what piece they are in may
+/// change.
+std::multiset<std::vector<double>> boundary_triangles(const std::vector<Piece>& pieces) {
+  std::multiset<std::vector<double>> triangles;
+  for (const Piece& piece : pieces) {
+    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+      std::vector<double> row{double(piece.triangle_face[t]), double(piece.triangle_patch[t])};
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 p = piece.point(piece.boundary_triangle(t)[k]);
+        row.insert(row.end(), {p.x, p.y, p.z});
+      }
+      triangles.insert(row);
+    }
   }
-  return points;
-}
-
-/// The corners of the boundary triangles in order.
-std::vector<double> boundary_points(const Piece& piece) {
-  std::vector<double> points;
-  for (const LocalIndex v : piece.boundary) {
-    const Vec3 p = piece.point(v);
-    points.insert(points.end(), {p.x, p.y, p.z});
-  }
-  return points;
+  return triangles;
 }
 
 class RandomMesh : public testing::TestWithParam<std::uint32_t> {};
@@ -50,8 +49,7 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   const Extremes after = examine(mesh.pieces, options.target_angle);
   expect_valid(self, mesh);
   EXPECT_GT(after.quality, before.quality);
-  // Interfaces are shaken too, but must stay as they are.
-  EXPECT_GT(after.angle, pieces == 1 ? 12 : 3) << "from " << before.angle;
+  EXPECT_GT(after.angle, pieces == 1 ? 12 : 8) << "from " << before.angle;
   EXPECT_LT(after.bad, before.bad / 4);
   EXPECT_EQ(report.bad_before, before.bad);
   EXPECT_EQ(report.bad_after, after.bad);
@@ -59,13 +57,9 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   EXPECT_EQ(report.min_angle_after, after.angle);
   EXPECT_GT(report.swaps, 0);
   EXPECT_GT(report.smoothed, 0);
-  for (std::size_t p = 0; p < old.size(); ++p) {
-    EXPECT_EQ(boundary_points(mesh.pieces[p]), boundary_points(old[p]));
-    EXPECT_EQ(mesh.pieces[p].triangle_face, old[p].triangle_face);
-    EXPECT_EQ(mesh.pieces[p].triangle_patch, old[p].triangle_patch);
-    EXPECT_EQ(shared_points(mesh.pieces[p]), shared_points(old[p]));
-    EXPECT_TRUE(std::is_sorted(mesh.pieces[p].shared_vertices.begin(), mesh.pieces[p].shared_vertices.end()));
-  }
+  EXPECT_EQ(boundary_triangles(mesh.pieces), boundary_triangles(old));
+  for (const Piece& piece : mesh.pieces)
+    EXPECT_TRUE(std::is_sorted(piece.shared_vertices.begin(), piece.shared_vertices.end()));
 }
 
 // What improved once is worked on again with a higher target: states no random mesh starts from.
