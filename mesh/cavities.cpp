@@ -1,13 +1,14 @@
 #include "mesh/cavities.hpp"
 
+#include "mesh/cavity_wishes.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/piece_update.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/schedule.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -30,24 +31,6 @@ SharedToken token_of_new(int round, std::int64_t index) {
   return late_token | new_token | (static_cast<SharedToken>(round) << 54) | static_cast<SharedToken>(index);
 }
 
-struct WireTet {
-  CavityId cavity;
-  PieceId piece;
-  RegionId region;
-  std::array<SharedToken, 4> vertices;
-};
-struct WireVertex {
-  CavityId cavity;
-  SharedToken token;
-  Vec3 point;
-  std::int32_t dimension, entity;
-};
-struct WireTriangle {
-  CavityId cavity;
-  std::array<SharedToken, 3> vertices;
-  std::int32_t face, patch;
-};
-
 /// What became of a cavity; the same on every rank.
 struct Outcome {
   CavityId cavity;
@@ -67,151 +50,6 @@ std::vector<SharedToken> tokens_of(const Piece& piece, int round) {
   for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
     tokens[piece.shared_vertices[s]] = piece.shared_tokens[s];
   return tokens;
-}
-
-/// A wish, or a refusal, for a shared vertex on its way to the other pieces.
-struct Voice {
-  SharedToken token;
-  CavityId wish;
-  parallel::Rank rank;
-  std::int32_t refused;
-};
-
-/// Brings together what the pieces say of each shared vertex: `mine` has a row per piece and vertex. The
-/// answers are for the vertices on this rank that anyone has a wish or a refusal for, by token: the highest
-/// wish, and whether anyone refused.
-std::vector<Voice> agree_on(const parallel::Communicator& communicator, const std::vector<Voice>& mine) {
-  std::vector<Voice> met = deliver(communicator, mine, [&](const Voice& v) {
-    return meeting_rank(mix_in(0, v.token), communicator.size());
-  });
-  sort_by(met, [](const Voice& a, const Voice& b) {
-    return a.token != b.token ? a.token < b.token : a.rank < b.rank;
-  });
-  std::vector<Voice> answers;
-  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    Voice all{met[i].token, no_cavity, 0, 0};
-    for (; j < met.size() && met[j].token == met[i].token; ++j) {
-      all.wish = std::max(all.wish, met[j].wish);
-      all.refused = all.refused || met[j].refused;
-    }
-    if (all.wish == no_cavity && !all.refused) continue;
-    for (std::size_t k = i; k < j; ++k) {
-      if (k > i && met[k].rank == met[k - 1].rank) continue;
-      all.rank = met[k].rank;
-      answers.push_back(all);
-    }
-  }
-  std::vector<Voice> arrived = deliver(communicator, answers, [](const Voice& v) { return v.rank; });
-  sort_by(arrived, [](const Voice& a, const Voice& b) { return a.token < b.token; });
-  return arrived;
-}
-
-const Voice* find_answer(const std::vector<Voice>& answers, SharedToken token) {
-  const auto at = std::lower_bound(answers.begin(), answers.end(), token,
-                                   [](const Voice& v, SharedToken t) { return v.token < t; });
-  return at != answers.end() && at->token == token ? &*at : nullptr;
-}
-
-/// All pieces wish the same for shared vertices.
-void spread_wishes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                   CavityWishes& wishes) {
-  std::vector<Voice> voices;
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const Piece& piece = mesh.pieces[p];
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-      voices.push_back({piece.shared_tokens[s], wishes[p][piece.shared_vertices[s]], communicator.rank(), 0});
-  }
-  const std::vector<Voice> answers = agree_on(communicator, voices);
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const Piece& piece = mesh.pieces[p];
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      if (const Voice* answer = find_answer(answers, piece.shared_tokens[s]))
-        wishes[p][piece.shared_vertices[s]] = answer->wish;
-    }
-  }
-}
-
-/// 1 for the vertices of tetrahedra that different cavities wish for.
-std::vector<char> find_contested(const Piece& piece, const std::vector<CavityId>& wishes) {
-  std::vector<char> contested(piece.vertex_count(), 0);
-  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
-    const LocalIndex* v = piece.cell(c);
-    CavityId met = no_cavity;
-    bool several = false;
-    for (int k = 0; k < 4; ++k) {
-      if (wishes[v[k]] == no_cavity) continue;
-      several = several || (met != no_cavity && met != wishes[v[k]]);
-      met = wishes[v[k]];
-    }
-    for (int k = 0; several && k < 4; ++k) contested[v[k]] = 1;
-  }
-  return contested;
-}
-
-/// Withdraws wishes of vertices with a neighbour in another cavity, in any piece.
-void settle_wishes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                   CavityWishes& wishes) {
-  std::vector<Voice> voices;
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const Piece& piece = mesh.pieces[p];
-    const std::vector<char> contested = find_contested(piece, wishes[p]);
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      const LocalIndex v = piece.shared_vertices[s];
-      if (wishes[p][v] != no_cavity)
-        voices.push_back({piece.shared_tokens[s], wishes[p][v], communicator.rank(), contested[v]});
-    }
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (contested[v]) wishes[p][v] = no_cavity;
-    }
-  }
-  const std::vector<Voice> answers = agree_on(communicator, voices);
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const Piece& piece = mesh.pieces[p];
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      const Voice* answer = find_answer(answers, piece.shared_tokens[s]);
-      if (answer && answer->refused) wishes[p][piece.shared_vertices[s]] = no_cavity;
-    }
-  }
-}
-
-CavityId cavity_of(const std::vector<CavityId>& wishes, const LocalIndex* vertices, int count) {
-  for (int k = 0; k < count; ++k) {
-    if (wishes[vertices[k]] != no_cavity) return wishes[vertices[k]];
-  }
-  return no_cavity;
-}
-
-/// Adds the inner vertices next to each cavity: to it, if they are next to no other.
-void widen(const Piece& piece, std::vector<CavityId>& wishes) {
-  std::vector<char> barred(piece.vertex_count(), 0);
-  for (const LocalIndex v : piece.shared_vertices) barred[v] = 1;
-  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (piece.vertex_dimension[v] < 3 || wishes[v] != no_cavity) barred[v] = 1;
-  }
-  std::vector<CavityId> next(piece.vertex_count(), no_cavity);
-  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
-    const LocalIndex* v = piece.cell(c);
-    const CavityId cavity = cavity_of(wishes, v, 4);
-    if (cavity == no_cavity) continue;
-    for (int k = 0; k < 4; ++k) {
-      if (barred[v[k]]) continue;
-      if (next[v[k]] == no_cavity) next[v[k]] = cavity;
-      if (next[v[k]] != cavity) barred[v[k]] = 1, next[v[k]] = no_cavity;
-    }
-  }
-  for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
-    const LocalIndex* v = piece.cell(c);
-    const CavityId settled = cavity_of(wishes, v, 4), cavity = cavity_of(next, v, 4);
-    if (cavity == no_cavity) continue;
-    for (int k = 0; k < 4; ++k) {
-      const CavityId other = next[v[k]];
-      if (other == no_cavity || (other == cavity && (settled == no_cavity || settled == other))) continue;
-      for (int i = 0; i < 4; ++i) barred[v[i]] = 1;
-    }
-  }
-  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (!barred[v]) wishes[v] = next[v];
-  }
 }
 
 std::array<LocalIndex, 3> sorted(std::array<LocalIndex, 3> v) {
@@ -465,126 +303,6 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
   return in;
 }
 
-/// A piece without what was taken and with what it got.
-class PieceUpdate {
-public:
-  PieceUpdate(const Piece& old, const std::vector<SharedToken>& tokens) : _old(old), _tokens(tokens) {
-    _number.assign(old.vertex_count(), -1);
-    _named.assign(old.vertex_count(), 0);
-    for (const LocalIndex v : old.shared_vertices) _named[v] = 1;
-    _piece.id = old.id;
-    _piece.kind = old.kind;
-    _piece.region = old.region;
-  }
-
-  /// Vertices of cells that leave: those that stay behind are shared from now on.
-  void leave(LocalIndex cell) {
-    for (int k = 0; k < 4; ++k) _named[_old.cell(cell)[k]] = 1;
-  }
-  void keep(LocalIndex cell) {
-    for (int k = 0; k < 4; ++k) _number[_old.cell(cell)[k]] = 0;
-    _kept.push_back(cell);
-  }
-  void keep_triangle(LocalIndex t) { _kept_triangles.push_back(t); }
-
-  Piece finish(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices,
-               const std::vector<WireTriangle>& triangles) {
-    number_old();
-    std::vector<SharedToken> wanted;
-    for (const WireTet& t : tets) wanted.insert(wanted.end(), t.vertices.begin(), t.vertices.end());
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    add_vertices(wanted, vertices);
-    for (const LocalIndex c : _kept) {
-      for (int k = 0; k < 4; ++k) _piece.cells.push_back(_number[_old.cell(c)[k]]);
-    }
-    for (const WireTet& t : tets) {
-      for (const SharedToken token : t.vertices) _piece.cells.push_back(find(token));
-    }
-    for (const LocalIndex t : _kept_triangles) {
-      for (int k = 0; k < 3; ++k) _piece.boundary.push_back(_number[_old.boundary_triangle(t)[k]]);
-      _piece.triangle_face.push_back(_old.triangle_face[t]);
-      _piece.triangle_patch.push_back(_old.triangle_patch[t]);
-    }
-    for (const WireTriangle& t : triangles) {
-      for (const SharedToken token : t.vertices) _piece.boundary.push_back(find(token));
-      _piece.triangle_face.push_back(t.face);
-      _piece.triangle_patch.push_back(t.patch);
-    }
-    list_shared();
-    return std::move(_piece);
-  }
-
-private:
-  struct Named {
-    SharedToken token;
-    LocalIndex vertex;
-  };
-
-  void number_old() {
-    for (LocalIndex v = 0; v < _old.vertex_count(); ++v) {
-      if (_number[v] < 0) continue;
-      _number[v] = add(_old.point(v), _old.vertex_dimension[v], _old.vertex_entity[v]);
-      if (_named[v]) _names.push_back({_tokens[v], _number[v]});
-    }
-    sort_names();
-  }
-
-  LocalIndex add(Vec3 p, std::int32_t dimension, std::int32_t entity) {
-    const LocalIndex v = _piece.vertex_count();
-    _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
-    _piece.vertex_dimension.push_back(static_cast<std::int8_t>(dimension));
-    _piece.vertex_entity.push_back(entity);
-    return v;
-  }
-
-  void add_vertices(const std::vector<SharedToken>& wanted, const std::vector<WireVertex>& vertices) {
-    std::vector<const WireVertex*> missing;
-    for (const WireVertex& v : vertices) {
-      if (std::binary_search(wanted.begin(), wanted.end(), v.token) && find(v.token) < 0)
-        missing.push_back(&v);
-    }
-    std::sort(missing.begin(), missing.end(),
-              [](const WireVertex* a, const WireVertex* b) { return a->token < b->token; });
-    SharedToken last = 0;
-    std::vector<Named> names;
-    for (const WireVertex* v : missing) {
-      if (!names.empty() && v->token == last) continue;
-      last = v->token;
-      names.push_back({v->token, add(v->point, v->dimension, v->entity)});
-    }
-    _names.insert(_names.end(), names.begin(), names.end());
-    sort_names();
-  }
-
-  void sort_names() {
-    std::sort(_names.begin(), _names.end(), [](const Named& a, const Named& b) { return a.token < b.token; });
-  }
-
-  LocalIndex find(SharedToken token) const {
-    const auto at = std::lower_bound(_names.begin(), _names.end(), token,
-                                     [](const Named& n, SharedToken t) { return n.token < t; });
-    return at != _names.end() && at->token == token ? at->vertex : -1;
-  }
-
-  void list_shared() {
-    std::sort(_names.begin(), _names.end(),
-              [](const Named& a, const Named& b) { return a.vertex < b.vertex; });
-    for (const Named& n : _names) {
-      _piece.shared_vertices.push_back(n.vertex);
-      _piece.shared_tokens.push_back(n.token);
-    }
-  }
-
-  const Piece& _old;
-  const std::vector<SharedToken>& _tokens;
-  Piece _piece;
-  std::vector<LocalIndex> _number;  // new number of an old vertex, -1: gone
-  std::vector<char> _named;
-  std::vector<LocalIndex> _kept, _kept_triangles;
-  std::vector<Named> _names;
-};
-
 void update_pieces(DistributedMesh& mesh, const Contribution& mine, const std::vector<Outcome>& outcomes,
                    const Delivery& delivery) {
   const auto outcome_of = [&](CavityId id) {
@@ -628,17 +346,6 @@ void update_pieces(DistributedMesh& mesh, const Contribution& mine, const std::v
 }
 
 }  // namespace
-
-CavityId cavity_at(Vec3 p, double size, double width, int shift) {
-  // Far from each other in every direction, so that few places are at borders twice.
-  constexpr double step[3] = {0.5, 0.382, 0.618}, level_step = 0.38;
-  const double level = std::floor(std::log2(width * size) / 3 + level_step * shift);
-  const double edge = std::exp2(3 * (level + 1 - level_step * shift));
-  const auto bits = [](double whole) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(whole)); };
-  std::uint64_t id = mix_in(static_cast<std::uint64_t>(shift), bits(level));
-  for (int axis = 0; axis < 3; ++axis) id = mix_in(id, bits(std::floor(p[axis] / edge + shift * step[axis])));
-  return id == no_cavity ? CavityId{1} : id;
-}
 
 bool is_placed_by_refilling(SharedToken token) {
   return token >> 62 == 3;

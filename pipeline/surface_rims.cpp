@@ -11,12 +11,11 @@ using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// The vertex inside a cell that is nearest to its middle, among those no rim passes.
+/// The middle of a cell.
 struct Middle {
   Vec3 weighted;  // sum of centres times areas
   double area = 0;
-  double nearest = 1e300;
-  LocalIndex vertex = -1;
+  double nearest = 1e300;  // distance of a vertex to it
 };
 
 /// A surface piece as cells are grown on it.
@@ -46,6 +45,79 @@ std::vector<std::int32_t> cell_of_vertices(const Piece& piece, const std::vector
   }
   for (const LocalIndex v : piece.shared_vertices) of_vertex[v] = rim;
   return of_vertex;
+}
+
+/// One surface piece and its cells.
+struct PieceCells {
+  const Piece& piece;
+  const std::vector<mesh::GlobalIndex>& number;  // per vertex
+  const std::vector<std::int32_t>& local;        // cell per triangle, numbered within the piece
+  const std::vector<std::int32_t>& global;       // the same over all pieces
+  std::vector<std::int32_t> of_vertex;           // the one cell around a vertex, -1 on rims
+};
+
+/// The sides that have no other triangle of the same cell across, with their vertices.
+void add_rim(const PieceCells& cells, std::vector<partition::RimEdge>& edges,
+             std::vector<partition::FineVertex>& vertices) {
+  struct Side {
+    LocalIndex low, high, from, to;
+    std::int32_t cell;
+  };
+  const Piece& piece = cells.piece;
+  std::vector<Side> sides;
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const LocalIndex from = piece.cell(t)[k], to = piece.cell(t)[(k + 1) % 3];
+      if (cells.of_vertex[from] >= 0 || cells.of_vertex[to] >= 0) continue;
+      sides.push_back({std::min(from, to), std::max(from, to), from, to, cells.global[t]});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return s.low != t.low ? s.low < t.low : s.high != t.high ? s.high < t.high : s.cell < t.cell;
+  });
+  std::vector<char> sent(piece.vertex_count(), 0);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side& side = sides[i];
+    if (i + 1 < sides.size() && sides[i + 1].low == side.low && sides[i + 1].high == side.high &&
+        sides[i + 1].cell == side.cell) {
+      ++i;
+      continue;
+    }
+    edges.push_back({cells.number[side.from], cells.number[side.to], side.cell});
+    for (const LocalIndex v : {side.from, side.to}) {
+      if (sent[v]) continue;
+      sent[v] = 1;
+      vertices.push_back(
+          {cells.number[v], piece.point(v), piece.vertex_dimension[v], piece.vertex_entity[v]});
+    }
+  }
+}
+
+/// The cells of a piece: their areas, and the vertices nearest to their middles.
+void add_cells(const PieceCells& cells, std::int32_t count, std::vector<partition::Cell>& result) {
+  const Piece& piece = cells.piece;
+  std::vector<partition::Cell> mine(count, {-1, piece.common_face(), -1, {}, {}});
+  std::vector<Middle> middles(count);
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* v = piece.cell(t);
+    const std::int32_t c = cells.local[t];
+    const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), d = piece.point(v[2]);
+    const Vec3 area = 0.5 * cross(b - a, d - a);
+    mine[c].id = cells.global[t];
+    mine[c].area += area;
+    middles[c].weighted += norm(area) * ((a + b + d) / 3.0);
+    middles[c].area += norm(area);
+  }
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+    const std::int32_t c = cells.of_vertex[v];
+    if (c < 0) continue;
+    const double away = distance(piece.point(v), middles[c].weighted / middles[c].area);
+    if (away >= middles[c].nearest) continue;
+    middles[c].nearest = away;
+    mine[c].apex = cells.number[v];
+    mine[c].apex_point = piece.point(v);
+  }
+  result.insert(result.end(), mine.begin(), mine.end());
 }
 
 }  // namespace
@@ -87,77 +159,17 @@ void SurfaceCells::number() {
 }
 
 SurfaceCells::Rims SurfaceCells::gather() const {
-  std::vector<partition::RimEdge> edges;
-  std::vector<partition::FineVertex> vertices;
-  std::vector<partition::Cell> cells;
+  Rims mine;
   for (std::size_t p = 0; p < _cell.size(); ++p) {
-    const Piece& piece = _surface.pieces[p];
-    const auto& number = _numbering.vertices[p];
-    const std::vector<std::int32_t> of_vertex = cell_of_vertices(piece, _local[p]);
-    std::vector<partition::Cell> mine(_count[p], {-1, piece.common_face(), -1, {}, {}});
-    std::vector<Middle> middles(_count[p]);
-    std::vector<char> sent(piece.vertex_count(), 0);
-    // A side is on the rim unless the same cell is on its other side as well.
-    struct Side {
-      LocalIndex low, high, from, to;
-      std::int32_t cell;
-    };
-    std::vector<Side> sides;
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const LocalIndex* v = piece.cell(t);
-      const std::int32_t c = _local[p][t];
-      const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), d = piece.point(v[2]);
-      const Vec3 area = 0.5 * cross(b - a, d - a);
-      mine[c].id = _cell[p][t];
-      mine[c].area += area;
-      middles[c].weighted += norm(area) * ((a + b + d) / 3.0);
-      middles[c].area += norm(area);
-      for (int k = 0; k < 3; ++k) {
-        const LocalIndex from = v[k], to = v[(k + 1) % 3];
-        if (of_vertex[from] >= 0 || of_vertex[to] >= 0) continue;
-        sides.push_back({std::min(from, to), std::max(from, to), from, to, c});
-      }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
-      return s.low != t.low ? s.low < t.low : s.high != t.high ? s.high < t.high : s.cell < t.cell;
-    });
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      const auto same = [&](std::size_t j) {
-        return j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high &&
-               sides[j].cell == sides[i].cell;
-      };
-      if (same(i + 1)) {
-        ++i;
-        continue;
-      }
-      edges.push_back(
-          {number[sides[i].from], number[sides[i].to], _cell[p].empty() ? 0 : mine[sides[i].cell].id});
-      for (const LocalIndex v : {sides[i].from, sides[i].to}) {
-        if (!sent[v])
-          vertices.push_back({number[v], piece.point(v), piece.vertex_dimension[v], piece.vertex_entity[v]});
-        sent[v] = 1;
-      }
-    }
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (of_vertex[v] < 0) continue;
-      Middle& middle = middles[of_vertex[v]];
-      const double away = distance(piece.point(v), middle.weighted / middle.area);
-      if (away >= middle.nearest) continue;
-      middle.nearest = away;
-      middle.vertex = v;
-    }
-    for (std::int32_t c = 0; c < _count[p]; ++c) {
-      if (const LocalIndex v = middles[c].vertex; v >= 0) {
-        mine[c].apex = number[v];
-        mine[c].apex_point = piece.point(v);
-      }
-      cells.push_back(mine[c]);
-    }
+    const PieceCells cells{_surface.pieces[p], _numbering.vertices[p], _local[p], _cell[p],
+                           cell_of_vertices(_surface.pieces[p], _local[p])};
+    add_rim(cells, mine.edges, mine.vertices);
+    add_cells(cells, _count[p], mine.cells);
   }
   Rims rims;
-  rims.edges = _communicator.gather_items<partition::RimEdge>(edges);
-  rims.vertices = _communicator.gather_items<partition::FineVertex>(vertices);
-  rims.cells = _communicator.gather_items<partition::Cell>(cells);
+  rims.edges = _communicator.gather_items<partition::RimEdge>(mine.edges);
+  rims.vertices = _communicator.gather_items<partition::FineVertex>(mine.vertices);
+  rims.cells = _communicator.gather_items<partition::Cell>(mine.cells);
   std::sort(rims.cells.begin(), rims.cells.end(),
             [](const partition::Cell& a, const partition::Cell& b) { return a.id < b.id; });
   return rims;

@@ -1,0 +1,68 @@
+/// Tetrahedra that leave a piece and others that come. Used by cavities.cpp.
+#pragma once
+
+#include "mesh/cavities.hpp"
+
+#include <span>
+
+namespace aeroloom::mesh {
+
+// What travels between pieces and cavities, its vertices by token.
+struct WireTet {
+  CavityId cavity;
+  PieceId piece;
+  RegionId region;
+  std::array<SharedToken, 4> vertices;
+};
+struct WireVertex {
+  CavityId cavity;
+  SharedToken token;
+  geometry::Vec3 point;
+  std::int32_t dimension, entity;
+};
+struct WireTriangle {
+  CavityId cavity;
+  std::array<SharedToken, 3> vertices;
+  std::int32_t face, patch;
+};
+
+/// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.
+class PieceUpdate {
+public:
+  /// `tokens` names every vertex of the piece in this round.
+  PieceUpdate(const Piece& old, const std::vector<SharedToken>& tokens);
+
+  /// A cell that leaves: those of its vertices that stay behind are shared from now on.
+  void leave(LocalIndex cell);
+  void keep(LocalIndex cell);
+  void keep_triangle(LocalIndex triangle) { _kept_triangles.push_back(triangle); }
+
+  /// The piece with what comes; `vertices` has at least those of `tets` that the piece does not know.
+  Piece finish(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices,
+               const std::vector<WireTriangle>& triangles);
+
+private:
+  struct Named {
+    SharedToken token;
+    LocalIndex vertex;
+  };
+
+  void number_old();
+  LocalIndex add(geometry::Vec3 p, std::int32_t dimension, std::int32_t entity);
+  void add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices);
+  void append_cells(std::span<const WireTet> tets);
+  void append_triangles(const std::vector<WireTriangle>& triangles);
+  void sort_names();
+  LocalIndex find(SharedToken token) const;
+  void list_shared();
+
+  const Piece& _old;
+  const std::vector<SharedToken>& _tokens;
+  Piece _piece;
+  std::vector<LocalIndex> _number;  // new number of an old vertex, -1: gone
+  std::vector<char> _named;         // per old vertex: shared from now on
+  std::vector<LocalIndex> _kept, _kept_triangles;
+  std::vector<Named> _names;  // by token
+};
+
+}  // namespace aeroloom::mesh
