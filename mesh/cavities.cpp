@@ -1,5 +1,6 @@
 #include "mesh/cavities.hpp"
 
+#include "mesh/cavity_shares.hpp"
 #include "mesh/cavity_wishes.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
@@ -9,7 +10,6 @@
 #include "parallel/schedule.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -34,8 +34,8 @@ SharedToken token_of_new(int round, std::int64_t index) {
 /// What became of a cavity; the same on every rank.
 struct Outcome {
   CavityId cavity;
-  PieceId taker;  ///< piece that gets its tetrahedra; -1: it stays as it was
-  std::int32_t added;
+  std::int32_t refilled;  ///< 0: it stays as it was
+  std::int32_t added;     ///< vertices
 };
 
 template <class T, class Less>
@@ -122,14 +122,17 @@ Contribution collect(const DistributedMesh& mesh, const CavityWishes& wishes, in
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const auto& [cavity, v] : used)
       result.vertices.push_back(
-          {cavity, token[v], piece.point(v), piece.vertex_dimension[v], piece.vertex_entity[v]});
+          {cavity, piece.id, piece.vertex_dimension[v], token[v], piece.point(v), piece.vertex_entity[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
       if (cavity == no_cavity) continue;
       const LocalIndex* v = piece.boundary_triangle(t);
-      result.triangles.push_back(
-          {cavity, {token[v[0]], token[v[1]], token[v[2]]}, piece.triangle_face[t], piece.triangle_patch[t]});
+      result.triangles.push_back({cavity,
+                                  piece.id,
+                                  piece.triangle_face[t],
+                                  {token[v[0]], token[v[1]], token[v[2]]},
+                                  piece.triangle_patch[t]});
     }
   }
   return result;
@@ -179,7 +182,7 @@ struct OwnedCavity {
   Cavity cavity;
   std::vector<SharedToken> tokens;   ///< per point, ascending
   std::vector<std::int32_t> entity;  ///< per point
-  PieceId taker = -1;                ///< the piece most of it comes from
+  std::vector<PieceId> giver;        ///< per tetrahedron: the piece it comes from
   std::optional<Refilling> refilling;
 };
 
@@ -219,15 +222,10 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
       return static_cast<LocalIndex>(std::lower_bound(owned.tokens.begin(), owned.tokens.end(), token) -
                                      owned.tokens.begin());
     };
-    std::map<PieceId, std::int64_t> shares;
     for (; j < tets.size() && tets[j].cavity == owned.cavity.id; ++j) {
       const auto& w = tets[j].vertices;
       owned.cavity.tets.push_back({local(w[0]), local(w[1]), local(w[2]), local(w[3])});
-      ++shares[tets[j].piece];
-    }
-    std::int64_t most = 0;
-    for (const auto& [piece, share] : shares) {
-      if (share > most) most = share, owned.taker = piece;
+      owned.giver.push_back(tets[j].piece);
     }
     for (; s < triangles.size() && triangles[s].cavity == owned.cavity.id; ++s) {
       const auto& w = triangles[s].vertices;
@@ -238,9 +236,9 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
   return cavities;
 }
 
-/// A refilled cavity on its way to the piece that takes it.
+/// Refilled cavities on their way to the pieces that take them.
 struct Delivery {
-  std::vector<WireTet> tets;  ///< piece: the taker
+  std::vector<WireTet> tets;
   std::vector<WireVertex> vertices;
   std::vector<WireTriangle> triangles;
 };
@@ -262,31 +260,40 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     const auto token = [&](LocalIndex v) {
       return v < known ? owned.tokens[v] : token_of_new(round, first + (v - known));
     };
-    std::vector<char> used(owned.tokens.size(), 0);
-    for (const auto& t : owned.refilling->tets) {
+    const CavityShares shares = share_out(owned.cavity, owned.giver, *owned.refilling);
+    struct Use {
+      PieceId piece;
+      LocalIndex vertex;
+      auto operator<=>(const Use&) const = default;
+    };
+    std::vector<Use> uses;
+    for (std::size_t i = 0; i < owned.refilling->tets.size(); ++i) {
+      const auto& t = owned.refilling->tets[i];
       out.tets.push_back(
-          {id, owned.taker, owned.cavity.region, {token(t[0]), token(t[1]), token(t[2]), token(t[3])}});
-      for (const LocalIndex v : t) {
-        if (v < known) used[v] = 1;
+          {id, shares.of_tet[i], owned.cavity.region, {token(t[0]), token(t[1]), token(t[2]), token(t[3])}});
+      for (const LocalIndex v : t) uses.push_back({shares.of_tet[i], v});
+    }
+    std::sort(uses.begin(), uses.end());
+    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+    for (const auto& [piece, v] : uses) {
+      if (v < known) {
+        out.vertices.push_back(
+            {id, piece, owned.cavity.dimension[v], owned.tokens[v], owned.cavity.points[v], owned.entity[v]});
+      } else {
+        out.vertices.push_back(
+            {id, piece, 3, token(v), owned.refilling->added[v - known], owned.cavity.region});
       }
     }
-    for (LocalIndex v = 0; v < known; ++v) {
-      if (used[v])
-        out.vertices.push_back(
-            {id, owned.tokens[v], owned.cavity.points[v], owned.cavity.dimension[v], owned.entity[v]});
+    for (std::size_t i = 0; i < owned.cavity.triangles.size(); ++i) {
+      const CavityTriangle& t = owned.cavity.triangles[i];
+      out.triangles.push_back({id,
+                               shares.of_triangle[i],
+                               t.face,
+                               {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])},
+                               t.patch});
     }
-    for (std::size_t i = 0; i < owned.refilling->added.size(); ++i)
-      out.vertices.push_back(
-          {id, token(known + static_cast<LocalIndex>(i)), owned.refilling->added[i], 3, owned.cavity.region});
-    for (const CavityTriangle& t : owned.cavity.triangles)
-      out.triangles.push_back(
-          {id, {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])}, t.face, t.patch});
   }
-  const auto taker_rank = [&](const auto& item) {
-    const auto at = std::lower_bound(outcomes.begin(), outcomes.end(), item.cavity,
-                                     [](const Outcome& o, CavityId id) { return o.cavity < id; });
-    return owner_of_piece[at->taker];
-  };
+  const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
   in.tets = deliver(communicator, out.tets, taker_rank);
   in.vertices = deliver(communicator, out.vertices, taker_rank);
@@ -309,7 +316,7 @@ void update_pieces(DistributedMesh& mesh, const Contribution& mine, const std::v
     return std::lower_bound(outcomes.begin(), outcomes.end(), id,
                             [](const Outcome& o, CavityId c) { return o.cavity < c; });
   };
-  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->taker >= 0; };
+  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->refilled; };
   std::vector<std::vector<WireTriangle>> triangles(mesh.pieces.size());
   const auto local_piece = [&](PieceId id) {
     const auto at = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
@@ -317,10 +324,8 @@ void update_pieces(DistributedMesh& mesh, const Contribution& mine, const std::v
     return static_cast<std::size_t>(at - mesh.pieces.begin());
   };
   std::vector<std::vector<WireVertex>> vertices(mesh.pieces.size());
-  for (const WireVertex& v : delivery.vertices)
-    vertices[local_piece(outcome_of(v.cavity)->taker)].push_back(v);
-  for (const WireTriangle& t : delivery.triangles)
-    triangles[local_piece(outcome_of(t.cavity)->taker)].push_back(t);
+  for (const WireVertex& v : delivery.vertices) vertices[local_piece(v.piece)].push_back(v);
+  for (const WireTriangle& t : delivery.triangles) triangles[local_piece(t.piece)].push_back(t);
   std::size_t first = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     Piece& piece = mesh.pieces[p];
@@ -372,7 +377,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, Distribu
     for (OwnedCavity& owned : cavities) {
       owned.refilling = refill(owned.cavity);
       const auto added = owned.refilling ? static_cast<std::int32_t>(owned.refilling->added.size()) : 0;
-      outcomes.push_back({owned.cavity.id, owned.refilling ? owned.taker : -1, added});
+      outcomes.push_back({owned.cavity.id, owned.refilling ? 1 : 0, added});
     }
   });
   outcomes = communicator.all_gather_items<Outcome>(outcomes);
@@ -387,7 +392,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, Distribu
   }
   CavityRound result;
   result.cavities = static_cast<std::int64_t>(outcomes.size());
-  for (const Outcome& outcome : outcomes) result.refilled += outcome.taker >= 0;
+  for (const Outcome& outcome : outcomes) result.refilled += outcome.refilled;
   return result;
 }
 

@@ -1,5 +1,5 @@
 /// Cavities that reach over several pieces: tetrahedra around chosen vertices are taken out, brought together
-/// on one rank, replaced by others, and given back to one of the pieces. Pieces change their outline by this;
+/// on one rank, replaced by others, and given back to the pieces. Pieces change their outline by this;
 /// the mesh stays one mesh, whatever the rank count.
 #pragma once
 

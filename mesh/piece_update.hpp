@@ -16,14 +16,18 @@ struct WireTet {
 };
 struct WireVertex {
   CavityId cavity;
+  PieceId piece;
+  std::int32_t dimension;
   SharedToken token;
   geometry::Vec3 point;
-  std::int32_t dimension, entity;
+  std::int32_t entity, unused = 0;  ///< no padding travels
 };
 struct WireTriangle {
   CavityId cavity;
+  PieceId piece;
+  std::int32_t face;
   std::array<SharedToken, 3> vertices;
-  std::int32_t face, patch;
+  std::int32_t patch, unused = 0;
 };
 
 /// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.

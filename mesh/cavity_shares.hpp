@@ -1,0 +1,19 @@
+/// Which piece gets which tetrahedron of a refilled cavity. Used by cavities.cpp.
+#pragma once
+
+#include "mesh/cavities.hpp"
+
+#include <vector>
+
+namespace aeroloom::mesh {
+
+struct CavityShares {
+  std::vector<PieceId> of_tet;       ///< per tetrahedron of the refilling
+  std::vector<PieceId> of_triangle;  ///< per triangle of the cavity: that of its tetrahedron
+};
+
+/// Each piece that gave to the cavity takes what is nearest to the part of the cavity's boundary it gave, in
+/// steps from tetrahedron to tetrahedron; so it stays about as large as it was. `giver`: per old tetrahedron.
+CavityShares share_out(const Cavity& cavity, const std::vector<PieceId>& giver, const Refilling& refilling);
+
+}  // namespace aeroloom::mesh
