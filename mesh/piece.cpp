@@ -79,4 +79,14 @@ void require_consistent_arrays(const Piece& piece) {
           piece, "a vertex index is out of range");
 }
 
+std::int64_t bytes_at_rest(const Piece& piece) {
+  const auto bytes = [](const auto& array) {
+    return static_cast<std::int64_t>(array.capacity() * sizeof(array[0]));
+  };
+  return static_cast<std::int64_t>(sizeof(Piece)) + bytes(piece.coordinates) + bytes(piece.cells) +
+         bytes(piece.vertex_dimension) + bytes(piece.vertex_entity) + bytes(piece.boundary) +
+         bytes(piece.triangle_face) + bytes(piece.triangle_patch) + bytes(piece.shared_vertices) +
+         bytes(piece.shared_tokens);
+}
+
 }  // namespace aeroloom::mesh

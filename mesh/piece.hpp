@@ -72,6 +72,9 @@ struct Piece {
 parallel::Bytes pack_piece(const Piece& piece);
 Piece unpack_piece(std::span<const std::byte> bytes);
 
+/// What a piece occupies in memory, bytes: its arrays with what they have reserved.
+std::int64_t bytes_at_rest(const Piece& piece);
+
 /// Cells a piece may hold at most: indices of faces must fit 30 bits.
 inline constexpr std::size_t max_cells_per_piece = std::size_t{1} << 28;
 

@@ -57,6 +57,7 @@ private:
   void append_cells(std::span<const WireTet> tets);
   void append_triangles(const std::vector<WireTriangle>& triangles);
   void sort_names();
+  void trim();
   LocalIndex find(SharedToken token) const;
   void list_shared();
 

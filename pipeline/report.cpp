@@ -194,7 +194,8 @@ Json volume_json(const RunRecord& record) {
             {"mean_ratio_refilled", erasure.mean_ratio_refilled},
             {"mean_ratio_elsewhere", erasure.mean_ratio_elsewhere}}},
           {"good_edges", record.conformity.good_edges},
-          {"mean_edge", record.conformity.mean_edge}};
+          {"mean_edge", record.conformity.mean_edge},
+          {"bytes_per_tetrahedron", record.conformity.bytes_per_cell}};
 }
 
 Json stages_json(const std::vector<parallel::StageSummary>& stages) {

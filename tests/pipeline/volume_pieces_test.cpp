@@ -46,6 +46,7 @@ TEST(VolumePieces, AreOneMeshForAnyNumberOfRanks) {
   EXPECT_GT(record.erasure.mean_ratio_refilled, 0.97 * record.erasure.mean_ratio_elsewhere);
   EXPECT_GT(record.quality->mean_ratio.mean, 0.83);
   EXPECT_GT(record.quality->min_dihedral.minimum, 10);
+  EXPECT_LT(record.conformity.bytes_per_cell, 60);
 }
 
 TEST(VolumePieces, KeepTheirInterfacesWhenAsked) {
