@@ -287,6 +287,39 @@ mesh::Numbering inspect_volume(const Communicator& communicator, const mesh::Dis
   return numbering;
 }
 
+/// Fills the parts and erases the interfaces between them.
+mesh::DistributedMesh build_volume(const Communicator& communicator, const geometry::Model& model,
+                                   const FinishedSurface& surface, Decomposition&& decomposition,
+                                   const Case& input, RunRecord& record) {
+  const BoundaryMeshes boundary{surface.mesh, surface.numbering, decomposition.interfaces};
+  mesh::DistributedMesh filled =
+      mesh_volume(communicator,
+                  {model, boundary, decomposition.plan, surface.field, input.volume,
+                   input.output.directory + "/offending_triangles.vtp", input.sabotaged_piece},
+                  record.clock, record.volume);
+  decomposition = {};
+  if (record.interface_triangles > 0) {
+    const InterfaceAngles& angles = record.volume.angles;
+    parallel::log_info(fmt::format(
+        "volume: interfaces meet at {:.1f} degrees at least, {} of {} edges below {:g}, {} of them forced",
+        angles.smallest, angles.below, angles.edges, InterfaceAngles::threshold, angles.forced));
+  }
+  if (record.interface_triangles > 0 && input.erase_interfaces) {
+    record.erasure =
+        erase_interfaces(communicator, filled, static_cast<mesh::SharedToken>(surface.numbering.vertex_count),
+                         surface.field, input.volume, record.clock);
+    parallel::log_info(fmt::format(
+        "volume: {} of {} vertices of interfaces erased in {} rounds, {} of {} cavities refilled",
+        record.erasure.vertices_before - record.erasure.vertices_left, record.erasure.vertices_before,
+        record.erasure.rounds, record.erasure.refilled, record.erasure.cavities));
+  }
+  inspect_volume(communicator, filled, surface.mesh, record);
+  record.conformity = measure_conformity(communicator, filled, surface.field);
+  parallel::log_info(
+      fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));
+  return filled;
+}
+
 /// The boundary of the domain, and what lies between regions in a file of its own.
 void write_surfaces(const Communicator& communicator, const NumberedMesh& surface,
                     const std::string& directory) {
@@ -326,34 +359,9 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     return std::optional(decompose(communicator, surface, input, record));
   });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
-    const BoundaryMeshes boundary{surface.mesh, surface.numbering, decomposition->interfaces};
-    mesh::DistributedMesh filled =
-        mesh_volume(communicator,
-                    {sized.model, boundary, decomposition->plan, surface.field, input.volume,
-                     directory + "/offending_triangles.vtp", input.sabotaged_piece},
-                    record.clock, record.volume);
-    decomposition.reset();
-    const InterfaceAngles& angles = record.volume.angles;
-    if (angles.edges > 0) {
-      parallel::log_info(fmt::format(
-          "volume: interfaces meet at {:.1f} degrees at least, {} of {} edges below {:g}, {} of them forced",
-          angles.smallest, angles.below, angles.edges, InterfaceAngles::threshold, angles.forced));
-    }
-    if (input.erase_interfaces) {
-      record.erasure = erase_interfaces(communicator, filled,
-                                        static_cast<mesh::SharedToken>(surface.numbering.vertex_count),
-                                        surface.field, input.volume, record.clock);
-      parallel::log_info(fmt::format(
-          "volume: {} of {} vertices of interfaces erased in {} rounds, {} of {} cavities refilled",
-          record.erasure.vertices_before - record.erasure.vertices_left, record.erasure.vertices_before,
-          record.erasure.rounds, record.erasure.refilled, record.erasure.cavities));
-    }
-    inspect_volume(communicator, filled, surface.mesh, record);
-    record.conformity = measure_conformity(communicator, filled, surface.field);
-    parallel::log_info(
-        fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));
-    return filled;
+    return build_volume(communicator, sized.model, surface, std::move(*decomposition), input, record);
   });
+  decomposition.reset();
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
     improve_volume(communicator, input, volume, record);
     mesh::Numbering improved = inspect_volume(communicator, volume, surface.mesh, record);

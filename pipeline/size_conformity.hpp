@@ -8,8 +8,7 @@
 namespace aeroloom::pipeline {
 
 struct SizeConformity {
-  /// Part of the edges with 0.7 to 1.4 times the mean size of their ends; an edge counts as often as it has
-  /// tetrahedra.
+  /// Part of the edges with 0.7 to 1.4 times the mean size of their ends; an edge counts once in each piece.
   double good_edges = 0;
   double mean_edge = 0;       ///< in local sizes
   double bytes_per_cell = 0;  ///< of memory the pieces occupy

@@ -182,6 +182,11 @@ struct Round {
   std::optional<VolumePlan> plan;
 };
 
+void sort_and_unite(std::vector<std::int32_t>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
 /// On rank 0: coarse surface, background, decomposition.
 Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface, const sizing::SizeField& field,
                 const VolumePlanOptions& options, double width, parallel::StageClock& clock) {
@@ -196,13 +201,19 @@ Round try_round(SurfaceCells::Rims rims, const mesh::DistributedMesh& surface, c
       for (const std::int32_t cell : cells_to_cut(regions.back())) round.unfit.push_back(cell);
     }
   }
-  std::sort(round.unfit.begin(), round.unfit.end());
-  round.unfit.erase(std::unique(round.unfit.begin(), round.unfit.end()), round.unfit.end());
+  sort_and_unite(round.unfit);
   if (!round.unfit.empty()) return round;
   PlanBuilder builder(coarse, rims.cells);
   for (RegionId r = 0; r < surface.region_count(); ++r) {
-    const RegionBackground background =
-        fill_background(regions[r], coarse, builder.chords(), field, width, clock);
+    RegionBackground background;
+    try {
+      background = fill_background(regions[r], coarse, builder.chords(), field, width, clock);
+    } catch (const volume::VolumeError& error) {
+      for (const std::int32_t t : error.triangles()) round.unfit.push_back(regions[r].cell[t]);
+      if (round.unfit.empty()) round.unfit = regions[r].cell;  // finer everywhere
+      sort_and_unite(round.unfit);
+      return round;
+    }
     const auto& loads = background.volume.loads;
     const double load = std::accumulate(loads.begin(), loads.end(), 0.0);
     if (load < whole_below * options.piece_tets) {
