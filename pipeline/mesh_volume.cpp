@@ -207,8 +207,7 @@ private:
     }
     std::sort(merges.begin(), merges.end(), [](const Merge& a, const Merge& b) { return a.part < b.part; });
     for (const Merge& merge : merges) {
-      parallel::log_info(
-          fmt::format("volume: piece {} is merged with piece {}: {}", merge.part, merge.with,
+      parallel::log_info(fmt::format("volume: piece {} is merged with piece {}: {}", merge.part, merge.with,
                                      merge.reason.substr(0, merge.reason.find('\n'))));
       _parts.merge(merge.part, merge.with);
     }
