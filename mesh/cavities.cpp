@@ -245,7 +245,9 @@ struct Delivery {
 
 Delivery deliver_refilled(const parallel::Communicator& communicator,
                           const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
-                          const std::vector<parallel::Rank>& owner_of_piece, int round) {
+                          const std::vector<parallel::Rank>& owner_of_piece, int round,
+                          parallel::StageClock& clock) {
+  const double start = parallel::cpu_seconds();
   Delivery out;
   std::int64_t first_new = 0;
   std::size_t next = 0;
@@ -293,6 +295,7 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
                                t.patch});
     }
   }
+  clock.add_task_cpu(parallel::cpu_seconds() - start);
   const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
   in.tets = deliver(communicator, out.tets, taker_rank);
@@ -385,7 +388,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, Distribu
             [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
   const std::vector<parallel::Rank> owner_of_piece = gather_by_piece(communicator, mesh, here);
-  const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
+  const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round, clock);
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     update_pieces(mesh, mine, outcomes, delivery);

@@ -215,8 +215,13 @@ std::vector<std::int32_t> cells_to_cut(const RegionSurface& region) {
 RegionBackground fill_background(const RegionSurface& region, const partition::CoarseSurface& coarse,
                                  const ChordIndex& chords, const sizing::SizeField& field, double width,
                                  parallel::StageClock& clock) {
-  volume::FilledVolume filled =
-      volume::fill_volume(region.surface, background_field(region, field, width), volume::VolumeOptions{});
+  const sizing::SizeField coarse_field = background_field(region, field, width);
+  const double start = parallel::cpu_seconds();
+  volume::FilledVolume filled = volume::fill_volume(region.surface, coarse_field, volume::VolumeOptions{});
+  // The caller's clock has this rank's own part already.
+  const double in_child = filled.cpu_seconds - (parallel::cpu_seconds() - start);
+  clock.add_task_cpu(in_child);
+  clock.add_serial_cpu(in_child);
   clock.note_child_memory(filled.child_peak_bytes);
   RegionBackground background;
   partition::BackgroundVolume& volume = background.volume;

@@ -50,7 +50,8 @@ struct RegionBackground {
 };
 
 /// Fills the coarse surface with tetrahedra at most `width` times as large as the sizes of the field, and
-/// predicts what each of them will hold. Throws VolumeError.
+/// predicts what each of them will hold. What the contained run costs is counted as serial work. Throws
+/// VolumeError.
 RegionBackground fill_background(const RegionSurface& region, const partition::CoarseSurface& coarse,
                                  const ChordIndex& chords, const sizing::SizeField& field, double width,
                                  parallel::StageClock& clock);

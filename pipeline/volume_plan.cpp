@@ -281,6 +281,7 @@ VolumePlan plan_volume(const parallel::Communicator& communicator, const mesh::D
       bytes = pack(*outcome.plan);
     }
     communicator.broadcast(bytes);
+    const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
     VolumePlan plan = unpack_plan(bytes);
     plan.cell = cells->cell_of_triangle();
     double heaviest = 0, sum = 0;
