@@ -1,6 +1,7 @@
 #include "improve/cavity_improver.hpp"
 
 #include "improve/tet_quality.hpp"
+#include "mesh/tet_faces.hpp"
 
 #include <algorithm>
 
@@ -16,23 +17,9 @@ constexpr double cell_width = 8;
 
 /// Vertices on the boundary of the cavity first: these stay as they are.
 std::vector<LocalIndex> boundary_first(const mesh::Cavity& cavity, std::size_t& on_boundary) {
-  std::vector<std::array<LocalIndex, 3>> faces;
-  faces.reserve(4 * cavity.tets.size());
-  for (const auto& tet : cavity.tets) {
-    for (const auto& f : mesh::tetrahedron_faces) {
-      std::array<LocalIndex, 3> face{tet[f[0]], tet[f[1]], tet[f[2]]};
-      std::sort(face.begin(), face.end());
-      faces.push_back(face);
-    }
-  }
-  std::sort(faces.begin(), faces.end());
   std::vector<char> outer(cavity.points.size(), 0);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i + 1 < faces.size() && faces[i] == faces[i + 1]) {
-      ++i;
-      continue;
-    }
-    for (const LocalIndex v : faces[i]) outer[v] = 1;
+  for (const mesh::TetFace& face : mesh::boundary_faces(cavity.tets)) {
+    for (const LocalIndex v : face.vertices) outer[v] = 1;
   }
   std::vector<LocalIndex> order;
   for (const char wanted : {1, 0}) {

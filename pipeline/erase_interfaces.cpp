@@ -5,6 +5,7 @@
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/tet_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,45 +36,23 @@ struct Shell {
 };
 
 Shell shell_of(const Cavity& cavity) {
-  struct Face {
-    std::array<LocalIndex, 3> key, vertices;
-  };
-  std::vector<Face> faces;
-  faces.reserve(4 * cavity.tets.size());
-  for (const auto& tet : cavity.tets) {
-    for (const auto& f : mesh::tetrahedron_faces) {
-      Face face{{}, {tet[f[0]], tet[f[1]], tet[f[2]]}};
-      face.key = face.vertices;
-      std::sort(face.key.begin(), face.key.end());
-      faces.push_back(face);
-    }
-  }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
-  Shell shell;
+  const std::vector<mesh::TetFace> faces = mesh::boundary_faces(cavity.tets);
   std::vector<LocalIndex> local(cavity.points.size(), -1);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i + 1 < faces.size() && faces[i].key == faces[i + 1].key) {
-      ++i;
-      continue;
-    }
-    for (const LocalIndex v : faces[i].vertices) local[v] = 0;
+  for (const mesh::TetFace& face : faces) {
+    for (const LocalIndex v : face.vertices) local[v] = 0;
   }
+  Shell shell;
   for (std::size_t v = 0; v < local.size(); ++v) {
     if (local[v] < 0) continue;
     local[v] = static_cast<LocalIndex>(shell.vertex.size());
     shell.vertex.push_back(static_cast<LocalIndex>(v));
     shell.surface.points.push_back(cavity.points[v]);
   }
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i + 1 < faces.size() && faces[i].key == faces[i + 1].key) {
-      ++i;
-      continue;
-    }
-    const auto& v = faces[i].vertices;
+  for (const mesh::TetFace& face : faces) {
+    const auto& v = face.vertices;
     shell.surface.triangles.push_back({local[v[0]], local[v[1]], local[v[2]]});
-    const bool inside =
-        std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return cavity.dimension[w] == 3; });
-    shell.surface.continued.push_back(inside);
+    shell.surface.continued.push_back(
+        std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return cavity.dimension[w] == 3; }));
   }
   return shell;
 }
