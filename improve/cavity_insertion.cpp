@@ -11,6 +11,10 @@ constexpr int rounds = 3;            // of growing the cavity and placing the po
 constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain
 constexpr double flat = 0.1;         // of the target: tetrahedra of less than about a degree
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
+// Of the target: what a cavity that does not reach it has to gain. Without a floor, one that adds tetrahedra
+// is followed by others without end.
+constexpr double gain_when_moved = 0.05;
+constexpr double gain_when_added = 0.25;
 
 }  // namespace
 
@@ -102,6 +106,8 @@ bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity) {
   }
   double before = std::numeric_limits<double>::max();
   for (const LocalIndex t : _tets) before = std::min(before, mesh.quality(t));
+  const double wanted = apex == mesh.vertex_count() ? gain_when_added : gain_when_moved;
+  if (after < std::min(before + wanted * mesh.measure().target(), mesh.measure().target())) return false;
   if (after < before + least_gain || !keeps_fixed_vertices(mesh)) return false;
   cavity.clear();
   cavity.before = before;

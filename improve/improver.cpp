@@ -50,6 +50,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
   Schedule schedule(mesh);
   schedule.run(options.sweeps);
   mesh.finish();
+  report.changed_triangles = mesh.changed_triangles();
 
   const PieceState after = examine(piece, measure);
   report.bad_after = after.bad;
@@ -102,13 +103,15 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
       total.bad_after += mine.bad_after;
       total.smoothed += mine.smoothed;
       total.swaps += mine.swaps;
+      total.changed_triangles += mine.changed_triangles;
       total.min_angle_before = std::min(total.min_angle_before, mine.min_angle_before);
       total.min_angle_after = std::min(total.min_angle_after, mine.min_angle_after);
       clock.add_pieces(1);
     }
   });
   improve_across(communicator, mesh, options, total, clock);
-  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps}) {
+  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps,
+                             &total.changed_triangles}) {
     *count = communicator.sum(*count);
   }
   for (double* angle : {&total.min_angle_before, &total.min_angle_after})

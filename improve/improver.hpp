@@ -23,6 +23,7 @@ struct ImproveReport {
   double min_angle_before = 0, min_angle_after = 0;  ///< degrees
   std::int64_t smoothed = 0;                         ///< vertices moved
   std::int64_t swaps = 0;                            ///< cavities filled anew
+  std::int64_t changed_triangles = 0;                ///< of the boundary
 };
 
 /// Improves one tetrahedral piece in place: boundary, interface and shared vertices stay, the boundary

@@ -10,6 +10,13 @@ constexpr auto later = [](const auto& a, const auto& b) {
   return a.quality != b.quality ? a.quality > b.quality : a.tet > b.tet;
 };
 
+/// What one sweep may try, in tetrahedra that it began with.
+constexpr std::int64_t tries_per_task = 4;
+constexpr std::int64_t least_tries = 1000;
+/// Of the target: below these the costly means are tried, which refill a whole cavity.
+constexpr double worth_moving = 0.9;
+constexpr double worth_adding = 0.75;
+
 }  // namespace
 
 Schedule::Schedule(TetMesh& mesh)
@@ -31,12 +38,15 @@ void Schedule::run(int sweeps) {
 std::int64_t Schedule::sweep(Means means) {
   fill_queue();
   std::int64_t gains = 0;
-  while (!_queue.empty()) {
+  // A change may leave others below the target, without end where every gain is small.
+  std::int64_t tries = tries_per_task * static_cast<std::int64_t>(_queue.size()) + least_tries;
+  while (!_queue.empty() && tries > 0) {
     std::pop_heap(_queue.begin(), _queue.end(), later);
     const Task task = _queue.back();
     _queue.pop_back();
     if (task.version != _version[task.tet] || !_mesh.is_alive(task.tet) || !worth_trying(task.tet, means))
       continue;
+    --tries;
     if (mend(task.tet, means)) {
       ++gains;
     } else {
@@ -70,8 +80,10 @@ bool Schedule::worth_trying(LocalIndex t, Means means) const {
 }
 
 bool Schedule::mend(LocalIndex t, Means means) {
-  return swap(t) || smooth(t) || (means >= Means::moving_cavities && move_cavity(t)) ||
-         (means >= Means::new_vertices && insert_vertex(t));
+  if (swap(t) || smooth(t)) return true;
+  const double share = _mesh.quality(t) / _mesh.measure().target();
+  return (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) ||
+         (means >= Means::new_vertices && share < worth_adding && insert_vertex(t));
 }
 
 bool Schedule::swap(LocalIndex t) {
@@ -79,7 +91,11 @@ bool Schedule::swap(LocalIndex t) {
   const auto keep_trial = [&] { std::swap(_best, _trial); };
   const double least = _mesh.quality(t);
   for (int edge = 0; edge < 6; ++edge) {
-    if (_edge_removal.propose(_mesh, t, edge, std::max(least, _best.after), _trial)) keep_trial();
+    const double floor = std::max(least, _best.after);
+    if (_edge_removal.propose(_mesh, t, edge, floor, _trial) ||
+        _boundary_flip.propose(_mesh, t, edge, floor, _trial)) {
+      keep_trial();
+    }
   }
   for (int face = 0; face < 4; ++face) {
     if (_face_removal.propose(_mesh, t, face, std::max(least, _best.after), _trial)) keep_trial();
@@ -100,6 +116,21 @@ bool Schedule::smooth(LocalIndex t) {
     note_change(_star, t);
   }
   return moved;
+}
+
+bool Schedule::contract(LocalIndex t) {
+  _best.clear();
+  const double least = _mesh.quality(t);
+  for (const auto& [i, k] : mesh::tetrahedron_edges) {
+    const LocalIndex a = _mesh.corners(t)[i], b = _mesh.corners(t)[k];
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+      if (_contraction.propose(_mesh, from, to, std::max(least, _best.after), _trial))
+        std::swap(_best, _trial);
+    }
+  }
+  if (!_best.improves() || !apply(_best)) return false;
+  ++_swaps;
+  return true;
 }
 
 bool Schedule::move_cavity(LocalIndex t) {

@@ -1,7 +1,9 @@
 /// Which bad tetrahedron is worked on when, and with what.
 #pragma once
 
+#include "improve/boundary_flip.hpp"
 #include "improve/cavity_insertion.hpp"
+#include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
 #include "improve/smoothing.hpp"
@@ -39,6 +41,7 @@ private:
   bool mend(LocalIndex t, Means means);
   bool swap(LocalIndex t);
   bool smooth(LocalIndex t);
+  bool contract(LocalIndex t);
   bool move_cavity(LocalIndex t);
   bool insert_vertex(LocalIndex t);
   bool apply(const Cavity& cavity);
@@ -48,8 +51,10 @@ private:
 
   TetMesh& _mesh;
   EdgeRemoval _edge_removal;
+  BoundaryFlip _boundary_flip;
   FaceRemoval _face_removal;
   Smoothing _smoothing;
+  EdgeContraction _contraction;
   CavityInsertion _insertion;
   Cavity _best, _trial;
   std::vector<LocalIndex> _placed, _star;

@@ -35,7 +35,44 @@ TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure) : _piece(piece),
   }
   _tet_mark.assign(_original_count, 0);
   match_all_faces();
+  match_triangles();
   fix_vertices();
+}
+
+// The open side of a face that is a boundary triangle gets the triangle's number.
+void TetMesh::match_triangles() {
+  struct Named {
+    std::array<LocalIndex, 3> key;
+    LocalIndex triangle;
+  };
+  std::vector<Named> named(_piece.boundary.size() / 3);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const LocalIndex* v = _piece.boundary.data() + 3 * i;
+    named[i] = {sorted(v[0], v[1], v[2]), static_cast<LocalIndex>(i)};
+  }
+  const auto before = [](const Named& a, const Named& b) { return a.key < b.key; };
+  std::sort(named.begin(), named.end(), before);
+  for (std::size_t h = 0; h < _mates.size() && !named.empty(); ++h) {
+    if (_mates[h] >= 0) continue;
+    const Named wanted{face_key(static_cast<HalfFace>(h)), 0};
+    const auto found = std::lower_bound(named.begin(), named.end(), wanted, before);
+    if (found != named.end() && found->key == wanted.key) _mates[h] = -2 - found->triangle;
+  }
+}
+
+std::array<LocalIndex, 3> TetMesh::triangle(LocalIndex i) const {
+  const LocalIndex* v = _piece.boundary.data() + 3 * static_cast<std::size_t>(i);
+  return {v[0], v[1], v[2]};
+}
+
+bool TetMesh::is_free_triangle(LocalIndex i) const {
+  const auto v = triangle(i);
+  return v[0] >= 0 && !(is_shared(v[0]) && is_shared(v[1]) && is_shared(v[2]));
+}
+
+bool TetMesh::on_same_face(LocalIndex i, LocalIndex k) const {
+  return _piece.triangle_face[i] == _piece.triangle_face[k] &&
+         _piece.triangle_patch[i] == _piece.triangle_patch[k];
 }
 
 std::array<LocalIndex, 3> TetMesh::face_key(HalfFace h) const {
@@ -84,7 +121,8 @@ void TetMesh::fix_vertices() {
   _fixed.assign(_incident.size(), 0);
   for (std::size_t v = 0; v < _fixed.size(); ++v)
     _fixed[v] = _piece.vertex_dimension[v] < 3 || _incident[v] < 0;
-  for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = 1;
+  _shared.assign(_incident.size(), 0);
+  for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = _shared[v] = 1;
   for (const LocalIndex v : _piece.boundary) _fixed[v] = 1;
   for (std::size_t h = 0; h < _mates.size(); ++h) {
     if (_mates[h] >= 0) continue;
@@ -119,9 +157,50 @@ void TetMesh::collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets) {
   }
 }
 
+namespace {
+
+// For each edge, the two other vertices in the order that makes (start, end, from, to) positive.
+constexpr int others[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
+
+}  // namespace
+
+bool TetMesh::collect_fan(LocalIndex t, int edge, int most, Fan& fan) const {
+  fan.start = _cells[t][tetrahedron_edges[edge][0]];
+  fan.end = _cells[t][tetrahedron_edges[edge][1]];
+  LocalIndex from = _cells[t][others[edge][0]], to = _cells[t][others[edge][1]];
+  // Back to the first tetrahedron, then forward through all of them.
+  LocalIndex current = t;
+  for (int steps = 0;; ++steps) {
+    const HalfFace previous = _mates[4 * current + local_vertex(current, to)];
+    if (is_triangle(previous)) {
+      fan.triangles[0] = triangle_of(previous);
+      break;
+    }
+    if (previous < 0 || steps == most) return false;
+    to = from;
+    current = previous >> 2;
+    from = _cells[current][previous & 3];
+    if (current == t) return false;
+  }
+  fan.tets.clear();
+  fan.ring.assign(1, from);
+  while (true) {
+    if (static_cast<int>(fan.tets.size()) == most) return false;
+    fan.tets.push_back(current);
+    fan.ring.push_back(to);
+    const HalfFace next = _mates[4 * current + local_vertex(current, from)];
+    if (is_triangle(next)) {
+      fan.triangles[1] = triangle_of(next);
+      return true;
+    }
+    if (next < 0) return false;
+    from = to;
+    current = next >> 2;
+    to = _cells[current][next & 3];
+  }
+}
+
 bool TetMesh::collect_shell(LocalIndex t, int edge, int most, Shell& shell) const {
-  // For each edge, the two other vertices in the order that makes (start, end, from, to) positive.
-  static constexpr int others[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
   shell.start = _cells[t][tetrahedron_edges[edge][0]];
   shell.end = _cells[t][tetrahedron_edges[edge][1]];
   LocalIndex from = _cells[t][others[edge][0]], to = _cells[t][others[edge][1]];
@@ -163,10 +242,38 @@ void TetMesh::take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed) 
     _cells[cavity.old_tets[i]][0] = -1;
 }
 
+// A face that is open from now on is the boundary's triangle `triangle`, as seen from outside.
+void TetMesh::open_boundary(const FaceRecord& record, LocalIndex triangle) {
+  if (record.side < 0) throw std::logic_error("improve: a boundary triangle without a tetrahedron");
+  _mates[record.side] = -2 - triangle;
+  const auto& face = tetrahedron_faces[record.side & 3];
+  const Corners& c = _cells[record.side >> 2];
+  for (int k = 0; k < 3; ++k)
+    _piece.boundary[3 * static_cast<std::size_t>(triangle) + k] = c[face[k]];
+}
+
+// Pairs stay, single faces are the new boundary.
+void TetMesh::match_boundary(const Cavity& cavity) {
+  std::size_t kept = 0, used = 0;
+  for (std::size_t i = 0; i < _faces.size(); ++i) {
+    if (i + 1 < _faces.size() && _faces[i].key == _faces[i + 1].key) {
+      _faces[kept++] = _faces[i++];
+      _faces[kept++] = _faces[i];
+    } else if (used < cavity.old_triangles.size()) {
+      open_boundary(_faces[i], cavity.old_triangles[used++]);
+    } else {
+      throw std::logic_error("improve: a cavity opens more boundary than it had");
+    }
+  }
+  _faces.resize(kept);
+  _changed_triangles += static_cast<std::int64_t>(cavity.old_triangles.size());
+  for (; used < cavity.old_triangles.size(); ++used) {
+    _piece.boundary[3 * static_cast<std::size_t>(cavity.old_triangles[used])] = -1;
+    _dead_triangles = true;
+  }
+}
+
 void TetMesh::match_cavity_faces() {
-  std::sort(_faces.begin(), _faces.end(), [](const FaceRecord& a, const FaceRecord& b) {
-    return a.key != b.key ? a.key < b.key : a.side < b.side;
-  });
   if (_faces.size() % 2 != 0)
     throw std::logic_error("improve: a cavity and its filling differ in their faces");
   for (std::size_t i = 0; i < _faces.size(); i += 2) {
@@ -183,10 +290,16 @@ void TetMesh::replace(const Cavity& cavity, std::vector<LocalIndex>& placed) {
   next_mark();
   for (const LocalIndex t : cavity.old_tets) _tet_mark[t] = _mark;
   _faces.clear();
+  const auto goes = [&](LocalIndex triangle) {
+    return std::find(cavity.old_triangles.begin(), cavity.old_triangles.end(), triangle) !=
+           cavity.old_triangles.end();
+  };
   for (const LocalIndex t : cavity.old_tets) {
     for (int f = 0; f < 4; ++f) {
       const HalfFace other = _mates[4 * t + f];
-      if (other < 0 || _tet_mark[other >> 2] != _mark) _faces.push_back({face_key(4 * t + f), other, true});
+      if (other >= 0 && _tet_mark[other >> 2] == _mark) continue;
+      if (is_triangle(other) && goes(triangle_of(other))) continue;
+      _faces.push_back({face_key(4 * t + f), other, true});
     }
   }
   _cavity_vertices.clear();
@@ -201,8 +314,23 @@ void TetMesh::replace(const Cavity& cavity, std::vector<LocalIndex>& placed) {
     for (int f = 0; f < 4; ++f) _faces.push_back({face_key(4 * t + f), 4 * t + f, false});
     for (const LocalIndex v : _cells[t]) _incident[v] = t;
   }
+  std::sort(_faces.begin(), _faces.end(), [](const FaceRecord& a, const FaceRecord& b) {
+    return a.key != b.key ? a.key < b.key : a.side < b.side;
+  });
+  if (!cavity.old_triangles.empty()) {
+    // A tetrahedron that goes without another in its place leaves its vertices to its neighbours.
+    for (const FaceRecord& record : _faces) {
+      if (record.side < 0) continue;
+      for (const LocalIndex v : record.key) _incident[v] = record.side >> 2;
+    }
+    match_boundary(cavity);
+  }
   match_cavity_faces();
-  for (const LocalIndex v : _cavity_vertices) _swallowed = _swallowed || _incident[v] < 0;
+  for (const LocalIndex v : _cavity_vertices) {
+    if (_incident[v] >= 0) continue;
+    _swallowed = true;
+    _fixed[v] = 0;
+  }
 }
 
 void TetMesh::move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star) {
@@ -217,6 +345,7 @@ LocalIndex TetMesh::add_vertex(Vec3 p, LocalIndex like) {
   _piece.vertex_entity.push_back(_piece.vertex_dimension[like] == 3 ? _piece.vertex_entity[like] : 0);
   _incident.push_back(-1);
   _fixed.push_back(0);
+  _shared.push_back(0);
   return v;
 }
 
@@ -226,10 +355,12 @@ void TetMesh::drop_last_vertex() {
   _piece.vertex_entity.pop_back();
   _incident.pop_back();
   _fixed.pop_back();
+  _shared.pop_back();
 }
 
 void TetMesh::finish() {
   order_cells();
+  if (_dead_triangles) remove_dead_triangles();
   if (_swallowed) remove_swallowed_vertices();
 }
 
@@ -250,6 +381,21 @@ void TetMesh::order_cells() {
     emit(t);
     for (; next != added.end() && _place[*next] == t; ++next) emit(_original_count + *next);
   }
+}
+
+void TetMesh::remove_dead_triangles() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < _piece.triangle_face.size(); ++i) {
+    if (_piece.boundary[3 * i] < 0) continue;
+    std::copy_n(_piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(i), 3,
+                _piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
+    _piece.triangle_face[kept] = _piece.triangle_face[i];
+    _piece.triangle_patch[kept] = _piece.triangle_patch[i];
+    ++kept;
+  }
+  _piece.boundary.resize(3 * kept);
+  _piece.triangle_face.resize(kept);
+  _piece.triangle_patch.resize(kept);
 }
 
 void TetMesh::remove_swallowed_vertices() {

@@ -19,9 +19,13 @@ using mesh::LocalIndex;
 /// The four vertices of a tetrahedron, positive in VTK's order.
 using Corners = std::array<LocalIndex, 4>;
 
-/// One side of a face: 4 * tetrahedron + local face (opposite the local vertex); -1 where there is no
-/// tetrahedron.
+/// One side of a face: 4 * tetrahedron + local face (opposite the local vertex). Where there is no
+/// tetrahedron: -1, or -2 - i on triangle i of the piece's boundary.
 using HalfFace = std::int32_t;
+
+/// Whether this side of a face is a triangle of the piece's boundary, and which.
+inline bool is_triangle(HalfFace h) { return h <= -2; }
+inline LocalIndex triangle_of(HalfFace h) { return -2 - h; }
 
 /// Tetrahedra around an interior edge: (start, end, ring[i], ring[i+1]) is tets[i], of positive volume; the
 /// ring is closed.
@@ -31,18 +35,29 @@ struct Shell {
   std::vector<LocalIndex> ring;
 };
 
-/// A proposed change: the tetrahedra that go, those that come, and the worst quality of both.
+/// Tetrahedra around an edge on the boundary, from one of its triangles to the other: (start, end, ring[i],
+/// ring[i+1]) is tets[i], of positive volume.
+struct Fan {
+  LocalIndex start = 0, end = 0;
+  std::vector<LocalIndex> tets;
+  std::vector<LocalIndex> ring;
+  std::array<LocalIndex, 2> triangles{};  ///< (start, end, ring.front()) and (start, end, ring.back())
+};
+
+/// A proposed change: the tetrahedra that go, those that come, and the worst quality of both. Triangles of the
+/// boundary may go with them; what is open then becomes the new boundary, of at most as many triangles.
 struct Cavity {
   std::vector<LocalIndex> old_tets;
   std::vector<Corners> new_tets;
+  std::vector<LocalIndex> old_triangles;
   double before = 0, after = 0;
 
-  void clear() { old_tets.clear(), new_tets.clear(), before = after = 0; }
+  void clear() { old_tets.clear(), new_tets.clear(), old_triangles.clear(), before = after = 0; }
   bool improves() const { return after > before; }
 };
 
-/// Holds a piece's cells while they change; vertices on faces without a neighbour, shared ones, and those
-/// classified below the region are fixed.
+/// Holds a piece's cells and boundary triangles while they change; vertices on faces without a neighbour,
+/// shared ones, and those classified below the region are fixed.
 class TetMesh {
 public:
   /// Takes the cells out of the piece; finish() puts them back. Throws std::logic_error when three tetrahedra
@@ -75,9 +90,26 @@ public:
   /// The tetrahedra around edge i (mesh::tetrahedron_edges) of a tetrahedron. False when the edge lies on a
   /// face without neighbour, or has more than `most` tetrahedra.
   bool collect_shell(LocalIndex t, int edge, int most, Shell& shell) const;
+  /// The tetrahedra around such an edge between two boundary triangles; false where it is none, or has more
+  /// than `most` tetrahedra.
+  bool collect_fan(LocalIndex t, int edge, int most, Fan& fan) const;
+
+  /// Boundary triangle i: counter-clockwise seen from outside.
+  std::array<LocalIndex, 3> triangle(LocalIndex i) const;
+  /// Whether a boundary triangle may change: other pieces do not know it, and it is in use.
+  bool is_free_triangle(LocalIndex i) const;
+  /// Whether two boundary triangles lie on the same CAD face and patch.
+  bool on_same_face(LocalIndex i, LocalIndex k) const;
+  /// The CAD face of a boundary triangle.
+  std::int32_t face_of(LocalIndex i) const { return _piece.triangle_face[i]; }
+  int dimension(LocalIndex v) const { return _piece.vertex_dimension[v]; }
+  bool is_shared(LocalIndex v) const { return _shared[v] != 0; }
+  /// Boundary triangles that changed or went.
+  std::int64_t changed_triangles() const { return _changed_triangles; }
 
   /// Puts the new tetrahedra in the place of the old ones; both must fill the same space with positive
-  /// volumes. Vertices that only old ones use are swallowed. `placed` receives the slots of the new ones.
+  /// volumes, up to the triangles of the boundary that change. Vertices that only old ones use are swallowed.
+  /// `placed` receives the slots of the new ones.
   void replace(const Cavity& cavity, std::vector<LocalIndex>& placed);
   /// Moves a vertex; `star` is all its tetrahedra.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star);
@@ -98,6 +130,10 @@ private:
   };
 
   void match_all_faces();
+  void match_triangles();
+  void open_boundary(const FaceRecord& record, LocalIndex triangle);
+  void match_boundary(const Cavity& cavity);
+  void remove_dead_triangles();
   void fix_vertices();
   void match_cavity_faces();
   void take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed);
@@ -112,10 +148,12 @@ private:
   std::vector<HalfFace> _mates;  ///< 4 per slot
   std::vector<double> _quality;
   std::vector<LocalIndex> _incident;  ///< a tetrahedron of each vertex
-  std::vector<std::uint8_t> _fixed;
+  std::vector<std::uint8_t> _fixed, _shared;
   std::vector<LocalIndex> _place;  ///< of slots beyond the first: the original slot they are ordered after
   LocalIndex _original_count = 0;
   bool _swallowed = false;
+  std::int64_t _changed_triangles = 0;
+  bool _dead_triangles = false;  ///< their first vertex is -1
   std::vector<std::uint32_t> _tet_mark;
   std::uint32_t _mark = 0;
   std::vector<FaceRecord> _faces;  ///< scratch of replace, as is the next

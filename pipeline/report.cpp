@@ -238,7 +238,8 @@ std::string report_json(const Case& input, const RunRecord& record,
   json["improve"] = {{"bad_before", record.improve.bad_before},
                      {"bad_after", record.improve.bad_after},
                      {"smoothed", record.improve.smoothed},
-                     {"swaps", record.improve.swaps}};
+                     {"swaps", record.improve.swaps},
+                     {"changed_triangles", record.improve.changed_triangles}};
   json["pinned"] = Json::array();
   json["patches"] = patches_json(record);
   json["regions"] = regions_json(record);

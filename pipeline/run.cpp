@@ -1,6 +1,7 @@
 #include "pipeline/run.hpp"
 
 #include "io/vtk_writer.hpp"
+#include "mesh/boundary_mesh.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/load_domain.hpp"
@@ -277,6 +278,18 @@ void improve_volume(const Communicator& communicator, const Case& input, mesh::D
                   record.improve.bad_after));
 }
 
+/// The surface follows a volume whose boundary was improved.
+void adopt_boundary(const Communicator& communicator, const geometry::Model& model,
+                    const mesh::DistributedMesh& volume, FinishedSurface& surface, RunRecord& record) {
+  const mesh::Numbering volume_numbering = mesh::number_mesh(communicator, volume);
+  surface.mesh = mesh::boundary_mesh(communicator, volume, volume_numbering);
+  surface.numbering = mesh::number_mesh(communicator, surface.mesh);
+  require_valid("the improved surface mesh",
+                mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
+  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
+  record.patches = table_of_patches(communicator, model, surface.mesh);
+}
+
 /// Checks and measures the mesh that the last stage left.
 mesh::Numbering inspect_volume(const Communicator& communicator, const mesh::DistributedMesh& volume,
                                const mesh::DistributedMesh& surface, RunRecord& record) {
@@ -352,7 +365,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     parallel::log_info(fmt::format("decompose: predicted {:.3g} triangles, {:.3g} tetrahedra",
                                    record.predicted.triangles, record.predicted.tetrahedra));
   });
-  const FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
+  FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface(communicator, loaded, input, sized, record);
   });
   std::optional<Decomposition> decomposition = run_stage(record, "decompose", ExitCode::resources, [&] {
@@ -364,6 +377,8 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   decomposition.reset();
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
     improve_volume(communicator, input, volume, record);
+    if (record.improve.changed_triangles > 0)
+      adopt_boundary(communicator, sized.model, volume, surface, record);
     mesh::Numbering improved = inspect_volume(communicator, volume, surface.mesh, record);
     record.regions_filled = table_of_regions(communicator, volume);
     record.quality = mesh::summarise_quality(communicator, volume, improved);

@@ -1,0 +1,30 @@
+/// How much the boundary may change where tetrahedra on it are improved: it stays a smooth image of the CAD face.
+#pragma once
+
+#include "improve/tet_mesh.hpp"
+
+#include <array>
+#include <span>
+
+namespace aeroloom::improve {
+
+/// The corners of a boundary triangle, counter-clockwise seen from outside.
+using TriangleCorners = std::array<LocalIndex, 3>;
+
+/// Whether new triangles may take the place of old ones: no normal turns by more than 20 degrees against any
+/// old one, no edge is longer than 1.5 times the longest one before, and the worst shape is at least as good
+/// as before or 0.3 (of a mean ratio). All corners stay on the CAD face, so the chordal error stays that of
+/// edges of such lengths.
+bool is_gentle_change(const TetMesh& mesh, std::span<const TriangleCorners> before,
+                      std::span<const TriangleCorners> after);
+
+/// Whether an edge of the boundary between two vertices exists: one between free triangles or others.
+class BoundaryEdges {
+public:
+  bool exists(TetMesh& mesh, LocalIndex from, LocalIndex to);
+
+private:
+  std::vector<LocalIndex> _star;
+};
+
+}  // namespace aeroloom::improve
