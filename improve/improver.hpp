@@ -12,7 +12,7 @@ namespace aeroloom::improve {
 
 struct ImproveOptions {
   bool enabled = true;
-  double target_angle = 15;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
+  double target_angle = 28;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
                              ///< minus 1.5 times this, are worked on
   int sweeps = 12;           ///< at most; ends earlier when a sweep gains nothing
   int shifted_rounds = 6;    ///< at most, across the borders of pieces; ends earlier when nothing is left

@@ -13,9 +13,34 @@ constexpr auto later = [](const auto& a, const auto& b) {
 /// What one sweep may try, in tetrahedra that it began with.
 constexpr std::int64_t tries_per_task = 4;
 constexpr std::int64_t least_tries = 1000;
+/// A sweep with fewer gains is the last one.
+constexpr std::int64_t tasks_per_gain = 50;
 /// Of the target: below these the costly means are tried, which refill a whole cavity.
 constexpr double worth_moving = 0.9;
 constexpr double worth_adding = 0.75;
+
+/// The edges of a tetrahedron by their dihedral angles, largest first: those whose removal promises most.
+std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
+  const Corners& c = mesh.corners(t);
+  Vec3 normals[4];
+  for (int f = 0; f < 4; ++f) {
+    const auto& face = mesh::tetrahedron_faces[f];
+    const Vec3 a = mesh.point(c[face[0]]);
+    normals[f] = normalized(cross(mesh.point(c[face[1]]) - a, mesh.point(c[face[2]]) - a));
+  }
+  std::array<double, 6> cosine{};  // of the angle between outward normals: large where the dihedral is
+  std::array<int, 6> order{};
+  for (int e = 0; e < 6; ++e) {
+    // The faces at an edge are opposite to the other two vertices.
+    const auto& other = mesh::tetrahedron_edges[5 - e];
+    cosine[e] = dot(normals[other[0]], normals[other[1]]);
+    order[e] = e;
+  }
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return cosine[a] != cosine[b] ? cosine[a] > cosine[b] : a < b;
+  });
+  return order;
+}
 
 }  // namespace
 
@@ -29,17 +54,17 @@ Schedule::Schedule(TetMesh& mesh)
 void Schedule::run(int sweeps) {
   Means means = Means::swaps_and_smoothing;
   for (int i = 0; i < sweeps; ++i) {
-    const std::int64_t gains = sweep(means);
-    if (gains == 0 && means == Means::new_vertices) return;
+    const Sweep done = sweep(means);
+    if (means == Means::new_vertices && done.gains <= done.tasks / tasks_per_gain) return;
     if (i >= 1 && means != Means::new_vertices) means = static_cast<Means>(static_cast<int>(means) + 1);
   }
 }
 
-std::int64_t Schedule::sweep(Means means) {
+Schedule::Sweep Schedule::sweep(Means means) {
   fill_queue();
-  std::int64_t gains = 0;
+  Sweep done{static_cast<std::int64_t>(_queue.size()), 0};
   // A change may leave others below the target, without end where every gain is small.
-  std::int64_t tries = tries_per_task * static_cast<std::int64_t>(_queue.size()) + least_tries;
+  std::int64_t tries = tries_per_task * done.tasks + least_tries;
   while (!_queue.empty() && tries > 0) {
     std::pop_heap(_queue.begin(), _queue.end(), later);
     const Task task = _queue.back();
@@ -48,13 +73,13 @@ std::int64_t Schedule::sweep(Means means) {
       continue;
     --tries;
     if (mend(task.tet, means)) {
-      ++gains;
+      ++done.gains;
     } else {
       _attempt[task.tet] = _now;
       _attempt_means[task.tet] = means;
     }
   }
-  return gains;
+  return done;
 }
 
 void Schedule::fill_queue() {
@@ -90,14 +115,16 @@ bool Schedule::swap(LocalIndex t) {
   _best.clear();
   const auto keep_trial = [&] { std::swap(_best, _trial); };
   const double least = _mesh.quality(t);
-  for (int edge = 0; edge < 6; ++edge) {
+  const double enough = _mesh.measure().target();
+  for (const int edge : widest_first(_mesh, t)) {
     const double floor = std::max(least, _best.after);
     if (_edge_removal.propose(_mesh, t, edge, floor, _trial) ||
         _boundary_flip.propose(_mesh, t, edge, floor, _trial)) {
       keep_trial();
     }
+    if (_best.after >= enough) break;
   }
-  for (int face = 0; face < 4; ++face) {
+  for (int face = 0; face < 4 && _best.after < enough; ++face) {
     if (_face_removal.propose(_mesh, t, face, std::max(least, _best.after), _trial)) keep_trial();
   }
   if (!_best.improves() || !apply(_best)) return false;

@@ -21,7 +21,7 @@ class Schedule {
 public:
   explicit Schedule(TetMesh& mesh);
 
-  /// At most `sweeps` sweeps; ends earlier when one gains nothing.
+  /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
   void run(int sweeps);
   std::int64_t smoothed() const { return _smoothed; }
   std::int64_t swaps() const { return _swaps; }
@@ -35,7 +35,10 @@ private:
     std::uint32_t version;
   };
 
-  std::int64_t sweep(Means means);
+  struct Sweep {
+    std::int64_t tasks, gains;
+  };
+  Sweep sweep(Means means);
   void fill_queue();
   void push(LocalIndex t);
   bool mend(LocalIndex t, Means means);

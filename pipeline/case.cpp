@@ -126,8 +126,17 @@ void declare_stages(KeyTable& root, Case& result) {
   volume.integer("inject_piece", result.sabotaged_piece, Range::between(-1, 1e9));
   KeyTable& improve = root.section("improve");
   improve.flag("enabled", result.improve.enabled);
-  improve.number("target_angle", result.improve.target_angle, Range::between(0, 60, "degrees"));
+  improve.number("target_angle", result.improve.target_angle, Range::above(0, 50, "degrees"));
   improve.integer("sweeps", result.improve.sweeps, Range::between(0, 1000));
+  KeyTable& gate = improve.section("gate");
+  const Range angle = Range::between(0, 180, "degrees"), ratio = Range::between(0, 1);
+  gate.number("smallest_angle", result.gate.smallest_angle, angle);
+  gate.number("largest_angle", result.gate.largest_angle, angle);
+  gate.number("percentile_01", result.gate.percentile_01, angle);
+  gate.number("percentile_1", result.gate.percentile_1, angle);
+  gate.number("percentile_5", result.gate.percentile_5, angle);
+  gate.number("min_mean_ratio", result.gate.min_mean_ratio, ratio);
+  gate.number("mean_mean_ratio", result.gate.mean_mean_ratio, ratio);
   KeyTable& output = root.section("output");
   output.text("directory", result.output.directory);
   output.choice<parallel::LogLevel>("log", result.output.log,

@@ -3,6 +3,7 @@
 
 #include "geometry/domain.hpp"
 #include "improve/improver.hpp"
+#include "pipeline/quality_gate.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
 #include "surface/surface_mesher.hpp"
@@ -46,6 +47,7 @@ struct Case {
   double interface_angle = 45;        ///< degrees between interfaces, and to the boundary, wanted; 0: any
   bool erase_interfaces = true;       ///< refill the layer around them with the lattice continued
   improve::ImproveOptions improve;
+  QualityGate gate;
   OutputOptions output;
 };
 

@@ -123,6 +123,27 @@ Json surface_json(const RunRecord& record) {
   return json;
 }
 
+Json pinned_json(const RunRecord& record) {
+  Json list = Json::array();
+  const auto name = [&](std::int32_t face) {
+    return face >= 0 && static_cast<std::size_t>(face) < record.face_names.size() ? record.face_names[face]
+                                                                                  : std::string("unknown");
+  };
+  for (const improve::PinningEntity& entity : record.pinned.entities) {
+    const bool between_faces = entity.kind == improve::PinningEntity::Kind::faces;
+    Json item = {{"kind", between_faces ? "faces" : "curves"},
+                 {"angle_deg", entity.angle},
+                 {"smallest_dihedral_deg", entity.smallest_dihedral},
+                 {"tetrahedra", entity.tetrahedra},
+                 {"at", {entity.at.x, entity.at.y, entity.at.z}}};
+    item["faces"] = Json::array({name(entity.faces[0])});
+    if (entity.faces[1] != entity.faces[0]) item["faces"].push_back(name(entity.faces[1]));
+    if (!between_faces) item["cad_vertex"] = entity.vertex;
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
 Json patches_json(const RunRecord& record) {
   Json json = Json::array();
   for (const PatchRow& patch : record.patches) {
@@ -239,8 +260,10 @@ std::string report_json(const Case& input, const RunRecord& record,
                      {"bad_after", record.improve.bad_after},
                      {"smoothed", record.improve.smoothed},
                      {"swaps", record.improve.swaps},
-                     {"changed_triangles", record.improve.changed_triangles}};
-  json["pinned"] = Json::array();
+                     {"changed_triangles", record.improve.changed_triangles},
+                     {"pinned_tetrahedra", record.pinned.tetrahedra},
+                     {"unpinned_below_target", record.pinned.others}};
+  json["pinned"] = pinned_json(record);
   json["patches"] = patches_json(record);
   json["regions"] = regions_json(record);
   json["wall_seconds"] = record.wall_seconds;

@@ -278,6 +278,15 @@ void improve_volume(const Communicator& communicator, const Case& input, mesh::D
                   record.improve.bad_after));
 }
 
+/// Tells the elements that the CAD forces from those that improvement could not mend.
+void list_pinned(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
+                 const mesh::Numbering& numbering, RunRecord& record) {
+  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle);
+  if (record.pinned.entities.empty()) return;
+  parallel::log_info(fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
+                                 record.pinned.tetrahedra, record.pinned.entities.size()));
+}
+
 /// The surface follows a volume whose boundary was improved.
 void adopt_boundary(const Communicator& communicator, const geometry::Model& model,
                     const mesh::DistributedMesh& volume, FinishedSurface& surface, RunRecord& record) {
@@ -382,6 +391,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     mesh::Numbering improved = inspect_volume(communicator, volume, surface.mesh, record);
     record.regions_filled = table_of_regions(communicator, volume);
     record.quality = mesh::summarise_quality(communicator, volume, improved);
+    if (input.improve.enabled) list_pinned(communicator, input, volume, improved, record);
     record.hash = mesh::hash_mesh(communicator, volume, improved);
     return improved;
   });
@@ -389,6 +399,8 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     io::write_volume(communicator, volume, numbering, directory, "mesh");
     write_surfaces(communicator, surface, directory);
   });
+  const std::string missed = missed_limits(input.gate, *record.quality, record.pinned);
+  if (!missed.empty()) throw StageFailure("quality gate", ExitCode::quality_gate, missed);
   record.wall_seconds = parallel::wall_seconds() - start;
 }
 

@@ -3,6 +3,7 @@
 
 #include "geometry/domain.hpp"
 #include "improve/improver.hpp"
+#include "improve/pinned.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "parallel/communicator.hpp"
@@ -59,6 +60,7 @@ struct RunRecord {
   ErasureReport erasure;
   SizeConformity conformity;  ///< before improvement
   improve::ImproveReport improve;
+  improve::PinnedReport pinned;
   mesh::MeshCounts counts;
   double mesh_volume = 0;
   std::string hash;

@@ -1,0 +1,295 @@
+#include "improve/pinned.hpp"
+
+#include "improve/tet_quality.hpp"
+#include "mesh/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace aeroloom::improve {
+namespace {
+
+using geometry::Vec3;
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using mesh::Piece;
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr int on_curve = 1;
+
+/// An edge between vertices on curves, as one region sees it.
+struct EdgeName {
+  GlobalIndex low, high;
+  std::int64_t region;
+  auto operator<=>(const EdgeName&) const = default;
+};
+
+/// What one piece knows of such an edge.
+struct EdgeShare {
+  std::int64_t edge, piece;
+  double angle;                       ///< degrees that its tetrahedra enclose
+  std::array<std::int32_t, 2> faces;  ///< CAD faces of its boundary triangles there, -1 for none
+};
+
+/// The angle that the boundary encloses at an edge.
+struct Wedge {
+  double angle = 0;
+  std::array<std::int32_t, 2> faces{-1, -1};
+};
+
+double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 axis = b - a;
+  const Vec3 left = cross(axis, c - a), right = cross(axis, d - a);
+  return degrees * std::atan2(norm(cross(left, right)), dot(left, right));
+}
+
+double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {
+  return degrees * std::atan2(norm(cross(a - tip, b - tip)), dot(a - tip, b - tip));
+}
+
+void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
+  if (face < 0 || faces[0] == face || faces[1] == face) return;
+  (faces[0] < 0 ? faces[0] : faces[1]) = face;
+  if (faces[1] >= 0 && faces[0] > faces[1]) std::swap(faces[0], faces[1]);
+}
+
+class PinnedSearch {
+public:
+  PinnedSearch(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+               const mesh::Numbering& numbering, double target)
+      : _communicator(communicator), _mesh(mesh), _numbering(numbering), _target(target), _measure(target) {
+    _report.smallest_angle = target;
+    _report.largest_angle = 180 - 1.5 * target;
+  }
+
+  PinnedReport run() {
+    collect_edges();
+    measure_wedges();
+    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
+    return merge();
+  }
+
+private:
+  struct BadTet {
+    LocalIndex tet;
+    mesh::DihedralRange angles;
+  };
+
+  std::array<Vec3, 4> points(const Piece& piece, LocalIndex t) const {
+    const LocalIndex* c = piece.cell(t);
+    return {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
+  }
+  EdgeName name(std::size_t piece, LocalIndex a, LocalIndex b) const {
+    const GlobalIndex ga = _numbering.vertices[piece][a], gb = _numbering.vertices[piece][b];
+    return {std::min(ga, gb), std::max(ga, gb), _mesh.pieces[piece].region};
+  }
+  /// The number of an edge among those looked at, -1 for others.
+  std::int64_t find(const EdgeName& edge) const {
+    const auto found = std::lower_bound(_edges.begin(), _edges.end(), edge);
+    return found != _edges.end() && *found == edge ? found - _edges.begin() : -1;
+  }
+
+  void collect_edges();
+  void measure_wedges();
+  void add_shares(std::size_t piece, std::vector<EdgeShare>& shares) const;
+  void judge(std::size_t piece);
+  bool pinned_by_faces(std::size_t piece, const BadTet& bad);
+  bool pinned_by_curves(std::size_t piece, const BadTet& bad,
+                        const std::vector<std::array<LocalIndex, 4>>& corners);
+  std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
+  PinnedReport merge();
+
+  const parallel::Communicator& _communicator;
+  const mesh::DistributedMesh& _mesh;
+  const mesh::Numbering& _numbering;
+  double _target;
+  TetQuality _measure;
+  std::vector<std::vector<BadTet>> _bad;  // per piece
+  std::vector<EdgeName> _edges;           // of bad tetrahedra on all ranks, ascending
+  std::vector<Wedge> _wedges;             // per edge
+  std::vector<PinningEntity> _entities;
+  PinnedReport _report;
+};
+
+void PinnedSearch::collect_edges() {
+  std::vector<EdgeName> mine;
+  for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) {
+    const Piece& piece = _mesh.pieces[i];
+    std::vector<BadTet>& bad = _bad.emplace_back();
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const auto p = points(piece, t);
+      const double quality = _measure(p[0], p[1], p[2], p[3]);
+      if (quality >= _measure.target()) continue;
+      bad.push_back({t, mesh::dihedral_range(p[0], p[1], p[2], p[3])});
+      const LocalIndex* c = piece.cell(t);
+      for (const auto& [a, b] : mesh::tetrahedron_edges) {
+        if (piece.vertex_dimension[c[a]] <= on_curve && piece.vertex_dimension[c[b]] <= on_curve)
+          mine.push_back(name(i, c[a], c[b]));
+      }
+    }
+  }
+  _edges = _communicator.all_gather_items<EdgeName>(mine);
+  std::sort(_edges.begin(), _edges.end());
+  _edges.erase(std::unique(_edges.begin(), _edges.end()), _edges.end());
+}
+
+void PinnedSearch::add_shares(std::size_t i, std::vector<EdgeShare>& shares) const {
+  const Piece& piece = _mesh.pieces[i];
+  std::vector<EdgeShare> mine;
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* c = piece.cell(t);
+    int curved = 0;
+    for (int k = 0; k < 4; ++k) curved += piece.vertex_dimension[c[k]] <= on_curve;
+    if (curved < 2) continue;
+    for (int e = 0; e < 6; ++e) {
+      const auto& [a, b] = mesh::tetrahedron_edges[e];
+      if (piece.vertex_dimension[c[a]] > on_curve || piece.vertex_dimension[c[b]] > on_curve) continue;
+      const std::int64_t edge = find(name(i, c[a], c[b]));
+      if (edge < 0) continue;
+      const auto& [u, v] = mesh::tetrahedron_edges[5 - e];
+      const double angle =
+          dihedral_at(piece.point(c[a]), piece.point(c[b]), piece.point(c[u]), piece.point(c[v]));
+      mine.push_back({edge, piece.id, angle, {-1, -1}});
+    }
+  }
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    for (int k = 0; k < 3; ++k) {
+      const LocalIndex a = v[k], b = v[(k + 1) % 3];
+      if (piece.vertex_dimension[a] > on_curve || piece.vertex_dimension[b] > on_curve) continue;
+      const std::int64_t edge = find(name(i, a, b));
+      if (edge >= 0) mine.push_back({edge, piece.id, 0, {piece.triangle_face[t], -1}});
+    }
+  }
+  // One record per edge.
+  std::stable_sort(mine.begin(), mine.end(),
+                   [](const EdgeShare& a, const EdgeShare& b) { return a.edge < b.edge; });
+  for (const EdgeShare& share : mine) {
+    if (shares.empty() || shares.back().edge != share.edge || shares.back().piece != share.piece) {
+      shares.push_back(share);
+      continue;
+    }
+    shares.back().angle += share.angle;
+    add_face(shares.back().faces, share.faces[0]);
+  }
+}
+
+void PinnedSearch::measure_wedges() {
+  std::vector<EdgeShare> mine;
+  if (!_edges.empty()) {
+    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) add_shares(i, mine);
+  }
+  std::vector<EdgeShare> all = _communicator.all_gather_items<EdgeShare>(mine);
+  std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
+    return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
+  });
+  _wedges.assign(_edges.size(), {});
+  for (const EdgeShare& share : all) {
+    _wedges[share.edge].angle += share.angle;
+    for (const std::int32_t face : share.faces) add_face(_wedges[share.edge].faces, face);
+  }
+}
+
+bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
+  const Piece& piece = _mesh.pieces[i];
+  const LocalIndex* c = piece.cell(bad.tet);
+  PinningEntity entity;
+  entity.angle = _target;
+  for (const auto& [a, b] : mesh::tetrahedron_edges) {
+    if (piece.vertex_dimension[c[a]] > on_curve || piece.vertex_dimension[c[b]] > on_curve) continue;
+    const std::int64_t edge = find(name(i, c[a], c[b]));
+    if (edge < 0 || _wedges[edge].angle >= entity.angle) continue;
+    entity.angle = _wedges[edge].angle;
+    entity.faces = _wedges[edge].faces;
+    entity.at = 0.5 * (piece.point(c[a]) + piece.point(c[b]));
+  }
+  if (entity.angle >= _target) return false;
+  if (entity.faces[1] < 0) entity.faces[1] = entity.faces[0];
+  entity.tetrahedra = 1;
+  entity.smallest_dihedral = bad.angles.smallest;
+  _entities.push_back(entity);
+  return true;
+}
+
+/// Boundary triangles in a corner between two curves that is smaller than the target: corner first, then the
+/// others, then the triangle.
+std::vector<std::array<LocalIndex, 4>> PinnedSearch::sharp_corners(const Piece& piece) const {
+  std::vector<std::array<LocalIndex, 4>> corners;
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    for (int k = 0; k < 3; ++k) {
+      const LocalIndex tip = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+      if (piece.vertex_dimension[tip] != 0 || piece.vertex_dimension[a] > on_curve ||
+          piece.vertex_dimension[b] > on_curve) {
+        continue;
+      }
+      if (corner_angle(piece.point(tip), piece.point(a), piece.point(b)) < _target)
+        corners.push_back({tip, a, b, t});
+    }
+  }
+  return corners;
+}
+
+bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
+                                    const std::vector<std::array<LocalIndex, 4>>& corners) {
+  const Piece& piece = _mesh.pieces[i];
+  const LocalIndex* c = piece.cell(bad.tet);
+  const auto has = [c](LocalIndex v) { return c[0] == v || c[1] == v || c[2] == v || c[3] == v; };
+  for (const auto& [tip, a, b, triangle] : corners) {
+    if (!has(tip) || !has(a) || !has(b)) continue;
+    const std::int32_t face = piece.triangle_face[triangle];
+    _entities.push_back({.kind = PinningEntity::Kind::curves,
+          .faces = {face, face},
+          .vertex = piece.vertex_entity[tip],
+          .angle = corner_angle(piece.point(tip), piece.point(a), piece.point(b)),
+          .smallest_dihedral = bad.angles.smallest,
+          .at = piece.point(tip),
+          .tetrahedra = 1});
+    return true;
+  }
+  return false;
+}
+
+void PinnedSearch::judge(std::size_t i) {
+  const std::vector<std::array<LocalIndex, 4>> corners = sharp_corners(_mesh.pieces[i]);
+  for (const BadTet& bad : _bad[i]) {
+    if (pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners)) continue;
+    ++_report.others;
+    _report.smallest_angle = std::min(_report.smallest_angle, bad.angles.smallest);
+    _report.largest_angle = std::max(_report.largest_angle, bad.angles.largest);
+  }
+}
+
+PinnedReport PinnedSearch::merge() {
+  std::vector<PinningEntity> all = _communicator.all_gather_items<PinningEntity>(_entities);
+  const auto key = [](const PinningEntity& e) { return std::tuple(e.kind, e.faces, e.vertex); };
+  std::sort(all.begin(), all.end(), [&](const PinningEntity& a, const PinningEntity& b) {
+    return std::tuple(key(a), a.angle, a.at.x, a.at.y, a.at.z) <
+           std::tuple(key(b), b.angle, b.at.x, b.at.y, b.at.z);
+  });
+  for (const PinningEntity& entity : all) {
+    ++_report.tetrahedra;
+    if (_report.entities.empty() || key(_report.entities.back()) != key(entity)) {
+      _report.entities.push_back(entity);
+      continue;
+    }
+    PinningEntity& known = _report.entities.back();
+    ++known.tetrahedra;
+    known.smallest_dihedral = std::min(known.smallest_dihedral, entity.smallest_dihedral);
+  }
+  _report.smallest_angle = _communicator.minimum(_report.smallest_angle);
+  _report.largest_angle = _communicator.maximum(_report.largest_angle);
+  _report.others = _communicator.sum(_report.others);
+  return std::move(_report);
+}
+
+}  // namespace
+
+PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                         const mesh::Numbering& numbering, double target_angle) {
+  return PinnedSearch(communicator, mesh, numbering, target_angle).run();
+}
+
+}  // namespace aeroloom::improve

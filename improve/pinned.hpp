@@ -1,0 +1,44 @@
+/// Tetrahedra that cannot reach the target because the CAD has an angle smaller than it: pinned ones.
+#pragma once
+
+#include "geometry/vec.hpp"
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::improve {
+
+/// A place of the CAD that forces small angles.
+struct PinningEntity {
+  /// Two faces that meet at a curve with a small angle between them, or two curves that meet so at a CAD vertex
+  /// on a face.
+  enum class Kind : std::int32_t { faces, curves };
+  Kind kind = Kind::faces;
+  std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces, ascending; twice the same of two curves
+  std::int32_t vertex = -1;                   ///< CAD vertex of two curves
+  std::int32_t unused = 0;                    ///< no padding travels
+  double angle = 0;                           ///< degrees: the smallest that the mesh has there
+  double smallest_dihedral = 0;               ///< degrees, of its tetrahedra
+  geometry::Vec3 at;                          ///< where that smallest angle is
+  std::int64_t tetrahedra = 0;
+};
+
+struct PinnedReport {
+  std::vector<PinningEntity> entities;  ///< by kind, faces, vertex
+  std::int64_t tetrahedra = 0;          ///< pinned, of those that miss the target
+  std::int64_t others = 0;              ///< that miss it and are not pinned
+  /// No tetrahedron that is not pinned goes beyond these, degrees.
+  double smallest_angle = 0, largest_angle = 180;
+};
+
+/// Which tetrahedra that miss the target angle (degrees, as in ImproveOptions) are pinned: those at an edge of
+/// a CAD curve where the boundary encloses less than the target, and those on a boundary triangle that fills a
+/// corner of less than the target between two curves. Collective; the same on every rank and for any number of
+/// ranks.
+PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                         const mesh::Numbering& numbering, double target_angle);
+
+}  // namespace aeroloom::improve

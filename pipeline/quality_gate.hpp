@@ -1,0 +1,24 @@
+/// What a mesh has to be like for the run to count as a success.
+#pragma once
+
+#include "improve/pinned.hpp"
+#include "mesh/quality.hpp"
+
+#include <optional>
+#include <string>
+
+namespace aeroloom::pipeline {
+
+/// Limits; what is empty is not asked for. Angles in degrees. Tetrahedra that the CAD forces (improve/pinned.hpp)
+/// do not count for the smallest and the largest angle.
+struct QualityGate {
+  std::optional<double> smallest_angle, largest_angle;
+  std::optional<double> percentile_01, percentile_1, percentile_5;  ///< of the smallest angles
+  std::optional<double> min_mean_ratio, mean_mean_ratio;
+};
+
+/// The limits that the mesh misses, with what it has and where the worst tetrahedron is; empty: none.
+std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
+                          const improve::PinnedReport& pinned);
+
+}  // namespace aeroloom::pipeline
