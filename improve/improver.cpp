@@ -46,7 +46,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
   report.min_angle_before = report.min_angle_after = before.least_angle;
   if (!options.enabled || before.bad == 0) return report;
 
-  TetMesh mesh(piece, measure);
+  TetMesh mesh(piece, measure, options.boundary_may_change);
   Schedule schedule(mesh);
   schedule.run(options.sweeps);
   mesh.finish();

@@ -19,7 +19,8 @@ std::array<LocalIndex, 3> sorted(LocalIndex a, LocalIndex b, LocalIndex c) {
 
 }  // namespace
 
-TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure) : _piece(piece), _measure(measure) {
+TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure, bool boundary_may_change)
+    : _piece(piece), _measure(measure) {
   _original_count = piece.cell_count();
   _cells.resize(_original_count);
   _quality.resize(_original_count);
@@ -35,7 +36,7 @@ TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure) : _piece(piece),
   }
   _tet_mark.assign(_original_count, 0);
   match_all_faces();
-  match_triangles();
+  if (boundary_may_change) match_triangles();
   fix_vertices();
 }
 

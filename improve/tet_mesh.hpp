@@ -61,8 +61,8 @@ struct Cavity {
 class TetMesh {
 public:
   /// Takes the cells out of the piece; finish() puts them back. Throws std::logic_error when three tetrahedra
-  /// share a face.
-  TetMesh(mesh::Piece& piece, const TetQuality& measure);
+  /// share a face. Where the boundary may not change, its triangles count as faces without a neighbour.
+  TetMesh(mesh::Piece& piece, const TetQuality& measure, bool boundary_may_change = true);
 
   /// Slots of tetrahedra, dead ones included.
   LocalIndex slot_count() const { return static_cast<LocalIndex>(_cells.size()); }

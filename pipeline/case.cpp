@@ -213,6 +213,14 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   return result;
 }
 
+Case case_of_overrides(const std::vector<std::string>& overrides) {
+  Draft draft;
+  KeyTable keys;
+  declare_keys(keys, draft);
+  for (const std::string& assignment : overrides) keys.read_override(assignment);
+  return draft.result;
+}
+
 std::string resolved_yaml(const Case& input) {
   Draft draft;
   draft.result = input;

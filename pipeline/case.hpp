@@ -57,6 +57,9 @@ struct Case {
 /// values out of range or at odds with each other, no geometry or two.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides);
 
+/// A case from overrides alone, for commands that need no geometry. Throws CaseError as read_case.
+Case case_of_overrides(const std::vector<std::string>& overrides);
+
 /// The case as YAML with every value spelled out, which read_case reads back to the same case.
 std::string resolved_yaml(const Case& input);
 

@@ -3,6 +3,7 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/check.hpp"
+#include "pipeline/improve_file.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
 
@@ -27,6 +28,7 @@ constexpr const char* examples =
     "  mpirun -n 8 aeroloom run case.yaml                  the same mesh, bit for bit, by eight ranks\n"
     "  aeroloom check case.yaml                            what is wrong with the CAD, what a run will cost\n"
     "  aeroloom run case.yaml --set sizing.minimum=0.02    override a key of the case\n"
+    "  aeroloom improve mesh.vtu --set output.directory=better   improve another program's mesh\n"
     "  aeroloom export-cad configs/transport.yaml a.step   write the case's geometry as STEP\n\n"
     "Exit codes: 0 ok, 2 usage or configuration, 3 CAD, 4 surface, 5 volume, 6 quality gate,\n"
     "7 input/output, 8 resources, 70 bug.";
@@ -35,7 +37,7 @@ constexpr const char* examples =
 struct Arguments {
   std::string case_file;
   std::vector<std::string> overrides;
-  std::string cad_file;
+  std::string cad_file, mesh_file;
   bool verbose = false, quiet = false;
 };
 
@@ -59,28 +61,35 @@ void write_text(const std::string& file, const std::string& text) {
 
 /// Writes report.json for a run that ended well or not. Collective; what goes wrong here replaces a good
 /// outcome.
-void report(const Communicator& communicator, const Case& input, const RunRecord& record,
-            const RunOutcome& outcome) {
+void report(const Communicator& communicator, const Case& input, const std::string& improved_file,
+            const RunRecord& record, const RunOutcome& outcome) {
   const auto stages = record.clock.summarise(communicator);
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     write_text(input.output.directory + "/report.json",
-               report_json(input, record, stages, outcome, communicator.size()));
+               improved_file.empty()
+                   ? report_json(input, record, stages, outcome, communicator.size())
+                   : improve_report_json(improved_file, input, record, stages, outcome, communicator.size()));
   });
   if (outcome.code == ExitCode::ok) print(communicator, report_table(record, stages, communicator.size()));
 }
 
-/// Runs and reports; a failure is reported too, as far as the output directory can be written.
-int run(const Communicator& communicator, const Case& input) {
+/// Runs a case, or improves a file where one is named, and reports; a failure is reported too, as far as the
+/// output directory can be written.
+int run(const Communicator& communicator, const Case& input, const std::string& improved_file) {
   RunRecord record;
   RunOutcome outcome;
   try {
-    run_case(communicator, input, record);
+    if (improved_file.empty()) {
+      run_case(communicator, input, record);
+    } else {
+      improve_file(communicator, improved_file, input, record);
+    }
   } catch (const StageFailure& failure) {
     outcome = {failure.code(), failure.stage(), failure.what()};
   }
   try {
-    report(communicator, input, record, outcome);
+    report(communicator, input, improved_file, record, outcome);
   } catch (const parallel::CollectiveError& error) {
     if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
   }
@@ -115,19 +124,26 @@ int export_cad(const Communicator& communicator, const Case& input, const std::s
 /// Every rank reads the case: it is small, and all learn of an error together.
 Case load_case(const Communicator& communicator, const Arguments& arguments) {
   Case input;
-  parallel::agree(communicator, [&] { input = read_case(arguments.case_file, arguments.overrides); });
+  parallel::agree(communicator, [&] {
+    input = arguments.case_file.empty() ? case_of_overrides(arguments.overrides)
+                                        : read_case(arguments.case_file, arguments.overrides);
+  });
   return input;
 }
 
-void add_case_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("case", arguments.case_file, "the case, a YAML file (docs/configuration.md)")
-      ->required();
+void add_common_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--set", arguments.overrides,
                   "override a key of the case, as section.key=value; repeatable")
       ->allow_extra_args(false);
   command.add_flag("-v,--verbose", arguments.verbose, "say more");
   command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");
+}
+
+void add_case_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("case", arguments.case_file, "the case, a YAML file (docs/configuration.md)")
+      ->required();
+  add_common_options(command, arguments);
 }
 
 }  // namespace
@@ -143,6 +159,10 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
   CLI::App* check_command = program.add_subcommand(
       "check", "diagnose the geometry of a case and predict its mesh, without meshing");
   CLI::App* export_command = program.add_subcommand("export-cad", "write the geometry of a case as STEP");
+  CLI::App* improve_command = program.add_subcommand(
+      "improve", "improve a mesh of tetrahedra from a file, its boundary kept as it is");
+  improve_command->add_option("file", arguments.mesh_file, "the mesh: .vtu, .pvtu or .vtk")->required();
+  add_common_options(*improve_command, arguments);
   add_case_options(*run_command, arguments);
   add_case_options(*check_command, arguments);
   add_case_options(*export_command, arguments);
@@ -164,7 +184,8 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
   parallel::configure_log(communicator, arguments.quiet     ? parallel::LogLevel::quiet
                                         : arguments.verbose ? parallel::LogLevel::verbose
                                                             : input.output.log);
-  if (run_command->parsed()) return run(communicator, input);
+  if (run_command->parsed() || improve_command->parsed())
+    return run(communicator, input, arguments.mesh_file);
   if (check_command->parsed()) return check(communicator, input);
   try {
     return export_cad(communicator, input, arguments.cad_file);

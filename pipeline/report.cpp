@@ -235,11 +235,18 @@ Json stages_json(const std::vector<parallel::StageSummary>& stages) {
   return json;
 }
 
-}  // namespace
+Json improve_json(const RunRecord& record) {
+  return {{"bad_before", record.improve.bad_before},
+          {"bad_after", record.improve.bad_after},
+          {"smoothed", record.improve.smoothed},
+          {"swaps", record.improve.swaps},
+          {"changed_triangles", record.improve.changed_triangles},
+          {"pinned_tetrahedra", record.pinned.tetrahedra},
+          {"unpinned_below_target", record.pinned.others}};
+}
 
-std::string report_json(const Case& input, const RunRecord& record,
-                        const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
-                        int ranks) {
+/// What every report begins with.
+Json outcome_json(const Case& input, const RunOutcome& outcome, int ranks) {
   Json json;
   json["schema_version"] = schema_version;
   json["program"] = {{"name", "aeroloom"}, {"version", AEROLOOM_VERSION}};
@@ -249,25 +256,43 @@ std::string report_json(const Case& input, const RunRecord& record,
     json["failure"] = {{"stage", outcome.stage}, {"message", outcome.message}};
   json["ranks"] = ranks;
   json["configuration"] = resolved_yaml(input);
-  json["geometry"] = geometry_json(record);
-  json["sizing"] = sizing_json(record);
-  json["surface"] = surface_json(record);
+  return json;
+}
+
+/// What every report says of the finished mesh.
+void add_finished_mesh(Json& json, const RunRecord& record,
+                       const std::vector<parallel::StageSummary>& stages) {
   json["mesh"] = mesh_json(record);
   if (record.quality) json["quality"] = quality_json(*record.quality);
-  json["decompose"] = decompose_json(record);
-  json["volume"] = volume_json(record);
-  json["improve"] = {{"bad_before", record.improve.bad_before},
-                     {"bad_after", record.improve.bad_after},
-                     {"smoothed", record.improve.smoothed},
-                     {"swaps", record.improve.swaps},
-                     {"changed_triangles", record.improve.changed_triangles},
-                     {"pinned_tetrahedra", record.pinned.tetrahedra},
-                     {"unpinned_below_target", record.pinned.others}};
+  json["improve"] = improve_json(record);
   json["pinned"] = pinned_json(record);
   json["patches"] = patches_json(record);
   json["regions"] = regions_json(record);
   json["wall_seconds"] = record.wall_seconds;
   json["stages"] = stages_json(stages);
+}
+
+}  // namespace
+
+std::string report_json(const Case& input, const RunRecord& record,
+                        const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
+                        int ranks) {
+  Json json = outcome_json(input, outcome, ranks);
+  json["geometry"] = geometry_json(record);
+  json["sizing"] = sizing_json(record);
+  json["surface"] = surface_json(record);
+  json["decompose"] = decompose_json(record);
+  json["volume"] = volume_json(record);
+  add_finished_mesh(json, record, stages);
+  return json.dump(2) + "\n";
+}
+
+std::string improve_report_json(const std::string& file, const Case& input, const RunRecord& record,
+                                const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
+                                int ranks) {
+  Json json = outcome_json(input, outcome, ranks);
+  json["input"] = file;
+  add_finished_mesh(json, record, stages);
   return json.dump(2) + "\n";
 }
 

@@ -20,6 +20,11 @@ std::string report_json(const Case& input, const RunRecord& record,
                         const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
                         int ranks);
 
+/// The report of an improved file.
+std::string improve_report_json(const std::string& file, const Case& input, const RunRecord& record,
+                                const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
+                                int ranks);
+
 /// The table of stage times and the quality of the mesh, for the terminal.
 std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
                          int ranks);

@@ -2,10 +2,14 @@
 
 #include "io/vtk_writer.hpp"
 #include "mesh/boundary_mesh.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "pipeline/finished_volume.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
+#include "pipeline/stage.hpp"
 #include "pipeline/widen_interfaces.hpp"
 
 #include <cmath>
@@ -16,46 +20,6 @@ namespace aeroloom::pipeline {
 namespace {
 
 using parallel::Communicator;
-
-ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage) {
-  switch (error.kind()) {
-    case parallel::FailureKind::files:
-      return ExitCode::files;
-    case parallel::FailureKind::resources:
-      return ExitCode::resources;
-    case parallel::FailureKind::bug:
-      return ExitCode::bug;
-    case parallel::FailureKind::input:
-      break;
-  }
-  return of_stage;
-}
-
-/// Runs `work` as stage `name`: opens and closes its clock, and turns what it throws into a StageFailure with
-/// `code`, or the code that the kind of failure demands. What is thrown here has been agreed on by all ranks
-/// or follows from data all ranks share.
-template <class Work>
-auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work work) {
-  struct Clock {
-    parallel::StageClock& clock;
-    ~Clock() { clock.end(); }
-  };
-  record.clock.begin(name);
-  const Clock closes{record.clock};
-  try {
-    return work();
-  } catch (const parallel::CollectiveError& error) {
-    throw StageFailure(name, code_of(error, code), error.what());
-  } catch (const std::bad_alloc&) {
-    throw StageFailure(name, ExitCode::resources, "out of memory");
-  } catch (const std::invalid_argument& error) {
-    throw StageFailure(name, ExitCode::usage, error.what());
-  } catch (const std::logic_error& error) {
-    throw StageFailure(name, ExitCode::bug, error.what());
-  } catch (const std::exception& error) {
-    throw StageFailure(name, code, error.what());
-  }
-}
 
 void describe_domain(const geometry::Model& model, RunRecord& record) {
   record.unit = model.unit_name();
@@ -95,14 +59,6 @@ SizedDomain build_sizes(const Communicator& communicator, const geometry::Model&
   return sized;
 }
 
-/// An invalid mesh is a defect of the program that must not reach a file unnoticed.
-double require_valid(const std::string& what, const mesh::ValidityReport& report) {
-  if (report.valid()) return report.volume;
-  std::string text = what + " is not valid:";
-  for (const std::string& violation : report.violations) text += "\n  " + violation;
-  throw std::runtime_error(text);
-}
-
 /// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
 std::vector<PatchRow> table_of_patches(const Communicator& communicator, const geometry::Model& model,
                                        const mesh::DistributedMesh& surface) {
@@ -126,13 +82,14 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const g
   std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
   std::vector<PatchRow> patches;
   for (const std::string& name : model.patches()) patches.push_back({.name = name});
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const PieceRow& row = rows[i];
+  std::vector<char> counted(model.face_count(), 0);
+  for (const PieceRow& row : rows) {
     PatchRow& patch = patches[model.face(row.face).patch];
     patch.inner = patch.inner || model.face(row.face).back != geometry::no_entity;
     patch.area += row.area;
     patch.triangles += row.triangles;
-    if (i == 0 || rows[i - 1].face != row.face) patch.cad_area += model.face_area(row.face);
+    if (!counted[row.face]) patch.cad_area += model.face_area(row.face);
+    counted[row.face] = 1;
   }
   return patches;
 }
@@ -238,55 +195,6 @@ Decomposition decompose(const Communicator& communicator, const FinishedSurface&
   return result;
 }
 
-/// Tetrahedra and volume by region; sums run in the order of the pieces.
-std::vector<RegionRow> table_of_regions(const Communicator& communicator,
-                                        const mesh::DistributedMesh& volume) {
-  struct PieceRow {
-    mesh::PieceId piece;
-    std::int32_t region;
-    std::int64_t tetrahedra;
-    double volume;
-  };
-  std::vector<PieceRow> mine;
-  for (const mesh::Piece& piece : volume.pieces) {
-    double sum = 0;
-    for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
-      const mesh::LocalIndex* v = piece.cell(c);
-      sum +=
-          geometry::volume6(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])) / 6;
-    }
-    mine.push_back({piece.id, piece.region, piece.cell_count(), sum});
-  }
-  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
-  std::vector<RegionRow> regions;
-  for (const std::string& name : volume.regions) regions.push_back({.name = name});
-  for (const PieceRow& row : rows) {
-    regions[row.region].tetrahedra += row.tetrahedra;
-    regions[row.region].volume += row.volume;
-  }
-  return regions;
-}
-
-void improve_volume(const Communicator& communicator, const Case& input, mesh::DistributedMesh& volume,
-                    RunRecord& record) {
-  if (!input.improve.enabled) return;
-  record.improve = improve::improve_mesh(communicator, volume, input.improve, record.clock);
-  parallel::log_info(
-      fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
-                  record.improve.min_angle_before, record.improve.min_angle_after, record.improve.bad_before,
-                  record.improve.bad_after));
-}
-
-/// Tells the elements that the CAD forces from those that improvement could not mend.
-void list_pinned(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
-                 const mesh::Numbering& numbering, RunRecord& record) {
-  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle);
-  if (record.pinned.entities.empty()) return;
-  parallel::log_info(fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
-                                 record.pinned.tetrahedra, record.pinned.entities.size()));
-}
-
 /// The surface follows a volume whose boundary was improved.
 void adopt_boundary(const Communicator& communicator, const geometry::Model& model,
                     const mesh::DistributedMesh& volume, FinishedSurface& surface, RunRecord& record) {
@@ -297,16 +205,6 @@ void adopt_boundary(const Communicator& communicator, const geometry::Model& mod
                 mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
   record.patches = table_of_patches(communicator, model, surface.mesh);
-}
-
-/// Checks and measures the mesh that the last stage left.
-mesh::Numbering inspect_volume(const Communicator& communicator, const mesh::DistributedMesh& volume,
-                               const mesh::DistributedMesh& surface, RunRecord& record) {
-  mesh::Numbering numbering = mesh::number_mesh(communicator, volume);
-  record.mesh_volume =
-      require_valid("the volume mesh", mesh::check_volume_mesh(communicator, volume, numbering, &surface));
-  record.counts = mesh::count_mesh(communicator, volume, numbering);
-  return numbering;
 }
 
 /// Fills the parts and erases the interfaces between them.
@@ -335,7 +233,7 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const geome
         record.erasure.vertices_before - record.erasure.vertices_left, record.erasure.vertices_before,
         record.erasure.rounds, record.erasure.refilled, record.erasure.cavities));
   }
-  inspect_volume(communicator, filled, surface.mesh, record);
+  inspect_volume(communicator, filled, &surface.mesh, record);
   record.conformity = measure_conformity(communicator, filled, surface.field);
   parallel::log_info(
       fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));
@@ -388,20 +286,16 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     improve_volume(communicator, input, volume, record);
     if (record.improve.changed_triangles > 0)
       adopt_boundary(communicator, sized.model, volume, surface, record);
-    mesh::Numbering improved = inspect_volume(communicator, volume, surface.mesh, record);
-    record.regions_filled = table_of_regions(communicator, volume);
-    record.quality = mesh::summarise_quality(communicator, volume, improved);
-    if (input.improve.enabled) list_pinned(communicator, input, volume, improved, record);
-    record.hash = mesh::hash_mesh(communicator, volume, improved);
+    mesh::Numbering improved = inspect_volume(communicator, volume, &surface.mesh, record);
+    measure_volume(communicator, input, volume, improved, record);
     return improved;
   });
   run_stage(record, "output", ExitCode::files, [&] {
     io::write_volume(communicator, volume, numbering, directory, "mesh");
     write_surfaces(communicator, surface, directory);
   });
-  const std::string missed = missed_limits(input.gate, *record.quality, record.pinned);
-  if (!missed.empty()) throw StageFailure("quality gate", ExitCode::quality_gate, missed);
   record.wall_seconds = parallel::wall_seconds() - start;
+  require_quality(input.gate, record);
 }
 
 }  // namespace aeroloom::pipeline

@@ -1,0 +1,32 @@
+/// What is done with a volume mesh once it is there: improvement, checks, figures.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "pipeline/case.hpp"
+#include "pipeline/run.hpp"
+
+#include <string>
+
+namespace aeroloom::pipeline {
+
+/// The volume of a mesh that was checked. An invalid one is a defect of the program that must not reach a file
+/// unnoticed: throws std::runtime_error with the violations.
+double require_valid(const std::string& what, const mesh::ValidityReport& report);
+
+/// Improves the mesh as the case asks for. Collective.
+void improve_volume(const parallel::Communicator& communicator, const Case& input,
+                    mesh::DistributedMesh& volume, RunRecord& record);
+
+/// Checks and counts the mesh that the last stage left; `surface` may be null. Collective.
+mesh::Numbering inspect_volume(const parallel::Communicator& communicator,
+                               const mesh::DistributedMesh& volume, const mesh::DistributedMesh* surface,
+                               RunRecord& record);
+
+/// Quality, pinned elements, hash and the table of regions of the finished mesh. Collective.
+void measure_volume(const parallel::Communicator& communicator, const Case& input,
+                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering, RunRecord& record);
+
+/// Throws StageFailure when the finished mesh misses the limits.
+void require_quality(const QualityGate& gate, const RunRecord& record);
+
+}  // namespace aeroloom::pipeline

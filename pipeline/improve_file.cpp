@@ -1,0 +1,36 @@
+#include "pipeline/improve_file.hpp"
+
+#include "io/vtk_writer.hpp"
+#include "mesh/boundary_mesh.hpp"
+#include "pipeline/finished_volume.hpp"
+#include "pipeline/foreign_mesh.hpp"
+#include "pipeline/stage.hpp"
+
+namespace aeroloom::pipeline {
+
+void improve_file(const parallel::Communicator& communicator, const std::string& file, const Case& input,
+                  RunRecord& record) {
+  const double start = parallel::wall_seconds();
+  Case fixed = input;
+  fixed.improve.boundary_may_change = false;
+  mesh::DistributedMesh volume = run_stage(record, "input", ExitCode::files, [&] {
+    return load_foreign_mesh(communicator, file, input.piece_tets);
+  });
+  record.face_names = volume.faces;
+  const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
+    improve_volume(communicator, fixed, volume, record);
+    mesh::Numbering improved = inspect_volume(communicator, volume, nullptr, record);
+    measure_volume(communicator, fixed, volume, improved, record);
+    return improved;
+  });
+  run_stage(record, "output", ExitCode::files, [&] {
+    const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
+    io::write_volume(communicator, volume, numbering, input.output.directory, "mesh");
+    io::write_surface(communicator, surface, mesh::number_mesh(communicator, surface), input.output.directory,
+                      "surface");
+  });
+  record.wall_seconds = parallel::wall_seconds() - start;
+  require_quality(input.gate, record);
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,43 @@
+/// Stages of a run: their clocks, and how what goes wrong in them ends the program.
+#pragma once
+
+#include "parallel/collective_error.hpp"
+#include "pipeline/exit_code.hpp"
+#include "pipeline/run.hpp"
+#include "pipeline/run.hpp"
+
+#include <new>
+#include <string>
+
+namespace aeroloom::pipeline {
+
+/// The exit code of a failure: that of the stage, unless its kind demands another.
+ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage);
+
+/// Runs `work` as stage `name`: opens and closes its clock, and turns what it throws into a StageFailure with
+/// `code`, or the code that the kind of failure demands. What is thrown here has been agreed on by all ranks
+/// or follows from data all ranks share.
+template <class Work>
+auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work work) {
+  struct Clock {
+    parallel::StageClock& clock;
+    ~Clock() { clock.end(); }
+  };
+  record.clock.begin(name);
+  const Clock closes{record.clock};
+  try {
+    return work();
+  } catch (const parallel::CollectiveError& error) {
+    throw StageFailure(name, code_of(error, code), error.what());
+  } catch (const std::bad_alloc&) {
+    throw StageFailure(name, ExitCode::resources, "out of memory");
+  } catch (const std::invalid_argument& error) {
+    throw StageFailure(name, ExitCode::usage, error.what());
+  } catch (const std::logic_error& error) {
+    throw StageFailure(name, ExitCode::bug, error.what());
+  } catch (const std::exception& error) {
+    throw StageFailure(name, code, error.what());
+  }
+}
+
+}  // namespace aeroloom::pipeline
