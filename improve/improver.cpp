@@ -1,5 +1,6 @@
 #include "improve/improver.hpp"
 
+#include "improve/balance.hpp"
 #include "improve/cavity_improver.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
@@ -34,6 +35,19 @@ PieceState examine(const mesh::Piece& piece, const TetQuality& measure) {
     bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
   }
   return state;
+}
+
+/// What a piece will cost: reading it in and looking at all, and work on each bad tetrahedron, in the time of
+/// reading one tetrahedron in (measured: 0.5 and 25 microseconds).
+double expected_work(const mesh::Piece& piece, const TetQuality& measure) {
+  constexpr double per_bad = 50;
+  std::int64_t bad = 0;
+  for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const mesh::LocalIndex* c = piece.cell(t);
+    bad += measure(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) <
+           measure.target();
+  }
+  return static_cast<double>(piece.cell_count()) + per_bad * static_cast<double>(bad);
 }
 
 }  // namespace
@@ -93,9 +107,17 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
                            const ImproveOptions& options, parallel::StageClock& clock) {
   ImproveReport total;
   total.min_angle_before = total.min_angle_after = 180;
+  std::vector<double> work;
   parallel::agree(communicator, [&] {
     if (mesh.kind != mesh::CellKind::tetrahedron)
       throw std::logic_error("improve: the mesh has no tetrahedra");
+    if (!options.enabled || communicator.size() < 2) return;
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const TetQuality measure(options.target_angle);
+    for (const mesh::Piece& piece : mesh.pieces) work.push_back(expected_work(piece, measure));
+  });
+  if (options.enabled && communicator.size() > 1) balance_pieces(communicator, mesh, work);
+  parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     for (mesh::Piece& piece : mesh.pieces) {
       const ImproveReport mine = improve_piece(piece, options);
