@@ -1,6 +1,8 @@
 #include "improve/cavity_improver.hpp"
 
+#include "improve/relaxation.hpp"
 #include "improve/tet_quality.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/tet_faces.hpp"
 
 #include <algorithm>
@@ -49,6 +51,44 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
       for (const auto& [i, j] : mesh::tetrahedron_edges) edges += distance(p[i], p[j]) / 6;
       const mesh::CavityId id = mesh::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), edges, cell_width, shift);
       for (int k = 0; k < 4; ++k) mine[v[k]] = std::max(mine[v[k]], id);
+    }
+  }
+  return count;
+}
+
+std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh::CavityWishes& wishes) {
+  std::int64_t count = 0;
+  wishes.clear();
+  std::vector<double> edges;
+  std::vector<double> ratios;
+  std::vector<std::int32_t> tets;
+  for (const Piece& piece : mesh.pieces) {
+    std::vector<mesh::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), mesh::no_cavity);
+    std::vector<LocalIndex> place(piece.vertex_count(), -1);
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
+      place[piece.shared_vertices[s]] = static_cast<LocalIndex>(s);
+    edges.assign(piece.shared_vertices.size(), 0);
+    ratios.assign(piece.shared_vertices.size(), 0);
+    tets.assign(piece.shared_vertices.size(), 0);
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const LocalIndex* v = piece.cell(t);
+      if (place[v[0]] < 0 && place[v[1]] < 0 && place[v[2]] < 0 && place[v[3]] < 0) continue;
+      const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+      const double ratio = mesh::mean_ratio(p[0], p[1], p[2], p[3]);
+      double edge = 0;
+      for (const auto& [i, j] : mesh::tetrahedron_edges) edge += distance(p[i], p[j]) / 6;
+      for (int k = 0; k < 4; ++k) {
+        if (place[v[k]] < 0) continue;
+        edges[place[v[k]]] += edge;
+        ratios[place[v[k]]] += ratio;
+        ++tets[place[v[k]]];
+      }
+    }
+    for (std::size_t s = 0; s < tets.size(); ++s) {
+      const LocalIndex v = piece.shared_vertices[s];
+      if (tets[s] == 0 || piece.vertex_dimension[v] < 3 || ratios[s] >= Relaxation::good_enough * tets[s]) continue;
+      mine[v] = mesh::cavity_at(piece.point(v), edges[s] / tets[s], cell_width, shift);
+      ++count;
     }
   }
   return count;

@@ -13,6 +13,10 @@ namespace aeroloom::improve {
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
                           mesh::CavityWishes& wishes);
 
+/// Wishes for the stars of shared vertices whose tetrahedra are worse shaped on average than those of a
+/// lattice, as relaxation.hpp sees it. Returns their number on this rank.
+std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh::CavityWishes& wishes);
+
 /// Improves the tetrahedra of a cavity, its boundary fixed; nothing where that changes nothing.
 std::optional<mesh::Refilling> improve_cavity(const mesh::Cavity& cavity, const ImproveOptions& options,
                                               ImproveReport& report);

@@ -2,10 +2,13 @@
 
 #include "improve/balance.hpp"
 #include "improve/cavity_improver.hpp"
+#include "improve/relaxation.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
 #include "improve/tet_quality.hpp"
+#include "improve/void_filling.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/sharing.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -58,38 +61,47 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
   const PieceState before = examine(piece, measure);
   report.bad_before = report.bad_after = before.bad;
   report.min_angle_before = report.min_angle_after = before.least_angle;
-  if (!options.enabled || before.bad == 0) return report;
+  if (!options.enabled) return report;
 
   TetMesh mesh(piece, measure, options.boundary_may_change);
   Schedule schedule(mesh);
   schedule.run(options.sweeps);
+  VoidFilling voids;
+  report.swaps += voids.run(mesh);
+  Relaxation relaxation;
+  report.smoothed += relaxation.run(mesh, options.relaxation);
   mesh.finish();
   report.changed_triangles = mesh.changed_triangles();
 
   const PieceState after = examine(piece, measure);
   report.bad_after = after.bad;
   report.min_angle_after = after.least_angle;
-  report.smoothed = schedule.smoothed();
-  report.swaps = schedule.swaps();
+  report.smoothed += schedule.smoothed();
+  report.swaps += schedule.swaps();
   return report;
 }
 
 namespace {
 
+/// Rounds for the average across borders. Those that two cavities wanted in one are inside of one in the next.
+constexpr int border_rounds = 2;
+
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                     const ImproveOptions& options, ImproveReport& total, parallel::StageClock& clock) {
   if (!options.enabled || mesh.piece_count < 2) return;
+  mesh::CavityWishes wishes;
+  const auto improve = [&](const mesh::Cavity& cavity) {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    return improve_cavity(cavity, options, total);
+  };
+  for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
+    if (communicator.sum(wish_for_borders(mesh, shift, wishes)) == 0) break;
+    refill_cavities(communicator, mesh, wishes, improve, clock);
+  }
   for (int shift = 0; shift < options.shifted_rounds; ++shift) {
-    mesh::CavityWishes wishes;
     if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
-    refill_cavities(
-        communicator, mesh, wishes,
-        [&](const mesh::Cavity& cavity) {
-          const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-          return improve_cavity(cavity, options, total);
-        },
-        clock);
+    refill_cavities(communicator, mesh, wishes, improve, clock);
   }
   const TetQuality measure(options.target_angle);
   total.bad_after = 0;
@@ -116,6 +128,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
     const TetQuality measure(options.target_angle);
     for (const mesh::Piece& piece : mesh.pieces) work.push_back(expected_work(piece, measure));
   });
+  if (options.enabled) mesh::forget_unshared(communicator, mesh);
   if (options.enabled && communicator.size() > 1) balance_pieces(communicator, mesh, work);
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);

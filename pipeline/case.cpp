@@ -128,6 +128,7 @@ void declare_stages(KeyTable& root, Case& result) {
   improve.flag("enabled", result.improve.enabled);
   improve.number("target_angle", result.improve.target_angle, Range::above(0, 50, "degrees"));
   improve.integer("sweeps", result.improve.sweeps, Range::between(0, 1000));
+  improve.integer("relaxation", result.improve.relaxation, Range::between(0, 100));
   KeyTable& gate = improve.section("gate");
   const Range angle = Range::between(0, 180, "degrees"), ratio = Range::between(0, 1);
   gate.number("smallest_angle", result.gate.smallest_angle, angle);

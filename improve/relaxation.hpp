@@ -1,0 +1,39 @@
+/// Smoothing for the average: vertices whose tetrahedra are worse shaped than those of a lattice move to where the
+/// sum of their mean ratios is larger.
+#pragma once
+
+#include "improve/tet_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::improve {
+
+/// One step of steepest ascent of the sum of mean ratios per vertex and pass, with a line search (Freitag and
+/// Knupp, Int. J. Numer. Meth. Engng 53, 2002, doi:10.1002/nme.341, for the measure). A vertex moves only when
+/// the worst TetQuality around it does not fall.
+class Relaxation {
+public:
+  /// Mean ratio on average around a vertex that stays where it is; a lattice has 0.95.
+  static constexpr double good_enough = 0.93;
+
+  /// Visits the free vertices in their order, `passes` times. Returns how many moves were made.
+  std::int64_t run(TetMesh& mesh, int passes);
+
+private:
+  /// A tetrahedron at the vertex: the face opposite to it, counter-clockwise seen from the vertex.
+  struct Cone {
+    Vec3 a, b, c;
+  };
+  void score_vertices(const TetMesh& mesh);
+  bool relax(TetMesh& mesh, LocalIndex v);
+  double sum_of_ratios(Vec3 p) const;
+  Vec3 ascent(Vec3 p) const;
+
+  std::vector<float> _mean;  ///< mean ratio around each vertex
+  std::vector<LocalIndex> _star;
+  std::vector<Cone> _cones;
+};
+
+}  // namespace aeroloom::improve

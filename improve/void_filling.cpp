@@ -1,0 +1,151 @@
+#include "improve/void_filling.hpp"
+
+#include "mesh/quality.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace aeroloom::improve {
+namespace {
+
+constexpr std::size_t most_tets = 60;
+/// Radius of the sphere over the shortest edge: 0.65 in a body-centred lattice, 0.87 in the corners of the cube that
+/// a missing point leaves.
+constexpr double large_sphere = 0.8;
+/// Over the mean edge of the cavity: new edges are no shorter.
+constexpr double least_edge = 0.7;
+constexpr double least_gain = 0.02;  // of the mean ratio on average
+
+struct Sphere {
+  Vec3 center;
+  double squared_radius = -1;
+};
+
+/// The circumscribed sphere, relative accuracy of a few roundings over the quality.
+Sphere circumsphere(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double six = dot(u, cross(v, w));
+  if (six == 0) return {};
+  const Vec3 offset =
+      (0.5 / six) * (dot(u, u) * cross(v, w) + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v));
+  return {a + offset, dot(offset, offset)};
+}
+
+std::array<Vec3, 4> points(const TetMesh& mesh, LocalIndex t) {
+  const Corners& c = mesh.corners(t);
+  return {mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])};
+}
+
+double mean_edge(const std::array<Vec3, 4>& p) {
+  double sum = 0;
+  for (const auto& [i, k] : mesh::tetrahedron_edges) sum += distance(p[i], p[k]) / 6;
+  return sum;
+}
+
+double shortest_edge(const std::array<Vec3, 4>& p) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& [i, k] : mesh::tetrahedron_edges) least = std::min(least, distance(p[i], p[k]));
+  return least;
+}
+
+bool contains(const std::vector<LocalIndex>& list, LocalIndex value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace
+
+bool VoidFilling::is_candidate(const TetMesh& mesh, LocalIndex t) {
+  const auto p = points(mesh, t);
+  const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
+  const double wanted = large_sphere * shortest_edge(p);
+  _center = sphere.center;
+  return sphere.squared_radius > wanted * wanted && mesh.quality(t) > 0;
+}
+
+bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
+  _cavity.clear();
+  _walls.clear();
+  _outside.clear();
+  _cavity.old_tets.assign(1, t);
+  for (std::size_t i = 0; i < _cavity.old_tets.size(); ++i) {
+    const LocalIndex current = _cavity.old_tets[i];
+    for (int f = 0; f < 4; ++f) {
+      const HalfFace other = mesh.mate(4 * current + f);
+      const LocalIndex next = other < 0 ? -1 : other >> 2;
+      if (next >= 0 && contains(_cavity.old_tets, next)) continue;
+      bool joins = false;
+      if (next >= 0 && !contains(_outside, next)) {
+        const auto p = points(mesh, next);
+        const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
+        joins = dot(_center - sphere.center, _center - sphere.center) < sphere.squared_radius;
+        if (!joins) _outside.push_back(next);
+      }
+      if (joins) {
+        if (_cavity.old_tets.size() == most_tets) return false;
+        _cavity.old_tets.push_back(next);
+      }
+    }
+  }
+  for (const LocalIndex tet : _cavity.old_tets) {
+    for (int f = 0; f < 4; ++f) {
+      const HalfFace other = mesh.mate(4 * tet + f);
+      if (other >= 0 && contains(_cavity.old_tets, other >> 2)) continue;
+      const auto& face = mesh::tetrahedron_faces[f];
+      const Corners& c = mesh.corners(tet);
+      _walls.push_back({{c[face[0]], c[face[2]], c[face[1]]}});
+    }
+  }
+  return true;
+}
+
+// All vertices of the cavity stay on its walls: none is lost.
+bool VoidFilling::keeps_vertices(const TetMesh& mesh) {
+  _inside.clear();
+  for (const Wall& wall : _walls) _inside.insert(_inside.end(), wall.corners.begin(), wall.corners.end());
+  std::sort(_inside.begin(), _inside.end());
+  return std::all_of(_cavity.old_tets.begin(), _cavity.old_tets.end(), [&](LocalIndex t) {
+    const Corners& c = mesh.corners(t);
+    return std::all_of(c.begin(), c.end(), [&](LocalIndex v) {
+      return std::binary_search(_inside.begin(), _inside.end(), v);
+    });
+  });
+}
+
+bool VoidFilling::gains(const TetMesh& mesh) {
+  double old_sum = 0, edges = 0;
+  _cavity.before = std::numeric_limits<double>::max();
+  const auto count = static_cast<double>(_cavity.old_tets.size());
+  for (const LocalIndex t : _cavity.old_tets) {
+    const auto p = points(mesh, t);
+    old_sum += mesh::mean_ratio(p[0], p[1], p[2], p[3]);
+    edges += mean_edge(p) / count;
+    _cavity.before = std::min(_cavity.before, mesh.quality(t));
+  }
+  double new_sum = 0;
+  for (const Wall& wall : _walls) {
+    const Vec3 a = mesh.point(wall.corners[0]), b = mesh.point(wall.corners[1]), c = mesh.point(wall.corners[2]);
+    if (distance(a, _center) < least_edge * edges) return false;
+    if (mesh.measure()(a, b, c, _center) <= _cavity.before || !has_positive_volume(a, b, c, _center)) return false;
+    new_sum += mesh::mean_ratio(a, b, c, _center);
+  }
+  return new_sum / static_cast<double>(_walls.size()) > old_sum / count + least_gain;
+}
+
+std::int64_t VoidFilling::run(TetMesh& mesh) {
+  std::int64_t inserted = 0;
+  const LocalIndex last = mesh.slot_count();
+  for (LocalIndex t = 0; t < last; ++t) {
+    if (!mesh.is_alive(t) || !is_candidate(mesh, t) || !collect_cavity(mesh, t) || !gains(mesh) ||
+        !keeps_vertices(mesh)) {
+      continue;
+    }
+    const LocalIndex v = mesh.add_vertex(_center, mesh.corners(t)[0]);
+    for (const Wall& wall : _walls)
+      _cavity.new_tets.push_back({wall.corners[0], wall.corners[1], wall.corners[2], v});
+    mesh.replace(_cavity, _placed);
+    ++inserted;
+  }
+  return inserted;
+}
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,36 @@
+/// New vertices in voids: where the sphere around a tetrahedron is empty and large, its centre is a good place for a
+/// vertex that is missing.
+#pragma once
+
+#include "improve/tet_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::improve {
+
+/// Inserts the centres of circumscribed spheres (Bowyer, Comput. J. 24, 1981, doi:10.1093/comjnl/24.2.162; Watson,
+/// ibid., doi:10.1093/comjnl/24.2.167) where the mean ratio of the cavity rises on average, its worst
+/// TetQuality does not fall, and no edge becomes short.
+class VoidFilling {
+public:
+  /// Tries every tetrahedron there is at the start, in their order. Returns the number of vertices inserted.
+  std::int64_t run(TetMesh& mesh);
+
+private:
+  struct Wall {
+    std::array<LocalIndex, 3> corners;  ///< counter-clockwise seen from inside
+  };
+  bool is_candidate(const TetMesh& mesh, LocalIndex t);
+  bool collect_cavity(const TetMesh& mesh, LocalIndex t);
+  bool gains(const TetMesh& mesh);
+  bool keeps_vertices(const TetMesh& mesh);
+
+  Vec3 _center;
+  Cavity _cavity;
+  std::vector<Wall> _walls;
+  std::vector<LocalIndex> _inside, _outside, _placed;
+};
+
+}  // namespace aeroloom::improve
