@@ -12,6 +12,8 @@ constexpr std::size_t most_tets = 60;
 /// Radius of the sphere over the shortest edge: 0.65 in a body-centred lattice, 0.87 in the corners of the cube that
 /// a missing point leaves.
 constexpr double large_sphere = 0.8;
+/// Over the mean edge: larger spheres belong to slivers and reach far.
+constexpr double largest_sphere = 1.1;
 /// Over the mean edge of the cavity: new edges are no shorter.
 constexpr double least_edge = 0.7;
 constexpr double least_gain = 0.02;  // of the mean ratio on average
@@ -55,11 +57,17 @@ bool contains(const std::vector<LocalIndex>& list, LocalIndex value) {
 }  // namespace
 
 bool VoidFilling::is_candidate(const TetMesh& mesh, LocalIndex t) {
+  const Corners& c = mesh.corners(t);
+  if (std::any_of(c.begin(), c.end(), [&](LocalIndex v) { return mesh.dimension(v) < 3; })) return false;
   const auto p = points(mesh, t);
   const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
-  const double wanted = large_sphere * shortest_edge(p);
+  const double shortest = large_sphere * shortest_edge(p), mean = mean_edge(p);
   _center = sphere.center;
-  return sphere.squared_radius > wanted * wanted && mesh.quality(t) > 0;
+  _least_edge = least_edge * mean;
+  const auto within = [&](double low, double high) {
+    return sphere.squared_radius > low * low && sphere.squared_radius < high * high;
+  };
+  return within(std::max(shortest, _least_edge), largest_sphere * mean) && mesh.quality(t) > 0;
 }
 
 bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
@@ -81,7 +89,8 @@ bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
         if (!joins) _outside.push_back(next);
       }
       if (joins) {
-        if (_cavity.old_tets.size() == most_tets) return false;
+        const Vec3 apex = mesh.point(mesh.corners(next)[other & 3]);
+        if (_cavity.old_tets.size() == most_tets || distance(apex, _center) < _least_edge) return false;
         _cavity.old_tets.push_back(next);
       }
     }

@@ -28,6 +28,7 @@ private:
   bool keeps_vertices(const TetMesh& mesh);
 
   Vec3 _center;
+  double _least_edge = 0;  ///< nothing may be nearer to the centre
   Cavity _cavity;
   std::vector<Wall> _walls;
   std::vector<LocalIndex> _inside, _outside, _placed;
