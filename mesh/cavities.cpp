@@ -359,6 +359,12 @@ bool is_placed_by_refilling(SharedToken token) {
   return token >> 62 == 3;
 }
 
+bool is_placed_by_last_round(const DistributedMesh& mesh, SharedToken token) {
+  constexpr SharedToken round_bits = 0xff;
+  return is_placed_by_refilling(token) &&
+         (token >> 54 & round_bits) == static_cast<SharedToken>(mesh.cavity_rounds - 1);
+}
+
 CavityRound refill_cavities(const parallel::Communicator& communicator, DistributedMesh& mesh,
                             const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock) {

@@ -59,6 +59,8 @@ struct CavityRound {
 
 /// Whether a vertex with this token was placed by a refilling.
 bool is_placed_by_refilling(SharedToken token);
+/// Whether it was placed by the last round on the mesh.
+bool is_placed_by_last_round(const DistributedMesh& mesh, SharedToken token);
 
 /// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
 /// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
