@@ -1,6 +1,7 @@
 #include "improve/improver.hpp"
 #include "tests/improve/shaken.hpp"
 
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -33,6 +34,25 @@ std::multiset<std::vector<double>> boundary_triangles(const std::vector<Piece>& 
   return triangles;
 }
 
+using FaceAreas = std::map<std::int32_t, double>;
+
+/// The area vectors' lengths by CAD face: of a planar face its area, if no triangle is turned over.
+FaceAreas areas_of_faces(const std::vector<Piece>& pieces) {
+  std::map<std::int32_t, Vec3> sums;
+  FaceAreas areas;
+  for (const Piece& piece : pieces) {
+    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+      const LocalIndex* v = piece.boundary_triangle(t);
+      const Vec3 a = piece.point(v[0]);
+      const Vec3 twice = cross(piece.point(v[1]) - a, piece.point(v[2]) - a);
+      sums[piece.triangle_face[t]] += 0.5 * twice;
+      areas[piece.triangle_face[t]] += 0.5 * norm(twice);
+    }
+  }
+  for (const auto& [face, sum] : sums) EXPECT_NEAR(norm(sum), areas[face], 1e-12);
+  return areas;
+}
+
 class RandomMesh : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
@@ -41,7 +61,8 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   DistributedMesh mesh =
       mesh::examples::distribute(self, examples::shaken_cube(5, pieces, 25, GetParam()), pieces);
   expect_valid(self, mesh);
-  const ImproveOptions options;
+  ImproveOptions options;
+  options.boundary_may_change = false;
   const Extremes before = examine(mesh.pieces, options.target_angle);
   const std::vector<Piece> old = mesh.pieces;
   parallel::StageClock clock;
@@ -60,6 +81,28 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   EXPECT_EQ(boundary_triangles(mesh.pieces), boundary_triangles(old));
   for (const Piece& piece : mesh.pieces)
     EXPECT_TRUE(std::is_sorted(piece.shared_vertices.begin(), piece.shared_vertices.end()));
+}
+
+// The cube's faces are planar: whatever becomes of their triangles, they stay filled.
+TEST(RandomMeshes, KeepTheirFacesWhereTrianglesMayChange) {
+  const auto self = parallel::Communicator::self();
+  std::int64_t changed = 0;
+  for (std::uint32_t seed = 200; seed < 220; ++seed) {
+    const int pieces = 1 + static_cast<int>(seed % 3);
+    DistributedMesh mesh =
+        mesh::examples::distribute(self, examples::shaken_cube(5, pieces, 25, seed), pieces);
+    const ImproveOptions options;
+    const Extremes before = examine(mesh.pieces, options.target_angle);
+    const FaceAreas areas = areas_of_faces(mesh.pieces);
+    parallel::StageClock clock;
+    changed += improve_mesh(self, mesh, options, clock).changed_triangles;
+    expect_valid(self, mesh);
+    EXPECT_GT(examine(mesh.pieces, options.target_angle).quality, before.quality);
+    const FaceAreas after = areas_of_faces(mesh.pieces);
+    ASSERT_EQ(after.size(), areas.size());
+    for (const auto& [face, area] : areas) EXPECT_NEAR(after.at(face), area, 1e-12) << face;
+  }
+  EXPECT_GT(changed, 10);
 }
 
 // What improved once is worked on again with a higher target: states no random mesh starts from.
