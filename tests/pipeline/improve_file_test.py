@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""aeroloom improve FILE, the quality gate and pinned elements, as a user meets them. usage: improve_file_test.py PROGRAM"""
+import json
+import subprocess
+import sys
+
+import vtk
+from program import COARSE_TRANSPORT, SOURCE, Run
+
+
+def improve(program, file, folder, ranks=1, settings=()):
+    command = [SOURCE / "scripts" / "mpirun_local.sh", str(ranks), program, "improve", file, "--set",
+               f"output.directory={folder}"]
+    for setting in settings:
+        command += ["--set", setting]
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=120)
+    report = folder / "report.json"
+    return done.returncode, done.stdout + done.stderr, json.loads(report.read_text()) if report.exists() else None
+
+
+def read(file):
+    reader = vtk.vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def write(grid, file):
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(file))
+    writer.SetInputData(grid)
+    writer.Write()
+
+
+def as_another_program_writes_it(grid):
+    """One grid with shared points, its boundary triangles among the cells, every other tetrahedron turned over."""
+    names = grid.GetPointData().GetArray("global_id")
+    name = [int(names.GetValue(i)) for i in range(grid.GetNumberOfPoints())]
+    points = vtk.vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetNumberOfPoints(max(name) + 1)
+    for i, number in enumerate(name):
+        points.SetPoint(number, grid.GetPoint(i))
+    result = vtk.vtkUnstructuredGrid()
+    result.SetPoints(points)
+    ids, sides = vtk.vtkIdList(), {}
+    for c in range(grid.GetNumberOfCells()):
+        grid.GetCellPoints(c, ids)
+        corners = [name[ids.GetId(k)] for k in range(4)]
+        if c % 2:
+            corners[2], corners[3] = corners[3], corners[2]
+        result.InsertNextCell(vtk.VTK_TETRA, 4, corners)
+        for k in range(4):
+            side = tuple(sorted(corners[:k] + corners[k + 1:]))
+            sides[side] = sides.get(side, 0) + 1
+    for side, tetrahedra in sides.items():
+        if tetrahedra == 1:
+            result.InsertNextCell(vtk.VTK_TRIANGLE, 3, side)
+    return result
+
+
+def main():
+    program = sys.argv[1]
+    raw = Run(program, COARSE_TRANSPORT, 2, ("improve.enabled=false",))
+    assert raw.code == 0, raw.text
+    before = raw.report["quality"]["min_dihedral_deg"]
+
+    # A foreign file: the same result on any number of ranks, better, its space and its boundary kept.
+    foreign = raw.folder / "foreign.vtu"
+    write(as_another_program_writes_it(read(raw.output / "mesh.pvtu")), foreign)
+    hashes = set()
+    for ranks in (1, 2, 3):
+        code, text, report = improve(program, foreign, raw.folder / f"improved_{ranks}", ranks,
+                                     ("volume.piece_tets=20000", "improve.target_angle=20"))
+        assert code == 0, text
+        hashes.add(report["mesh"]["hash"])
+        assert report["improve"]["bad_after"] < 0.02 * report["improve"]["bad_before"], report["improve"]
+        assert report["quality"]["min_dihedral_deg"] > max(before, 8), report["quality"]["min_dihedral_deg"]
+        assert report["quality"]["mean_mean_ratio"] > raw.report["quality"]["mean_mean_ratio"]
+        assert report["mesh"]["boundary_triangles"] == raw.report["mesh"]["boundary_triangles"]
+        assert abs(report["mesh"]["volume"] / raw.report["mesh"]["volume"] - 1) < 1e-10
+        assert [s["name"] for s in report["stages"]] == ["input", "improve", "output"], report["stages"]
+    assert len(hashes) == 1, f"the mesh depends on the number of ranks: {hashes}"
+
+    # Our own files, whose parts repeat the points between them.
+    code, text, report = improve(program, raw.output / "mesh.pvtu", raw.folder / "own")
+    assert code == 0 and report["mesh"]["boundary_triangles"] == raw.report["mesh"]["boundary_triangles"], text
+
+    # What cannot be improved.
+    hexahedron = vtk.vtkUnstructuredGrid()
+    corners = vtk.vtkPoints()
+    for i in range(8):
+        corners.InsertNextPoint(i & 1, i >> 1 & 1, i >> 2)
+    hexahedron.SetPoints(corners)
+    hexahedron.InsertNextCell(vtk.VTK_VOXEL, 8, list(range(8)))
+    write(hexahedron, raw.folder / "voxel.vtu")
+    (raw.folder / "torn.vtu").write_bytes(foreign.read_bytes()[:2000])
+    (raw.folder / "mesh.msh").write_text("$MeshFormat\n")
+    for name, word in (("voxel.vtu", "not a tetrahedron"), ("torn.vtu", "cannot read"), ("mesh.msh", ".pvtu"),
+                       ("absent.vtu", "no such file")):
+        code, text, _ = improve(program, raw.folder / name, raw.folder / "bad", 2)
+        assert code == 7 and word in text and name in text, f"{name}: {code}\n{text}"
+
+    # The gate: the mesh is written, the exit code says that it is not what was asked for.
+    code, text, report = improve(program, foreign, raw.folder / "gate", 2,
+                                 ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179"))
+    assert code == 6 and "min_mean_ratio" in text and "largest_angle" not in text, text
+    assert report["exit_code"] == 6 and (raw.folder / "gate" / "mesh.pvtu").exists()
+    code, text, _ = improve(program, foreign, raw.folder / "gate", 1, ("improve.gate.smallest_angel=10",))
+    assert code == 2 and "smallest_angle" in text, text
+
+
+if __name__ == "__main__":
+    main()
