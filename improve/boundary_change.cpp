@@ -12,9 +12,9 @@ constexpr double most_growth = 1.5;     // of edges
 constexpr double decent_quality = 0.3;  // of a triangle: below this it must not get worse
 
 struct Shape {
-  Vec3 normal;          ///< unit length
-  double longest = 0;   ///< edge, squared
-  double quality = 0;   ///< mean ratio: 1 for an equilateral triangle
+  Vec3 normal;         ///< unit length
+  double longest = 0;  ///< edge, squared
+  double quality = 0;  ///< mean ratio: 1 for an equilateral triangle
 };
 
 Shape shape_of(const TetMesh& mesh, const TriangleCorners& corners) {

@@ -1,4 +1,5 @@
-/// How much the boundary may change where tetrahedra on it are improved: it stays a smooth image of the CAD face.
+/// How much the boundary may change where tetrahedra on it are improved: it stays a smooth image of the CAD
+/// face.
 #pragma once
 
 #include "improve/tet_mesh.hpp"

@@ -86,7 +86,8 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh
     }
     for (std::size_t s = 0; s < tets.size(); ++s) {
       const LocalIndex v = piece.shared_vertices[s];
-      if (tets[s] == 0 || piece.vertex_dimension[v] < 3 || ratios[s] >= Relaxation::good_enough * tets[s]) continue;
+      if (tets[s] == 0 || piece.vertex_dimension[v] < 3 || ratios[s] >= Relaxation::good_enough * tets[s])
+        continue;
       if (shift > 0 && mesh::is_placed_by_last_round(mesh, piece.shared_tokens[s])) continue;
       mine[v] = mesh::cavity_at(piece.point(v), edges[s] / tets[s], cell_width, shift);
       ++count;

@@ -14,7 +14,8 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
                           mesh::CavityWishes& wishes);
 
 /// Wishes for the stars of shared vertices whose tetrahedra are worse shaped on average than those of a
-/// lattice, as relaxation.hpp sees it; from the second shift on, those that the last round did not reach. Returns their number on this rank.
+/// lattice, as relaxation.hpp sees it; from the second shift on, those that the last round did not reach.
+/// Returns their number on this rank.
 std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh::CavityWishes& wishes);
 
 /// Improves the tetrahedra of a cavity, its boundary fixed; nothing where that changes nothing.

@@ -63,9 +63,8 @@ bool EdgeContraction::keeps_boundary(TetMesh& mesh, LocalIndex from, LocalIndex 
   for (const TriangleCorners& corners : _before) {
     for (const LocalIndex v : corners) {
       if (v == from || v == to) continue;
-      const bool at_edge = std::any_of(_before.begin(), _before.end(), [&](const TriangleCorners& c) {
-        return has(c, v) && has(c, to);
-      });
+      const bool at_edge = std::any_of(_before.begin(), _before.end(),
+                                       [&](const TriangleCorners& c) { return has(c, v) && has(c, to); });
       if (!at_edge && _edges.exists(mesh, to, v)) return false;
     }
   }

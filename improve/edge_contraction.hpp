@@ -8,8 +8,8 @@
 
 namespace aeroloom::improve {
 
-/// Vertices inside the region vanish into any neighbour, vertices inside a CAD face into one along the boundary
-/// of this face. No edge becomes longer than 1.5 times the longest one at the vertex.
+/// Vertices inside the region vanish into any neighbour, vertices inside a CAD face into one along the
+/// boundary of this face. No edge becomes longer than 1.5 times the longest one at the vertex.
 class EdgeContraction {
 public:
   /// Proposes to move `from` into its neighbour `to`. False when nothing beats both the tetrahedra around

@@ -66,10 +66,10 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
   TetMesh mesh(piece, measure, options.boundary_may_change);
   Schedule schedule(mesh);
   schedule.run(options.sweeps);
-  VoidFilling voids;
-  report.swaps += voids.run(mesh);
-  Relaxation relaxation;
-  report.smoothed += relaxation.run(mesh, options.relaxation);
+  if (options.relaxation > 0) {
+    report.swaps += VoidFilling().run(mesh);
+    report.smoothed += Relaxation().run(mesh, options.relaxation);
+  }
   mesh.finish();
   report.changed_triangles = mesh.changed_triangles();
 
@@ -83,7 +83,8 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
 
 namespace {
 
-/// Rounds for the average across borders. Those that two cavities wanted in one are inside of one in the next.
+/// Rounds for the average across borders. Those that two cavities wanted in one are inside of one in the
+/// next.
 constexpr int border_rounds = 2;
 
 /// The rounds in which borders of pieces are inside of cavities.
@@ -145,8 +146,8 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
     }
   });
   improve_across(communicator, mesh, options, total, clock);
-  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps,
-                             &total.changed_triangles}) {
+  for (std::int64_t* count :
+       {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps, &total.changed_triangles}) {
     *count = communicator.sum(*count);
   }
   for (double* angle : {&total.min_angle_before, &total.min_angle_after})

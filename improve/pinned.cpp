@@ -241,12 +241,12 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
     if (!has(tip) || !has(a) || !has(b)) continue;
     const std::int32_t face = piece.triangle_face[triangle];
     _entities.push_back({.kind = PinningEntity::Kind::curves,
-          .faces = {face, face},
-          .vertex = piece.vertex_entity[tip],
-          .angle = corner_angle(piece.point(tip), piece.point(a), piece.point(b)),
-          .smallest_dihedral = bad.angles.smallest,
-          .at = piece.point(tip),
-          .tetrahedra = 1});
+                         .faces = {face, face},
+                         .vertex = piece.vertex_entity[tip],
+                         .angle = corner_angle(piece.point(tip), piece.point(a), piece.point(b)),
+                         .smallest_dihedral = bad.angles.smallest,
+                         .at = piece.point(tip),
+                         .tetrahedra = 1});
     return true;
   }
   return false;

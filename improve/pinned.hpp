@@ -13,8 +13,8 @@ namespace aeroloom::improve {
 
 /// A place of the CAD that forces small angles.
 struct PinningEntity {
-  /// Two faces that meet at a curve with a small angle between them, or two curves that meet so at a CAD vertex
-  /// on a face.
+  /// Two faces that meet at a curve with a small angle between them, or two curves that meet so at a CAD
+  /// vertex on a face.
   enum class Kind : std::int32_t { faces, curves };
   Kind kind = Kind::faces;
   std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces, ascending; twice the same of two curves
@@ -34,10 +34,10 @@ struct PinnedReport {
   double smallest_angle = 0, largest_angle = 180;
 };
 
-/// Which tetrahedra that miss the target angle (degrees, as in ImproveOptions) are pinned: those at an edge of
-/// a CAD curve where the boundary encloses less than the target, and those on a boundary triangle that fills a
-/// corner of less than the target between two curves. Collective; the same on every rank and for any number of
-/// ranks.
+/// Which tetrahedra that miss the target angle (degrees, as in ImproveOptions) are pinned: those at an edge
+/// of a CAD curve where the boundary encloses less than the target, and those on a boundary triangle that
+/// fills a corner of less than the target between two curves. Collective; the same on every rank and for any
+/// number of ranks.
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle);
 

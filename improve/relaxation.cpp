@@ -9,9 +9,9 @@
 namespace aeroloom::improve {
 namespace {
 
-constexpr double first_step = 0.15;     // of the mean distance to the neighbours
+constexpr double first_step = 0.15;  // of the mean distance to the neighbours
 constexpr int most_halvings = 3;
-constexpr double least_gain = 1e-3;     // of the mean of the ratios
+constexpr double least_gain = 1e-3;  // of the mean of the ratios
 
 /// Its mean ratio (mesh::mean_ratio), from six times the volume and the sum of the squared edges.
 double ratio(double volume6, double squares) {
@@ -20,7 +20,9 @@ double ratio(double volume6, double squares) {
   return 12 * root * root / squares;
 }
 
-double squared(Vec3 v) { return dot(v, v); }
+double squared(Vec3 v) {
+  return dot(v, v);
+}
 
 }  // namespace
 

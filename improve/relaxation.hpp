@@ -1,5 +1,5 @@
-/// Smoothing for the average: vertices whose tetrahedra are worse shaped than those of a lattice move to where the
-/// sum of their mean ratios is larger.
+/// Smoothing for the average: vertices whose tetrahedra are worse shaped than those of a lattice move to
+/// where the sum of their mean ratios is larger.
 #pragma once
 
 #include "improve/tet_mesh.hpp"
@@ -11,8 +11,8 @@
 namespace aeroloom::improve {
 
 /// One step of steepest ascent of the sum of mean ratios per vertex and pass, with a line search (Freitag and
-/// Knupp, Int. J. Numer. Meth. Engng 53, 2002, doi:10.1002/nme.341, for the measure). A vertex moves only when
-/// the worst TetQuality around it does not fall.
+/// Knupp, Int. J. Numer. Meth. Engng 53, 2002, doi:10.1002/nme.341, for the measure). A vertex moves only
+/// when the worst TetQuality around it does not fall.
 class Relaxation {
 public:
   /// Mean ratio on average around a vertex that stays where it is; a lattice has 0.95.

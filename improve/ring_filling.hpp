@@ -1,4 +1,5 @@
-/// The best pair of cones over a triangulation of a ring of vertices, from the two ends of the edge it surrounds.
+/// The best pair of cones over a triangulation of a ring of vertices, from the two ends of the edge it
+/// surrounds.
 #pragma once
 
 #include "improve/tet_mesh.hpp"

@@ -36,9 +36,8 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
     cosine[e] = dot(normals[other[0]], normals[other[1]]);
     order[e] = e;
   }
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return cosine[a] != cosine[b] ? cosine[a] > cosine[b] : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return cosine[a] != cosine[b] ? cosine[a] > cosine[b] : a < b; });
   return order;
 }
 

@@ -249,8 +249,7 @@ void TetMesh::open_boundary(const FaceRecord& record, LocalIndex triangle) {
   _mates[record.side] = -2 - triangle;
   const auto& face = tetrahedron_faces[record.side & 3];
   const Corners& c = _cells[record.side >> 2];
-  for (int k = 0; k < 3; ++k)
-    _piece.boundary[3 * static_cast<std::size_t>(triangle) + k] = c[face[k]];
+  for (int k = 0; k < 3; ++k) _piece.boundary[3 * static_cast<std::size_t>(triangle) + k] = c[face[k]];
 }
 
 // Pairs stay, single faces are the new boundary.

@@ -24,8 +24,12 @@ using Corners = std::array<LocalIndex, 4>;
 using HalfFace = std::int32_t;
 
 /// Whether this side of a face is a triangle of the piece's boundary, and which.
-inline bool is_triangle(HalfFace h) { return h <= -2; }
-inline LocalIndex triangle_of(HalfFace h) { return -2 - h; }
+inline bool is_triangle(HalfFace h) {
+  return h <= -2;
+}
+inline LocalIndex triangle_of(HalfFace h) {
+  return -2 - h;
+}
 
 /// Tetrahedra around an interior edge: (start, end, ring[i], ring[i+1]) is tets[i], of positive volume; the
 /// ring is closed.
@@ -44,8 +48,8 @@ struct Fan {
   std::array<LocalIndex, 2> triangles{};  ///< (start, end, ring.front()) and (start, end, ring.back())
 };
 
-/// A proposed change: the tetrahedra that go, those that come, and the worst quality of both. Triangles of the
-/// boundary may go with them; what is open then becomes the new boundary, of at most as many triangles.
+/// A proposed change: the tetrahedra that go, those that come, and the worst quality of both. Triangles of
+/// the boundary may go with them; what is open then becomes the new boundary, of at most as many triangles.
 struct Cavity {
   std::vector<LocalIndex> old_tets;
   std::vector<Corners> new_tets;

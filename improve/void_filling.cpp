@@ -9,8 +9,8 @@ namespace aeroloom::improve {
 namespace {
 
 constexpr std::size_t most_tets = 60;
-/// Radius of the sphere over the shortest edge: 0.65 in a body-centred lattice, 0.87 in the corners of the cube that
-/// a missing point leaves.
+/// Radius of the sphere over the shortest edge: 0.65 in a body-centred lattice, 0.87 in the corners of the
+/// cube that a missing point leaves.
 constexpr double large_sphere = 0.8;
 /// Over the mean edge: larger spheres belong to slivers and reach far.
 constexpr double largest_sphere = 1.1;
@@ -114,9 +114,8 @@ bool VoidFilling::keeps_vertices(const TetMesh& mesh) {
   std::sort(_inside.begin(), _inside.end());
   return std::all_of(_cavity.old_tets.begin(), _cavity.old_tets.end(), [&](LocalIndex t) {
     const Corners& c = mesh.corners(t);
-    return std::all_of(c.begin(), c.end(), [&](LocalIndex v) {
-      return std::binary_search(_inside.begin(), _inside.end(), v);
-    });
+    return std::all_of(c.begin(), c.end(),
+                       [&](LocalIndex v) { return std::binary_search(_inside.begin(), _inside.end(), v); });
   });
 }
 
@@ -132,9 +131,11 @@ bool VoidFilling::gains(const TetMesh& mesh) {
   }
   double new_sum = 0;
   for (const Wall& wall : _walls) {
-    const Vec3 a = mesh.point(wall.corners[0]), b = mesh.point(wall.corners[1]), c = mesh.point(wall.corners[2]);
+    const Vec3 a = mesh.point(wall.corners[0]), b = mesh.point(wall.corners[1]),
+               c = mesh.point(wall.corners[2]);
     if (distance(a, _center) < least_edge * edges) return false;
-    if (mesh.measure()(a, b, c, _center) <= _cavity.before || !has_positive_volume(a, b, c, _center)) return false;
+    if (mesh.measure()(a, b, c, _center) <= _cavity.before || !has_positive_volume(a, b, c, _center))
+      return false;
     new_sum += mesh::mean_ratio(a, b, c, _center);
   }
   return new_sum / static_cast<double>(_walls.size()) > old_sum / count + least_gain;

@@ -1,5 +1,5 @@
-/// New vertices in voids: where the sphere around a tetrahedron is empty and large, its centre is a good place for a
-/// vertex that is missing.
+/// New vertices in voids: where the sphere around a tetrahedron is empty and large, its centre is a good
+/// place for a vertex that is missing.
 #pragma once
 
 #include "improve/tet_mesh.hpp"
@@ -10,8 +10,8 @@
 
 namespace aeroloom::improve {
 
-/// Inserts the centres of circumscribed spheres (Bowyer, Comput. J. 24, 1981, doi:10.1093/comjnl/24.2.162; Watson,
-/// ibid., doi:10.1093/comjnl/24.2.167) where the mean ratio of the cavity rises on average, its worst
+/// Inserts the centres of circumscribed spheres (Bowyer, Comput. J. 24, 1981, doi:10.1093/comjnl/24.2.162;
+/// Watson, ibid., doi:10.1093/comjnl/24.2.167) where the mean ratio of the cavity rises on average, its worst
 /// TetQuality does not fall, and no edge becomes short.
 class VoidFilling {
 public:

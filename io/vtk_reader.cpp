@@ -14,13 +14,13 @@
 #include <vtkCellType.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
-#include <vtkFieldData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLPUnstructuredGridReader.h>
@@ -166,8 +166,10 @@ void read_regions(vtkUnstructuredGrid& grid, const std::vector<vtkIdType>& cells
   auto* names = vtkStringArray::SafeDownCast(grid.GetFieldData()->GetAbstractArray("region_names"));
   for (const double kind : kinds) {
     const auto index = static_cast<vtkIdType>(kind);
-    const bool named = source == "region" && names != nullptr && index >= 0 && index < names->GetNumberOfValues();
-    file.region_names.push_back(named ? std::string(names->GetValue(index)) : "volume_" + std::to_string(index));
+    const bool named =
+        source == "region" && names != nullptr && index >= 0 && index < names->GetNumberOfValues();
+    file.region_names.push_back(named ? std::string(names->GetValue(index))
+                                      : "volume_" + std::to_string(index));
   }
 }
 

@@ -10,9 +10,9 @@ namespace aeroloom::io {
 
 /// A mesh as a file has it. n points, m tetrahedra of positive volume in VTK's order where they have any.
 struct TetrahedraFile {
-  std::vector<double> coordinates;                 ///< (n,3)
-  std::vector<std::array<std::int32_t, 4>> tets;   ///< (m)
-  std::vector<std::int32_t> region;                ///< (m) index into region_names
+  std::vector<double> coordinates;                ///< (n,3)
+  std::vector<std::array<std::int32_t, 4>> tets;  ///< (m)
+  std::vector<std::int32_t> region;               ///< (m) index into region_names
   std::vector<std::string> region_names;
   std::int64_t turned = 0;   ///< tetrahedra whose vertices came in the opposite order
   std::int64_t ignored = 0;  ///< cells of lower dimension

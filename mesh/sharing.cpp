@@ -16,7 +16,8 @@ std::int64_t forget_unshared(const parallel::Communicator& communicator, Distrib
   };
   std::vector<Share> mine;
   for (const Piece& piece : mesh.pieces) {
-    for (const SharedToken token : piece.shared_tokens) mine.push_back({token, piece.id, communicator.rank()});
+    for (const SharedToken token : piece.shared_tokens)
+      mine.push_back({token, piece.id, communicator.rank()});
   }
   std::vector<Share> met = deliver(communicator, mine, [&](const Share& s) {
     return meeting_rank(mix_in(0, s.token), communicator.size());

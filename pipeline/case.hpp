@@ -3,9 +3,9 @@
 
 #include "geometry/domain.hpp"
 #include "improve/improver.hpp"
-#include "pipeline/quality_gate.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
+#include "pipeline/quality_gate.hpp"
 #include "surface/surface_mesher.hpp"
 #include "volume/volume_mesher.hpp"
 

@@ -204,8 +204,8 @@ ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh:
     const CavityWishes wishes = round == 0 ? wish_by_pieces(communicator, mesh, first_token)
                                            : wish_by_place(mesh, first_token, field, round);
     const CavityRound done = refill_cavities(
-        communicator, mesh, wishes,
-        [&](const Cavity& cavity) { return refill(cavity, field, once, clock); }, clock);
+        communicator, mesh, wishes, [&](const Cavity& cavity) { return refill(cavity, field, once, clock); },
+        clock);
     report.rounds = round + 1;
     report.cavities += done.cavities;
     report.refilled += done.refilled;

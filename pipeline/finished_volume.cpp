@@ -50,8 +50,9 @@ void list_pinned(const Communicator& communicator, const Case& input, const mesh
                  const mesh::Numbering& numbering, RunRecord& record) {
   record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle);
   if (record.pinned.entities.empty()) return;
-  parallel::log_info(fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
-                                 record.pinned.tetrahedra, record.pinned.entities.size()));
+  parallel::log_info(
+      fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
+                  record.pinned.tetrahedra, record.pinned.entities.size()));
 }
 
 }  // namespace

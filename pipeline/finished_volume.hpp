@@ -9,8 +9,8 @@
 
 namespace aeroloom::pipeline {
 
-/// The volume of a mesh that was checked. An invalid one is a defect of the program that must not reach a file
-/// unnoticed: throws std::runtime_error with the violations.
+/// The volume of a mesh that was checked. An invalid one is a defect of the program that must not reach a
+/// file unnoticed: throws std::runtime_error with the violations.
 double require_valid(const std::string& what, const mesh::ValidityReport& report);
 
 /// Improves the mesh as the case asks for. Collective.

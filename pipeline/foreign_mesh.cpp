@@ -24,7 +24,10 @@ using mesh::RegionId;
 class ForeignMesh {
 public:
   ForeignMesh(io::TetrahedraFile file, const std::string& path, std::int64_t piece_tets)
-      : _file(std::move(file)), _path(path), _piece_tets(piece_tets), _faces(mesh::sorted_faces(_file.tets)) {}
+      : _file(std::move(file)),
+        _path(path),
+        _piece_tets(piece_tets),
+        _faces(mesh::sorted_faces(_file.tets)) {}
 
   mesh::DistributedMesh build() {
     require_conformity();
@@ -122,10 +125,12 @@ void ForeignMesh::cut_region(const std::vector<LocalIndex>& tets) {
 void ForeignMesh::name_faces(mesh::DistributedMesh& mesh) {
   std::map<std::array<RegionId, 2>, std::int32_t> known;
   const auto face_between = [&](RegionId front, RegionId back) {
-    const auto [entry, is_new] = known.try_emplace({front, back}, static_cast<std::int32_t>(mesh.faces.size()));
+    const auto [entry, is_new] =
+        known.try_emplace({front, back}, static_cast<std::int32_t>(mesh.faces.size()));
     if (is_new) {
       const std::string& name = mesh.regions[front];
-      mesh.faces.push_back(back == mesh::no_region ? "boundary_of_" + name : name + "_to_" + mesh.regions[back]);
+      mesh.faces.push_back(back == mesh::no_region ? "boundary_of_" + name
+                                                   : name + "_to_" + mesh.regions[back]);
       mesh.sides.push_back({front, back});
     }
     return entry->second;
@@ -146,7 +151,8 @@ void ForeignMesh::name_faces(mesh::DistributedMesh& mesh) {
         }
       },
       [&](const mesh::TetFace& face) {
-        _triangles.push_back({face.vertices, face.tet, face_between(_file.region[face.tet], mesh::no_region)});
+        _triangles.push_back(
+            {face.vertices, face.tet, face_between(_file.region[face.tet], mesh::no_region)});
       });
   mesh.patches = mesh.faces;
 }

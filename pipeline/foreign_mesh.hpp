@@ -11,8 +11,8 @@ namespace aeroloom::pipeline {
 
 /// Reads a file (io/vtk_reader.hpp) and deals it out in pieces of about `piece_tets` tetrahedra. Each region
 /// of the file stays one; its outer boundary and the boundary between two regions become one face each. The
-/// same pieces for any number of ranks; rank 0 reads and cuts. Collective. Throws CollectiveError when the file
-/// cannot be read or is no conforming mesh of tetrahedra.
+/// same pieces for any number of ranks; rank 0 reads and cuts. Collective. Throws CollectiveError when the
+/// file cannot be read or is no conforming mesh of tetrahedra.
 mesh::DistributedMesh load_foreign_mesh(const parallel::Communicator& communicator, const std::string& path,
                                         std::int64_t piece_tets);
 

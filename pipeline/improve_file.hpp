@@ -9,9 +9,9 @@
 
 namespace aeroloom::pipeline {
 
-/// Reads a mesh (foreign_mesh.hpp), improves it with its boundary and the boundaries between its regions kept as
-/// they are, and writes mesh.pvtu and surface.pvtp. Of the case `improve`, `volume.piece_tets` and `output`
-/// count. Collective. Throws StageFailure on all ranks.
+/// Reads a mesh (foreign_mesh.hpp), improves it with its boundary and the boundaries between its regions kept
+/// as they are, and writes mesh.pvtu and surface.pvtp. Of the case `improve`, `volume.piece_tets` and
+/// `output` count. Collective. Throws StageFailure on all ranks.
 void improve_file(const parallel::Communicator& communicator, const std::string& file, const Case& input,
                   RunRecord& record);
 

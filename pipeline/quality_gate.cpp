@@ -10,7 +10,8 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
                           const improve::PinnedReport& pinned) {
   std::string text;
   const auto at_least = [&](const std::optional<double>& limit, double value, const char* key) {
-    if (limit && value < *limit) text += fmt::format("\n  {} is {:.4g}, not {:g} at least", key, value, *limit);
+    if (limit && value < *limit)
+      text += fmt::format("\n  {} is {:.4g}, not {:g} at least", key, value, *limit);
   };
   const bool some_pinned = pinned.tetrahedra > 0;
   const double smallest = some_pinned ? std::max(pinned.smallest_angle, quality.min_dihedral.minimum)
@@ -19,7 +20,8 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
                                      : quality.max_dihedral.maximum;
   at_least(gate.smallest_angle, smallest, "improve.gate.smallest_angle");
   if (gate.largest_angle && largest > *gate.largest_angle) {
-    text += fmt::format("\n  improve.gate.largest_angle is {:.4g}, not {:g} at most", largest, *gate.largest_angle);
+    text += fmt::format("\n  improve.gate.largest_angle is {:.4g}, not {:g} at most", largest,
+                        *gate.largest_angle);
   }
   at_least(gate.percentile_01, quality.min_dihedral.percentile_01, "improve.gate.percentile_01");
   at_least(gate.percentile_1, quality.min_dihedral.percentile_1, "improve.gate.percentile_1");
@@ -30,8 +32,8 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
   std::string place;
   if (!quality.worst.empty()) {
     const mesh::WorstCell& worst = quality.worst.front();
-    place = fmt::format("\n  the worst tetrahedron has {:.4g} degrees at ({:.6g}, {:.6g}, {:.6g})", worst.value,
-                        worst.center.x, worst.center.y, worst.center.z);
+    place = fmt::format("\n  the worst tetrahedron has {:.4g} degrees at ({:.6g}, {:.6g}, {:.6g})",
+                        worst.value, worst.center.x, worst.center.y, worst.center.z);
   }
   return "the mesh misses what was asked for; it was written nevertheless:" + text + place +
          "\n  remedy: a larger improve.target_angle, smaller sizes there, or lower limits";

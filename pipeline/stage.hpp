@@ -4,7 +4,6 @@
 #include "parallel/collective_error.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/run.hpp"
-#include "pipeline/run.hpp"
 
 #include <new>
 #include <string>

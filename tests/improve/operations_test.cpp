@@ -289,7 +289,8 @@ TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
   }
 }
 
-/// Turns cells over where they must be, and gives the piece the boundary that its cells have, on one CAD face.
+/// Turns cells over where they must be, and gives the piece the boundary that its cells have, on one CAD
+/// face.
 void close_boundary(mesh::Piece& piece) {
   std::map<std::array<LocalIndex, 3>, std::vector<std::array<LocalIndex, 3>>> faces;
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -432,8 +433,8 @@ LocalIndex vertex_at(const mesh::Piece& piece, Vec3 p) {
   return -1;
 }
 
-/// Takes the centre of the cell at (2,2,2) out of the lattice: five tetrahedra fill the cube of its corners, two
-/// each the pyramids to the centres of the neighbouring cells.
+/// Takes the centre of the cell at (2,2,2) out of the lattice: five tetrahedra fill the cube of its corners,
+/// two each the pyramids to the centres of the neighbouring cells.
 mesh::Piece take_centre_out(const mesh::Piece& lattice) {
   mesh::Piece piece = lattice;
   const LocalIndex missing = vertex_at(piece, {2.5, 2.5, 2.5});

@@ -13,9 +13,10 @@ namespace {
 using mesh::DistributedMesh;
 using mesh::Piece;
 
-/// Tetrahedra around the z axis that together fill a wedge of `angle` degrees between the faces 0 and 1, one piece
-/// for each; the other sides belong to face 2.
-DistributedMesh make_wedge(const parallel::Communicator& communicator, double angle, int tets, int dimension) {
+/// Tetrahedra around the z axis that together fill a wedge of `angle` degrees between the faces 0 and 1, one
+/// piece for each; the other sides belong to face 2.
+DistributedMesh make_wedge(const parallel::Communicator& communicator, double angle, int tets,
+                           int dimension) {
   DistributedMesh mesh;
   mesh.piece_count = tets;
   mesh.patches = mesh.faces = {"upper", "lower", "outer"};
