@@ -15,7 +15,7 @@ constexpr double large_sphere = 0.8;
 /// Over the mean edge: larger spheres belong to slivers and reach far.
 constexpr double largest_sphere = 1.1;
 /// Over the mean edge of the cavity: new edges are no shorter.
-constexpr double least_edge = 0.7;
+constexpr double least_edge = 0.62;
 constexpr double least_gain = 0.02;  // of the mean ratio on average
 
 struct Sphere {
