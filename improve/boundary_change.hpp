@@ -19,9 +19,10 @@ using TriangleCorners = std::array<LocalIndex, 3>;
 bool is_gentle_change(const TetMesh& mesh, std::span<const TriangleCorners> before,
                       std::span<const TriangleCorners> after);
 
-/// Whether an edge of the boundary between two vertices exists: one between free triangles or others.
+/// Edges of the boundary, also of its parts that must not change.
 class BoundaryEdges {
 public:
+  /// Whether there is one between two vertices.
   bool exists(TetMesh& mesh, LocalIndex from, LocalIndex to);
 
 private:

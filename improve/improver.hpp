@@ -28,15 +28,18 @@ struct ImproveReport {
   std::int64_t changed_triangles = 0;                ///< of the boundary
 };
 
-/// Improves one tetrahedral piece in place: boundary, interface and shared vertices stay, the boundary
-/// triangles stay, the worst element of any changed cavity gets better. Vertices inside may move, few are
-/// added (at the end) or removed (the others keep their order); cells keep their order, new ones stand where
-/// those they replace stood. Deterministic. Not collective. Throws std::invalid_argument when the target
-/// angle is not within (0, 50] degrees, std::logic_error when three cells share a face.
+/// Improves one tetrahedral piece in place: the worst element of any changed cavity gets better, then the
+/// average (void_filling.hpp, relaxation.hpp), no worst element of a cavity falling. Interface and shared
+/// vertices stay, and so do those on the boundary, where edges may flip and vertices inside a CAD face vanish
+/// (boundary_change.hpp) if the options allow it. Vertices inside may move, some are added (at the end) or
+/// removed (the others keep their order); cells keep their order, new ones stand where those they replace
+/// stood. Deterministic. Not collective. Throws std::invalid_argument when the target angle is not within (0,
+/// 50] degrees, std::logic_error when three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options);
 
-/// Improves all pieces of a mesh, their borders frozen, then what is left in cavities in which those borders
-/// are inside (mesh/cavities.hpp), shifted from round to round. Collective.
+/// Improves all pieces of a mesh, dealt out anew by the work expected, their borders frozen; then what is
+/// poor on average or still bad beside borders, in cavities in which those borders are inside
+/// (mesh/cavities.hpp), shifted from round to round. Collective.
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock);
 
