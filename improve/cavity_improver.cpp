@@ -44,12 +44,11 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
     std::vector<mesh::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), mesh::no_cavity);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
-      const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+      const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       if (measure(p[0], p[1], p[2], p[3]) >= measure.target()) continue;
       ++count;
-      double edges = 0;
-      for (const auto& [i, j] : mesh::tetrahedron_edges) edges += distance(p[i], p[j]) / 6;
-      const mesh::CavityId id = mesh::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), edges, cell_width, shift);
+      const mesh::CavityId id =
+          mesh::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mean_edge(p), cell_width, shift);
       for (int k = 0; k < 4; ++k) mine[v[k]] = std::max(mine[v[k]], id);
     }
   }
@@ -73,10 +72,9 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
       if (place[v[0]] < 0 && place[v[1]] < 0 && place[v[2]] < 0 && place[v[3]] < 0) continue;
-      const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+      const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       const double ratio = mesh::mean_ratio(p[0], p[1], p[2], p[3]);
-      double edge = 0;
-      for (const auto& [i, j] : mesh::tetrahedron_edges) edge += distance(p[i], p[j]) / 6;
+      const double edge = mean_edge(p);
       for (int k = 0; k < 4; ++k) {
         if (place[v[k]] < 0) continue;
         edges[place[v[k]]] += edge;

@@ -3,8 +3,10 @@
 
 #include "geometry/predicates.hpp"
 #include "geometry/vec.hpp"
+#include "mesh/piece.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -17,6 +19,13 @@ inline bool has_positive_volume(geometry::Vec3 a, geometry::Vec3 b, geometry::Ve
   const auto sum = [](geometry::Vec3 e) { return std::abs(e.x) + std::abs(e.y) + std::abs(e.z); };
   const double bound = 1e-14 * sum(b - a) * sum(c - a) * sum(d - a);
   return geometry::volume6(a, b, c, d) > bound || geometry::orient3d(a, b, c, d) > 0;
+}
+
+/// Mean length of the six edges of a tetrahedron.
+inline double mean_edge(const std::array<geometry::Vec3, 4>& p) {
+  double sum = 0;
+  for (const auto& [i, k] : mesh::tetrahedron_edges) sum += distance(p[i], p[k]) / 6;
+  return sum;
 }
 
 /// The biased minimum sine of the dihedral angles (Klingner and Shewchuk, 16th International Meshing

@@ -38,12 +38,6 @@ std::array<Vec3, 4> points(const TetMesh& mesh, LocalIndex t) {
   return {mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])};
 }
 
-double mean_edge(const std::array<Vec3, 4>& p) {
-  double sum = 0;
-  for (const auto& [i, k] : mesh::tetrahedron_edges) sum += distance(p[i], p[k]) / 6;
-  return sum;
-}
-
 double shortest_edge(const std::array<Vec3, 4>& p) {
   double least = std::numeric_limits<double>::max();
   for (const auto& [i, k] : mesh::tetrahedron_edges) least = std::min(least, distance(p[i], p[k]));

@@ -1,37 +1,24 @@
-#include "improve/boundary_flip.hpp"
 #include "improve/cavity_insertion.hpp"
-#include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
-#include "improve/relaxation.hpp"
-#include "improve/schedule.hpp"
 #include "improve/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
-#include "improve/void_filling.hpp"
 #include "mesh/quality.hpp"
+#include "tests/improve/pieces.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 #include <random>
-#include <set>
 
 #include <gtest/gtest.h>
 
 namespace aeroloom::improve {
 namespace {
 
-const TetQuality measure(15);
+using examples::make_piece;
+using examples::volume;
 
-/// A piece of one region without classification on a boundary.
-mesh::Piece make_piece(const std::vector<Vec3>& points, std::vector<LocalIndex> cells) {
-  mesh::Piece piece;
-  for (const Vec3 p : points) piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-  piece.vertex_dimension.assign(points.size(), 3);
-  piece.vertex_entity.assign(points.size(), 0);
-  piece.cells = std::move(cells);
-  return piece;
-}
+const TetQuality measure(15);
 
 /// `count` tetrahedra around an edge along z that passes close by one side of their ring.
 mesh::Piece make_spindle(int count) {
@@ -44,17 +31,6 @@ mesh::Piece make_spindle(int count) {
     cells.insert(cells.end(), {0, 1, 2 + i, 2 + (i + 1) % count});
   }
   return make_piece(points, cells);
-}
-
-double volume(const mesh::Piece& piece) {
-  double sum = 0;
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const LocalIndex* c = piece.cell(t);
-    const double six = volume6(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3]));
-    EXPECT_GT(six, 0);
-    sum += six / 6;
-  }
-  return sum;
 }
 
 TEST(TetQuality, FallsBelowTheTargetExactlyWithTheAngles) {
@@ -287,264 +263,6 @@ TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
                   .smallest,
               10);
   }
-}
-
-/// Turns cells over where they must be, and gives the piece the boundary that its cells have, on one CAD
-/// face.
-void close_boundary(mesh::Piece& piece) {
-  std::map<std::array<LocalIndex, 3>, std::vector<std::array<LocalIndex, 3>>> faces;
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    LocalIndex* c = piece.cells.data() + 4 * t;
-    if (volume6(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) < 0)
-      std::swap(c[0], c[1]);
-    for (const auto& f : mesh::tetrahedron_faces) {
-      std::array<LocalIndex, 3> key{c[f[0]], c[f[1]], c[f[2]]};
-      const auto corners = key;
-      std::sort(key.begin(), key.end());
-      faces[key].push_back(corners);
-    }
-  }
-  for (const auto& [key, sides] : faces) {
-    if (sides.size() > 1) continue;
-    piece.boundary.insert(piece.boundary.end(), sides[0].begin(), sides[0].end());
-    piece.triangle_face.push_back(0);
-    piece.triangle_patch.push_back(0);
-    for (const LocalIndex v : key) piece.vertex_dimension[v] = 2;
-  }
-}
-
-/// A pyramid over a square whose base is a flat tetrahedron on top of two others.
-mesh::Piece make_flat_lid(double height) {
-  mesh::Piece piece = make_piece({{1, 0, 0}, {0, 1, height}, {-1, 0, 0}, {0, -1, height}, {0, 0, -1}},
-                                 {0, 1, 2, 4, 0, 2, 3, 4, 0, 1, 2, 3});
-  close_boundary(piece);
-  return piece;
-}
-
-TEST(BoundaryFlip, TakesAFlatTetrahedronAway) {
-  mesh::Piece piece = make_flat_lid(0.02);
-  const double before = volume(piece);
-  TetMesh mesh(piece, measure);
-  BoundaryFlip flip;
-  Cavity cavity;
-  bool proposed = false;
-  for (int edge = 0; edge < 6 && !proposed; ++edge) proposed = flip.propose(mesh, 2, edge, -1, cavity);
-  ASSERT_TRUE(proposed);
-  EXPECT_EQ(cavity.old_tets.size(), 1u);
-  EXPECT_TRUE(cavity.new_tets.empty());
-  std::vector<LocalIndex> placed;
-  mesh.replace(cavity, placed);
-  EXPECT_EQ(mesh.changed_triangles(), 2);
-  mesh.finish();
-  EXPECT_EQ(piece.cell_count(), 2);
-  EXPECT_EQ(piece.boundary_count(), 6);
-  EXPECT_NEAR(volume(piece), before, 0.05 * before);
-  mesh::Piece closed = piece;
-  closed.boundary.clear(), closed.triangle_face.clear(), closed.triangle_patch.clear();
-  close_boundary(closed);
-  const auto sorted_triangles = [](const mesh::Piece& p) {
-    std::multiset<std::array<LocalIndex, 3>> triangles;
-    for (LocalIndex t = 0; t < p.boundary_count(); ++t) {
-      std::array<LocalIndex, 3> v;
-      std::copy_n(p.boundary_triangle(t), 3, v.begin());
-      std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-      triangles.insert(v);
-    }
-    return triangles;
-  };
-  EXPECT_EQ(sorted_triangles(piece), sorted_triangles(closed));
-}
-
-TEST(BoundaryFlip, KeepsEdgesBetweenFacesAndSharpOnes) {
-  const auto proposes = [](mesh::Piece piece) {
-    TetMesh mesh(piece, measure);
-    BoundaryFlip flip;
-    Cavity cavity;
-    bool any = false;
-    for (int edge = 0; edge < 6; ++edge) any = flip.propose(mesh, 2, edge, -1, cavity) || any;
-    return any;
-  };
-  EXPECT_TRUE(proposes(make_flat_lid(0.02)));
-  EXPECT_FALSE(proposes(make_flat_lid(0.4))) << "triangles turn by more than they may";
-  mesh::Piece two_faces = make_flat_lid(0.02);
-  for (LocalIndex t = 0; t < two_faces.boundary_count(); ++t) two_faces.triangle_face[t] = t;
-  EXPECT_FALSE(proposes(two_faces));
-  mesh::Piece other_piece = make_flat_lid(0.02);
-  for (LocalIndex v = 0; v < 4; ++v) {
-    other_piece.shared_vertices.push_back(v);
-    other_piece.shared_tokens.push_back(v);
-  }
-  EXPECT_FALSE(proposes(other_piece)) << "another piece may know the triangles";
-}
-
-/// The body-centred lattice of n^3 cells as its Delaunay tetrahedra: four around each face between two cells'
-/// centres.
-mesh::Piece make_lattice(int n) {
-  std::vector<Vec3> points;
-  const auto corner = [n](int i, int j, int k) { return (i * (n + 1) + j) * (n + 1) + k; };
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j)
-      for (int k = 0; k <= n; ++k) points.push_back({double(i), double(j), double(k)});
-  const int corners = static_cast<int>(points.size());
-  const auto centre = [n, corners](int i, int j, int k) { return corners + (i * n + j) * n + k; };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) points.push_back({i + 0.5, j + 0.5, k + 0.5});
-  std::vector<LocalIndex> cells;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        for (int k = 0; k < n; ++k) {
-          std::array<int, 3> low{i, j, k}, high = low;
-          if (++high[axis] == n) continue;
-          const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-          std::array<int, 3> at = high;
-          std::array<LocalIndex, 4> ring;
-          for (int turn = 0; turn < 4; ++turn) {
-            at[u] = high[u] + (turn == 1 || turn == 2);
-            at[v] = high[v] + (turn >= 2);
-            ring[turn] = corner(at[0], at[1], at[2]);
-          }
-          for (int turn = 0; turn < 4; ++turn) {
-            cells.insert(cells.end(), {centre(low[0], low[1], low[2]), centre(high[0], high[1], high[2]),
-                                       ring[turn], ring[(turn + 1) % 4]});
-          }
-        }
-  }
-  // Corners of the block have no tetrahedron.
-  std::vector<LocalIndex> number(points.size(), -1);
-  std::vector<Vec3> used;
-  for (LocalIndex& v : cells) {
-    if (number[v] < 0) {
-      number[v] = static_cast<LocalIndex>(used.size());
-      used.push_back(points[v]);
-    }
-    v = number[v];
-  }
-  mesh::Piece piece = make_piece(used, cells);
-  close_boundary(piece);
-  return piece;
-}
-
-LocalIndex vertex_at(const mesh::Piece& piece, Vec3 p) {
-  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (distance(piece.point(v), p) < 1e-9) return v;
-  }
-  return -1;
-}
-
-/// Takes the centre of the cell at (2,2,2) out of the lattice: five tetrahedra fill the cube of its corners,
-/// two each the pyramids to the centres of the neighbouring cells.
-mesh::Piece take_centre_out(const mesh::Piece& lattice) {
-  mesh::Piece piece = lattice;
-  const LocalIndex missing = vertex_at(piece, {2.5, 2.5, 2.5});
-  piece.cells.clear();
-  for (LocalIndex t = 0; t < lattice.cell_count(); ++t) {
-    const LocalIndex* c = lattice.cell(t);
-    if (std::find(c, c + 4, missing) == c + 4) piece.cells.insert(piece.cells.end(), c, c + 4);
-  }
-  const auto corner = [&](int i, int j, int k) {
-    return vertex_at(piece, {double(2 + i), double(2 + j), double(2 + k)});
-  };
-  const auto add = [&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
-    if (volume6(piece.point(a), piece.point(b), piece.point(c), piece.point(d)) < 0) std::swap(c, d);
-    piece.cells.insert(piece.cells.end(), {a, b, c, d});
-  };
-  add(corner(0, 0, 0), corner(1, 1, 0), corner(1, 0, 1), corner(0, 1, 1));
-  for (const auto& [i, j, k] : {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}})
-    add(corner(i, j, k), corner(1 - i, j, k), corner(i, 1 - j, k), corner(i, j, 1 - k));
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int side = 0; side < 2; ++side) {
-      Vec3 tip{2.5, 2.5, 2.5};
-      tip[axis] += 2 * side - 1;
-      std::vector<LocalIndex> even, odd;  // the cube's diagonals join even corners
-      for (int u = 0; u < 2; ++u)
-        for (int v = 0; v < 2; ++v) {
-          int at[3];
-          at[axis] = side, at[(axis + 1) % 3] = u, at[(axis + 2) % 3] = v;
-          ((side + u + v) % 2 == 0 ? even : odd).push_back(corner(at[0], at[1], at[2]));
-        }
-      for (const LocalIndex o : odd) add(vertex_at(piece, tip), even[0], even[1], o);
-    }
-  }
-  return piece;
-}
-
-TEST(VoidFilling, PutsTheMissingPointOfALatticeBack) {
-  const mesh::Piece whole = make_lattice(5);
-  mesh::Piece piece = take_centre_out(whole);
-  const double before = volume(piece);
-  EXPECT_NEAR(before, volume(whole), 1e-12);
-  EXPECT_EQ(piece.cell_count(), whole.cell_count() - 24 + 17);
-  {
-    TetMesh mesh(piece, measure);
-    EXPECT_EQ(VoidFilling().run(mesh), 1);
-    mesh.finish();
-  }
-  EXPECT_NEAR(volume(piece), before, 1e-12);
-  EXPECT_EQ(piece.cell_count(), whole.cell_count());
-  EXPECT_LT(distance(piece.point(piece.vertex_count() - 1), {2.5, 2.5, 2.5}), 1e-9);
-  mesh::Piece full = whole;
-  TetMesh mesh(full, measure);
-  EXPECT_EQ(VoidFilling().run(mesh), 0) << "nothing is missing";
-}
-
-TEST(Relaxation, LiftsTheAverageAndNeverTheWorst) {
-  mesh::Piece piece = make_lattice(5);
-  std::mt19937 random(7);
-  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (piece.vertex_dimension[v] < 3) continue;
-    Vec3 p = piece.point(v);
-    for (int axis = 0; axis < 3; ++axis) p[axis] += 0.2 * (random() / 2147483648.0 - 1);
-    piece.set_point(v, p);
-  }
-  const auto ratios = [](const TetMesh& mesh) {
-    double sum = 0, worst = 1;
-    for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
-      const Corners& c = mesh.corners(t);
-      sum += mesh::mean_ratio(mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3]));
-      worst = std::min(worst, mesh.quality(t));
-    }
-    return std::pair(sum / mesh.slot_count(), worst);
-  };
-  volume(piece);
-  TetMesh mesh(piece, measure);
-  auto [mean, worst] = ratios(mesh);
-  const double first = mean;
-  for (int pass = 0; pass < 4; ++pass) {
-    Relaxation().run(mesh, 1);
-    const auto [next_mean, next_worst] = ratios(mesh);
-    EXPECT_GE(next_mean, mean);
-    EXPECT_GE(next_worst, worst);
-    mean = next_mean, worst = next_worst;
-  }
-  EXPECT_GT(mean, first + 0.02);
-}
-
-TEST(EdgeContraction, RemovesAVertexInsideButNeverOneOnACurve) {
-  mesh::Piece piece = make_lattice(4);
-  const double before = volume(piece);
-  // Two vertices nearly at one place.
-  const LocalIndex from = vertex_at(piece, {1.5, 1.5, 1.5}), to = vertex_at(piece, {2, 2, 2});
-  piece.set_point(from, {1.93, 1.93, 1.93});
-  volume(piece);
-  TetMesh mesh(piece, measure);
-  EdgeContraction contraction;
-  Cavity cavity;
-  ASSERT_TRUE(contraction.propose(mesh, from, to, -1, cavity));
-  EXPECT_GT(cavity.after, cavity.before);
-  std::vector<LocalIndex> placed;
-  mesh.replace(cavity, placed);
-  EXPECT_FALSE(mesh.is_used(from));
-  mesh.finish();
-  EXPECT_NEAR(volume(piece), before, 1e-12);
-
-  mesh::Piece curved = make_lattice(4);
-  const LocalIndex stays = vertex_at(curved, {1.5, 1.5, 1.5});
-  curved.set_point(stays, {1.93, 1.93, 1.93});
-  curved.vertex_dimension[stays] = 1;
-  TetMesh fixed(curved, measure);
-  EXPECT_FALSE(contraction.propose(fixed, stays, vertex_at(curved, {2, 2, 2}), -1, cavity));
 }
 
 }  // namespace
