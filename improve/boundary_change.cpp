@@ -1,5 +1,7 @@
 #include "improve/boundary_change.hpp"
 
+#include "mesh/quality.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,34 +19,28 @@ struct Shape {
   double quality = 0;  ///< mean ratio: 1 for an equilateral triangle
 };
 
-Shape shape_of(const TetMesh& mesh, const TriangleCorners& corners) {
-  const Vec3 a = mesh.point(corners[0]), b = mesh.point(corners[1]), c = mesh.point(corners[2]);
-  const Vec3 twice_area = cross(b - a, c - a);
-  const double lengths[3] = {dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)};
-  const double area = norm(twice_area);
-  Shape shape;
-  shape.longest = *std::max_element(lengths, lengths + 3);
-  shape.quality = 2 * std::numbers::sqrt3 * area / (lengths[0] + lengths[1] + lengths[2]);
-  if (area > 0) shape.normal = (1 / area) * twice_area;
-  return shape;
+Shape shape_of(const TrianglePoints& points) {
+  const auto& [a, b, c] = points;
+  return {normalized(cross(b - a, c - a)),
+          std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)}),
+          mesh::triangle_mean_ratio(a, b, c)};
 }
 
 }  // namespace
 
-bool is_gentle_change(const TetMesh& mesh, std::span<const TriangleCorners> before,
-                      std::span<const TriangleCorners> after) {
+bool is_gentle_change(std::span<const TrianglePoints> before, std::span<const TrianglePoints> after) {
   double longest = 0, worst = 1;
-  for (const TriangleCorners& old : before) {
-    const Shape shape = shape_of(mesh, old);
+  for (const TrianglePoints& old : before) {
+    const Shape shape = shape_of(old);
     longest = std::max(longest, shape.longest);
     worst = std::min(worst, shape.quality);
   }
-  for (const TriangleCorners& fresh : after) {
-    const Shape shape = shape_of(mesh, fresh);
+  for (const TrianglePoints& fresh : after) {
+    const Shape shape = shape_of(fresh);
     if (shape.longest > most_growth * most_growth * longest) return false;
     if (shape.quality < std::min(worst, decent_quality)) return false;
-    for (const TriangleCorners& old : before) {
-      if (dot(shape.normal, shape_of(mesh, old).normal) < least_cosine) return false;
+    for (const TrianglePoints& old : before) {
+      if (dot(shape.normal, shape_of(old).normal) < least_cosine) return false;
     }
   }
   return true;

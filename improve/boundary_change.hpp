@@ -11,13 +11,17 @@ namespace aeroloom::improve {
 
 /// The corners of a boundary triangle, counter-clockwise seen from outside.
 using TriangleCorners = std::array<LocalIndex, 3>;
+using TrianglePoints = std::array<Vec3, 3>;
+
+inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corners) {
+  return {mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
+}
 
 /// Whether new triangles may take the place of old ones: no normal turns by more than 20 degrees against any
 /// old one, no edge is longer than 1.5 times the longest one before, and the worst shape is at least as good
 /// as before or 0.3 (of a mean ratio). All corners stay on the CAD face, so the chordal error stays that of
 /// edges of such lengths.
-bool is_gentle_change(const TetMesh& mesh, std::span<const TriangleCorners> before,
-                      std::span<const TriangleCorners> after);
+bool is_gentle_change(std::span<const TrianglePoints> before, std::span<const TrianglePoints> after);
 
 /// Edges of the boundary, also of its parts that must not change.
 class BoundaryEdges {

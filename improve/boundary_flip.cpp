@@ -10,9 +10,11 @@ bool BoundaryFlip::keeps_boundary(TetMesh& mesh) {
   if (!mesh.is_free_triangle(first) || !mesh.is_free_triangle(last) || !mesh.on_same_face(first, last))
     return false;
   const LocalIndex from = _fan.ring.front(), to = _fan.ring.back();
-  const TriangleCorners before[] = {mesh.triangle(first), mesh.triangle(last)};
-  const TriangleCorners after[] = {{from, _fan.end, to}, {to, _fan.start, from}};
-  if (!is_gentle_change(mesh, before, after) || _edges.exists(mesh, from, to)) return false;
+  const TrianglePoints before[] = {points_of(mesh, mesh.triangle(first)),
+                                   points_of(mesh, mesh.triangle(last))};
+  const TrianglePoints after[] = {points_of(mesh, {from, _fan.end, to}),
+                                  points_of(mesh, {to, _fan.start, from})};
+  if (!is_gentle_change(before, after) || _edges.exists(mesh, from, to)) return false;
   if (_fan.tets.size() > 1) return true;
   // The faces behind the only tetrahedron become the boundary.
   const LocalIndex t = _fan.tets[0];

@@ -17,22 +17,6 @@ using mesh::Piece;
 /// Width of the grid's cells, in edges of the bad tetrahedron in them, at least.
 constexpr double cell_width = 8;
 
-/// Vertices on the boundary of the cavity first: these stay as they are.
-std::vector<LocalIndex> boundary_first(const mesh::Cavity& cavity, std::size_t& on_boundary) {
-  std::vector<char> outer(cavity.points.size(), 0);
-  for (const mesh::TetFace& face : mesh::boundary_faces(cavity.tets)) {
-    for (const LocalIndex v : face.vertices) outer[v] = 1;
-  }
-  std::vector<LocalIndex> order;
-  for (const char wanted : {1, 0}) {
-    for (std::size_t v = 0; v < outer.size(); ++v) {
-      if (outer[v] == wanted) order.push_back(static_cast<LocalIndex>(v));
-    }
-    if (wanted) on_boundary = order.size();
-  }
-  return order;
-}
-
 }  // namespace
 
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
@@ -94,38 +78,98 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh
   return count;
 }
 
-std::optional<mesh::Refilling> improve_cavity(const mesh::Cavity& cavity, const ImproveOptions& options,
-                                              ImproveReport& report) {
-  std::size_t fixed = 0;
-  const std::vector<LocalIndex> order = boundary_first(cavity, fixed);
-  std::vector<LocalIndex> number(order.size());
-  Piece piece;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    number[order[i]] = static_cast<LocalIndex>(i);
-    const Vec3 p = cavity.points[order[i]];
-    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-    piece.vertex_dimension.push_back(cavity.dimension[order[i]]);
-    piece.vertex_entity.push_back(0);
+// Other tetrahedra have their vertices in common with the walls: faces that are no triangles of the surface
+// mesh. Vertices on CAD curves may be known beyond.
+void CavityImprover::order_vertices(const mesh::Cavity& cavity) {
+  std::vector<mesh::TetFace> walls = mesh::boundary_faces(cavity.tets);
+  std::vector<std::array<LocalIndex, 3>> free;
+  for (const mesh::CavityTriangle& triangle : cavity.triangles) {
+    if (_mesh.sides_of(triangle.face).is_inner()) continue;
+    free.push_back(triangle.vertices);
+    std::sort(free.back().begin(), free.back().end());
+  }
+  std::sort(free.begin(), free.end());
+  std::erase_if(walls, [&](const mesh::TetFace& face) {
+    return std::binary_search(free.begin(), free.end(), face.key);
+  });
+  std::vector<char> stays(cavity.points.size(), 0);
+  for (const mesh::TetFace& face : walls) {
+    for (const LocalIndex v : face.vertices) stays[v] = 1;
+  }
+  for (std::size_t v = 0; v < stays.size(); ++v) stays[v] = stays[v] || cavity.dimension[v] < 2;
+  _order.clear();
+  for (const char wanted : {1, 0}) {
+    for (std::size_t v = 0; v < stays.size(); ++v) {
+      if (stays[v] == wanted) _order.push_back(static_cast<LocalIndex>(v));
+    }
+    if (wanted) _staying = static_cast<LocalIndex>(_order.size());
+  }
+  _number.resize(_order.size());
+  for (std::size_t i = 0; i < _order.size(); ++i) _number[_order[i]] = static_cast<LocalIndex>(i);
+}
+
+void CavityImprover::build_piece(const mesh::Cavity& cavity) {
+  _piece = {};
+  for (const LocalIndex v : _order) {
+    const Vec3 p = cavity.points[v];
+    _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
+    _piece.vertex_dimension.push_back(cavity.dimension[v]);
+    _piece.vertex_entity.push_back(cavity.entity[v]);
   }
   for (const auto& tet : cavity.tets) {
-    for (const LocalIndex v : tet) piece.cells.push_back(number[v]);
+    for (const LocalIndex v : tet) _piece.cells.push_back(_number[v]);
   }
-  const ImproveReport mine = improve_piece(piece, options);
-  report.smoothed += mine.smoothed;
-  report.swaps += mine.swaps;
-  if (mine.smoothed + mine.swaps == 0) return std::nullopt;
+  for (const mesh::CavityTriangle& triangle : cavity.triangles) {
+    for (const LocalIndex v : triangle.vertices) _piece.boundary.push_back(_number[v]);
+    _piece.triangle_face.push_back(triangle.face);
+    _piece.triangle_patch.push_back(triangle.patch);
+  }
+  for (LocalIndex v = 0; v < _staying; ++v) {
+    _piece.shared_vertices.push_back(v);
+    _piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(v));
+  }
+}
+
+// Vertices inside are new ones in the refilling; those on the CAD are known by it as long as they stay where
+// they are.
+mesh::Refilling CavityImprover::build_refilling(const mesh::Cavity& cavity) const {
   mesh::Refilling result;
-  for (auto v = static_cast<LocalIndex>(fixed); v < piece.vertex_count(); ++v)
-    result.added.push_back(piece.point(v));
-  const auto known = static_cast<LocalIndex>(order.size());
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    auto& tet = result.tets.emplace_back();
-    for (int k = 0; k < 4; ++k) {
-      const LocalIndex v = piece.cell(t)[k];
-      tet[k] = v < static_cast<LocalIndex>(fixed) ? order[v] : known + (v - static_cast<LocalIndex>(fixed));
+  std::vector<LocalIndex> named(_piece.vertex_count());
+  for (LocalIndex v = 0; v < _piece.vertex_count(); ++v) {
+    const auto before = static_cast<std::size_t>(_numbered[v]);
+    const bool known = before < _order.size() &&
+                       (_numbered[v] < _staying ||
+                        (_piece.vertex_dimension[v] < 3 && _piece.point(v) == cavity.points[_order[before]]));
+    if (known) {
+      named[v] = _order[before];
+      continue;
     }
+    named[v] = static_cast<LocalIndex>(cavity.points.size() + result.added.size());
+    result.added.push_back({_piece.point(v), _piece.vertex_dimension[v], _piece.vertex_entity[v]});
+  }
+  for (LocalIndex t = 0; t < _piece.cell_count(); ++t) {
+    const LocalIndex* c = _piece.cell(t);
+    result.tets.push_back({named[c[0]], named[c[1]], named[c[2]], named[c[3]]});
+  }
+  std::vector<mesh::CavityTriangle>& triangles = result.triangles.emplace();
+  for (LocalIndex i = 0; i < _piece.boundary_count(); ++i) {
+    const LocalIndex* c = _piece.boundary_triangle(i);
+    triangles.push_back(
+        {{named[c[0]], named[c[1]], named[c[2]]}, _piece.triangle_face[i], _piece.triangle_patch[i]});
   }
   return result;
+}
+
+std::optional<mesh::Refilling> CavityImprover::improve(const mesh::Cavity& cavity, ImproveReport& report) {
+  order_vertices(cavity);
+  build_piece(cavity);
+  const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
+  report.smoothed += mine.smoothed;
+  report.slid += mine.slid;
+  report.swaps += mine.swaps;
+  report.changed_triangles += mine.changed_triangles;
+  if (mine.smoothed + mine.slid + mine.swaps == 0) return std::nullopt;
+  return build_refilling(cavity);
 }
 
 }  // namespace aeroloom::improve

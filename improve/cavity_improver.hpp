@@ -5,6 +5,7 @@
 #include "mesh/cavities.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace aeroloom::improve {
 
@@ -18,8 +19,30 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
 /// Returns their number on this rank.
 std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh::CavityWishes& wishes);
 
-/// Improves the tetrahedra of a cavity, its boundary fixed; nothing where that changes nothing.
-std::optional<mesh::Refilling> improve_cavity(const mesh::Cavity& cavity, const ImproveOptions& options,
-                                              ImproveReport& report);
+/// Improves the tetrahedra of cavities. What other tetrahedra have in common with a cavity stays, and so do
+/// triangles between two regions; other triangles of the surface mesh may change as in a piece.
+class CavityImprover {
+public:
+  /// All must outlive it.
+  CavityImprover(const mesh::DistributedMesh& mesh, const ImproveOptions& options, const MeshSource& source)
+      : _mesh(mesh), _options(options), _source(source) {}
+
+  /// Nothing where improvement changes nothing. Adds to the report.
+  std::optional<mesh::Refilling> improve(const mesh::Cavity& cavity, ImproveReport& report);
+
+private:
+  void order_vertices(const mesh::Cavity& cavity);
+  void build_piece(const mesh::Cavity& cavity);
+  mesh::Refilling build_refilling(const mesh::Cavity& cavity) const;
+
+  const mesh::DistributedMesh& _mesh;
+  const ImproveOptions& _options;
+  const MeshSource& _source;
+  std::vector<mesh::LocalIndex> _order;   ///< of the cavity's vertices: those that stay first
+  std::vector<mesh::LocalIndex> _number;  ///< per vertex of the cavity: its place in that order
+  mesh::LocalIndex _staying = 0;
+  mesh::Piece _piece;
+  std::vector<mesh::LocalIndex> _numbered;  ///< after improvement, per vertex of the piece: its place before
+};
 
 }  // namespace aeroloom::improve

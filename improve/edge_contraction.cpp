@@ -53,18 +53,20 @@ bool EdgeContraction::keeps_boundary(TetMesh& mesh, LocalIndex from, LocalIndex 
   _before.clear();
   _after.clear();
   for (const LocalIndex i : _triangles) {
-    _before.push_back(mesh.triangle(i));
-    if (has(_before.back(), to)) continue;
-    _after.push_back(_before.back());
-    std::replace(_after.back().begin(), _after.back().end(), from, to);
+    TriangleCorners corners = mesh.triangle(i);
+    _before.push_back(points_of(mesh, corners));
+    if (has(corners, to)) continue;
+    std::replace(corners.begin(), corners.end(), from, to);
+    _after.push_back(points_of(mesh, corners));
   }
-  if (!is_gentle_change(mesh, _before, _after)) return false;
+  if (!is_gentle_change(_before, _after)) return false;
   // New edges must be new: the neighbours of both ends on the boundary are those at the edge's triangles.
-  for (const TriangleCorners& corners : _before) {
-    for (const LocalIndex v : corners) {
+  for (const LocalIndex i : _triangles) {
+    for (const LocalIndex v : mesh.triangle(i)) {
       if (v == from || v == to) continue;
-      const bool at_edge = std::any_of(_before.begin(), _before.end(),
-                                       [&](const TriangleCorners& c) { return has(c, v) && has(c, to); });
+      const bool at_edge = std::any_of(_triangles.begin(), _triangles.end(), [&](LocalIndex k) {
+        return has(mesh.triangle(k), v) && has(mesh.triangle(k), to);
+      });
       if (!at_edge && _edges.exists(mesh, to, v)) return false;
     }
   }

@@ -22,7 +22,7 @@ private:
   bool keeps_lengths(const TetMesh& mesh, LocalIndex from, LocalIndex to) const;
 
   std::vector<LocalIndex> _star, _triangles;
-  std::vector<TriangleCorners> _before, _after;
+  std::vector<TrianglePoints> _before, _after;
   BoundaryEdges _edges;
 };
 

@@ -12,6 +12,7 @@
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace aeroloom::improve {
 namespace {
@@ -55,28 +56,36 @@ double expected_work(const mesh::Piece& piece, const TetQuality& measure) {
 
 }  // namespace
 
-ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options) {
+ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source,
+                            std::vector<mesh::LocalIndex>* numbered) {
   const TetQuality measure(options.target_angle);
   ImproveReport report;
   const PieceState before = examine(piece, measure);
   report.bad_before = report.bad_after = before.bad;
   report.min_angle_before = report.min_angle_after = before.least_angle;
+  if (numbered) {
+    numbered->resize(piece.vertex_count());
+    std::iota(numbered->begin(), numbered->end(), 0);
+  }
   if (!options.enabled) return report;
 
   TetMesh mesh(piece, measure, options.boundary_may_change);
-  Schedule schedule(mesh);
+  const SizeLimits limits(source.sizes);
+  Schedule schedule(mesh, limits, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
   if (options.relaxation > 0) {
     report.swaps += VoidFilling().run(mesh);
     report.smoothed += Relaxation().run(mesh, options.relaxation);
   }
   mesh.finish();
+  if (numbered) *numbered = mesh.origin();
   report.changed_triangles = mesh.changed_triangles();
 
   const PieceState after = examine(piece, measure);
   report.bad_after = after.bad;
   report.min_angle_after = after.least_angle;
   report.smoothed += schedule.smoothed();
+  report.slid = schedule.slid();
   report.swaps += schedule.swaps();
   return report;
 }
@@ -89,12 +98,14 @@ constexpr int border_rounds = 2;
 
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                    const ImproveOptions& options, ImproveReport& total, parallel::StageClock& clock) {
+                    const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
+                    parallel::StageClock& clock) {
   if (!options.enabled || mesh.piece_count < 2) return;
   mesh::CavityWishes wishes;
+  CavityImprover improver(mesh, options, source);
   const auto improve = [&](const mesh::Cavity& cavity) {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    return improve_cavity(cavity, options, total);
+    return improver.improve(cavity, total);
   };
   for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
     if (communicator.sum(wish_for_borders(mesh, shift, wishes)) == 0) break;
@@ -117,7 +128,8 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
 }  // namespace
 
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const ImproveOptions& options, parallel::StageClock& clock) {
+                           const ImproveOptions& options, parallel::StageClock& clock,
+                           const MeshSource& source) {
   ImproveReport total;
   total.min_angle_before = total.min_angle_after = 180;
   std::vector<double> work;
@@ -134,10 +146,11 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     for (mesh::Piece& piece : mesh.pieces) {
-      const ImproveReport mine = improve_piece(piece, options);
+      const ImproveReport mine = improve_piece(piece, options, source);
       total.bad_before += mine.bad_before;
       total.bad_after += mine.bad_after;
       total.smoothed += mine.smoothed;
+      total.slid += mine.slid;
       total.swaps += mine.swaps;
       total.changed_triangles += mine.changed_triangles;
       total.min_angle_before = std::min(total.min_angle_before, mine.min_angle_before);
@@ -145,9 +158,9 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
       clock.add_pieces(1);
     }
   });
-  improve_across(communicator, mesh, options, total, clock);
-  for (std::int64_t* count :
-       {&total.bad_before, &total.bad_after, &total.smoothed, &total.swaps, &total.changed_triangles}) {
+  improve_across(communicator, mesh, options, source, total, clock);
+  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.slid, &total.swaps,
+                              &total.changed_triangles}) {
     *count = communicator.sum(*count);
   }
   for (double* angle : {&total.min_angle_before, &total.min_angle_after})

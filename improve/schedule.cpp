@@ -43,12 +43,16 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-Schedule::Schedule(TetMesh& mesh)
+Schedule::Schedule(TetMesh& mesh, const SizeLimits& limits, geometry::PointLocator* locator)
     : _mesh(mesh),
+      _limits(limits),
+      _smoothing(limits),
       _version(mesh.slot_count(), 0),
       _attempt(mesh.slot_count(), 0),
       _attempt_means(mesh.slot_count(), Means::swaps_and_smoothing),
-      _changed(mesh.vertex_count(), 1) {}
+      _changed(mesh.vertex_count(), 1) {
+  if (locator) _sliding.emplace(*locator, limits);
+}
 
 void Schedule::run(int sweeps) {
   Means means = Means::swaps_and_smoothing;
@@ -107,7 +111,8 @@ bool Schedule::mend(LocalIndex t, Means means) {
   if (swap(t) || smooth(t)) return true;
   const double share = _mesh.quality(t) / _mesh.measure().target();
   return (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) ||
-         (means >= Means::new_vertices && share < worth_adding && insert_vertex(t));
+         (means >= Means::new_vertices && share < worth_adding && insert_vertex(t)) ||
+         (means >= Means::moving_cavities && slide(t));
 }
 
 bool Schedule::swap(LocalIndex t) {
@@ -139,6 +144,20 @@ bool Schedule::smooth(LocalIndex t) {
     if (_mesh.is_fixed(v) || !_smoothing.smooth(_mesh, v, _star)) continue;
     moved = true;
     ++_smoothed;
+    note_change(_star, t);
+  }
+  return moved;
+}
+
+bool Schedule::slide(LocalIndex t) {
+  if (!_sliding) return false;
+  const Corners corners = _mesh.corners(t);
+  bool moved = false;
+  for (const LocalIndex v : corners) {
+    if (_mesh.quality(t) >= _mesh.measure().target()) break;
+    if (!_sliding->slide(_mesh, v, _star)) continue;
+    moved = true;
+    ++_slid;
     note_change(_star, t);
   }
   return moved;
@@ -191,6 +210,7 @@ bool Schedule::apply(const Cavity& cavity) {
   for (const Corners& c : cavity.new_tets) {
     if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
   }
+  if (!_limits.allow(_mesh, cavity)) return false;
   _mesh.replace(cavity, _placed);
   _version.resize(_mesh.slot_count(), 0);
   _attempt.resize(_mesh.slot_count(), 0);

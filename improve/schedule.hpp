@@ -6,10 +6,12 @@
 #include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
+#include "improve/sliding.hpp"
 #include "improve/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace aeroloom::improve {
@@ -19,11 +21,13 @@ namespace aeroloom::improve {
 /// has changed, or when stronger means are allowed.
 class Schedule {
 public:
-  explicit Schedule(TetMesh& mesh);
+  /// With a locator, vertices of the boundary slide on its model.
+  Schedule(TetMesh& mesh, const SizeLimits& limits, geometry::PointLocator* locator = nullptr);
 
   /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
   void run(int sweeps);
   std::int64_t smoothed() const { return _smoothed; }
+  std::int64_t slid() const { return _slid; }
   std::int64_t swaps() const { return _swaps; }
 
 private:
@@ -44,6 +48,7 @@ private:
   bool mend(LocalIndex t, Means means);
   bool swap(LocalIndex t);
   bool smooth(LocalIndex t);
+  bool slide(LocalIndex t);
   bool contract(LocalIndex t);
   bool move_cavity(LocalIndex t);
   bool insert_vertex(LocalIndex t);
@@ -53,10 +58,12 @@ private:
   bool worth_trying(LocalIndex t, Means means) const;
 
   TetMesh& _mesh;
+  const SizeLimits& _limits;
   EdgeRemoval _edge_removal;
   BoundaryFlip _boundary_flip;
   FaceRemoval _face_removal;
   Smoothing _smoothing;
+  std::optional<Sliding> _sliding;
   EdgeContraction _contraction;
   CavityInsertion _insertion;
   Cavity _best, _trial;
@@ -67,7 +74,7 @@ private:
   std::vector<Means> _attempt_means;
   std::vector<std::uint32_t> _changed;  ///< when something around a vertex changed last
   std::uint32_t _now = 1;
-  std::int64_t _smoothed = 0, _swaps = 0;
+  std::int64_t _smoothed = 0, _slid = 0, _swaps = 0;
 };
 
 }  // namespace aeroloom::improve

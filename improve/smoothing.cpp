@@ -50,7 +50,8 @@ double ConeOptimiser::mean_distance(Vec3 p) const {
   return sum / static_cast<double>(_bases.size());
 }
 
-Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe) {
+Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe,
+                                     const Locus& locus) {
   _gradients.clear();
   for (const Base& base : _bases) {
     const double here = measure(base.a, base.b, base.c, p);
@@ -61,21 +62,21 @@ Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double q
       probed[axis] += probe;
       gradient[axis] = (measure(base.a, base.b, base.c, probed) - here) / probe;
     }
-    _gradients.push_back(gradient);
+    _gradients.push_back(locus.admissible(gradient, p));
   }
   return nearest_to_origin(_gradients);
 }
 
-double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality) {
+double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality, Locus& locus) {
   const double size = mean_distance(p);
   double length = 0.1 * size;
   for (int i = 0; i < most_steps; ++i) {
-    const Vec3 direction = normalized(ascent_direction(measure, p, quality, 1e-6 * size));
+    const Vec3 direction = normalized(ascent_direction(measure, p, quality, 1e-6 * size, locus));
     const double start = quality;
     Vec3 best = p;
     for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
-      const Vec3 candidate = p + length * direction;
-      const double reached = worst(measure, candidate, quality);
+      Vec3 candidate = p + length * direction;
+      const double reached = locus.settle(candidate) ? worst(measure, candidate, quality) : quality;
       if (reached <= quality) {
         if (quality > start) break;
         continue;
@@ -90,20 +91,26 @@ double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality) 
   return quality;
 }
 
-double ConeOptimiser::optimise(const TetQuality& measure, Vec3& p, double quality) {
+double ConeOptimiser::optimise(const TetQuality& measure, Vec3& p, double quality, Locus& locus) {
   Vec3 mean;
   for (const Base& base : _bases) mean += base.a + base.b + base.c;
   mean = mean / (3 * static_cast<double>(_bases.size()));
-  const double smoothed = worst(measure, mean, quality);
+  const double smoothed = locus.settle(mean) ? worst(measure, mean, quality) : quality;
   if (smoothed > quality) {
     p = mean;
     quality = smoothed;
   }
-  return climb(measure, p, quality);
+  return climb(measure, p, quality, locus);
 }
 
 bool Smoothing::smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star) {
   mesh.collect_star(vertex, star);
+  Space space;
+  return smooth_on(mesh, vertex, star, space);
+}
+
+bool Smoothing::smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star,
+                          Locus& locus) {
   _cones.clear();
   double before = std::numeric_limits<double>::max();
   for (const LocalIndex t : star) {
@@ -114,14 +121,14 @@ bool Smoothing::smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>
   }
   const Vec3 origin = mesh.point(vertex);
   Vec3 moved = origin;
-  if (_cones.optimise(mesh.measure(), moved, before) < before + least_gain) return false;
+  if (_cones.optimise(mesh.measure(), moved, before, locus) < before + least_gain) return false;
   mesh.move_vertex(vertex, moved, star);
-  for (const LocalIndex t : star) {
-    if (mesh.quality(t) > before && mesh.is_positive(mesh.corners(t))) continue;
-    mesh.move_vertex(vertex, origin, star);
-    return false;
-  }
-  return true;
+  const bool holds = std::all_of(star.begin(), star.end(), [&](LocalIndex t) {
+    return mesh.quality(t) > before && mesh.is_positive(mesh.corners(t));
+  });
+  if (holds && _limits.allow_move(mesh, vertex, star, origin)) return true;
+  mesh.move_vertex(vertex, origin, star);
+  return false;
 }
 
 }  // namespace aeroloom::improve

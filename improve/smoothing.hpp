@@ -1,12 +1,30 @@
 /// Moving one vertex so that the worst of the tetrahedra around it gets better.
 #pragma once
 
+#include "improve/size_limits.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <array>
 #include <vector>
 
 namespace aeroloom::improve {
+
+/// Where a free point may go.
+class Locus {
+public:
+  virtual ~Locus() = default;
+  /// The part of a direction at p along which the point may move.
+  virtual Vec3 admissible(Vec3 direction, Vec3 p) const = 0;
+  /// The admissible point next to p, into p; false: there is none that will do.
+  virtual bool settle(Vec3& p) = 0;
+};
+
+/// Everywhere.
+class Space final : public Locus {
+public:
+  Vec3 admissible(Vec3 direction, Vec3) const override { return direction; }
+  bool settle(Vec3&) override { return true; }
+};
 
 /// The cones from one free point to a set of triangles, and the point that makes the worst of them best.
 class ConeOptimiser {
@@ -21,18 +39,22 @@ public:
   /// Bases that once decided move to the front.
   double worst(const TetQuality& measure, Vec3 p, double floor);
 
-  /// Improves the point from p with worst quality `quality`: first towards the mean of the bases' corners,
-  /// then by steepest ascent of the active qualities (Freitag and Ollivier-Gooch, Int. J. Numer. Meth. Engng
-  /// 40, 1997, doi:10.1002/(SICI)1097-0207(19971115)40:21<3979::AID-NME251>3.0.CO;2-9). Returns the new worst
-  /// quality and moves p.
-  double optimise(const TetQuality& measure, Vec3& p, double quality);
+  /// Improves the point from p, which is on the locus, with worst quality `quality`: first towards the mean
+  /// of the bases' corners, then by steepest ascent of the active qualities (Freitag and Ollivier-Gooch, Int.
+  /// J. Numer. Meth. Engng 40, 1997, doi:10.1002/(SICI)1097-0207(19971115)40:21<3979::AID-NME251>3.0.CO;2-9).
+  /// Returns the new worst quality and moves p.
+  double optimise(const TetQuality& measure, Vec3& p, double quality, Locus& locus);
+  double optimise(const TetQuality& measure, Vec3& p, double quality) {
+    Space space;
+    return optimise(measure, p, quality, space);
+  }
 
 private:
   struct Base {
     Vec3 a, b, c;
   };
-  double climb(const TetQuality& measure, Vec3& p, double quality);
-  Vec3 ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe);
+  double climb(const TetQuality& measure, Vec3& p, double quality, Locus& locus);
+  Vec3 ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe, const Locus& locus);
   double mean_distance(Vec3 p) const;
 
   std::vector<Base> _bases;
@@ -42,11 +64,16 @@ private:
 /// Smooths single vertices of a mesh.
 class Smoothing {
 public:
-  /// Moves a free vertex where that lifts the worst quality around it noticeably. `star` receives its
-  /// tetrahedra.
+  explicit Smoothing(const SizeLimits& limits) : _limits(limits) {}
+
+  /// Moves a vertex on the locus, its tetrahedra given, where that lifts the worst quality around it
+  /// noticeably.
+  bool smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus);
+  /// The same for a vertex that may go everywhere; `star` receives its tetrahedra.
   bool smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star);
 
 private:
+  const SizeLimits& _limits;
   ConeOptimiser _cones;
 };
 

@@ -327,9 +327,7 @@ void TetMesh::replace(const Cavity& cavity, std::vector<LocalIndex>& placed) {
   }
   match_cavity_faces();
   for (const LocalIndex v : _cavity_vertices) {
-    if (_incident[v] >= 0) continue;
-    _swallowed = true;
-    _fixed[v] = 0;
+    if (_incident[v] < 0) _fixed[v] = 0;
   }
 }
 
@@ -361,7 +359,7 @@ void TetMesh::drop_last_vertex() {
 void TetMesh::finish() {
   order_cells();
   if (_dead_triangles) remove_dead_triangles();
-  if (_swallowed) remove_swallowed_vertices();
+  remove_unused_vertices();
 }
 
 // Slots beyond the original ones are merged in behind the original slot their cavity had, in order of their
@@ -398,17 +396,20 @@ void TetMesh::remove_dead_triangles() {
   _piece.triangle_patch.resize(kept);
 }
 
-void TetMesh::remove_swallowed_vertices() {
+// Those that a cavity has swallowed.
+void TetMesh::remove_unused_vertices() {
   std::vector<LocalIndex> renumbered(_incident.size(), -1);
   LocalIndex kept = 0;
   for (LocalIndex v = 0; v < vertex_count(); ++v) {
     if (!is_used(v) && !is_fixed(v)) continue;
+    _origin.push_back(v);
     renumbered[v] = kept;
     _piece.set_point(kept, _piece.point(v));
     _piece.vertex_dimension[kept] = _piece.vertex_dimension[v];
     _piece.vertex_entity[kept] = _piece.vertex_entity[v];
     ++kept;
   }
+  if (kept == vertex_count()) return;
   _piece.coordinates.resize(3 * static_cast<std::size_t>(kept));
   _piece.vertex_dimension.resize(kept);
   _piece.vertex_entity.resize(kept);

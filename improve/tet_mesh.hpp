@@ -107,9 +107,12 @@ public:
   /// The CAD face of a boundary triangle.
   std::int32_t face_of(LocalIndex i) const { return _piece.triangle_face[i]; }
   int dimension(LocalIndex v) const { return _piece.vertex_dimension[v]; }
+  /// The CAD entity of that dimension the vertex lies on.
+  std::int32_t entity(LocalIndex v) const { return _piece.vertex_entity[v]; }
   bool is_shared(LocalIndex v) const { return _shared[v] != 0; }
-  /// Boundary triangles that changed or went.
+  /// Boundary triangles that changed or went, those whose vertices slid among them.
   std::int64_t changed_triangles() const { return _changed_triangles; }
+  void note_slid_triangles(std::size_t count) { _changed_triangles += static_cast<std::int64_t>(count); }
 
   /// Puts the new tetrahedra in the place of the old ones; both must fill the same space with positive
   /// volumes, up to the triangles of the boundary that change. Vertices that only old ones use are swallowed.
@@ -125,6 +128,8 @@ public:
   /// Puts the cells back: in the old order, new ones where the cavity they came from was; swallowed vertices
   /// removed.
   void finish();
+  /// After that, what each vertex was numbered before, new ones behind the others.
+  const std::vector<LocalIndex>& origin() const { return _origin; }
 
 private:
   struct FaceRecord {
@@ -142,7 +147,7 @@ private:
   void match_cavity_faces();
   void take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed);
   void order_cells();
-  void remove_swallowed_vertices();
+  void remove_unused_vertices();
   std::array<LocalIndex, 3> face_key(HalfFace h) const;
   void next_mark();
 
@@ -153,9 +158,9 @@ private:
   std::vector<double> _quality;
   std::vector<LocalIndex> _incident;  ///< a tetrahedron of each vertex
   std::vector<std::uint8_t> _fixed, _shared;
+  std::vector<LocalIndex> _origin;
   std::vector<LocalIndex> _place;  ///< of slots beyond the first: the original slot they are ordered after
   LocalIndex _original_count = 0;
-  bool _swallowed = false;
   std::int64_t _changed_triangles = 0;
   bool _dead_triangles = false;  ///< their first vertex is -1
   std::vector<std::uint32_t> _tet_mark;

@@ -180,10 +180,10 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
 /// A cavity on the rank that refills it.
 struct OwnedCavity {
   Cavity cavity;
-  std::vector<SharedToken> tokens;   ///< per point, ascending
-  std::vector<std::int32_t> entity;  ///< per point
-  std::vector<PieceId> giver;        ///< per tetrahedron: the piece it comes from
+  std::vector<SharedToken> tokens;  ///< per point, ascending
+  std::vector<PieceId> giver;       ///< per tetrahedron: the piece it comes from
   std::optional<Refilling> refilling;
+  CavityShares shares;  ///< of the refilling
 };
 
 std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
@@ -214,7 +214,7 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
     for (; v < vertices.size() && vertices[v].cavity == owned.cavity.id; ++v) {
       if (!owned.tokens.empty() && owned.tokens.back() == vertices[v].token) continue;
       owned.tokens.push_back(vertices[v].token);
-      owned.entity.push_back(vertices[v].entity);
+      owned.cavity.entity.push_back(vertices[v].entity);
       owned.cavity.points.push_back(vertices[v].point);
       owned.cavity.dimension.push_back(static_cast<std::int8_t>(vertices[v].dimension));
     }
@@ -262,7 +262,7 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     const auto token = [&](LocalIndex v) {
       return v < known ? owned.tokens[v] : token_of_new(round, first + (v - known));
     };
-    const CavityShares shares = share_out(owned.cavity, owned.giver, *owned.refilling);
+    const CavityShares& shares = owned.shares;
     struct Use {
       PieceId piece;
       LocalIndex vertex;
@@ -279,15 +279,17 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
     for (const auto& [piece, v] : uses) {
       if (v < known) {
-        out.vertices.push_back(
-            {id, piece, owned.cavity.dimension[v], owned.tokens[v], owned.cavity.points[v], owned.entity[v]});
+        out.vertices.push_back({id, piece, owned.cavity.dimension[v], owned.tokens[v], owned.cavity.points[v],
+                                owned.cavity.entity[v]});
       } else {
-        out.vertices.push_back(
-            {id, piece, 3, token(v), owned.refilling->added[v - known], owned.cavity.region});
+        const AddedVertex& added = owned.refilling->added[v - known];
+        out.vertices.push_back({id, piece, added.dimension, token(v), added.point,
+                                added.dimension == 3 ? owned.cavity.region : added.entity});
       }
     }
-    for (std::size_t i = 0; i < owned.cavity.triangles.size(); ++i) {
-      const CavityTriangle& t = owned.cavity.triangles[i];
+    const std::vector<CavityTriangle>& triangles = owned.refilling->triangles_of(owned.cavity);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const CavityTriangle& t = triangles[i];
       out.triangles.push_back({id,
                                shares.of_triangle[i],
                                t.face,
@@ -385,6 +387,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, Distribu
   parallel::agree(communicator, [&] {
     for (OwnedCavity& owned : cavities) {
       owned.refilling = refill(owned.cavity);
+      if (owned.refilling) owned.shares = share_out(owned.cavity, owned.giver, *owned.refilling);
       const auto added = owned.refilling ? static_cast<std::int32_t>(owned.refilling->added.size()) : 0;
       outcomes.push_back({owned.cavity.id, owned.refilling ? 1 : 0, added});
     }

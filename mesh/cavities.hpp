@@ -36,14 +36,28 @@ struct Cavity {
   RegionId region = 0;
   std::vector<geometry::Vec3> points;
   std::vector<std::int8_t> dimension;  ///< per point: classification
+  std::vector<std::int32_t> entity;    ///< per point
   std::vector<std::array<LocalIndex, 4>> tets;
   std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
 };
 
-/// What takes the place of a cavity's tetrahedra. They cover the same region with the same boundary faces.
+/// A vertex that comes with a refilling; inside the region unless it says otherwise.
+struct AddedVertex {
+  geometry::Vec3 point;
+  std::int8_t dimension = 3;
+  std::int32_t entity = 0;  ///< of a vertex on the CAD
+};
+
+/// What takes the place of a cavity's tetrahedra. They cover the same region with the same boundary faces,
+/// but for those on the surface mesh where `triangles` says so: the faces they leave open there.
 struct Refilling {
-  std::vector<geometry::Vec3> added;  ///< vertices, numbered behind those of the cavity
+  std::vector<AddedVertex> added;  ///< numbered behind those of the cavity
   std::vector<std::array<LocalIndex, 4>> tets;
+  std::optional<std::vector<CavityTriangle>> triangles;  ///< in the place of the cavity's
+
+  const std::vector<CavityTriangle>& triangles_of(const Cavity& cavity) const {
+    return triangles ? *triangles : cavity.triangles;
+  }
 };
 
 /// Refills a cavity; nothing: it stays as it was. Must be a function of its argument alone.

@@ -6,6 +6,17 @@
 #include <stdexcept>
 
 namespace aeroloom::mesh {
+namespace {
+
+const TetFace* find_face(const std::vector<TetFace>& faces, std::array<LocalIndex, 3> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  const auto at = std::lower_bound(faces.begin(), faces.end(), vertices,
+                                   [](const TetFace& face, const auto& key) { return face.key < key; });
+  return at != faces.end() && at->key == vertices ? &*at : nullptr;
+}
+
+}  // namespace
+
 CavityShares share_out(const Cavity& cavity, const std::vector<PieceId>& giver, const Refilling& refilling) {
   // The same faces, with the old and the new tetrahedron behind them.
   const std::vector<TetFace> given = boundary_faces(cavity.tets);
@@ -17,15 +28,31 @@ CavityShares share_out(const Cavity& cavity, const std::vector<PieceId>& giver, 
   for_each_face(
       sorted_faces(refilling.tets), [&](std::int32_t a, std::int32_t b) { link(a, b), link(b, a); },
       [&](const TetFace& face) { taken.push_back(face); });
-  if (given.size() != taken.size()) throw std::logic_error("share_out: the refilling has another boundary");
+  // What differs are triangles of the surface mesh, on either side.
+  std::size_t kept = 0;
   CavityShares shares;
   shares.of_tet.assign(refilling.tets.size(), -1);
   std::vector<std::int32_t> front;
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    if (given[i].key != taken[i].key) throw std::logic_error("share_out: the refilling has another boundary");
-    if (shares.of_tet[taken[i].tet] >= 0) continue;
-    shares.of_tet[taken[i].tet] = giver[given[i].tet];
-    front.push_back(taken[i].tet);
+  for (const TetFace& face : taken) {
+    const TetFace* old = find_face(given, face.key);
+    if (!old) continue;
+    ++kept;
+    if (shares.of_tet[face.tet] >= 0) continue;
+    shares.of_tet[face.tet] = giver[old->tet];
+    front.push_back(face.tet);
+  }
+  const std::vector<CavityTriangle>& triangles = refilling.triangles_of(cavity);
+  const auto count_new = [](const std::vector<CavityTriangle>& of, const std::vector<TetFace>& other) {
+    return static_cast<std::size_t>(std::count_if(
+        of.begin(), of.end(), [&](const CavityTriangle& t) { return !find_face(other, t.vertices); }));
+  };
+  if (taken.size() - kept != count_new(triangles, given) ||
+      given.size() - kept != count_new(cavity.triangles, taken)) {
+    throw std::logic_error("share_out: the refilling has another boundary");
+  }
+  if (front.empty()) {  // nothing is left of the boundary of a whole region
+    shares.of_tet[0] = *std::min_element(giver.begin(), giver.end());
+    front.push_back(0);
   }
   for (std::size_t i = 0; i < front.size(); ++i) {
     for (const std::int32_t next : across[front[i]]) {
@@ -34,14 +61,10 @@ CavityShares share_out(const Cavity& cavity, const std::vector<PieceId>& giver, 
       front.push_back(next);
     }
   }
-  for (const CavityTriangle& triangle : cavity.triangles) {
-    auto wanted = triangle.vertices;
-    std::sort(wanted.begin(), wanted.end());
-    const auto at = std::lower_bound(taken.begin(), taken.end(), wanted,
-                                     [](const TetFace& face, const auto& key) { return face.key < key; });
-    if (at == taken.end() || at->key != wanted)
-      throw std::logic_error("share_out: a triangle of the surface is not on the cavity's boundary");
-    shares.of_triangle.push_back(shares.of_tet[at->tet]);
+  for (const CavityTriangle& triangle : triangles) {
+    const TetFace* face = find_face(taken, triangle.vertices);
+    if (!face) throw std::logic_error("share_out: a triangle of the surface is not on the cavity's boundary");
+    shares.of_triangle.push_back(shares.of_tet[face->tet]);
   }
   return shares;
 }

@@ -9,7 +9,7 @@ namespace aeroloom::mesh {
 
 struct CavityShares {
   std::vector<PieceId> of_tet;       ///< per tetrahedron of the refilling
-  std::vector<PieceId> of_triangle;  ///< per triangle of the cavity: that of its tetrahedron
+  std::vector<PieceId> of_triangle;  ///< per triangle of the surface mesh: that of its tetrahedron
 };
 
 /// Each piece that gave to the cavity takes what is nearest to the part of the cavity's boundary it gave, in

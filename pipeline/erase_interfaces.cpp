@@ -73,7 +73,7 @@ std::optional<Refilling> refill(const Cavity& cavity, const sizing::SizeField& f
   const auto known = static_cast<LocalIndex>(shell.vertex.size());
   const auto all = static_cast<LocalIndex>(cavity.points.size());
   for (std::size_t i = 3 * shell.vertex.size(); i < filled.coordinates.size(); i += 3)
-    result.added.push_back({filled.coordinates[i], filled.coordinates[i + 1], filled.coordinates[i + 2]});
+    result.added.push_back({{filled.coordinates[i], filled.coordinates[i + 1], filled.coordinates[i + 2]}});
   for (std::size_t i = 0; i < filled.tetrahedra.size(); i += 4) {
     auto& tet = result.tets.emplace_back();
     for (int k = 0; k < 4; ++k) {

@@ -64,10 +64,10 @@ double require_valid(const std::string& what, const mesh::ValidityReport& report
   throw std::runtime_error(text);
 }
 
-void improve_volume(const Communicator& communicator, const Case& input, mesh::DistributedMesh& volume,
-                    RunRecord& record) {
+void improve_volume(const Communicator& communicator, const Case& input, const improve::MeshSource& source,
+                    mesh::DistributedMesh& volume, RunRecord& record) {
   if (!input.improve.enabled) return;
-  record.improve = improve::improve_mesh(communicator, volume, input.improve, record.clock);
+  record.improve = improve::improve_mesh(communicator, volume, input.improve, record.clock, source);
   parallel::log_info(
       fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
                   record.improve.min_angle_before, record.improve.min_angle_after, record.improve.bad_before,

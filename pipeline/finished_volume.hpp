@@ -15,7 +15,7 @@ double require_valid(const std::string& what, const mesh::ValidityReport& report
 
 /// Improves the mesh as the case asks for. Collective.
 void improve_volume(const parallel::Communicator& communicator, const Case& input,
-                    mesh::DistributedMesh& volume, RunRecord& record);
+                    const improve::MeshSource& source, mesh::DistributedMesh& volume, RunRecord& record);
 
 /// Checks and counts the mesh that the last stage left; `surface` may be null. Collective.
 mesh::Numbering inspect_volume(const parallel::Communicator& communicator,

@@ -18,7 +18,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   });
   record.face_names = volume.faces;
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
-    improve_volume(communicator, fixed, volume, record);
+    improve_volume(communicator, fixed, {}, volume, record);
     mesh::Numbering improved = inspect_volume(communicator, volume, nullptr, record);
     measure_volume(communicator, fixed, volume, improved, record);
     return improved;

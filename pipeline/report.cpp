@@ -240,6 +240,7 @@ Json improve_json(const RunRecord& record) {
           {"bad_after", record.improve.bad_after},
           {"smoothed", record.improve.smoothed},
           {"swaps", record.improve.swaps},
+          {"slid", record.improve.slid},
           {"changed_triangles", record.improve.changed_triangles},
           {"pinned_tetrahedra", record.pinned.tetrahedra},
           {"unpinned_below_target", record.pinned.others}};

@@ -283,7 +283,8 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   });
   decomposition.reset();
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
-    improve_volume(communicator, input, volume, record);
+    geometry::PointLocator locator(sized.model);
+    improve_volume(communicator, input, {&locator, &surface.field}, volume, record);
     if (record.improve.changed_triangles > 0)
       adopt_boundary(communicator, sized.model, volume, surface, record);
     mesh::Numbering improved = inspect_volume(communicator, volume, &surface.mesh, record);

@@ -7,7 +7,6 @@
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>
-#include <map>
 #include <random>
 #include <set>
 
@@ -16,34 +15,11 @@
 namespace aeroloom::improve {
 namespace {
 
+using examples::close_boundary;
 using examples::make_piece;
 using examples::volume;
 
 const TetQuality measure(15);
-
-/// Turns cells over where they must be, and gives the piece the boundary that its cells have, on one CAD
-/// face.
-void close_boundary(mesh::Piece& piece) {
-  std::map<std::array<LocalIndex, 3>, std::vector<std::array<LocalIndex, 3>>> faces;
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    LocalIndex* c = piece.cells.data() + 4 * t;
-    if (volume6(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) < 0)
-      std::swap(c[0], c[1]);
-    for (const auto& f : mesh::tetrahedron_faces) {
-      std::array<LocalIndex, 3> key{c[f[0]], c[f[1]], c[f[2]]};
-      const auto corners = key;
-      std::sort(key.begin(), key.end());
-      faces[key].push_back(corners);
-    }
-  }
-  for (const auto& [key, sides] : faces) {
-    if (sides.size() > 1) continue;
-    piece.boundary.insert(piece.boundary.end(), sides[0].begin(), sides[0].end());
-    piece.triangle_face.push_back(0);
-    piece.triangle_patch.push_back(0);
-    for (const LocalIndex v : key) piece.vertex_dimension[v] = 2;
-  }
-}
 
 /// A pyramid over a square whose base is a flat tetrahedron on top of two others.
 mesh::Piece make_flat_lid(double height) {

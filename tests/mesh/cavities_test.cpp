@@ -1,6 +1,8 @@
 #include "mesh/cavities.hpp"
 
+#include "mesh/tet_faces.hpp"
 #include "mesh/validity.hpp"
+#include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +28,7 @@ CavityWishes wish_for_shared(const DistributedMesh& mesh, int shift) {
 
 /// The tetrahedra as they were.
 std::optional<Refilling> same(const Cavity& cavity) {
-  return Refilling{{}, cavity.tets};
+  return Refilling{{}, cavity.tets, {}};
 }
 
 /// Each tetrahedron divided in four by a vertex in its middle.
@@ -36,13 +38,44 @@ std::optional<Refilling> divided(const Cavity& cavity) {
   for (const auto& tet : cavity.tets) {
     geometry::Vec3 middle;
     for (const LocalIndex v : tet) middle += 0.25 * cavity.points[v];
-    result.added.push_back(middle);
+    result.added.push_back({middle});
     for (int k = 0; k < 4; ++k) {
       auto part = tet;
       part[k] = next;
       result.tets.push_back(part);
     }
     ++next;
+  }
+  return result;
+}
+
+/// Vertices on faces of the cube that no other tetrahedra have move a little within their plane.
+std::optional<Refilling> slid(const Cavity& cavity) {
+  std::vector<std::array<LocalIndex, 3>> open;
+  for (const CavityTriangle& triangle : cavity.triangles) {
+    open.push_back(triangle.vertices);
+    std::sort(open.back().begin(), open.back().end());
+  }
+  std::vector<char> stays(cavity.points.size(), 0);
+  for (const TetFace& face : boundary_faces(cavity.tets)) {
+    if (std::find(open.begin(), open.end(), face.key) != open.end()) continue;
+    for (const LocalIndex v : face.vertices) stays[v] = 1;
+  }
+  Refilling result{{}, cavity.tets, cavity.triangles};
+  std::vector<LocalIndex> named(cavity.points.size());
+  for (std::size_t v = 0; v < named.size(); ++v) {
+    named[v] = static_cast<LocalIndex>(v);
+    if (stays[v] || cavity.dimension[v] != 2) continue;
+    geometry::Vec3 p = cavity.points[v];
+    for (int axis = 0; axis < 3; ++axis) p[axis] += p[axis] > 0 && p[axis] < 1 ? 0.01 : 0;
+    named[v] = static_cast<LocalIndex>(cavity.points.size() + result.added.size());
+    result.added.push_back({p, 2, cavity.entity[v]});
+  }
+  for (auto& tet : result.tets) {
+    for (LocalIndex& v : tet) v = named[v];
+  }
+  for (CavityTriangle& triangle : *result.triangles) {
+    for (LocalIndex& v : triangle.vertices) v = named[v];
   }
   return result;
 }
@@ -91,6 +124,59 @@ TEST(Cavities, TakeNewVertices) {
       clock);
   expect_valid(world, mesh);
   EXPECT_EQ(count_cells(world, mesh), cells + 3 * world.sum(taken));
+}
+
+/// Every shared vertex on the surface wishes for the cavity of its cell.
+CavityWishes wish_for_surface(const DistributedMesh& mesh) {
+  CavityWishes wishes;
+  for (const Piece& piece : mesh.pieces) {
+    auto& mine = wishes.emplace_back(piece.vertex_count(), no_cavity);
+    for (const LocalIndex v : piece.shared_vertices) mine[v] = cavity_at(piece.point(v), 0.3, 1, 0);
+  }
+  return wishes;
+}
+
+std::int64_t count_moved(const Communicator& communicator, const DistributedMesh& mesh) {
+  std::int64_t moved = 0;
+  for (const Piece& piece : mesh.pieces) {
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const double x = squares * piece.point(v).x, y = squares * piece.point(v).y;
+      moved += piece.vertex_dimension[v] == 2 &&
+               (std::abs(x - std::round(x)) > 0.01 || std::abs(y - std::round(y)) > 0.01);
+    }
+  }
+  return communicator.sum(moved);
+}
+
+TEST(Cavities, MayChangeTheSurface) {
+  const auto world = Communicator::world(), self = Communicator::self();
+  DistributedMesh together = examples::cube(world, squares, pieces);
+  DistributedMesh alone = examples::cube(self, squares, pieces);
+  const MeshCounts before = count_mesh(world, together, number_mesh(world, together));
+  EXPECT_EQ(count_moved(world, together), 0);
+  parallel::StageClock clock;
+  refill_cavities(world, together, wish_for_surface(together), slid, clock);
+  refill_cavities(self, alone, wish_for_surface(alone), slid, clock);
+  expect_valid(world, together);
+  const MeshCounts after = count_mesh(world, together, number_mesh(world, together));
+  EXPECT_EQ(after.vertices, before.vertices);
+  EXPECT_EQ(after.cells, before.cells);
+  EXPECT_EQ(after.boundary_triangles, before.boundary_triangles);
+  EXPECT_GT(count_moved(world, together), 10);
+  EXPECT_EQ(hash(world, together), hash(self, alone));
+}
+
+TEST(Cavities, RefuseAnotherBoundary) {
+  const auto self = Communicator::self();
+  DistributedMesh mesh = examples::cube(self, squares, pieces);
+  parallel::StageClock clock;
+  const auto without_one = [](const Cavity& cavity) {
+    Refilling result{{}, cavity.tets, {}};
+    result.tets.pop_back();
+    return std::optional(result);
+  };
+  EXPECT_THROW(refill_cavities(self, mesh, wish_for_shared(mesh, 0), without_one, clock),
+               parallel::CollectiveError);
 }
 
 TEST(Cavities, AreTheSameForAnyNumberOfRanks) {

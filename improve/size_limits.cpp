@@ -1,0 +1,67 @@
+#include "improve/size_limits.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::improve {
+namespace {
+
+constexpr double least = 0.5, most = 3;  // of the size
+
+/// Calls visit(a, b) for the edges of a tetrahedron; false as soon as it returns false.
+template <class Visit>
+bool for_edges(const TetMesh& mesh, const Corners& corners, const Visit& visit) {
+  return std::all_of(
+      std::begin(mesh::tetrahedron_edges), std::end(mesh::tetrahedron_edges),
+      [&](const auto& e) { return visit(mesh.point(corners[e[0]]), mesh.point(corners[e[1]])); });
+}
+
+}  // namespace
+
+void SizeLimits::Lengths::add(Vec3 a, Vec3 b) {
+  const double squared = dot(b - a, b - a);
+  shortest = std::min(shortest, squared);
+  longest = std::max(longest, squared);
+}
+
+bool SizeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
+  const double squared = dot(b - a, b - a);
+  if (squared >= before.shortest && squared <= before.longest) return true;
+  const double size = (*_field)(0.5 * (a + b));
+  return squared > before.longest ? squared <= most * most * size * size
+                                  : squared >= least * least * size * size;
+}
+
+bool SizeLimits::allow(const TetMesh& mesh, const Cavity& cavity) const {
+  if (!_field) return true;
+  Lengths before;
+  for (const LocalIndex t : cavity.old_tets) {
+    for_edges(mesh, mesh.corners(t), [&](Vec3 a, Vec3 b) {
+      before.add(a, b);
+      return true;
+    });
+  }
+  return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& corners) {
+    return for_edges(mesh, corners, [&](Vec3 a, Vec3 b) { return allow_edge(before, a, b); });
+  });
+}
+
+bool SizeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                            Vec3 origin) const {
+  if (!_field) return true;
+  const Vec3 p = mesh.point(vertex);
+  Lengths before;
+  const auto for_neighbours = [&](const auto& visit) {
+    return std::all_of(star.begin(), star.end(), [&](LocalIndex t) {
+      const Corners& c = mesh.corners(t);
+      return std::all_of(c.begin(), c.end(),
+                         [&](LocalIndex v) { return v == vertex || visit(mesh.point(v)); });
+    });
+  };
+  for_neighbours([&](Vec3 other) {
+    before.add(origin, other);
+    return true;
+  });
+  return for_neighbours([&](Vec3 other) { return allow_edge(before, p, other); });
+}
+
+}  // namespace aeroloom::improve

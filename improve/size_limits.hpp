@@ -1,0 +1,35 @@
+/// Edge lengths stay within the sizes asked for.
+#pragma once
+
+#include "improve/tet_mesh.hpp"
+#include "sizing/size_field.hpp"
+
+#include <limits>
+#include <span>
+
+namespace aeroloom::improve {
+
+/// A change may make an edge longer than all that were there before it, or shorter, only as far as it keeps
+/// to half to three times the size in its middle. Where no size field is known, every length will do.
+class SizeLimits {
+public:
+  explicit SizeLimits(const sizing::SizeField* field = nullptr) : _field(field) {}
+
+  /// Whether the new tetrahedra of a cavity keep to that.
+  bool allow(const TetMesh& mesh, const Cavity& cavity) const;
+  /// Whether the tetrahedra around a vertex do once it has moved from `origin`.
+  bool allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                  Vec3 origin) const;
+
+private:
+  struct Lengths {
+    double shortest = std::numeric_limits<double>::max(), longest = 0;  ///< squared
+
+    void add(Vec3 a, Vec3 b);
+  };
+  bool allow_edge(const Lengths& before, Vec3 a, Vec3 b) const;
+
+  const sizing::SizeField* _field;
+};
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,123 @@
+#include "improve/sliding.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::improve {
+namespace {
+
+using geometry::Vec2;
+
+constexpr int on_edge = 1, on_face = 2;
+/// In mean distances to the neighbours: how far from the CAD a vertex may be found to count as lying on it.
+constexpr double nearness = 1e-4;
+
+/// Triangles at the free point that may change gently.
+class GentleTriangles {
+public:
+  explicit GentleTriangles(const std::vector<TrianglePoints>& triangles) : _triangles(triangles) {}
+
+  bool allow(Vec3 p) const {
+    return std::all_of(_triangles.begin(), _triangles.end(), [&](const TrianglePoints& before) {
+      const TrianglePoints after{p, before[1], before[2]};
+      return is_gentle_change({&before, 1}, {&after, 1});
+    });
+  }
+
+private:
+  const std::vector<TrianglePoints>& _triangles;
+};
+
+class FaceLocus final : public Locus {
+public:
+  FaceLocus(const geometry::Model& model, geometry::FaceId face, Vec2 uv, GentleTriangles triangles)
+      : _model(model), _face(face), _uv(uv), _triangles(triangles) {}
+
+  Vec3 admissible(Vec3 direction, Vec3 p) const override {
+    const geometry::Projection here = _model.project(_face, p, _uv);
+    const Vec3 normal = _model.face_frame(_face, here.uv).normal;
+    return direction - dot(direction, normal) * normal;
+  }
+  bool settle(Vec3& p) override {
+    const geometry::Projection found = _model.project(_face, p, _uv);
+    p = found.point;
+    return found.converged && _triangles.allow(p);
+  }
+
+private:
+  const geometry::Model& _model;
+  geometry::FaceId _face;
+  Vec2 _uv;  ///< of where the vertex was
+  GentleTriangles _triangles;
+};
+
+class EdgeLocus final : public Locus {
+public:
+  EdgeLocus(const geometry::Model& model, geometry::EdgeId edge, double parameter, GentleTriangles triangles)
+      : _model(model), _edge(edge), _parameter(parameter), _triangles(triangles) {}
+
+  Vec3 admissible(Vec3 direction, Vec3 p) const override {
+    const double here = project_on_edge(_model, _edge, p, _parameter);
+    const Vec3 tangent = normalized(_model.edge_tangent(_edge, here));
+    return dot(direction, tangent) * tangent;
+  }
+  bool settle(Vec3& p) override {
+    p = _model.edge_point(_edge, project_on_edge(_model, _edge, p, _parameter));
+    return _triangles.allow(p);
+  }
+
+private:
+  const geometry::Model& _model;
+  geometry::EdgeId _edge;
+  double _parameter;  ///< of where the vertex was
+  GentleTriangles _triangles;
+};
+
+}  // namespace
+
+bool Sliding::collect_triangles(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star) {
+  _triangles.clear();
+  for (const LocalIndex t : star) {
+    for (int f = 0; f < 4; ++f) {
+      const HalfFace other = mesh.mate(4 * t + f);
+      if (other >= 0 || mesh.corners(t)[f] == vertex) continue;
+      if (!is_triangle(other) || !mesh.is_free_triangle(triangle_of(other))) return false;
+      TriangleCorners corners = mesh.triangle(triangle_of(other));
+      std::rotate(corners.begin(), std::find(corners.begin(), corners.end(), vertex), corners.end());
+      _triangles.push_back(points_of(mesh, corners));
+    }
+  }
+  return !_triangles.empty();
+}
+
+double Sliding::mean_distance(const TetMesh& mesh, LocalIndex vertex) const {
+  double sum = 0;
+  for (const TrianglePoints& triangle : _triangles) sum += distance(mesh.point(vertex), triangle[1]);
+  return sum / static_cast<double>(_triangles.size());
+}
+
+bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star) {
+  const int dimension = mesh.dimension(vertex);
+  if (mesh.is_shared(vertex) || (dimension != on_face && dimension != on_edge)) return false;
+  mesh.collect_star(vertex, star);
+  if (!collect_triangles(mesh, vertex, star)) return false;
+  const geometry::Model& model = _locator.model();
+  const std::int32_t entity = mesh.entity(vertex);
+  const double tolerance = nearness * mean_distance(mesh, vertex);
+  const GentleTriangles gentle(_triangles);
+  bool moved = false;
+  if (dimension == on_face) {
+    if (const auto uv = _locator.on_face(entity, mesh.point(vertex), tolerance)) {
+      FaceLocus locus(model, entity, *uv, gentle);
+      moved = _smoothing.smooth_on(mesh, vertex, star, locus);
+    }
+  } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand beyond
+    if (const auto parameter = _locator.on_edge(entity, mesh.point(vertex), tolerance)) {
+      EdgeLocus locus(model, entity, *parameter, gentle);
+      moved = _smoothing.smooth_on(mesh, vertex, star, locus);
+    }
+  }
+  if (moved) mesh.note_slid_triangles(_triangles.size());
+  return moved;
+}
+
+}  // namespace aeroloom::improve
