@@ -39,12 +39,15 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
   return count;
 }
 
-std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh::CavityWishes& wishes) {
+std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
+                              mesh::CavityWishes& wishes) {
+  const TetQuality measure(options.target_angle);
   std::int64_t count = 0;
   wishes.clear();
   std::vector<double> edges;
   std::vector<double> ratios;
   std::vector<std::int32_t> tets;
+  std::vector<char> bad;
   for (const Piece& piece : mesh.pieces) {
     std::vector<mesh::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), mesh::no_cavity);
     std::vector<LocalIndex> place(piece.vertex_count(), -1);
@@ -53,24 +56,28 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh
     edges.assign(piece.shared_vertices.size(), 0);
     ratios.assign(piece.shared_vertices.size(), 0);
     tets.assign(piece.shared_vertices.size(), 0);
+    bad.assign(piece.shared_vertices.size(), 0);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
       if (place[v[0]] < 0 && place[v[1]] < 0 && place[v[2]] < 0 && place[v[3]] < 0) continue;
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       const double ratio = mesh::mean_ratio(p[0], p[1], p[2], p[3]);
       const double edge = mean_edge(p);
+      const bool misses = measure(p[0], p[1], p[2], p[3]) < measure.target();
       for (int k = 0; k < 4; ++k) {
         if (place[v[k]] < 0) continue;
         edges[place[v[k]]] += edge;
         ratios[place[v[k]]] += ratio;
         ++tets[place[v[k]]];
+        if (misses) bad[place[v[k]]] = 1;
       }
     }
     for (std::size_t s = 0; s < tets.size(); ++s) {
       const LocalIndex v = piece.shared_vertices[s];
-      if (tets[s] == 0 || piece.vertex_dimension[v] < 3 || ratios[s] >= Relaxation::good_enough * tets[s])
-        continue;
-      if (shift > 0 && mesh::is_placed_by_last_round(mesh, piece.shared_tokens[s])) continue;
+      if (tets[s] == 0 || piece.vertex_dimension[v] < 3) continue;
+      const bool poor = ratios[s] < Relaxation::good_enough * tets[s] &&
+                        (shift == 0 || !mesh::is_placed_by_last_round(mesh, piece.shared_tokens[s]));
+      if (!poor && !bad[s]) continue;
       mine[v] = mesh::cavity_at(piece.point(v), edges[s] / tets[s], cell_width, shift);
       ++count;
     }

@@ -14,10 +14,11 @@ namespace aeroloom::improve {
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
                           mesh::CavityWishes& wishes);
 
-/// Wishes for the stars of shared vertices whose tetrahedra are worse shaped on average than those of a
-/// lattice, as relaxation.hpp sees it; from the second shift on, those that the last round did not reach.
-/// Returns their number on this rank.
-std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, int shift, mesh::CavityWishes& wishes);
+/// Wishes for the stars of shared vertices inside whose tetrahedra are worse shaped on average than those of
+/// a lattice, as relaxation.hpp sees it, or among which one misses the target. From the second shift on, of
+/// the former only those that the last round did not reach. Returns their number on this rank.
+std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
+                              mesh::CavityWishes& wishes);
 
 /// Improves the tetrahedra of cavities. What other tetrahedra have in common with a cavity stays, and so do
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.

@@ -95,6 +95,10 @@ namespace {
 /// Rounds for the average across borders. Those that two cavities wanted in one are inside of one in the
 /// next.
 constexpr int border_rounds = 2;
+/// In these, what is far from the surface is held to more than the target: the lattice around it is better.
+constexpr double border_ambition = 1.1;
+constexpr double largest_target = 50;  // degrees, that TetQuality takes
+constexpr int border_relaxation = 2;   // passes
 
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
@@ -102,18 +106,24 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                     parallel::StageClock& clock) {
   if (!options.enabled || mesh.piece_count < 2) return;
   mesh::CavityWishes wishes;
-  CavityImprover improver(mesh, options, source);
-  const auto improve = [&](const mesh::Cavity& cavity) {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    return improver.improve(cavity, total);
-  };
-  for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
-    if (communicator.sum(wish_for_borders(mesh, shift, wishes)) == 0) break;
+  const auto refill = [&](CavityImprover& improver) {
+    const auto improve = [&](const mesh::Cavity& cavity) {
+      const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+      return improver.improve(cavity, total);
+    };
     refill_cavities(communicator, mesh, wishes, improve, clock);
+  };
+  ImproveOptions ambitious = options;
+  ambitious.target_angle = std::min(border_ambition * options.target_angle, largest_target);
+  ambitious.relaxation = border_relaxation;
+  CavityImprover for_borders(mesh, ambitious, source), for_bad(mesh, options, source);
+  for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
+    if (communicator.sum(wish_for_borders(mesh, ambitious, shift, wishes)) == 0) break;
+    refill(for_borders);
   }
   for (int shift = 0; shift < options.shifted_rounds; ++shift) {
     if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
-    refill_cavities(communicator, mesh, wishes, improve, clock);
+    refill(for_bad);
   }
   const TetQuality measure(options.target_angle);
   total.bad_after = 0;

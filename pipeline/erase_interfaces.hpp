@@ -24,8 +24,9 @@ struct ErasureReport {
 /// Erases the vertices whose tokens are those of interfaces: from `first_token` on, as mesh_interfaces
 /// numbers them. In the first round there is a cavity between every two pieces; what is left where three or
 /// more meet is grouped by the cells of a grid as wide as the local size asks for, shifted from round to
-/// round, so that what lies between two cells in one round is inside of one in the next. What cannot be
-/// refilled stays and is counted. Collective. Throws CollectiveError.
+/// round, so that what lies between two cells in one round is inside of one in the next. A last round refills
+/// places where the lattice lacks a point because cavities met there. What cannot be refilled stays and is
+/// counted. Collective. Throws CollectiveError.
 ErasureReport erase_interfaces(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                                mesh::SharedToken first_token, const sizing::SizeField& field,
                                const volume::VolumeOptions& options, parallel::StageClock& clock);
