@@ -4,6 +4,8 @@
 
 #include "geometry/vec.hpp"
 
+#include <cmath>
+
 namespace aeroloom::geometry {
 
 /// 1 when (a,b,c) turn counter-clockwise, -1 clockwise, 0 collinear.
@@ -11,6 +13,12 @@ int orient2d(Vec2 a, Vec2 b, Vec2 c);
 /// 1 when d lies on the side the counter-clockwise normal of (a,b,c) points to, i.e. the tetrahedron
 /// (a,b,c,d) has positive volume in VTK's order; 0 coplanar.
 int orient3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+/// Whether orient3d is positive. Exact; quick where rounding cannot matter.
+inline bool has_positive_volume(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const auto sum = [](Vec3 e) { return std::abs(e.x) + std::abs(e.y) + std::abs(e.z); };
+  const double bound = 1e-14 * sum(b - a) * sum(c - a) * sum(d - a);
+  return volume6(a, b, c, d) > bound || orient3d(a, b, c, d) > 0;
+}
 /// For (a,b,c) counter-clockwise: 1 when d is inside their circumcircle, 0 on it, -1 outside.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 /// For (a,b,c,d) of positive orientation: 1 when e is inside their circumsphere, 0 on it, -1 outside.

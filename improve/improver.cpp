@@ -23,22 +23,45 @@ struct PieceState {
   double least_angle = 180;  ///< degrees
 };
 
-PieceState examine(const mesh::Piece& piece, const TetQuality& measure) {
+/// Adds tetrahedra to a state, their qualities known.
+class Examination {
+public:
+  explicit Examination(const TetQuality& measure) : _target(measure.target()) {}
+
+  void add(double quality, const std::array<geometry::Vec3, 4>& p) {
+    state.bad += quality < _target;
+    if (quality > _bound) return;
+    const double angle = mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest;
+    if (angle >= state.least_angle) return;
+    state.least_angle = angle;
+    _bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
+  }
+
   PieceState state;
-  double bound = 2;  // the quality is at most the sine of the smallest angle: above this nothing can lower
-                     // the least angle
+
+private:
+  double _target;
+  /// The quality is at most the sine of the smallest angle: above this nothing can lower the least angle.
+  double _bound = 2;
+};
+
+PieceState examine(const mesh::Piece& piece, const TetQuality& measure) {
+  Examination examination(measure);
   for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const mesh::LocalIndex* c = piece.cell(t);
-    const Vec3 p[4] = {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
-    const double quality = measure(p[0], p[1], p[2], p[3]);
-    state.bad += quality < measure.target();
-    if (quality > bound) continue;
-    const double angle = mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest;
-    if (angle >= state.least_angle) continue;
-    state.least_angle = angle;
-    bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
+    const std::array<geometry::Vec3, 4> p{piece.point(c[0]), piece.point(c[1]), piece.point(c[2]),
+                                          piece.point(c[3])};
+    examination.add(measure(p[0], p[1], p[2], p[3]), p);
   }
-  return state;
+  return examination.state;
+}
+
+PieceState examine(const TetMesh& mesh) {
+  Examination examination(mesh.measure());
+  for (mesh::LocalIndex t = 0; t < mesh.slot_count(); ++t) {
+    if (mesh.is_alive(t)) examination.add(mesh.quality(t), mesh.points(t));
+  }
+  return examination.state;
 }
 
 /// What a piece will cost: reading it in and looking at all, and work on each bad tetrahedron, in the time of
@@ -60,16 +83,21 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
                             std::vector<mesh::LocalIndex>* numbered) {
   const TetQuality measure(options.target_angle);
   ImproveReport report;
-  const PieceState before = examine(piece, measure);
-  report.bad_before = report.bad_after = before.bad;
-  report.min_angle_before = report.min_angle_after = before.least_angle;
   if (numbered) {
     numbered->resize(piece.vertex_count());
     std::iota(numbered->begin(), numbered->end(), 0);
   }
-  if (!options.enabled) return report;
+  const auto note_before = [&](const PieceState& state) {
+    report.bad_before = report.bad_after = state.bad;
+    report.min_angle_before = report.min_angle_after = state.least_angle;
+  };
+  if (!options.enabled) {
+    note_before(examine(piece, measure));
+    return report;
+  }
 
   TetMesh mesh(piece, measure, options.boundary_may_change);
+  note_before(examine(mesh));
   const SizeLimits limits(source.sizes);
   Schedule schedule(mesh, limits, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
@@ -77,11 +105,11 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     report.swaps += VoidFilling().run(mesh);
     report.smoothed += Relaxation().run(mesh, options.relaxation);
   }
+  const PieceState after = examine(mesh);
   mesh.finish();
   if (numbered) *numbered = mesh.origin();
   report.changed_triangles = mesh.changed_triangles();
 
-  const PieceState after = examine(piece, measure);
   report.bad_after = after.bad;
   report.min_angle_after = after.least_angle;
   report.smoothed += schedule.smoothed();
@@ -104,8 +132,9 @@ constexpr int border_relaxation = 2;   // passes
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                     const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
                     parallel::StageClock& clock) {
-  if (!options.enabled || mesh.piece_count < 2) return;
+  if (!options.enabled) return;
   mesh::CavityWishes wishes;
+  const std::int32_t rounds_before = mesh.cavity_rounds;
   const auto refill = [&](CavityImprover& improver) {
     const auto improve = [&](const mesh::Cavity& cavity) {
       const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
@@ -121,10 +150,13 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
     if (communicator.sum(wish_for_borders(mesh, ambitious, shift, wishes)) == 0) break;
     refill(for_borders);
   }
-  for (int shift = 0; shift < options.shifted_rounds; ++shift) {
+  // What is not bad does not become so: there is nothing to look for where none was left.
+  const bool any_bad = communicator.sum(total.bad_after) > 0;
+  for (int shift = 0; shift < (any_bad ? options.shifted_rounds : 0); ++shift) {
     if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
     refill(for_bad);
   }
+  if (mesh.cavity_rounds == rounds_before) return;
   const TetQuality measure(options.target_angle);
   total.bad_after = 0;
   total.min_angle_after = 180;

@@ -82,38 +82,32 @@ std::array<LocalIndex, 3> TetMesh::face_key(HalfFace h) const {
   return sorted(c[face[0]], c[face[1]], c[face[2]]);
 }
 
-// Sides of faces are bucketed by their lowest vertex; within a bucket a small sort brings the two sides
-// together.
+// Each face is in a list of its lowest vertex from when its first side comes; the lists are short.
 void TetMesh::match_all_faces() {
-  struct Side {
+  struct Face {
     std::uint64_t upper;  // the two higher vertices
     HalfFace side;
+    std::int32_t next;
   };
   const std::size_t sides = 4 * _cells.size();
   _mates.assign(sides, -1);
-  std::vector<std::int64_t> first(_incident.size() + 1, 0);
-  for (std::size_t h = 0; h < sides; ++h) ++first[face_key(static_cast<HalfFace>(h))[0] + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Side> bucketed(sides);
-  std::vector<std::int64_t> next(first.begin(), first.end() - 1);
+  std::vector<std::int32_t> first(_incident.size(), -1);
+  std::vector<Face> faces;
+  faces.reserve(sides / 2 + sides / 16);
   for (std::size_t h = 0; h < sides; ++h) {
-    const auto key = face_key(static_cast<HalfFace>(h));
-    bucketed[next[key[0]]++] = {static_cast<std::uint64_t>(key[1]) << 32 | static_cast<std::uint32_t>(key[2]),
-                                static_cast<HalfFace>(h)};
-  }
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    const auto begin = bucketed.begin() + first[v], end = bucketed.begin() + first[v + 1];
-    std::sort(begin, end, [](const Side& a, const Side& b) {
-      return a.upper != b.upper ? a.upper < b.upper : a.side < b.side;
-    });
-    for (auto side = begin; side != end; ++side) {
-      if (side + 1 == end || (side + 1)->upper != side->upper) continue;
-      if (side + 2 != end && (side + 2)->upper == side->upper) {
-        throw std::logic_error("improve: three tetrahedra share a face");
-      }
-      _mates[side->side] = (side + 1)->side;
-      _mates[(side + 1)->side] = side->side;
-      ++side;
+    const auto side = static_cast<HalfFace>(h);
+    const auto key = face_key(side);
+    const std::uint64_t upper = static_cast<std::uint64_t>(key[1]) << 32 | static_cast<std::uint32_t>(key[2]);
+    std::int32_t at = first[key[0]];
+    while (at >= 0 && faces[at].upper != upper) at = faces[at].next;
+    if (at < 0) {
+      faces.push_back({upper, side, first[key[0]]});
+      first[key[0]] = static_cast<std::int32_t>(faces.size() - 1);
+    } else if (_mates[faces[at].side] >= 0) {
+      throw std::logic_error("improve: three tetrahedra share a face");
+    } else {
+      _mates[side] = faces[at].side;
+      _mates[faces[at].side] = side;
     }
   }
 }

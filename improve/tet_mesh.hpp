@@ -79,6 +79,10 @@ public:
   bool is_used(LocalIndex v) const { return _incident[v] >= 0; }
   LocalIndex vertex_count() const { return _piece.vertex_count(); }
   Vec3 point(LocalIndex v) const { return _piece.point(v); }
+  std::array<Vec3, 4> points(LocalIndex t) const {
+    const Corners& c = _cells[t];
+    return {point(c[0]), point(c[1]), point(c[2]), point(c[3])};
+  }
   const TetQuality& measure() const { return _measure; }
   double quality_of(const Corners& c) const {
     return _measure(point(c[0]), point(c[1]), point(c[2]), point(c[3]));

@@ -13,13 +13,7 @@
 
 namespace aeroloom::improve {
 
-/// Whether the tetrahedron (a,b,c,d) has positive volume in VTK's order. Exact; the exact predicate is asked
-/// only where rounding could matter.
-inline bool has_positive_volume(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c, geometry::Vec3 d) {
-  const auto sum = [](geometry::Vec3 e) { return std::abs(e.x) + std::abs(e.y) + std::abs(e.z); };
-  const double bound = 1e-14 * sum(b - a) * sum(c - a) * sum(d - a);
-  return geometry::volume6(a, b, c, d) > bound || geometry::orient3d(a, b, c, d) > 0;
-}
+using geometry::has_positive_volume;
 
 /// Mean length of the six edges of a tetrahedron.
 inline double mean_edge(const std::array<geometry::Vec3, 4>& p) {

@@ -33,11 +33,6 @@ Sphere circumsphere(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return {a + offset, dot(offset, offset)};
 }
 
-std::array<Vec3, 4> points(const TetMesh& mesh, LocalIndex t) {
-  const Corners& c = mesh.corners(t);
-  return {mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])};
-}
-
 double shortest_edge(const std::array<Vec3, 4>& p) {
   double least = std::numeric_limits<double>::max();
   for (const auto& [i, k] : mesh::tetrahedron_edges) least = std::min(least, distance(p[i], p[k]));
@@ -53,7 +48,7 @@ bool contains(const std::vector<LocalIndex>& list, LocalIndex value) {
 bool VoidFilling::is_candidate(const TetMesh& mesh, LocalIndex t) {
   const Corners& c = mesh.corners(t);
   if (std::any_of(c.begin(), c.end(), [&](LocalIndex v) { return mesh.dimension(v) < 3; })) return false;
-  const auto p = points(mesh, t);
+  const auto p = mesh.points(t);
   const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
   const double shortest = large_sphere * shortest_edge(p), mean = mean_edge(p);
   _center = sphere.center;
@@ -77,7 +72,7 @@ bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
       if (next >= 0 && contains(_cavity.old_tets, next)) continue;
       bool joins = false;
       if (next >= 0 && !contains(_outside, next)) {
-        const auto p = points(mesh, next);
+        const auto p = mesh.points(next);
         const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
         joins = dot(_center - sphere.center, _center - sphere.center) < sphere.squared_radius;
         if (!joins) _outside.push_back(next);
@@ -118,7 +113,7 @@ bool VoidFilling::gains(const TetMesh& mesh) {
   _cavity.before = std::numeric_limits<double>::max();
   const auto count = static_cast<double>(_cavity.old_tets.size());
   for (const LocalIndex t : _cavity.old_tets) {
-    const auto p = points(mesh, t);
+    const auto p = mesh.points(t);
     old_sum += mesh::mean_ratio(p[0], p[1], p[2], p[3]);
     edges += mean_edge(p) / count;
     _cavity.before = std::min(_cavity.before, mesh.quality(t));

@@ -30,7 +30,7 @@ double measure_cells(const Piece& piece, Findings& findings) {
     const LocalIndex* v = piece.cell(c);
     const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
     const double volume = geometry::volume6(p[0], p[1], p[2], p[3]);
-    if (!std::isfinite(volume) || geometry::orient3d(p[0], p[1], p[2], p[3]) <= 0) {
+    if (!std::isfinite(volume) || !geometry::has_positive_volume(p[0], p[1], p[2], p[3])) {
       findings.add(Violation::volume_not_positive, {{piece.id, c}, piece.id, Entity::cell, c});
     }
     sum.add(volume);

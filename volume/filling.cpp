@@ -110,7 +110,7 @@ void check_filling(std::span<const Vec3> points, std::span<const Cell> cells,
   std::uint64_t boundary = 0;
   std::size_t inverted = 0;
   for (const Cell& c : cells) {
-    inverted += geometry::orient3d(points[c[0]], points[c[1]], points[c[2]], points[c[3]]) <= 0;
+    inverted += !geometry::has_positive_volume(points[c[0]], points[c[1]], points[c[2]], points[c[3]]);
     for (int face = 0; face < 4; ++face) boundary += oriented_hash(sorted_face(c, face));
   }
   for (const Triangle& t : triangles) boundary -= oriented_hash(sorted(t[0], t[1], t[2]));
@@ -141,24 +141,34 @@ std::vector<std::uint8_t> drop_unused_points(std::vector<Vec3>& points, std::vec
 }
 
 void sort_along_curve(std::span<const Vec3> points, std::vector<Cell>& cells) {
+  // By radix: a few bits of the key in each pass, the lowest ones first.
+  constexpr int passes = 3, bits = 11;
+  constexpr std::uint64_t mask = (1 << bits) - 1;
   geometry::Box box;
   for (const Vec3& p : points) box.add(p);
   const Vec3 size = box.size();
-  const double scale = (sizing::grid_size - 1) / std::max({size.x, size.y, size.z});
-  const auto key = [&](Vec3 p) {
-    const Vec3 q = scale * (p - box.low);
-    return sizing::morton_key(
-        {static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y), static_cast<std::uint32_t>(q.z)});
+  const double scale = static_cast<double>(mask) / std::max({size.x, size.y, size.z});
+  struct Place {
+    std::uint64_t key;
+    std::uint32_t cell;
   };
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(cells.size());
+  std::vector<Place> order(cells.size()), sorted(cells.size());
+  std::array<std::array<std::uint32_t, mask + 2>, passes> first{};
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& c = cells[i];
-    const Vec3 centroid = 0.25 * (points[c[0]] + points[c[1]] + points[c[2]] + points[c[3]]);
-    order[i] = {key(centroid), static_cast<std::uint32_t>(i)};
+    const Vec3 q = scale * (0.25 * (points[c[0]] + points[c[1]] + points[c[2]] + points[c[3]]) - box.low);
+    const std::uint64_t key = sizing::morton_key(
+        {static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y), static_cast<std::uint32_t>(q.z)});
+    order[i] = {key, static_cast<std::uint32_t>(i)};
+    for (int pass = 0; pass < passes; ++pass) ++first[pass][(key >> (pass * bits) & mask) + 1];
   }
-  std::sort(order.begin(), order.end());
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t k = 0; k < mask; ++k) first[pass][k + 1] += first[pass][k];
+    for (const Place& place : order) sorted[first[pass][place.key >> (pass * bits) & mask]++] = place;
+    order.swap(sorted);
+  }
   std::vector<Cell> result(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) result[i] = cells[order[i].second];
+  for (std::size_t i = 0; i < cells.size(); ++i) result[i] = cells[order[i].cell];
   cells.swap(result);
 }
 
