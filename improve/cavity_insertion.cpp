@@ -14,7 +14,7 @@ constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not coun
 // Of the target: what a cavity that does not reach it has to gain. Without a floor, one that adds tetrahedra
 // is followed by others without end.
 constexpr double gain_when_moved = 0.05;
-constexpr double gain_when_added = 0.25;
+constexpr double gain_when_added = 0.12;
 
 }  // namespace
 

@@ -112,7 +112,7 @@ bool Schedule::mend(LocalIndex t, Means means) {
   const double share = _mesh.quality(t) / _mesh.measure().target();
   return (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) ||
          (means >= Means::new_vertices && share < worth_adding && insert_vertex(t)) ||
-         (means >= Means::moving_cavities && slide(t));
+         (means >= Means::moving_cavities && slide(t)) || (means >= Means::new_vertices && reconnect(t));
 }
 
 bool Schedule::swap(LocalIndex t) {
@@ -204,6 +204,12 @@ bool Schedule::insert_vertex(LocalIndex t) {
   _mesh.drop_last_vertex();
   _changed.pop_back();
   return false;
+}
+
+bool Schedule::reconnect(LocalIndex t) {
+  if (!_polyhedron.propose(_mesh, t, _mesh.quality(t), _trial) || !apply(_trial)) return false;
+  ++_swaps;
+  return true;
 }
 
 bool Schedule::apply(const Cavity& cavity) {

@@ -7,6 +7,7 @@
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
 #include "improve/sliding.hpp"
+#include "improve/small_polyhedron.hpp"
 #include "improve/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
 
@@ -52,6 +53,7 @@ private:
   bool contract(LocalIndex t);
   bool move_cavity(LocalIndex t);
   bool insert_vertex(LocalIndex t);
+  bool reconnect(LocalIndex t);
   bool apply(const Cavity& cavity);
   /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
   void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
@@ -66,6 +68,7 @@ private:
   std::optional<Sliding> _sliding;
   EdgeContraction _contraction;
   CavityInsertion _insertion;
+  SmallPolyhedron _polyhedron;
   Cavity _best, _trial;
   std::vector<LocalIndex> _placed, _star;
   std::vector<Task> _queue;             ///< a heap, worst on top

@@ -5,7 +5,7 @@
 namespace aeroloom::improve {
 namespace {
 
-constexpr double least = 0.5, most = 3;  // of the size
+constexpr double least = 0.3, most = 3;  // of the size, the former also of the mean edge before
 
 /// Calls visit(a, b) for the edges of a tetrahedron; false as soon as it returns false.
 template <class Visit>
@@ -18,17 +18,19 @@ bool for_edges(const TetMesh& mesh, const Corners& corners, const Visit& visit) 
 }  // namespace
 
 void SizeLimits::Lengths::add(Vec3 a, Vec3 b) {
-  const double squared = dot(b - a, b - a);
-  shortest = std::min(shortest, squared);
-  longest = std::max(longest, squared);
+  const double length = distance(a, b);
+  shortest = std::min(shortest, length);
+  longest = std::max(longest, length);
+  sum += length;
+  ++count;
 }
 
 bool SizeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
-  const double squared = dot(b - a, b - a);
-  if (squared >= before.shortest && squared <= before.longest) return true;
+  const double length = distance(a, b);
+  if (length >= before.shortest && length <= before.longest) return true;
   const double size = (*_field)(0.5 * (a + b));
-  return squared > before.longest ? squared <= most * most * size * size
-                                  : squared >= least * least * size * size;
+  return length > before.longest ? length <= most * size
+                                 : length >= least * std::min(size, before.sum / before.count);
 }
 
 bool SizeLimits::allow(const TetMesh& mesh, const Cavity& cavity) const {

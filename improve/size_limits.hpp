@@ -9,8 +9,9 @@
 
 namespace aeroloom::improve {
 
-/// A change may make an edge longer than all that were there before it, or shorter, only as far as it keeps
-/// to half to three times the size in its middle. Where no size field is known, every length will do.
+/// A change may make an edge longer than all that were there before it only up to 3 times the size in its
+/// middle, and shorter than all only down to 0.3 times that size or, where edges are shorter because the CAD
+/// is, 0.3 times their mean. Where no size field is known, every length will do.
 class SizeLimits {
 public:
   explicit SizeLimits(const sizing::SizeField* field = nullptr) : _field(field) {}
@@ -23,7 +24,8 @@ public:
 
 private:
   struct Lengths {
-    double shortest = std::numeric_limits<double>::max(), longest = 0;  ///< squared
+    double shortest = std::numeric_limits<double>::max(), longest = 0;
+    double sum = 0, count = 0;
 
     void add(Vec3 a, Vec3 b);
   };

@@ -1,0 +1,73 @@
+#include "improve/size_limits.hpp"
+
+#include "tests/improve/pieces.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::improve {
+namespace {
+
+const TetQuality measure(28);
+
+sizing::SizeField uniform(double size) {
+  sizing::SizingOptions options;
+  options.minimum = options.maximum = size;
+  geometry::Box box;
+  box.add(Vec3{-10, -10, -10});
+  box.add(Vec3{10, 10, 10});
+  return sizing::SizeField::build(box, {}, options);
+}
+
+/// A tetrahedron with edges of 1 to 1.5, and vertex 4 to make another one with.
+mesh::Piece make_example(Vec3 other) {
+  return examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, other}, {0, 1, 2, 3});
+}
+
+bool allows(const SizeLimits& limits, Vec3 other) {
+  mesh::Piece piece = make_example(other);
+  const TetMesh mesh(piece, measure);
+  Cavity cavity;
+  cavity.old_tets = {0};
+  cavity.new_tets = {{0, 1, 2, 4}};
+  return limits.allow(mesh, cavity);
+}
+
+TEST(SizeLimits, KeepNewEdgesToTheField) {
+  const sizing::SizeField one = uniform(1);
+  const SizeLimits limits(&one);
+  EXPECT_TRUE(allows(limits, {0, 0, 1.2})) << "no longer than what was there";
+  EXPECT_TRUE(allows(limits, {0, 0, 2.5})) << "longer, within three sizes";
+  EXPECT_FALSE(allows(limits, {0, 0, 4})) << "four sizes long";
+  EXPECT_TRUE(allows(limits, {0, 0, 0.5}));
+  EXPECT_FALSE(allows(limits, {0, 0, 0.2})) << "a fifth of a size";
+}
+
+TEST(SizeLimits, KeepToShortEdgesWhereTheCadHasThem) {
+  const sizing::SizeField ten = uniform(10);
+  const SizeLimits limits(&ten);
+  EXPECT_TRUE(allows(limits, {0, 0, 0.5})) << "short beside the size, not beside the other edges";
+  EXPECT_FALSE(allows(limits, {0, 0, 0.2}));
+}
+
+TEST(SizeLimits, AllowAllWithoutAField) {
+  EXPECT_TRUE(allows(SizeLimits(), {0, 0, 1000}));
+  EXPECT_TRUE(allows(SizeLimits(), {0, 0, 1e-6}));
+}
+
+TEST(SizeLimits, LookAtMovedVertices) {
+  const sizing::SizeField one = uniform(1);
+  const SizeLimits limits(&one);
+  mesh::Piece piece = make_example({0, 0, 0.5});
+  TetMesh mesh(piece, measure);
+  const std::vector<LocalIndex> star{0};
+  const Vec3 origin = mesh.point(3);
+  mesh.move_vertex(3, {0, 0, 2}, star);
+  EXPECT_TRUE(limits.allow_move(mesh, 3, star, origin));
+  mesh.move_vertex(3, {0, 0, 5}, star);
+  EXPECT_FALSE(limits.allow_move(mesh, 3, star, origin));
+  mesh.move_vertex(3, {0, 0, 0.1}, star);
+  EXPECT_FALSE(limits.allow_move(mesh, 3, star, origin));
+}
+
+}  // namespace
+}  // namespace aeroloom::improve
