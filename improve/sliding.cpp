@@ -10,6 +10,7 @@ using geometry::Vec2;
 constexpr int on_edge = 1, on_face = 2;
 /// In mean distances to the neighbours: how far from the CAD a vertex may be found to count as lying on it.
 constexpr double nearness = 1e-4;
+constexpr double least_gain = 0.01;  // of quality
 
 /// Triangles at the free point that may change gently.
 class GentleTriangles {
@@ -27,49 +28,62 @@ private:
   const std::vector<TrianglePoints>& _triangles;
 };
 
+/// The plane through the vertex that its triangles suggest.
+class TangentPlane final : public Locus {
+public:
+  TangentPlane(const std::vector<TrianglePoints>& triangles, GentleTriangles gentle) : _gentle(gentle) {
+    for (const auto& [a, b, c] : triangles) _normal += cross(b - a, c - a);
+    _normal = normalized(_normal);
+  }
+  Vec3 admissible(Vec3 direction) const override { return direction - dot(direction, _normal) * _normal; }
+  bool settle(Vec3& p) override { return _gentle.allow(p); }
+
+private:
+  Vec3 _normal;
+  GentleTriangles _gentle;
+};
+
 class FaceLocus final : public Locus {
 public:
-  FaceLocus(const geometry::Model& model, geometry::FaceId face, Vec2 uv, GentleTriangles triangles)
-      : _model(model), _face(face), _uv(uv), _triangles(triangles) {}
+  FaceLocus(const geometry::Model& model, geometry::FaceId face, Vec2 uv, GentleTriangles gentle)
+      : _model(model), _face(face), _uv(uv), _normal(model.face_frame(face, uv).normal), _gentle(gentle) {}
 
-  Vec3 admissible(Vec3 direction, Vec3 p) const override {
-    const geometry::Projection here = _model.project(_face, p, _uv);
-    const Vec3 normal = _model.face_frame(_face, here.uv).normal;
-    return direction - dot(direction, normal) * normal;
-  }
+  Vec3 admissible(Vec3 direction) const override { return direction - dot(direction, _normal) * _normal; }
   bool settle(Vec3& p) override {
     const geometry::Projection found = _model.project(_face, p, _uv);
     p = found.point;
-    return found.converged && _triangles.allow(p);
+    return found.converged && _gentle.allow(p);
   }
 
 private:
   const geometry::Model& _model;
   geometry::FaceId _face;
-  Vec2 _uv;  ///< of where the vertex was
-  GentleTriangles _triangles;
+  Vec2 _uv;      ///< of where the vertex was
+  Vec3 _normal;  ///< there
+  GentleTriangles _gentle;
 };
 
 class EdgeLocus final : public Locus {
 public:
-  EdgeLocus(const geometry::Model& model, geometry::EdgeId edge, double parameter, GentleTriangles triangles)
-      : _model(model), _edge(edge), _parameter(parameter), _triangles(triangles) {}
+  EdgeLocus(const geometry::Model& model, geometry::EdgeId edge, double parameter, GentleTriangles gentle)
+      : _model(model),
+        _edge(edge),
+        _parameter(parameter),
+        _tangent(normalized(model.edge_tangent(edge, parameter))),
+        _gentle(gentle) {}
 
-  Vec3 admissible(Vec3 direction, Vec3 p) const override {
-    const double here = project_on_edge(_model, _edge, p, _parameter);
-    const Vec3 tangent = normalized(_model.edge_tangent(_edge, here));
-    return dot(direction, tangent) * tangent;
-  }
+  Vec3 admissible(Vec3 direction) const override { return dot(direction, _tangent) * _tangent; }
   bool settle(Vec3& p) override {
     p = _model.edge_point(_edge, project_on_edge(_model, _edge, p, _parameter));
-    return _triangles.allow(p);
+    return _gentle.allow(p);
   }
 
 private:
   const geometry::Model& _model;
   geometry::EdgeId _edge;
   double _parameter;  ///< of where the vertex was
-  GentleTriangles _triangles;
+  Vec3 _tangent;      ///< there
+  GentleTriangles _gentle;
 };
 
 }  // namespace
@@ -106,14 +120,17 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
   const GentleTriangles gentle(_triangles);
   bool moved = false;
   if (dimension == on_face) {
+    // The CAD is asked only where the tangent plane promises something.
+    TangentPlane plane(_triangles, gentle);
+    if (!_smoothing.promises(mesh, vertex, star, plane, Smoothing::least_gain)) return false;
     if (const auto uv = _locator.on_face(entity, mesh.point(vertex), tolerance)) {
       FaceLocus locus(model, entity, *uv, gentle);
-      moved = _smoothing.smooth_on(mesh, vertex, star, locus);
+      moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_gain);
     }
   } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand beyond
     if (const auto parameter = _locator.on_edge(entity, mesh.point(vertex), tolerance)) {
       EdgeLocus locus(model, entity, *parameter, gentle);
-      moved = _smoothing.smooth_on(mesh, vertex, star, locus);
+      moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_gain);
     }
   }
   if (moved) mesh.note_slid_triangles(_triangles.size());

@@ -9,7 +9,6 @@ namespace {
 constexpr int most_steps = 12;          // of the ascent
 constexpr int most_halvings = 6;        // of one step
 constexpr double active_margin = 0.02;  // of quality: cones this close to the worst one shape the direction
-constexpr double least_gain = 1e-3;     // of quality: a smaller gain does not count as one
 
 /// The point of the convex hull of the vectors that lies next to the origin, by conditional gradients: the
 /// direction in which the slowest of them grows fastest.
@@ -44,6 +43,14 @@ double ConeOptimiser::worst(const TetQuality& measure, Vec3 p, double floor) {
   return least;
 }
 
+// What promises nothing need not settle.
+double ConeOptimiser::worst_on(const TetQuality& measure, Vec3& p, double floor, Locus& locus) {
+  const Vec3 before = p;
+  const double reached = worst(measure, p, floor);
+  if (reached <= floor || !locus.settle(p)) return floor;
+  return p == before ? reached : worst(measure, p, floor);
+}
+
 double ConeOptimiser::mean_distance(Vec3 p) const {
   double sum = 0;
   for (const Base& base : _bases) sum += distance(base.a, p);
@@ -62,7 +69,7 @@ Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double q
       probed[axis] += probe;
       gradient[axis] = (measure(base.a, base.b, base.c, probed) - here) / probe;
     }
-    _gradients.push_back(locus.admissible(gradient, p));
+    _gradients.push_back(locus.admissible(gradient));
   }
   return nearest_to_origin(_gradients);
 }
@@ -76,7 +83,7 @@ double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality, 
     Vec3 best = p;
     for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
       Vec3 candidate = p + length * direction;
-      const double reached = locus.settle(candidate) ? worst(measure, candidate, quality) : quality;
+      const double reached = worst_on(measure, candidate, quality, locus);
       if (reached <= quality) {
         if (quality > start) break;
         continue;
@@ -84,7 +91,7 @@ double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality, 
       quality = reached;
       best = candidate;
     }
-    if (quality <= start + 0.1 * least_gain) break;
+    if (quality <= start + 0.1 * Smoothing::least_gain) break;
     p = best;
     length *= 4;
   }
@@ -95,7 +102,7 @@ double ConeOptimiser::optimise(const TetQuality& measure, Vec3& p, double qualit
   Vec3 mean;
   for (const Base& base : _bases) mean += base.a + base.b + base.c;
   mean = mean / (3 * static_cast<double>(_bases.size()));
-  const double smoothed = locus.settle(mean) ? worst(measure, mean, quality) : quality;
+  const double smoothed = worst_on(measure, mean, quality, locus);
   if (smoothed > quality) {
     p = mean;
     quality = smoothed;
@@ -109,19 +116,32 @@ bool Smoothing::smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>
   return smooth_on(mesh, vertex, star, space);
 }
 
-bool Smoothing::smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star,
-                          Locus& locus) {
+// Returns the worst quality.
+double Smoothing::collect_cones(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star) {
   _cones.clear();
-  double before = std::numeric_limits<double>::max();
+  double worst = std::numeric_limits<double>::max();
   for (const LocalIndex t : star) {
     const auto& face = mesh::tetrahedron_faces[mesh.local_vertex(t, vertex)];
     const Corners& c = mesh.corners(t);
     _cones.add(mesh.point(c[face[0]]), mesh.point(c[face[2]]), mesh.point(c[face[1]]));
-    before = std::min(before, mesh.quality(t));
+    worst = std::min(worst, mesh.quality(t));
   }
+  return worst;
+}
+
+bool Smoothing::promises(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star,
+                         Locus& locus, double gain) {
+  const double before = collect_cones(mesh, vertex, star);
+  Vec3 moved = mesh.point(vertex);
+  return _cones.optimise(mesh.measure(), moved, before, locus) >= before + gain;
+}
+
+bool Smoothing::smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus,
+                          double gain) {
+  const double before = collect_cones(mesh, vertex, star);
   const Vec3 origin = mesh.point(vertex);
   Vec3 moved = origin;
-  if (_cones.optimise(mesh.measure(), moved, before, locus) < before + least_gain) return false;
+  if (_cones.optimise(mesh.measure(), moved, before, locus) < before + gain) return false;
   mesh.move_vertex(vertex, moved, star);
   const bool holds = std::all_of(star.begin(), star.end(), [&](LocalIndex t) {
     return mesh.quality(t) > before && mesh.is_positive(mesh.corners(t));

@@ -13,8 +13,8 @@ namespace aeroloom::improve {
 class Locus {
 public:
   virtual ~Locus() = default;
-  /// The part of a direction at p along which the point may move.
-  virtual Vec3 admissible(Vec3 direction, Vec3 p) const = 0;
+  /// The part of a direction along which the point may move.
+  virtual Vec3 admissible(Vec3 direction) const = 0;
   /// The admissible point next to p, into p; false: there is none that will do.
   virtual bool settle(Vec3& p) = 0;
 };
@@ -22,7 +22,7 @@ public:
 /// Everywhere.
 class Space final : public Locus {
 public:
-  Vec3 admissible(Vec3 direction, Vec3) const override { return direction; }
+  Vec3 admissible(Vec3 direction) const override { return direction; }
   bool settle(Vec3&) override { return true; }
 };
 
@@ -54,6 +54,7 @@ private:
     Vec3 a, b, c;
   };
   double climb(const TetQuality& measure, Vec3& p, double quality, Locus& locus);
+  double worst_on(const TetQuality& measure, Vec3& p, double floor, Locus& locus);
   Vec3 ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe, const Locus& locus);
   double mean_distance(Vec3 p) const;
 
@@ -66,13 +67,21 @@ class Smoothing {
 public:
   explicit Smoothing(const SizeLimits& limits) : _limits(limits) {}
 
-  /// Moves a vertex on the locus, its tetrahedra given, where that lifts the worst quality around it
-  /// noticeably.
-  bool smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus);
+  static constexpr double least_gain = 1e-3;  ///< of quality: a smaller gain does not count as one
+
+  /// Moves a vertex on the locus, its tetrahedra given, where that lifts the worst quality around it by
+  /// `gain`.
+  bool smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus,
+                 double gain = least_gain);
+  /// Whether there is such a gain to be had on the locus.
+  bool promises(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus,
+                double gain);
   /// The same for a vertex that may go everywhere; `star` receives its tetrahedra.
   bool smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star);
 
 private:
+  double collect_cones(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star);
+
   const SizeLimits& _limits;
   ConeOptimiser _cones;
 };

@@ -39,10 +39,6 @@ double shortest_edge(const std::array<Vec3, 4>& p) {
   return least;
 }
 
-bool contains(const std::vector<LocalIndex>& list, LocalIndex value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 }  // namespace
 
 bool VoidFilling::is_candidate(const TetMesh& mesh, LocalIndex t) {
@@ -62,32 +58,32 @@ bool VoidFilling::is_candidate(const TetMesh& mesh, LocalIndex t) {
 bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
   _cavity.clear();
   _walls.clear();
-  _outside.clear();
   _cavity.old_tets.assign(1, t);
+  _state.resize(mesh.slot_count());
+  ++_now;
+  _state[t].inside = _now;
   for (std::size_t i = 0; i < _cavity.old_tets.size(); ++i) {
     const LocalIndex current = _cavity.old_tets[i];
     for (int f = 0; f < 4; ++f) {
       const HalfFace other = mesh.mate(4 * current + f);
       const LocalIndex next = other < 0 ? -1 : other >> 2;
-      if (next >= 0 && contains(_cavity.old_tets, next)) continue;
-      bool joins = false;
-      if (next >= 0 && !contains(_outside, next)) {
-        const auto p = mesh.points(next);
-        const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
-        joins = dot(_center - sphere.center, _center - sphere.center) < sphere.squared_radius;
-        if (!joins) _outside.push_back(next);
+      if (next < 0 || _state[next].inside == _now || _state[next].outside == _now) continue;
+      const auto p = mesh.points(next);
+      const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
+      if (dot(_center - sphere.center, _center - sphere.center) >= sphere.squared_radius) {
+        _state[next].outside = _now;
+        continue;
       }
-      if (joins) {
-        const Vec3 apex = mesh.point(mesh.corners(next)[other & 3]);
-        if (_cavity.old_tets.size() == most_tets || distance(apex, _center) < _least_edge) return false;
-        _cavity.old_tets.push_back(next);
-      }
+      const Vec3 apex = p[other & 3];
+      if (_cavity.old_tets.size() == most_tets || distance(apex, _center) < _least_edge) return false;
+      _cavity.old_tets.push_back(next);
+      _state[next].inside = _now;
     }
   }
   for (const LocalIndex tet : _cavity.old_tets) {
     for (int f = 0; f < 4; ++f) {
       const HalfFace other = mesh.mate(4 * tet + f);
-      if (other >= 0 && contains(_cavity.old_tets, other >> 2)) continue;
+      if (other >= 0 && _state[other >> 2].inside == _now) continue;
       const auto& face = mesh::tetrahedron_faces[f];
       const Corners& c = mesh.corners(tet);
       _walls.push_back({{c[face[0]], c[face[2]], c[face[1]]}});

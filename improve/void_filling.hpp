@@ -31,7 +31,13 @@ private:
   double _least_edge = 0;  ///< nothing may be nearer to the centre
   Cavity _cavity;
   std::vector<Wall> _walls;
-  std::vector<LocalIndex> _inside, _outside, _placed;
+  /// Per slot: in which cavity it was last found inside or outside.
+  struct State {
+    std::int32_t inside = 0, outside = 0;
+  };
+  std::vector<State> _state;
+  std::int32_t _now = 0;  ///< the number of the cavity
+  std::vector<LocalIndex> _inside, _placed;
 };
 
 }  // namespace aeroloom::improve
