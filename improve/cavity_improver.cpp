@@ -1,11 +1,11 @@
 #include "improve/cavity_improver.hpp"
 
 #include "improve/relaxation.hpp"
-#include "improve/tet_quality.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/tet_faces.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace aeroloom::improve {
 namespace {
@@ -167,15 +167,30 @@ mesh::Refilling CavityImprover::build_refilling(const mesh::Cavity& cavity) cons
   return result;
 }
 
+bool CavityImprover::is_worse_than(const mesh::Cavity& cavity) const {
+  double before = std::numeric_limits<double>::max(), after = before;
+  for (const auto& t : cavity.tets) {
+    before = std::min(
+        before, _measure(cavity.points[t[0]], cavity.points[t[1]], cavity.points[t[2]], cavity.points[t[3]]));
+  }
+  for (LocalIndex t = 0; t < _piece.cell_count(); ++t) {
+    const LocalIndex* c = _piece.cell(t);
+    after = std::min(
+        after, _measure(_piece.point(c[0]), _piece.point(c[1]), _piece.point(c[2]), _piece.point(c[3])));
+  }
+  // The vertices of a tetrahedron may come in another order, with other last bits.
+  return after < before - 1e-12;
+}
+
 std::optional<mesh::Refilling> CavityImprover::improve(const mesh::Cavity& cavity, ImproveReport& report) {
   order_vertices(cavity);
   build_piece(cavity);
   const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
+  if (mine.smoothed + mine.slid + mine.swaps == 0 || is_worse_than(cavity)) return std::nullopt;
   report.smoothed += mine.smoothed;
   report.slid += mine.slid;
   report.swaps += mine.swaps;
   report.changed_triangles += mine.changed_triangles;
-  if (mine.smoothed + mine.slid + mine.swaps == 0) return std::nullopt;
   return build_refilling(cavity);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "improve/improver.hpp"
+#include "improve/tet_quality.hpp"
 #include "mesh/cavities.hpp"
 
 #include <optional>
@@ -24,9 +25,10 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOp
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.
 class CavityImprover {
 public:
-  /// All must outlive it.
-  CavityImprover(const mesh::DistributedMesh& mesh, const ImproveOptions& options, const MeshSource& source)
-      : _mesh(mesh), _options(options), _source(source) {}
+  /// All must outlive it. Whatever the options aim at, no cavity gets worse by the measure of `target_angle`.
+  CavityImprover(const mesh::DistributedMesh& mesh, const ImproveOptions& options, double target_angle,
+                 const MeshSource& source)
+      : _mesh(mesh), _options(options), _measure(target_angle), _source(source) {}
 
   /// Nothing where improvement changes nothing. Adds to the report.
   std::optional<mesh::Refilling> improve(const mesh::Cavity& cavity, ImproveReport& report);
@@ -34,10 +36,12 @@ public:
 private:
   void order_vertices(const mesh::Cavity& cavity);
   void build_piece(const mesh::Cavity& cavity);
+  bool is_worse_than(const mesh::Cavity& cavity) const;
   mesh::Refilling build_refilling(const mesh::Cavity& cavity) const;
 
   const mesh::DistributedMesh& _mesh;
   const ImproveOptions& _options;
+  TetQuality _measure;
   const MeshSource& _source;
   std::vector<mesh::LocalIndex> _order;   ///< of the cavity's vertices: those that stay first
   std::vector<mesh::LocalIndex> _number;  ///< per vertex of the cavity: its place in that order

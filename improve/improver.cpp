@@ -145,14 +145,15 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   ImproveOptions ambitious = options;
   ambitious.target_angle = std::min(border_ambition * options.target_angle, largest_target);
   ambitious.relaxation = border_relaxation;
-  CavityImprover for_borders(mesh, ambitious, source), for_bad(mesh, options, source);
+  CavityImprover for_borders(mesh, ambitious, options.target_angle, source);
+  CavityImprover for_bad(mesh, options, options.target_angle, source);
   for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
     if (communicator.sum(wish_for_borders(mesh, ambitious, shift, wishes)) == 0) break;
     refill(for_borders);
   }
-  // What is not bad does not become so: there is nothing to look for where none was left.
-  const bool any_bad = communicator.sum(total.bad_after) > 0;
-  for (int shift = 0; shift < (any_bad ? options.shifted_rounds : 0); ++shift) {
+  // In a single piece all are known already.
+  const bool look = mesh.cavity_rounds > rounds_before || communicator.sum(total.bad_after) > 0;
+  for (int shift = 0; shift < (look ? options.shifted_rounds : 0); ++shift) {
     if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
     refill(for_bad);
   }
