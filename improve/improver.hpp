@@ -20,7 +20,7 @@ struct ImproveOptions {
   int sweeps = 12;           ///< at most; ends earlier when a sweep gains nothing
   int relaxation = 1;        ///< passes of smoothing for the average (relaxation.hpp)
   bool boundary_may_change = true;  ///< its triangles may flip and edges contract within one CAD face
-  int shifted_rounds = 6;  ///< at most, across the borders of pieces; ends earlier when nothing is left
+  int shifted_rounds = 3;  ///< at most, across the borders of pieces; ends earlier when nothing is left
 };
 
 struct ImproveReport {

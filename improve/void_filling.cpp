@@ -48,6 +48,7 @@ bool VoidFilling::is_candidate(const TetMesh& mesh, LocalIndex t) {
   const Sphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
   const double shortest = large_sphere * shortest_edge(p), mean = mean_edge(p);
   _center = sphere.center;
+  _squared_radius = sphere.squared_radius;
   _least_edge = least_edge * mean;
   const auto within = [&](double low, double high) {
     return sphere.squared_radius > low * low && sphere.squared_radius < high * high;
@@ -59,7 +60,6 @@ bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
   _cavity.clear();
   _walls.clear();
   _cavity.old_tets.assign(1, t);
-  _state.resize(mesh.slot_count());
   ++_now;
   _state[t].inside = _now;
   for (std::size_t i = 0; i < _cavity.old_tets.size(); ++i) {
@@ -75,9 +75,11 @@ bool VoidFilling::collect_cavity(const TetMesh& mesh, LocalIndex t) {
         continue;
       }
       const Vec3 apex = p[other & 3];
+      _state[next].inside = _now;
+      // Within a sphere that is in vain, no smaller one will do better.
+      _state[next].in_vain = sphere.squared_radius <= _squared_radius;
       if (_cavity.old_tets.size() == most_tets || distance(apex, _center) < _least_edge) return false;
       _cavity.old_tets.push_back(next);
-      _state[next].inside = _now;
     }
   }
   for (const LocalIndex tet : _cavity.old_tets) {
@@ -129,15 +131,18 @@ bool VoidFilling::gains(const TetMesh& mesh) {
 std::int64_t VoidFilling::run(TetMesh& mesh) {
   std::int64_t inserted = 0;
   const LocalIndex last = mesh.slot_count();
+  _state.assign(last, {});
   for (LocalIndex t = 0; t < last; ++t) {
-    if (!mesh.is_alive(t) || !is_candidate(mesh, t) || !collect_cavity(mesh, t) || !gains(mesh) ||
-        !keeps_vertices(mesh)) {
+    if (!mesh.is_alive(t) || _state[t].in_vain || !is_candidate(mesh, t) || !collect_cavity(mesh, t) ||
+        !gains(mesh) || !keeps_vertices(mesh)) {
       continue;
     }
     const LocalIndex v = mesh.add_vertex(_center, mesh.corners(t)[0]);
     for (const Wall& wall : _walls)
       _cavity.new_tets.push_back({wall.corners[0], wall.corners[1], wall.corners[2], v});
     mesh.replace(_cavity, _placed);
+    _state.resize(mesh.slot_count());
+    for (const LocalIndex placed : _placed) _state[placed].in_vain = false;
     ++inserted;
   }
   return inserted;

@@ -28,12 +28,15 @@ private:
   bool keeps_vertices(const TetMesh& mesh);
 
   Vec3 _center;
-  double _least_edge = 0;  ///< nothing may be nearer to the centre
+  double _squared_radius = 0;  ///< of the sphere
+  double _least_edge = 0;      ///< nothing may be nearer to the centre
   Cavity _cavity;
   std::vector<Wall> _walls;
-  /// Per slot: in which cavity it was last found inside or outside.
+  /// Per slot: in which cavity it was last found inside or outside, and whether a larger sphere around its
+  /// place was tried already.
   struct State {
     std::int32_t inside = 0, outside = 0;
+    bool in_vain = false;
   };
   std::vector<State> _state;
   std::int32_t _now = 0;  ///< the number of the cavity
