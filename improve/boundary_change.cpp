@@ -11,7 +11,7 @@ namespace {
 
 const double least_cosine = std::cos(20 * std::numbers::pi / 180);
 constexpr double most_growth = 1.5;     // of edges
-constexpr double decent_quality = 0.3;  // of a triangle: below this it must not get worse
+constexpr double decent_quality = 0.5;  // of a triangle: below this it must not get worse
 
 struct Shape {
   Vec3 normal;         ///< unit length

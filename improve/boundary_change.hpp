@@ -19,7 +19,7 @@ inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corn
 
 /// Whether new triangles may take the place of old ones: no normal turns by more than 20 degrees against any
 /// old one, no edge is longer than 1.5 times the longest one before, and the worst shape is at least as good
-/// as before or 0.3 (of a mean ratio). All corners stay on the CAD face, so the chordal error stays that of
+/// as before or 0.5 (of a mean ratio). All corners stay on the CAD face, so the chordal error stays that of
 /// edges of such lengths.
 bool is_gentle_change(std::span<const TrianglePoints> before, std::span<const TrianglePoints> after);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double first_step = 0.15;  // of the mean distance to the neighbours
 constexpr int most_halvings = 3;
-constexpr double least_gain = 1e-3;  // of the mean of the ratios
+constexpr double least_gain = 1e-3;  // of the mean of the inverse ratios
 
 /// Its mean ratio (mesh::mean_ratio), from six times the volume and the sum of the squared edges.
 double ratio(double volume6, double squares) {
@@ -26,14 +26,14 @@ double squared(Vec3 v) {
 
 }  // namespace
 
-double Relaxation::sum_of_ratios(Vec3 p) const {
+double Relaxation::minus_inverse_ratios(Vec3 p) const {
   double sum = 0;
   for (const Cone& k : _cones) {
     const double squares = squared(k.b - k.a) + squared(k.c - k.b) + squared(k.a - k.c) + squared(p - k.a) +
                            squared(p - k.b) + squared(p - k.c);
     const double each = ratio(geometry::volume6(k.a, k.b, k.c, p), squares);
-    if (each < 0) return -1;
-    sum += each;
+    if (!(each > 0)) return -std::numeric_limits<double>::max();
+    sum -= 1 / each;
   }
   return sum;
 }
@@ -48,7 +48,7 @@ Vec3 Relaxation::ascent(Vec3 p) const {
     const double value = ratio(volume6, squares);
     if (value <= 0) continue;
     const Vec3 outward = 3 * p - k.a - k.b - k.c;
-    sum += value * ((2 / (3 * volume6)) * normal - (2 / squares) * outward);
+    sum += 1 / value * ((2 / (3 * volume6)) * normal - (2 / squares) * outward);
   }
   return sum;
 }
@@ -85,11 +85,11 @@ bool Relaxation::relax(TetMesh& mesh, LocalIndex v) {
   const Vec3 direction = ascent(origin);
   const double slope = norm(direction);
   if (!(slope > 0)) return false;
-  const double wanted = sum_of_ratios(origin) + least_gain * static_cast<double>(_star.size());
+  const double wanted = minus_inverse_ratios(origin) + least_gain * static_cast<double>(_star.size());
   double length = first_step * reach;
   for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
     const Vec3 candidate = origin + (length / slope) * direction;
-    if (sum_of_ratios(candidate) < wanted) continue;
+    if (minus_inverse_ratios(candidate) < wanted) continue;
     mesh.move_vertex(v, candidate, _star);
     const bool holds = std::all_of(_star.begin(), _star.end(), [&](LocalIndex t) {
       return mesh.quality(t) >= worst && mesh.is_positive(mesh.corners(t));

@@ -1,5 +1,5 @@
 /// Smoothing for the average: vertices whose tetrahedra are worse shaped than those of a lattice move to
-/// where the sum of their mean ratios is larger.
+/// where the sum of their inverse mean ratios is smaller, which counts the worst most.
 #pragma once
 
 #include "improve/tet_mesh.hpp"
@@ -10,8 +10,8 @@
 
 namespace aeroloom::improve {
 
-/// One step of steepest ascent of the sum of mean ratios per vertex and pass, with a line search (Freitag and
-/// Knupp, Int. J. Numer. Meth. Engng 53, 2002, doi:10.1002/nme.341, for the measure). A vertex moves only
+/// One step of steepest descent of the sum of inverse mean ratios per vertex and pass, with a line search
+/// (Freitag and Knupp, Int. J. Numer. Meth. Engng 53, 2002, doi:10.1002/nme.341). A vertex moves only
 /// when the worst TetQuality around it does not fall.
 class Relaxation {
 public:
@@ -28,7 +28,9 @@ private:
   };
   void score_vertices(const TetMesh& mesh);
   bool relax(TetMesh& mesh, LocalIndex v);
-  double sum_of_ratios(Vec3 p) const;
+  /// The sum over the cones with their tips at p, negated; very small where one is not positive.
+  double minus_inverse_ratios(Vec3 p) const;
+  /// Its gradient.
   Vec3 ascent(Vec3 p) const;
 
   std::vector<float> _mean;  ///< mean ratio around each vertex
