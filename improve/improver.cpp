@@ -98,7 +98,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 
   TetMesh mesh(piece, measure, options.boundary_may_change);
   note_before(examine(mesh));
-  const SizeLimits limits(source.sizes);
+  const ChangeLimits limits(source.sizes);
   Schedule schedule(mesh, limits, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
   if (options.relaxation > 0) {

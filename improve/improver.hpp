@@ -35,7 +35,7 @@ struct ImproveReport {
 /// What the mesh was made from, as far as that is known.
 struct MeshSource {
   geometry::PointLocator* locator = nullptr;  ///< of the CAD model: boundary vertices may slide on it
-  const sizing::SizeField* sizes = nullptr;   ///< edges keep to them (size_limits.hpp)
+  const sizing::SizeField* sizes = nullptr;   ///< edges keep to them (change_limits.hpp)
 };
 
 /// Improves one tetrahedral piece in place: the worst element of any changed cavity gets better, then the

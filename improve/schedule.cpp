@@ -43,7 +43,7 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-Schedule::Schedule(TetMesh& mesh, const SizeLimits& limits, geometry::PointLocator* locator)
+Schedule::Schedule(TetMesh& mesh, const ChangeLimits& limits, geometry::PointLocator* locator)
     : _mesh(mesh),
       _limits(limits),
       _smoothing(limits),

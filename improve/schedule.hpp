@@ -23,7 +23,7 @@ namespace aeroloom::improve {
 class Schedule {
 public:
   /// With a locator, vertices of the boundary slide on its model.
-  Schedule(TetMesh& mesh, const SizeLimits& limits, geometry::PointLocator* locator = nullptr);
+  Schedule(TetMesh& mesh, const ChangeLimits& limits, geometry::PointLocator* locator = nullptr);
 
   /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
   void run(int sweeps);
@@ -60,7 +60,7 @@ private:
   bool worth_trying(LocalIndex t, Means means) const;
 
   TetMesh& _mesh;
-  const SizeLimits& _limits;
+  const ChangeLimits& _limits;
   EdgeRemoval _edge_removal;
   BoundaryFlip _boundary_flip;
   FaceRemoval _face_removal;

@@ -14,7 +14,7 @@ namespace aeroloom::improve {
 /// (boundary_change.hpp), and the vertex stays on the CAD.
 class Sliding {
 public:
-  Sliding(geometry::PointLocator& locator, const SizeLimits& limits)
+  Sliding(geometry::PointLocator& locator, const ChangeLimits& limits)
       : _locator(locator), _smoothing(limits) {}
 
   /// Moves a vertex inside a CAD face or curve where that lifts the worst quality around it noticeably; false

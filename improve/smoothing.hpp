@@ -1,7 +1,7 @@
 /// Moving one vertex so that the worst of the tetrahedra around it gets better.
 #pragma once
 
-#include "improve/size_limits.hpp"
+#include "improve/change_limits.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <array>
@@ -65,7 +65,7 @@ private:
 /// Smooths single vertices of a mesh.
 class Smoothing {
 public:
-  explicit Smoothing(const SizeLimits& limits) : _limits(limits) {}
+  explicit Smoothing(const ChangeLimits& limits) : _limits(limits) {}
 
   static constexpr double least_gain = 1e-3;  ///< of quality: a smaller gain does not count as one
 
@@ -82,7 +82,7 @@ public:
 private:
   double collect_cones(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star);
 
-  const SizeLimits& _limits;
+  const ChangeLimits& _limits;
   ConeOptimiser _cones;
 };
 

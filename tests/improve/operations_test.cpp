@@ -197,7 +197,7 @@ mesh::Piece make_octahedron(Vec3 inner) {
 TEST(Smoothing, CentresAVertexAndStopsThere) {
   mesh::Piece piece = make_octahedron({0.5, 0.3, 0.15});
   TetMesh mesh(piece, TetQuality(50));
-  const SizeLimits any;
+  const ChangeLimits any;
   Smoothing smoothing(any);
   std::vector<LocalIndex> star;
   ASSERT_TRUE(smoothing.smooth(mesh, 0, star));

@@ -32,7 +32,7 @@ double least_quality(const mesh::Piece& piece) {
 bool slide_first_vertex(mesh::Piece& piece, const Model& model) {
   geometry::PointLocator locator(model);
   TetMesh mesh(piece, measure);
-  const SizeLimits any;
+  const ChangeLimits any;
   Sliding sliding(locator, any);
   std::vector<LocalIndex> star;
   const bool moved = sliding.slide(mesh, 0, star);

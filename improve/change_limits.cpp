@@ -1,4 +1,6 @@
-#include "improve/size_limits.hpp"
+#include "improve/change_limits.hpp"
+
+#include "mesh/quality.hpp"
 
 #include <algorithm>
 
@@ -6,6 +8,12 @@ namespace aeroloom::improve {
 namespace {
 
 constexpr double least = 0.3, most = 3;  // of the size, the former also of the mean edge before
+
+constexpr double decent_ratio = 0.5;
+
+double ratio_of(const std::array<Vec3, 4>& p) {
+  return mesh::mean_ratio(p[0], p[1], p[2], p[3]);
+}
 
 /// Calls visit(a, b) for the edges of a tetrahedron; false as soon as it returns false.
 template <class Visit>
@@ -17,7 +25,7 @@ bool for_edges(const TetMesh& mesh, const Corners& corners, const Visit& visit) 
 
 }  // namespace
 
-void SizeLimits::Lengths::add(Vec3 a, Vec3 b) {
+void ChangeLimits::Lengths::add(Vec3 a, Vec3 b) {
   const double length = distance(a, b);
   shortest = std::min(shortest, length);
   longest = std::max(longest, length);
@@ -25,7 +33,7 @@ void SizeLimits::Lengths::add(Vec3 a, Vec3 b) {
   ++count;
 }
 
-bool SizeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
+bool ChangeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
   const double length = distance(a, b);
   if (length >= before.shortest && length <= before.longest) return true;
   const double size = (*_field)(0.5 * (a + b));
@@ -33,7 +41,7 @@ bool SizeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
                                  : length >= least * std::min(size, before.sum / before.count);
 }
 
-bool SizeLimits::allow(const TetMesh& mesh, const Cavity& cavity) const {
+bool ChangeLimits::allow_sizes(const TetMesh& mesh, const Cavity& cavity) const {
   if (!_field) return true;
   Lengths before;
   for (const LocalIndex t : cavity.old_tets) {
@@ -47,8 +55,8 @@ bool SizeLimits::allow(const TetMesh& mesh, const Cavity& cavity) const {
   });
 }
 
-bool SizeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
-                            Vec3 origin) const {
+bool ChangeLimits::allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                                     Vec3 origin) const {
   if (!_field) return true;
   const Vec3 p = mesh.point(vertex);
   Lengths before;
@@ -64,6 +72,28 @@ bool SizeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<co
     return true;
   });
   return for_neighbours([&](Vec3 other) { return allow_edge(before, p, other); });
+}
+
+bool ChangeLimits::allow(const TetMesh& mesh, const Cavity& cavity) const {
+  if (!allow_sizes(mesh, cavity)) return false;
+  double poorest = decent_ratio;
+  for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));
+  return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
+    return ratio_of({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])}) >= poorest;
+  });
+}
+
+bool ChangeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                              Vec3 origin) const {
+  if (!allow_moved_sizes(mesh, vertex, star, origin)) return false;
+  double before = decent_ratio, after = decent_ratio;
+  for (const LocalIndex t : star) {
+    std::array<Vec3, 4> p = mesh.points(t);
+    after = std::min(after, ratio_of(p));
+    p[mesh.local_vertex(t, vertex)] = origin;
+    before = std::min(before, ratio_of(p));
+  }
+  return after >= before;
 }
 
 }  // namespace aeroloom::improve

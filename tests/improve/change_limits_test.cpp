@@ -1,4 +1,4 @@
-#include "improve/size_limits.hpp"
+#include "improve/change_limits.hpp"
 
 #include "tests/improve/pieces.hpp"
 
@@ -23,7 +23,7 @@ mesh::Piece make_example(Vec3 other) {
   return examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, other}, {0, 1, 2, 3});
 }
 
-bool allows(const SizeLimits& limits, Vec3 other) {
+bool allows(const ChangeLimits& limits, Vec3 other) {
   mesh::Piece piece = make_example(other);
   const TetMesh mesh(piece, measure);
   Cavity cavity;
@@ -32,9 +32,9 @@ bool allows(const SizeLimits& limits, Vec3 other) {
   return limits.allow(mesh, cavity);
 }
 
-TEST(SizeLimits, KeepNewEdgesToTheField) {
+TEST(ChangeLimits, KeepNewEdgesToTheField) {
   const sizing::SizeField one = uniform(1);
-  const SizeLimits limits(&one);
+  const ChangeLimits limits(&one);
   EXPECT_TRUE(allows(limits, {0, 0, 1.2})) << "no longer than what was there";
   EXPECT_TRUE(allows(limits, {0, 0, 2.5})) << "longer, within three sizes";
   EXPECT_FALSE(allows(limits, {0, 0, 4})) << "four sizes long";
@@ -42,21 +42,27 @@ TEST(SizeLimits, KeepNewEdgesToTheField) {
   EXPECT_FALSE(allows(limits, {0, 0, 0.2})) << "a fifth of a size";
 }
 
-TEST(SizeLimits, KeepToShortEdgesWhereTheCadHasThem) {
+TEST(ChangeLimits, KeepToShortEdgesWhereTheCadHasThem) {
   const sizing::SizeField ten = uniform(10);
-  const SizeLimits limits(&ten);
+  const ChangeLimits limits(&ten);
   EXPECT_TRUE(allows(limits, {0, 0, 0.5})) << "short beside the size, not beside the other edges";
   EXPECT_FALSE(allows(limits, {0, 0, 0.2}));
 }
 
-TEST(SizeLimits, AllowAllWithoutAField) {
-  EXPECT_TRUE(allows(SizeLimits(), {0, 0, 1000}));
-  EXPECT_TRUE(allows(SizeLimits(), {0, 0, 1e-6}));
+TEST(ChangeLimits, AllowAllSizesWithoutAField) {
+  const sizing::SizeField small = uniform(0.1);
+  EXPECT_TRUE(allows(ChangeLimits(), {0, 0, 1.8}));
+  EXPECT_FALSE(allows(ChangeLimits(&small), {0, 0, 1.8}));
 }
 
-TEST(SizeLimits, LookAtMovedVertices) {
+TEST(ChangeLimits, KeepShapesDecent) {
+  EXPECT_FALSE(allows(ChangeLimits(), {0, 0, 1000}));
+  EXPECT_FALSE(allows(ChangeLimits(), {0, 0, 1e-6}));
+}
+
+TEST(ChangeLimits, LookAtMovedVertices) {
   const sizing::SizeField one = uniform(1);
-  const SizeLimits limits(&one);
+  const ChangeLimits limits(&one);
   mesh::Piece piece = make_example({0, 0, 0.5});
   TetMesh mesh(piece, measure);
   const std::vector<LocalIndex> star{0};

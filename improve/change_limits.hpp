@@ -1,4 +1,4 @@
-/// Edge lengths stay within the sizes asked for.
+/// What a change must keep to beside the quality that it is made for: sizes and decent shapes.
 #pragma once
 
 #include "improve/tet_mesh.hpp"
@@ -12,9 +12,10 @@ namespace aeroloom::improve {
 /// A change may make an edge longer than all that were there before it only up to 3 times the size in its
 /// middle, and shorter than all only down to 0.3 times that size or, where edges are shorter because the CAD
 /// is, 0.3 times their mean. Where no size field is known, every length will do.
-class SizeLimits {
+/// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was.
+class ChangeLimits {
 public:
-  explicit SizeLimits(const sizing::SizeField* field = nullptr) : _field(field) {}
+  explicit ChangeLimits(const sizing::SizeField* field = nullptr) : _field(field) {}
 
   /// Whether the new tetrahedra of a cavity keep to that.
   bool allow(const TetMesh& mesh, const Cavity& cavity) const;
@@ -23,6 +24,9 @@ public:
                   Vec3 origin) const;
 
 private:
+  bool allow_sizes(const TetMesh& mesh, const Cavity& cavity) const;
+  bool allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                         Vec3 origin) const;
   struct Lengths {
     double shortest = std::numeric_limits<double>::max(), longest = 0;
     double sum = 0, count = 0;
