@@ -1,69 +1,77 @@
-/// The improver alone: a box with a spherical hole under uniform and graded sizes.
-/// usage: improve_benchmark [BALL_PARTS] [TARGET_ANGLE]; the ball's surface has 20 BALL_PARTS^2 triangles.
+/// The improver alone, piece by piece on one rank: improve_benchmark CASE [KEY=VALUE ...] prints one RESULT
+/// line. The boundary may change, but does not slide on the CAD.
+#include "benchmarks/case_surface.hpp"
 #include "improve/improver.hpp"
 #include "mesh/quality.hpp"
 #include "parallel/environment.hpp"
-#include "parallel/timers.hpp"
-#include "tests/volume/fields.hpp"
-#include "tests/volume/surfaces.hpp"
+#include "parallel/log.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <string>
+#include <exception>
 
 namespace {
 
-using aeroloom::mesh::LocalIndex;
-using aeroloom::mesh::Piece;
+using namespace aeroloom;
+using mesh::LocalIndex;
+using parallel::Communicator;
 
-/// The angles of a piece, degrees.
+/// The angles of a mesh, degrees.
 struct Angles {
   double smallest = 180, largest = 0;
   std::array<std::int64_t, 4> below{};  ///< tetrahedra whose smallest angle is below 5, 10, 15, 20
+  std::int64_t tetrahedra = 0;
 };
 
-Angles measure_angles(const Piece& piece) {
+Angles measure_angles(const mesh::DistributedMesh& filled) {
   Angles angles;
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const LocalIndex* c = piece.cell(t);
-    const auto range = aeroloom::mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]),
-                                                      piece.point(c[3]));
-    angles.smallest = std::min(angles.smallest, range.smallest);
-    angles.largest = std::max(angles.largest, range.largest);
-    for (int i = 0; i < 4; ++i) angles.below[i] += range.smallest < 5 * (i + 1);
+  for (const mesh::Piece& piece : filled.pieces) {
+    angles.tetrahedra += piece.cell_count();
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const LocalIndex* c = piece.cell(t);
+      const auto range =
+          mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3]));
+      angles.smallest = std::min(angles.smallest, range.smallest);
+      angles.largest = std::max(angles.largest, range.largest);
+      for (int i = 0; i < 4; ++i) angles.below[i] += range.smallest < 5 * (i + 1);
+    }
   }
   return angles;
 }
 
-Piece fill(const aeroloom::volume::ClosedSurface& surface, const aeroloom::sizing::SizeField& field) {
-  aeroloom::volume::FilledVolume filled = aeroloom::volume::fill_volume(surface, field, {});
-  Piece piece;
-  piece.coordinates = std::move(filled.coordinates);
-  piece.cells = std::move(filled.tetrahedra);
-  piece.vertex_dimension.assign(piece.vertex_count(), 3);
-  std::fill_n(piece.vertex_dimension.begin(), surface.points.size(), 2);
-  piece.vertex_entity.assign(piece.vertex_count(), 0);
-  for (const auto& triangle : surface.triangles) {
-    piece.boundary.insert(piece.boundary.end(), triangle.begin(), triangle.end());
-  }
-  return piece;
+mesh::DistributedMesh fill(const Communicator& communicator, const benchmarks::CaseSurface& from,
+                           const volume::VolumeOptions& options) {
+  const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, options};
+  parallel::StageClock clock;
+  volume::VolumeReport report;
+  return volume::fill_zones(communicator, task, volume::decompose(communicator, task, clock), clock, report);
 }
 
-void run(const std::string& name, Piece piece, const aeroloom::improve::ImproveOptions& options) {
-  const Angles before = measure_angles(piece);
-  const LocalIndex tets = piece.cell_count();
-  const double start = aeroloom::parallel::cpu_seconds();
-  const auto report = aeroloom::improve::improve_piece(piece, options);
-  const double seconds = aeroloom::parallel::cpu_seconds() - start;
-  const Angles after = measure_angles(piece);
+void run(const Communicator& communicator, const pipeline::Case& input) {
+  const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
+  mesh::DistributedMesh filled = fill(communicator, from, input.volume);
+  const Angles before = measure_angles(filled);
+  improve::ImproveReport total;
+  const double start = parallel::cpu_seconds();
+  for (mesh::Piece& piece : filled.pieces) {
+    const improve::ImproveReport report =
+        improve::improve_piece(piece, input.improve, {nullptr, &from.surface.field});
+    total.bad_before += report.bad_before;
+    total.bad_after += report.bad_after;
+    total.smoothed += report.smoothed;
+    total.swaps += report.swaps;
+  }
+  const double seconds = parallel::cpu_seconds() - start;
+  const Angles after = measure_angles(filled);
   std::printf(
-      "RESULT benchmark=improve case=%s target_deg=%g tets_before=%d tets_after=%d cpu_seconds=%.3f "
+      "RESULT pieces=%zu target_deg=%g tets_before=%lld tets_after=%lld cpu_seconds=%.3f "
       "seconds_per_million=%.3f bad_before=%lld bad_after=%lld smoothed=%lld swaps=%lld",
-      name.c_str(), options.target_angle, tets, piece.cell_count(), seconds, 1e6 * seconds / tets,
-      static_cast<long long>(report.bad_before), static_cast<long long>(report.bad_after),
-      static_cast<long long>(report.smoothed), static_cast<long long>(report.swaps));
+      filled.pieces.size(), input.improve.target_angle, static_cast<long long>(before.tetrahedra),
+      static_cast<long long>(after.tetrahedra), seconds,
+      1e6 * seconds / static_cast<double>(before.tetrahedra), static_cast<long long>(total.bad_before),
+      static_cast<long long>(total.bad_after), static_cast<long long>(total.smoothed),
+      static_cast<long long>(total.swaps));
   for (const auto& [when, angles] : {std::pair("before", before), std::pair("after", after)}) {
     std::printf(" min_angle_%s=%.3f max_angle_%s=%.3f", when, angles.smallest, when, angles.largest);
     for (int i = 0; i < 4; ++i) {
@@ -76,20 +84,20 @@ void run(const std::string& name, Piece piece, const aeroloom::improve::ImproveO
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace volume = aeroloom::volume;
   volume::register_volume_tasks();
-  const aeroloom::parallel::Environment environment(argc, argv);
-  const int ball_parts = argc > 1 ? std::atoi(argv[1]) : 14;
-  aeroloom::improve::ImproveOptions options;
-  if (argc > 2) options.target_angle = std::atof(argv[2]);
-  const double size = 1.1 / ball_parts;
-  run("uniform",
-      fill(volume::surfaces::cube_with_ball(static_cast<int>(4 / size), ball_parts),
-           volume::fields::uniform(size)),
-      options);
-  run("graded",
-      fill(volume::surfaces::cube_with_ball(static_cast<int>(0.5 / size), ball_parts),
-           volume::fields::around_unit_sphere(size, 8 * size)),
-      options);
+  pipeline::register_geometry_tasks();
+  const parallel::Environment environment(argc, argv);
+  const Communicator world = Communicator::world();
+  if (argc < 2 || world.size() > 1) {
+    if (world.is_root()) std::fprintf(stderr, "usage: improve_benchmark CASE [KEY=VALUE ...], on one rank\n");
+    return 2;
+  }
+  try {
+    parallel::configure_log(world, parallel::LogLevel::quiet);
+    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc}));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
   return 0;
 }

@@ -32,8 +32,9 @@ def main():
         settings = arguments[arguments.index("--") + 1:]
         arguments = arguments[:arguments.index("--")]
     program, case = arguments[:2]
-    print("| ranks | pieces | tetrahedra | CPU s | volume: busiest CPU s | busiest / mean | serial | memory MiB | of one rank's | hash |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| ranks | zones | points known / there are | tetrahedra | CPU s | volume: busiest CPU s | busiest / mean | serial "
+          "| memory MiB | of one rank's | hash |")
+    print("|---" * 11 + "|")
     alone = None
     for ranks in [int(r) for r in arguments[2:]] or [1, 2, 3, 5, 8]:
         with tempfile.TemporaryDirectory() as folder:
@@ -44,10 +45,10 @@ def main():
         serial = sum(s["serial_seconds"] for s in both)
         memory = max(s["peak_rss_bytes_max"] for s in both) / 2**20
         alone = alone or memory
-        volume = stages["volume"]
-        print(f"| {ranks} | {volume['pieces']} | {report['mesh']['tetrahedra']:,} | {cpu:.1f} | {volume['cpu_seconds_max']:.2f} "
-              f"| {volume['cpu_seconds_max'] / volume['cpu_seconds_mean']:.3f} | {100 * serial / cpu:.1f} % | {memory:.0f} "
-              f"| {memory / alone:.2f} | {report['mesh']['hash'][:8]} |", flush=True)
+        volume, zones = stages["volume"], report["volume"]
+        print(f"| {ranks} | {zones['zones']} | {zones['halo']:.2f} | {report['mesh']['tetrahedra']:,} | {cpu:.1f} "
+              f"| {volume['cpu_seconds_max']:.2f} | {volume['cpu_seconds_max'] / volume['cpu_seconds_mean']:.3f} "
+              f"| {100 * serial / cpu:.1f} % | {memory:.0f} | {memory / alone:.2f} | {report['mesh']['hash'][:8]} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,80 +1,75 @@
-/// Fills the box [-2,2]^3 less the unit ball: volume_benchmark [uniform|graded] [tetrahedra].
+/// The volume stage alone: mpirun -n N volume_benchmark CASE [KEY=VALUE ...] prints one RESULT line.
+///
+/// CPU figures are those of the stage clock: around the tasks and in the contained children, without waiting.
+#include "benchmarks/case_surface.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
 #include "parallel/environment.hpp"
-#include "parallel/timers.hpp"
-#include "tests/volume/fields.hpp"
-#include "tests/volume/surfaces.hpp"
+#include "parallel/log.hpp"
 #include "volume/volume_mesher.hpp"
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <string>
+#include <exception>
 
 namespace {
 
 using namespace aeroloom;
+using parallel::Communicator;
 
-struct Setup {
-  double ball_size = 0, box_size = 0;
-};
-
-/// Sizes that give about the count asked for: 8.5 tetrahedra per cube of the size.
-Setup choose_sizes(bool graded, double tetrahedra) {
-  if (!graded) {
-    const double size = std::cbrt(8.5 * 60 / tetrahedra);
-    return {size, size};
-  }
-  const double size = 0.03 * std::sqrt(330e3 / tetrahedra);  // most of it lies around the ball
-  return {size, 0.28};
-}
-
-struct Quality {
-  double mean_ratio = 0, min_dihedral = 180;
-};
-
-Quality measure(const volume::FilledVolume& filled) {
-  Quality quality;
-  const auto point = [&](mesh::LocalIndex v) {
-    const double* p = filled.coordinates.data() + 3 * static_cast<std::size_t>(v);
-    return geometry::Vec3{p[0], p[1], p[2]};
-  };
-  const auto& t = filled.tetrahedra;
-  for (std::size_t i = 0; i < t.size(); i += 4) {
-    const auto a = point(t[i]), b = point(t[i + 1]), c = point(t[i + 2]), d = point(t[i + 3]);
-    quality.mean_ratio += mesh::mean_ratio(a, b, c, d);
-    quality.min_dihedral = std::min(quality.min_dihedral, mesh::dihedral_range(a, b, c, d).smallest);
-  }
-  quality.mean_ratio /= static_cast<double>(t.size()) / 4;
-  return quality;
+void run(const Communicator& communicator, const pipeline::Case& input) {
+  const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
+  const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, input.volume};
+  parallel::StageClock clock;
+  clock.begin("decompose");
+  volume::Decomposition decomposition = volume::decompose(communicator, task, clock);
+  clock.end();
+  const volume::DecompositionReport parts = decomposition.report();
+  volume::VolumeReport report;
+  clock.begin("volume");
+  const mesh::DistributedMesh filled =
+      volume::fill_zones(communicator, task, std::move(decomposition), clock, report);
+  clock.end();
+  const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
+  const mesh::Numbering numbering = mesh::number_mesh(communicator, filled);
+  const bool valid = mesh::check_volume_mesh(communicator, filled, numbering, &from.surface.mesh).valid();
+  const auto quality = mesh::summarise_quality(communicator, filled, numbering);
+  const std::string hash = mesh::hash_mesh(communicator, filled, numbering);
+  if (!communicator.is_root()) return;
+  const parallel::StageSummary &points = stages[0], &filling = stages[1];
+  const double cpu = (points.cpu_seconds_mean + filling.cpu_seconds_mean) * communicator.size();
+  const auto tetrahedra = static_cast<double>(numbering.cell_count);
+  std::printf(
+      "RESULT ranks=%d zones=%d blocks=%lld lattice_points=%lld halo=%.3f imbalance=%.3f tets=%.0f valid=%d "
+      "decompose_wall=%.3f volume_wall=%.3f decompose_cpu=%.3f volume_cpu=%.3f volume_cpu_max=%.3f "
+      "serial_seconds=%.3f tets_per_cpu_second=%.0f peak_bytes_per_tet=%.0f rounds=%d retries=%zu "
+      "disagreements=%zu steiner=%lld mean_ratio=%.4f min_dihedral=%.3f hash=%s\n",
+      communicator.size(), parts.zones, static_cast<long long>(parts.blocks),
+      static_cast<long long>(parts.lattice_points), parts.halo, parts.imbalance, tetrahedra, valid,
+      points.wall_seconds, filling.wall_seconds, points.cpu_seconds_mean * communicator.size(),
+      filling.cpu_seconds_mean * communicator.size(), filling.cpu_seconds_max,
+      points.serial_seconds + filling.serial_seconds, tetrahedra / cpu,
+      static_cast<double>(filling.peak_resident_bytes_sum) / tetrahedra, report.rounds, report.retries.size(),
+      report.disagreements.size(), static_cast<long long>(report.steiner_points), quality.mean_ratio.mean,
+      quality.min_dihedral.minimum, hash.c_str());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   volume::register_volume_tasks();
-  parallel::Environment environment(argc, argv);
-  const bool graded = argc > 1 && std::string(argv[1]) == "graded";
-  const Setup setup = choose_sizes(graded, argc > 2 ? std::atof(argv[2]) : 1e6);
-  const auto surface = volume::surfaces::cube_with_ball(static_cast<int>(std::lround(4 / setup.box_size)),
-                                                        static_cast<int>(std::lround(1.1 / setup.ball_size)));
-  const auto field = graded ? volume::fields::around_unit_sphere(setup.ball_size, setup.box_size)
-                            : volume::fields::uniform(setup.box_size);
-  const double lattice_start = parallel::cpu_seconds();
-  const auto lattice = volume::lattice_points(surface, field, {});
-  const double lattice_seconds = parallel::cpu_seconds() - lattice_start;
-  const double wall_start = parallel::wall_seconds();
-  const auto filled = volume::fill_volume(surface, field, {});
-  const double wall = parallel::wall_seconds() - wall_start;
-  const double tetrahedra = static_cast<double>(filled.tetrahedra.size()) / 4;
-  const Quality quality = measure(filled);
-  std::printf(
-      "RESULT sizes=%s tets=%.0f points=%zu triangles=%zu seconds=%.3f wall_seconds=%.3f "
-      "tets_per_second=%.0f "
-      "mean_ratio=%.4f min_dihedral=%.3f lattice_seconds=%.3f lattice_points=%zu child_bytes_per_tet=%.0f "
-      "attempts=%d steiner=%lld\n",
-      graded ? "graded" : "uniform", tetrahedra, filled.coordinates.size() / 3, surface.triangles.size(),
-      filled.cpu_seconds, wall, tetrahedra / filled.cpu_seconds, quality.mean_ratio, quality.min_dihedral,
-      lattice_seconds, lattice.size(), static_cast<double>(filled.child_peak_bytes) / tetrahedra,
-      filled.attempts, static_cast<long long>(filled.steiner_points));
+  pipeline::register_geometry_tasks();
+  const parallel::Environment environment(argc, argv);
+  const Communicator world = Communicator::world();
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: volume_benchmark CASE [KEY=VALUE ...]\n");
+    return 2;
+  }
+  try {
+    parallel::configure_log(world, parallel::LogLevel::quiet);
+    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc}));
+  } catch (const std::exception& error) {
+    if (world.is_root()) std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
 }

@@ -357,13 +357,9 @@ void update_pieces(DistributedMesh& mesh, const Contribution& mine, const std::v
 
 }  // namespace
 
-bool is_placed_by_refilling(SharedToken token) {
-  return token >> 62 == 3;
-}
-
 bool is_placed_by_last_round(const DistributedMesh& mesh, SharedToken token) {
   constexpr SharedToken round_bits = 0xff;
-  return is_placed_by_refilling(token) &&
+  return (token & late_token) != 0 && (token & new_token) != 0 &&
          (token >> 54 & round_bits) == static_cast<SharedToken>(mesh.cavity_rounds - 1);
 }
 

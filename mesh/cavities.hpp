@@ -71,9 +71,7 @@ struct CavityRound {
   std::int64_t cavities = 0, refilled = 0;
 };
 
-/// Whether a vertex with this token was placed by a refilling.
-bool is_placed_by_refilling(SharedToken token);
-/// Whether it was placed by the last round on the mesh.
+/// Whether a vertex with this token was placed by the last round on the mesh.
 bool is_placed_by_last_round(const DistributedMesh& mesh, SharedToken token);
 
 /// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour

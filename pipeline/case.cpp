@@ -112,18 +112,21 @@ void declare_stages(KeyTable& root, Case& result) {
       {{"faces", SurfaceDecomposition::faces}, {"pieces", SurfaceDecomposition::pieces}});
   surface_keys.number("cut_angle", result.surface.cut_angle, Range::between(0, 60, "degrees"));
   KeyTable& volume = root.section("volume");
-  volume.integer("piece_tets", result.piece_tets, piece_size);
-  volume.flag("erase_interfaces", result.erase_interfaces);
-  volume.number("interface_angle", result.interface_angle, Range::between(0, 60, "degrees"));
+  volume.integer("piece_tets", result.volume.piece_tets, piece_size);
   volume.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"));
-  volume.number("perturbation", result.volume.perturbation, Range::between(0, 0.25, "local sizes"));
+  volume.number("perturbation", result.volume.perturbation,
+                Range::between(0, 0.05, "mean edges of the lattice"));
+  volume.number("halo", result.volume.halo, Range::between(0.5, 5, "largest sizes nearby"));
   volume.choice<VolumeOptions::Sabotage>("inject", result.volume.sabotage,
                                          {{"none", VolumeOptions::Sabotage::none},
                                           {"throws", VolumeOptions::Sabotage::throws},
                                           {"aborts", VolumeOptions::Sabotage::aborts},
                                           {"hangs", VolumeOptions::Sabotage::hangs},
                                           {"exhausts_memory", VolumeOptions::Sabotage::exhausts_memory}});
-  volume.integer("inject_piece", result.sabotaged_piece, Range::between(-1, 1e9));
+  volume.integer("inject_piece", result.volume.sabotaged_zone, Range::between(-1, 1e9));
+  const std::string no_interfaces = "volume pieces have no interfaces";
+  volume.retired("erase_interfaces", no_interfaces);
+  volume.retired("interface_angle", no_interfaces);
   KeyTable& improve = root.section("improve");
   improve.flag("enabled", result.improve.enabled);
   improve.number("target_angle", result.improve.target_angle, Range::above(0, 50, "degrees"));

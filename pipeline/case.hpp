@@ -42,10 +42,6 @@ struct Case {
   SizingRequest sizing;
   surface::SurfaceOptions surface;
   volume::VolumeOptions volume;
-  std::int64_t piece_tets = 250'000;  ///< wanted size of a volume piece
-  std::int64_t sabotaged_piece = -1;  ///< the one that volume.sabotage strikes until it is merged; -1: all
-  double interface_angle = 45;        ///< degrees between interfaces, and to the boundary, wanted; 0: any
-  bool erase_interfaces = true;       ///< refill the layer around them with the lattice continued
   improve::ImproveOptions improve;
   QualityGate gate;
   OutputOptions output;

@@ -14,7 +14,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   Case fixed = input;
   fixed.improve.boundary_may_change = false;
   mesh::DistributedMesh volume = run_stage(record, "input", ExitCode::files, [&] {
-    return load_foreign_mesh(communicator, file, input.piece_tets);
+    return load_foreign_mesh(communicator, file, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 
 Json geometry_json(const RunRecord& record) {
   Json json;
@@ -164,56 +164,27 @@ Json regions_json(const RunRecord& record) {
   return json;
 }
 
-Json decompose_json(const RunRecord& record) {
-  const VolumePlanReport& plan = record.plan;
-  return {{"pieces", record.parts},
-          {"cells", plan.cells},
-          {"coarse_triangles", plan.coarse_triangles},
-          {"background_tetrahedra", plan.background_tets},
-          {"clusters", plan.clusters},
-          {"largest_cluster", plan.largest_cluster},
-          {"unresolved_wedges", plan.unresolved},
-          {"moved_clusters", plan.moves},
-          {"pinches", plan.pinches},
-          {"rounds", plan.rounds},
-          {"imbalance", plan.imbalance},
-          {"interface_triangles", record.interface_triangles},
-          {"moved_vertices", record.moved_vertices}};
-}
-
-Json interfaces_json(const InterfaceAngles& angles) {
-  Json sharpest = Json::array();
-  for (const SharpInterface& s : angles.sharpest) {
-    sharpest.push_back({{"point", {s.point.x, s.point.y, s.point.z}},
-                        {"degrees", s.angle},
-                        {"degrees_of_all_pieces", s.whole_angle}});
-  }
-  return {{"edges", angles.edges},
-          {"smallest_deg", angles.edges > 0 ? Json(angles.smallest) : Json()},
-          {"counts_by_10_deg", angles.histogram},
-          {"below_35_deg", angles.below},
-          {"forced", angles.forced},
-          {"sharpest", sharpest}};
-}
-
 Json volume_json(const RunRecord& record) {
-  Json merges = Json::array();
-  for (const Merge& merge : record.volume.merges)
-    merges.push_back({{"piece", merge.part}, {"with", merge.with}, {"reason", merge.reason}});
-  const ErasureReport& erasure = record.erasure;
-  return {{"steiner_points", record.volume.steiner_points},
-          {"attempts", record.volume.attempts},
-          {"merges", merges},
+  const volume::DecompositionReport& decomposition = record.decomposition;
+  Json retries = Json::array(), disagreements = Json::array();
+  for (const volume::Retry& retry : record.volume.retries)
+    retries.push_back({{"zone", retry.zone}, {"change", retry.change}, {"reason", retry.reason}});
+  for (const volume::Disagreement& disagreement : record.volume.disagreements) {
+    disagreements.push_back({{"place", to_json(disagreement.place)},
+                             {"zone", disagreement.zone},
+                             {"faces", disagreement.faces},
+                             {"round", disagreement.round}});
+  }
+  return {{"zones", decomposition.zones},
+          {"blocks", decomposition.blocks},
+          {"lattice_points", decomposition.lattice_points},
+          {"halo", decomposition.halo},
+          {"imbalance", decomposition.imbalance},
+          {"rounds", record.volume.rounds},
+          {"steiner_points", record.volume.steiner_points},
+          {"retries", retries},
+          {"disagreements", disagreements},
           {"load_error_90", record.volume.load_error_90},
-          {"interface_angles", interfaces_json(record.volume.angles)},
-          {"erasure",
-           {{"rounds", erasure.rounds},
-            {"cavities", erasure.cavities},
-            {"refilled", erasure.refilled},
-            {"vertices_before", erasure.vertices_before},
-            {"vertices_left", erasure.vertices_left},
-            {"mean_ratio_refilled", erasure.mean_ratio_refilled},
-            {"mean_ratio_elsewhere", erasure.mean_ratio_elsewhere}}},
           {"good_edges", record.conformity.good_edges},
           {"mean_edge", record.conformity.mean_edge},
           {"bytes_per_tetrahedron", record.conformity.bytes_per_cell}};
@@ -282,7 +253,6 @@ std::string report_json(const Case& input, const RunRecord& record,
   json["geometry"] = geometry_json(record);
   json["sizing"] = sizing_json(record);
   json["surface"] = surface_json(record);
-  json["decompose"] = decompose_json(record);
   json["volume"] = volume_json(record);
   add_finished_mesh(json, record, stages);
   return json.dump(2) + "\n";

@@ -10,9 +10,8 @@
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
-#include "pipeline/widen_interfaces.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -161,38 +160,21 @@ FinishedSurface build_surface(const Communicator& communicator, const geometry::
   return build_surface(communicator, sized.model, sized.field, input, record);
 }
 
-/// The parts of the volume and the interfaces between them.
-struct Decomposition {
-  VolumePlan plan;
-  InterfaceMesh interfaces;
-};
+volume::VolumeInput volume_input(const FinishedSurface& surface, const Case& input) {
+  return {surface.mesh, surface.numbering, surface.field, input.volume};
+}
 
-/// Angles between fine triangles are repaired up to this, degrees: a margin to what is asked for in the end.
-constexpr double widest_repair = 40;
-
-Decomposition decompose(const Communicator& communicator, const FinishedSurface& surface, const Case& input,
-                        RunRecord& record) {
-  VolumePlanOptions options;
-  options.piece_tets = static_cast<double>(input.piece_tets);
-  options.predicted_tets = record.predicted.tetrahedra;
-  options.smallest_angle = input.interface_angle;
-  Decomposition result;
-  result.plan =
-      plan_volume(communicator, surface.mesh, surface.numbering, surface.field, options, record.clock);
-  result.interfaces =
-      mesh_interfaces(communicator, result.plan, surface.numbering.vertex_count, surface.field, record.clock);
-  record.moved_vertices =
-      widen_interfaces(communicator, surface.mesh, surface.numbering, result.plan,
-                       std::min(input.interface_angle, widest_repair), result.interfaces, record.clock);
-  record.plan = result.plan.report;
-  record.parts = result.plan.parts;
-  record.interface_triangles = result.interfaces.triangle_count;
-  parallel::log_info(
-      fmt::format("decompose: {} piece(s) from {} background tetrahedra in {} clusters, "
-                  "heaviest {:.2f} of the mean; {} triangles on interfaces",
-                  record.parts, record.plan.background_tets, record.plan.clusters, record.plan.imbalance,
-                  record.interface_triangles));
-  return result;
+volume::Decomposition decompose(const Communicator& communicator, const FinishedSurface& surface,
+                                const Case& input, RunRecord& record) {
+  volume::Decomposition decomposition =
+      volume::decompose(communicator, volume_input(surface, input), record.clock);
+  record.decomposition = decomposition.report();
+  const volume::DecompositionReport& report = record.decomposition;
+  parallel::log_info(fmt::format(
+      "decompose: {} zone(s) of {} blocks, {} lattice points; zones know {:.2f} times the points there are, "
+      "heaviest {:.2f} of the mean",
+      report.zones, report.blocks, report.lattice_points, report.halo, report.imbalance));
+  return decomposition;
 }
 
 /// The surface follows a volume whose boundary was improved.
@@ -207,36 +189,40 @@ void adopt_boundary(const Communicator& communicator, const geometry::Model& mod
   record.patches = table_of_patches(communicator, model, surface.mesh);
 }
 
-/// Fills the parts and erases the interfaces between them.
-mesh::DistributedMesh build_volume(const Communicator& communicator, const geometry::Model& model,
-                                   const FinishedSurface& surface, Decomposition&& decomposition,
-                                   const Case& input, RunRecord& record) {
-  const BoundaryMeshes boundary{surface.mesh, surface.numbering, decomposition.interfaces};
-  mesh::DistributedMesh filled =
-      mesh_volume(communicator,
-                  {model, boundary, decomposition.plan, surface.field, input.volume,
-                   input.output.directory + "/offending_triangles.vtp", input.sabotaged_piece},
-                  record.clock, record.volume);
-  decomposition = {};
-  if (record.interface_triangles > 0) {
-    const InterfaceAngles& angles = record.volume.angles;
-    parallel::log_info(fmt::format(
-        "volume: interfaces meet at {:.1f} degrees at least, {} of {} edges below {:g}, {} of them forced",
-        angles.smallest, angles.below, angles.edges, InterfaceAngles::threshold, angles.forced));
+/// Leaves the triangles at fault in a file and throws the failure with the file's name. Collective.
+[[noreturn]] void point_at_offenders(const Communicator& communicator, const volume::VolumeFailure& failure,
+                                     const std::string& file) {
+  std::string outcome = "the triangles are in " + file;
+  try {
+    parallel::agree(communicator, [&] {
+      if (communicator.is_root()) io::write_triangles(failure.points(), failure.triangles(), file);
+    });
+  } catch (const parallel::CollectiveError& error) {
+    outcome = fmt::format("the triangles cannot be written: {}", error.what());
   }
-  if (record.interface_triangles > 0 && input.erase_interfaces) {
-    record.erasure =
-        erase_interfaces(communicator, filled, static_cast<mesh::SharedToken>(surface.numbering.vertex_count),
-                         surface.field, input.volume, record.clock);
-    parallel::log_info(fmt::format(
-        "volume: {} of {} vertices of interfaces erased in {} rounds, {} of {} cavities refilled",
-        record.erasure.vertices_before - record.erasure.vertices_left, record.erasure.vertices_before,
-        record.erasure.rounds, record.erasure.refilled, record.erasure.cavities));
+  throw parallel::CollectiveError(failure.kind(), fmt::format("{}; {}", failure.what(), outcome));
+}
+
+mesh::DistributedMesh fill_volume(const Communicator& communicator, const FinishedSurface& surface,
+                                  volume::Decomposition decomposition, const Case& input, RunRecord& record) {
+  try {
+    return volume::fill_zones(communicator, volume_input(surface, input), std::move(decomposition),
+                              record.clock, record.volume);
+  } catch (const volume::VolumeFailure& failure) {
+    point_at_offenders(communicator, failure, input.output.directory + "/offending_triangles.vtp");
   }
+}
+
+mesh::DistributedMesh build_volume(const Communicator& communicator, const FinishedSurface& surface,
+                                   volume::Decomposition decomposition, const Case& input,
+                                   RunRecord& record) {
+  mesh::DistributedMesh filled = fill_volume(communicator, surface, std::move(decomposition), input, record);
   inspect_volume(communicator, filled, &surface.mesh, record);
   record.conformity = measure_conformity(communicator, filled, surface.field);
-  parallel::log_info(
-      fmt::format("volume: {} tetrahedra, {} vertices", record.counts.cells, record.counts.vertices));
+  parallel::log_info(fmt::format(
+      "volume: {} tetrahedra, {} vertices; {} round(s), {} retries, {} places where zones disagreed",
+      record.counts.cells, record.counts.vertices, record.volume.rounds, record.volume.retries.size(),
+      record.volume.disagreements.size()));
   return filled;
 }
 
@@ -275,13 +261,11 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface(communicator, loaded, input, sized, record);
   });
-  std::optional<Decomposition> decomposition = run_stage(record, "decompose", ExitCode::resources, [&] {
-    return std::optional(decompose(communicator, surface, input, record));
-  });
+  volume::Decomposition decomposition = run_stage(
+      record, "decompose", ExitCode::volume, [&] { return decompose(communicator, surface, input, record); });
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
-    return build_volume(communicator, sized.model, surface, std::move(*decomposition), input, record);
+    return build_volume(communicator, surface, std::move(decomposition), input, record);
   });
-  decomposition.reset();
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
     geometry::PointLocator locator(sized.model);
     improve_volume(communicator, input, {&locator, &surface.field}, volume, record);

@@ -9,12 +9,11 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "pipeline/case.hpp"
-#include "pipeline/erase_interfaces.hpp"
 #include "pipeline/exit_code.hpp"
-#include "pipeline/mesh_volume.hpp"
 #include "pipeline/size_conformity.hpp"
 #include "sizing/size_field.hpp"
 #include "surface/surface_mesher.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <optional>
 #include <string>
@@ -52,12 +51,8 @@ struct RunRecord {
   sizing::PredictedCounts predicted;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
-  VolumePlanReport plan;
-  std::int32_t parts = 0;                ///< of the volume, before any were merged
-  std::int64_t interface_triangles = 0;  ///< between them
-  std::int64_t moved_vertices = 0;       ///< of interfaces, to open small angles
-  VolumeReport volume;
-  ErasureReport erasure;
+  volume::DecompositionReport decomposition;
+  volume::VolumeReport volume;
   SizeConformity conformity;  ///< before improvement
   improve::ImproveReport improve;
   improve::PinnedReport pinned;

@@ -200,6 +200,13 @@ void KeyTable::text(const std::string& name, std::string& target) {
       [&target] { return target.empty() ? std::nullopt : std::optional(target); });
 }
 
+void KeyTable::retired(const std::string& name, const std::string& why) {
+  Entry entry;
+  entry.name = name;
+  entry.why_retired = why;
+  _entries.push_back(std::move(entry));
+}
+
 void KeyTable::read_file(const std::string& file) {
   std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
@@ -249,6 +256,10 @@ void KeyTable::read(const YAML::Node& node, const Source& source) {
       throw CaseError(
           fmt::format("{}: unknown key '{}'{}; {}", where, name, place, advice(name, source.root)));
     }
+    if (entry->is_retired()) {
+      throw CaseError(
+          fmt::format("{}: '{}' is no longer needed: {}", where, path_of(name), entry->why_retired));
+    }
     if (!seen.insert(name).second)
       throw CaseError(fmt::format("{}: key '{}' is given twice", where, path_of(name)));
     entry->where = where;
@@ -275,7 +286,9 @@ KeyTable::Entry* KeyTable::find(const std::string& name) {
 
 std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) const {
   std::vector<std::string> here, everywhere;
-  for (const Entry& entry : _entries) here.push_back(entry.name);
+  for (const Entry& entry : _entries) {
+    if (!entry.is_retired()) here.push_back(entry.name);
+  }
   if (const auto near = nearest_name(unknown, here)) return "did you mean '" + *near + "'?";
   root.collect_paths(everywhere);
   std::vector<std::string> last_names;
@@ -288,7 +301,9 @@ std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) c
 }
 
 void KeyTable::collect_paths(std::vector<std::string>& paths) const {
-  for (const Entry& entry : _entries) paths.push_back(path_of(entry.name));
+  for (const Entry& entry : _entries) {
+    if (!entry.is_retired()) paths.push_back(path_of(entry.name));
+  }
   for (const Entry& entry : _entries) {
     if (entry.below) entry.below->collect_paths(paths);
   }
@@ -312,6 +327,7 @@ std::string KeyTable::write() const {
 void KeyTable::write(YAML::Emitter& emitter) const {
   emitter << YAML::BeginMap;
   for (const Entry& entry : _entries) {
+    if (entry.is_retired()) continue;
     if (entry.below) {
       if (entry.given && !*entry.given) continue;
       emitter << YAML::Key << entry.name << YAML::Value;

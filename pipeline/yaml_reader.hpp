@@ -77,6 +77,9 @@ public:
   /// One of the names, each standing for a value of the enumeration.
   template <class Enum>
   void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values);
+  /// A key of earlier versions: giving it is an error that says why it is no longer needed. It is neither
+  /// written nor suggested.
+  void retired(const std::string& name, const std::string& why);
 
   /// Reads a file, later "a.b=value" overrides. Only what is given is assigned. Throws CaseError.
   void read_file(const std::string& file);
@@ -93,7 +96,10 @@ private:
     bool* given = nullptr;                                // of a section
     std::function<void(const YamlValue&)> read;           // of a value
     std::function<std::optional<std::string>()> written;  // of a value
+    std::string why_retired;                              // of a retired key
     std::string where;
+
+    bool is_retired() const { return !why_retired.empty(); }
   };
   struct Source;
 

@@ -18,7 +18,7 @@ constexpr double far_ratio = 2.0;
 
 /// Where on a triangle the point nearest to p lies (Ericson, Real-Time Collision Detection, 2005,
 /// section 5.1.5).
-Vec3 foot_point(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool& in_face) {
+Vec3 foot_on(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool& in_face) {
   in_face = false;
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
@@ -132,8 +132,14 @@ void BoundaryDistance::summarise(std::int32_t first, std::int32_t last) {
 }
 
 double BoundaryDistance::squared_distance(Vec3 p, const Corners& triangle, bool& in_face) {
-  const Vec3 foot = foot_point(p, triangle.a, triangle.b, triangle.c, in_face);
+  const Vec3 foot = foot_on(p, triangle.a, triangle.b, triangle.c, in_face);
   return dot(p - foot, p - foot);
+}
+
+Vec3 BoundaryDistance::foot_point(Vec3 p, std::int32_t triangle) const {
+  bool in_face = false;
+  const Corners& corners = _corners[_slot[triangle]];
+  return foot_on(p, corners.a, corners.b, corners.c, in_face);
 }
 
 BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess, double range) const {

@@ -30,6 +30,10 @@ public:
   /// not nearer than `range` are not seen: with none nearer, the triangle is -1 and the distance `range`.
   Nearest nearest(geometry::Vec3 p, std::int32_t guess = -1, double range = 1e150) const;
 
+  /// The point of one triangle that is nearest to p, and how far it is.
+  geometry::Vec3 foot_point(geometry::Vec3 p, std::int32_t triangle) const;
+  double distance_to(geometry::Vec3 p, std::int32_t triangle) const { return distance(p, foot_point(p, triangle)); }
+
   /// Whether a triangle lies nearer to p than its own limit; `limit(t)` is at most `largest_limit`.
   template <class Limit>
   bool any_nearer(geometry::Vec3 p, double largest_limit, const Limit& limit) const;

@@ -32,7 +32,7 @@ bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
          geometry::orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
-SurfaceDefect find_wild_indices(const ClosedSurface& surface) {
+SurfaceDefect find_wild_indices(const SurfacePart& surface) {
   std::vector<std::int32_t> wild;
   const auto count = static_cast<LocalIndex>(surface.points.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -42,7 +42,7 @@ SurfaceDefect find_wild_indices(const ClosedSurface& surface) {
   return made("triangles refer to points that do not exist", wild);
 }
 
-SurfaceDefect find_flat_triangles(const ClosedSurface& surface) {
+SurfaceDefect find_flat_triangles(const SurfacePart& surface) {
   std::vector<std::int32_t> flat;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
@@ -53,7 +53,7 @@ SurfaceDefect find_flat_triangles(const ClosedSurface& surface) {
 }
 
 /// The triangles that have a marked point.
-std::vector<std::int32_t> triangles_at(const ClosedSurface& surface,
+std::vector<std::int32_t> triangles_at(const SurfacePart& surface,
                                        const std::vector<std::uint8_t>& marked) {
   std::vector<std::int32_t> found;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -63,7 +63,7 @@ std::vector<std::int32_t> triangles_at(const ClosedSurface& surface,
   return found;
 }
 
-SurfaceDefect find_infinite_points(const ClosedSurface& surface) {
+SurfaceDefect find_infinite_points(const SurfacePart& surface) {
   std::vector<std::uint8_t> infinite(surface.points.size(), 0);
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
     const Vec3 p = surface.points[v];
@@ -72,71 +72,34 @@ SurfaceDefect find_infinite_points(const ClosedSurface& surface) {
   return made("coordinates are not finite", triangles_at(surface, infinite));
 }
 
-SurfaceDefect find_bad_points(const ClosedSurface& surface) {
-  const auto& points = surface.points;
+SurfaceDefect find_coincident_points(const SurfacePart& surface) {
+  const auto points = surface.points;
   std::vector<LocalIndex> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](LocalIndex i, LocalIndex j) {
     const Vec3 p = points[i], q = points[j];
     return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
   });
-  std::vector<std::uint8_t> coincident(points.size(), 0), used(points.size(), 0);
+  std::vector<std::uint8_t> coincident(points.size(), 0);
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (points[order[i]] == points[order[i - 1]]) coincident[order[i]] = coincident[order[i - 1]] = 1;
   }
-  for (const auto& t : surface.triangles) {
-    for (const LocalIndex v : t) used[v] = 1;
-  }
-  if (std::find(used.begin(), used.end(), 0) != used.end()) return {"points belong to no triangle", {}};
   return made("different points have the same place", triangles_at(surface, coincident));
 }
 
-/// Each directed edge must be matched by as many opposite ones.
-SurfaceDefect find_open_edges(const ClosedSurface& surface) {
-  struct Side {
-    LocalIndex low, high;
-    int direction;
-    std::int32_t triangle;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * surface.triangles.size());
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Indices& v = surface.triangles[t];
-    for (int k = 0; k < 3; ++k) {
-      const LocalIndex a = v[k], b = v[(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1, static_cast<std::int32_t>(t)});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
-    return s.low != t.low ? s.low < t.low : s.high != t.high ? s.high < t.high : s.triangle < t.triangle;
-  });
-  std::vector<std::int32_t> open;
-  for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-    int balance = 0;
-    for (;
-         last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high;
-         ++last) {
-      balance += sides[last].direction;
-    }
-    if (balance == 0) continue;
-    for (std::size_t s = first; s < last; ++s) open.push_back(sides[s].triangle);
-  }
-  return made("the surface is open, or neighbouring triangles are turned against each other", open);
-}
-
-bool edge_meets(const ClosedSurface& surface, LocalIndex a, LocalIndex b, const Vec3 (&triangle)[3]) {
+bool edge_meets(const SurfacePart& surface, LocalIndex a, LocalIndex b, const Vec3 (&triangle)[3]) {
   return geometry::segment_meets_triangle(surface.points[a], surface.points[b], triangle);
 }
 
 /// Triangles with a common edge: they overlap when they are coplanar and on the same side of it.
-bool fold_over(const ClosedSurface& surface, LocalIndex a, LocalIndex b, LocalIndex p, LocalIndex q) {
+bool fold_over(const SurfacePart& surface, LocalIndex a, LocalIndex b, LocalIndex p, LocalIndex q) {
   const auto& x = surface.points;
   if (p == q) return true;
   if (geometry::orient3d(x[a], x[b], x[p], x[q]) != 0) return false;
   return dot(cross(x[b] - x[a], x[p] - x[a]), cross(x[b] - x[a], x[q] - x[a])) > 0;
 }
 
-bool meet_improperly(const ClosedSurface& surface, const Indices& s, const Indices& t) {
+bool meet_improperly(const SurfacePart& surface, const Indices& s, const Indices& t) {
   LocalIndex common[3], only_s[3], only_t[3];
   int commons = 0, onlys = 0, onlyt = 0;
   for (const LocalIndex v : s) {
@@ -162,16 +125,14 @@ bool meet_improperly(const ClosedSurface& surface, const Indices& s, const Indic
 
 }  // namespace
 
-SurfaceDefect find_defect(const ClosedSurface& surface) {
-  if (surface.triangles.size() < 4) return {"there are fewer than four triangles", {}};
-  for (const auto find :
-       {find_wild_indices, find_infinite_points, find_flat_triangles, find_bad_points, find_open_edges}) {
+SurfaceDefect find_defect(const SurfacePart& surface) {
+  for (const auto find : {find_wild_indices, find_infinite_points, find_flat_triangles, find_coincident_points}) {
     if (SurfaceDefect defect = find(surface); !defect.what.empty()) return defect;
   }
   return {};
 }
 
-SurfaceDefect find_intersections(const ClosedSurface& surface, const BoundaryDistance& tree) {
+SurfaceDefect find_intersections(const SurfacePart& surface, const BoundaryDistance& tree) {
   std::vector<std::int32_t> hit;
   tree.for_each_overlapping_pair([&](std::int32_t s, std::int32_t t) {
     if (!meet_improperly(surface, surface.triangles[s], surface.triangles[t])) return;
@@ -181,7 +142,7 @@ SurfaceDefect find_intersections(const ClosedSurface& surface, const BoundaryDis
   return made("the surface intersects itself", hit);
 }
 
-std::string describe_triangles(const ClosedSurface& surface, const std::vector<std::int32_t>& triangles) {
+std::string describe_triangles(const SurfacePart& surface, const std::vector<std::int32_t>& triangles) {
   constexpr std::size_t most = 10;
   std::ostringstream text;
   for (std::size_t i = 0; i < std::min(triangles.size(), most); ++i) {

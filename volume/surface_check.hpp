@@ -1,14 +1,21 @@
-/// What is wrong with a surface that shall be filled.
+/// What is wrong with a part of a surface that bounds what shall be filled.
 #pragma once
 
 #include "volume/boundary_distance.hpp"
-#include "volume/volume_mesher.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace aeroloom::volume {
+
+/// Triangles and the points they use.
+struct SurfacePart {
+  std::span<const geometry::Vec3> points;
+  std::span<const std::array<mesh::LocalIndex, 3>> triangles;
+};
 
 /// A defect and the triangles it is at.
 struct SurfaceDefect {
@@ -16,14 +23,13 @@ struct SurfaceDefect {
   std::vector<std::int32_t> triangles;  ///< ascending, each once
 };
 
-/// Indices out of range, coordinates that are not finite, triangles without area, points used by no triangle
-/// or coincident, edges whose triangles do not match up in pairs of opposite direction.
-SurfaceDefect find_defect(const ClosedSurface& surface);
+/// Indices out of range, coordinates that are not finite, triangles without area, different points at the same place.
+SurfaceDefect find_defect(const SurfacePart& surface);
 
 /// Triangles that meet elsewhere than in common vertices and edges. Exact.
-SurfaceDefect find_intersections(const ClosedSurface& surface, const BoundaryDistance& tree);
+SurfaceDefect find_intersections(const SurfacePart& surface, const BoundaryDistance& tree);
 
 /// A line per triangle: index, centre, shortest and longest edge; at most ten of them, then how many more.
-std::string describe_triangles(const ClosedSurface& surface, const std::vector<std::int32_t>& triangles);
+std::string describe_triangles(const SurfacePart& surface, const std::vector<std::int32_t>& triangles);
 
 }  // namespace aeroloom::volume

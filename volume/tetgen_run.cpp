@@ -15,7 +15,9 @@ namespace {
 class Input {
 public:
   Input(std::span<const double> coordinates, std::span<const std::array<mesh::LocalIndex, 3>> triangles) {
-    set_points(_io, coordinates);
+    _io.numberofpoints = static_cast<int>(coordinates.size() / 3);
+    _io.pointlist = new REAL[coordinates.size()];
+    std::copy(coordinates.begin(), coordinates.end(), _io.pointlist);
     const auto count = static_cast<int>(triangles.size());
     _io.numberoffacets = count;
     _io.facetlist = new tetgenio::facet[count];
@@ -29,12 +31,6 @@ public:
     }
   }
   tetgenio& io() { return _io; }
-
-  static void set_points(tetgenio& io, std::span<const double> coordinates) {
-    io.numberofpoints = static_cast<int>(coordinates.size() / 3);
-    io.pointlist = new REAL[coordinates.size()];
-    std::copy(coordinates.begin(), coordinates.end(), io.pointlist);
-  }
 
 private:
   tetgenio _io;
@@ -59,32 +55,14 @@ std::string explain(int code) {
   }
 }
 
-/// Numbers the points from 0: the given surface points, `inserted` ones by their place there, and what TetGen
-/// added. Pool slots of removed points are reused, so inserted points are told by their coordinates.
-std::vector<double> number_points(tetgenmesh& mesh, std::size_t first_given,
-                                  std::span<const double> inserted) {
-  const auto point_less = [](const double* a, const double* b) {
-    return std::lexicographical_compare(a, a + 3, b, b + 3);
-  };
-  std::vector<const double*> known(inserted.size() / 3);
-  for (std::size_t i = 0; i < known.size(); ++i) known[i] = inserted.data() + 3 * i;
-  std::sort(known.begin(), known.end(), point_less);
-  const std::size_t first_added = first_given + known.size();
+/// Numbers the points from 0 as they were given, behind them what TetGen added.
+std::vector<double> number_points(tetgenmesh& mesh, std::size_t given) {
   std::vector<double> added;
-  std::size_t seen = 0;
+  int number = 0;
   mesh.points->traversalinit();
-  for (auto* p = mesh.pointtraverse(); p != nullptr; p = mesh.pointtraverse(), ++seen) {
-    if (seen < first_given) {
-      mesh.setpointmark(p, static_cast<int>(seen));
-      continue;
-    }
-    const auto place = std::lower_bound(known.begin(), known.end(), p, point_less);
-    if (place != known.end() && std::equal(p, p + 3, *place)) {
-      mesh.setpointmark(p, static_cast<int>(first_given + (*place - inserted.data()) / 3));
-    } else {
-      mesh.setpointmark(p, static_cast<int>(first_added + added.size() / 3));
-      added.insert(added.end(), p, p + 3);
-    }
+  for (auto* p = mesh.pointtraverse(); p != nullptr; p = mesh.pointtraverse(), ++number) {
+    mesh.setpointmark(p, number);
+    if (static_cast<std::size_t>(number) >= given) added.insert(added.end(), p, p + 3);
   }
   return added;
 }
@@ -107,53 +85,54 @@ void collect_cells(tetgenmesh& mesh, TetgenMesh& result) {
       side.tet = t;
       side.ver = face;
       mesh.fsym(side, other);
-      const bool open = issubface(side) || mesh.ishulltet(other);
-      across[face] = open ? -1 : mesh.elemindex(other.tet);
+      if (issubface(side)) {
+        tetgenmesh::face triangle;
+        mesh.tspivot(side, triangle);
+        across[face] = -1 - mesh.shellmark(triangle);  // marks count from 1
+      } else {
+        across[face] = mesh.ishulltet(other) ? -1 : mesh.elemindex(other.tet);
+      }
     }
   }
 }
 
-/// The order of tetrahedralize(), without its pass recoverdelaunay() where all points were given at once:
-/// hardly anything is left to do for it then, and it nearly doubles time and memory.
-void run_phases(tetgenmesh& mesh, std::span<const double> later) {
+/// The order of tetrahedralize(), without its pass recoverdelaunay(): hardly anything is left to do for it where all
+/// points are given at once, and it nearly doubles time and memory.
+void run_phases(tetgenmesh& mesh) {
   clock_t unused = 0;
   mesh.initializepools();
   mesh.transfernodes();
   exactinit(0, 0, 0, mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
   mesh.incrementaldelaunay(unused);
+  if (mesh.in->numberoffacets == 0) return;
   mesh.meshsurface();
   mesh.recoverboundary(unused);
   mesh.carveholes();
   if (mesh.subvertstack->objects > 0) mesh.suppresssteinerpoints();
-  if (later.empty()) return;
-  tetgenio extra;
-  Input::set_points(extra, later);
-  mesh.recoverdelaunay();
-  mesh.insertconstrainedpoints(&extra);
 }
 
 }  // namespace
 
-TetgenMesh run_tetgen(std::span<const double> coordinates, std::size_t surface_points,
-                      std::span<const std::array<mesh::LocalIndex, 3>> triangles, InteriorPoints interior) {
-  const auto split = interior == InteriorPoints::at_once ? coordinates.size() : 3 * surface_points;
-  const auto later = coordinates.subspan(split);
-  Input input(coordinates.first(split), triangles);
+TetgenMesh run_tetgen(std::span<const double> coordinates,
+                      std::span<const std::array<mesh::LocalIndex, 3>> triangles) {
+  Input input(coordinates, triangles);
   tetgenbehavior behaviour;
   char switches[] = "pYO0Q";
   behaviour.parse_commandline(switches);
+  behaviour.convex = 1;
+  behaviour.regionattrib = 1;  // or the hull is carved all the same
   auto mesh = std::make_unique<tetgenmesh>();
   mesh->b = &behaviour;
   mesh->in = &input.io();
   try {
-    run_phases(*mesh, later);
+    run_phases(*mesh);
   } catch (int code) {
     // Before it throws, TetGen frees what the destructor would free again.
     static_cast<void>(mesh.release());
     throw std::runtime_error(explain(code));
   }
   TetgenMesh result;
-  result.added = number_points(*mesh, split / 3, later);
+  result.added = number_points(*mesh, coordinates.size() / 3);
   collect_cells(*mesh, result);
   return result;
 }

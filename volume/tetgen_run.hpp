@@ -10,24 +10,18 @@
 
 namespace aeroloom::volume {
 
-/// When the interior points enter.
-enum class InteriorPoints : std::uint8_t {
-  at_once,         ///< with the surface's points, before the boundary is recovered: fastest
-  after_recovery,  ///< into the recovered boundary: slower, but they cannot stand in its way
-};
-
-/// What TetGen makes of a surface and interior points, unverified: the convex hull of the surface less what
-/// lies outside its outer shells. Voids are still filled.
+/// What TetGen makes of points and triangles between some of them, unverified: the convex hull of all.
 struct TetgenMesh {
   std::vector<double> added;  ///< (s,3) Steiner points, numbered after the given ones
   std::vector<std::array<mesh::LocalIndex, 4>> cells;  ///< positive volume in VTK's order
-  /// The cell across the face opposite to each vertex; -1 where a surface triangle or nothing is.
+  /// The cell across the face opposite to each vertex; -1 where nothing is, -2 - t where triangle t is.
   std::vector<std::array<std::int32_t, 4>> neighbours;
 };
 
-/// `coordinates` (n,3): the surface's `surface_points` points first. Should be of unit size. Throws
-/// std::runtime_error.
-TetgenMesh run_tetgen(std::span<const double> coordinates, std::size_t surface_points,
-                      std::span<const std::array<mesh::LocalIndex, 3>> triangles, InteriorPoints interior);
+/// The Delaunay mesh of points (n,3), changed where it takes that for all triangles to be faces. The triangles need
+/// not be closed. The order of the points decides where more than four lie on a sphere. Coordinates should be of
+/// unit size. Throws std::runtime_error.
+TetgenMesh run_tetgen(std::span<const double> coordinates,
+                      std::span<const std::array<mesh::LocalIndex, 3>> triangles);
 
 }  // namespace aeroloom::volume

@@ -1,77 +1,109 @@
-/// The volume stage: closed triangulations filled with tetrahedra. Knows neither CAD nor decomposition.
+/// The volume stage: from a surface mesh and sizes to tetrahedra, without interfaces. All points are known before
+/// any tetrahedron exists, and the Delaunay mesh of points in general position is unique: so overlapping zones of
+/// space are meshed on their own, agree where they overlap, and each keeps its own tetrahedra.
 #pragma once
 
 #include "geometry/vec.hpp"
 #include "mesh/distributed_mesh.hpp"
+#include "parallel/collective_error.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
+#include "volume/volume_options.hpp"
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace aeroloom::volume {
 
-/// A closed, oriented triangulation that bounds one volume piece (outer shell and voids alike).
-struct ClosedSurface {
-  std::vector<geometry::Vec3> points;
-  std::vector<std::array<mesh::LocalIndex, 3>> triangles;  ///< counter-clockwise seen from outside the volume
-  /// Per triangle: 1 where the lattice goes on behind it, as around a cavity in a mesh; empty: nowhere.
-  std::vector<std::uint8_t> continued;
+/// What is meshed. Refers to what lives elsewhere.
+struct VolumeInput {
+  const mesh::DistributedMesh& surface;  ///< closed around every region, its vertices classified
+  const mesh::Numbering& numbering;      ///< of the surface
+  const sizing::SizeField& field;
+  VolumeOptions options;
 };
 
-struct VolumeOptions {
-  double lattice_clearance = 0.75;         ///< distance lattice points keep from the boundary, in local sizes
-  double continued_clearance = 0.25;       ///< the same from triangles behind which the lattice goes on
-  double perturbation = 0.05;              ///< of lattice points, in local sizes
-  std::int64_t largest_piece = 5'000'000;  ///< predicted tetrahedra above which a piece is refused
-  int retries = 3;                         ///< rungs of the ladder after the first try
-  /// What the contained run does before its work; for tests of containment.
-  enum class Sabotage : std::uint8_t {
-    none,
-    throws,
-    aborts,
-    hangs,
-    exhausts_memory
-  } sabotage = Sabotage::none;
+/// What the decomposition tells.
+struct DecompositionReport {
+  std::int64_t blocks = 0;          ///< of the lattice
+  std::int64_t lattice_points = 0;
+  std::int32_t zones = 0;
+  double halo = 1;                  ///< points that zones know, all together, over points
+  double imbalance = 1;             ///< heaviest zone over the mean, halo included
 };
 
-/// A piece that cannot be filled. The message says where, sizes there, what was tried, what to do, and the
-/// file with the offending triangles; `triangles` are their indices in the ClosedSurface.
-class VolumeError : public std::runtime_error {
+/// A zone that could not be filled at first.
+struct Retry {
+  std::int32_t zone;
+  std::string change;  ///< what was done about it
+  std::string reason;
+};
+
+/// A place where zones made different tetrahedra, and which of them counts.
+struct Disagreement {
+  geometry::Vec3 place;
+  std::int32_t zone;   ///< that counts
+  std::int32_t faces;  ///< that did not match
+  std::int32_t round;
+};
+
+/// What the filling tells.
+struct VolumeReport {
+  std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
+  std::vector<Retry> retries;
+  std::vector<Disagreement> disagreements;
+  int rounds = 1;                   ///< of filling; further ones fill again what failed or disagreed
+  double load_error_90 = 0;         ///< the relative error that 90 % of the predicted loads stay below
+};
+
+/// The points and zones of a volume. Each rank has the points of its blocks.
+class Decomposition {
 public:
-  VolumeError(const std::string& what, std::vector<std::int32_t> triangles)
-      : std::runtime_error(what), _triangles(std::move(triangles)) {}
-  const std::vector<std::int32_t>& triangles() const { return _triangles; }
+  struct Parts;
+  explicit Decomposition(std::unique_ptr<Parts> parts);
+  Decomposition(Decomposition&&) noexcept;
+  Decomposition& operator=(Decomposition&&) noexcept;
+  ~Decomposition();
+
+  const DecompositionReport& report() const;
+  Parts& parts() { return *_parts; }
 
 private:
-  std::vector<std::int32_t> _triangles;
+  std::unique_ptr<Parts> _parts;
 };
 
-/// The tetrahedra of one piece.
-struct FilledVolume {
-  std::vector<double> coordinates;  ///< (n,3): the surface's points first, in their order and bit for bit
-  std::vector<mesh::LocalIndex> tetrahedra;  ///< (m,4), positive volume, ordered along a space-filling curve
-  std::int64_t steiner_points = 0;  ///< points TetGen had to add inside and that could not be suppressed
-  std::int64_t dropped_points = 0;  ///< lattice points TetGen left out of the mesh
-  int attempts = 1;                 ///< rungs of the ladder climbed, the successful one included
-  double cpu_seconds = 0;           ///< of this rank and of the contained runs
-  std::int64_t child_peak_bytes = 0;
+/// Makes the lattice and divides it into zones. A function of surface, sizes and options, whatever the ranks.
+/// Collective. Throws CollectiveError.
+Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
+                        parallel::StageClock& clock);
+
+/// A zone that no rung of the ladder fills. The message names CAD faces, place and sizes, what was tried and what
+/// to do; the triangles at fault are for a file to look at. The same on every rank.
+class VolumeFailure : public parallel::CollectiveError {
+public:
+  VolumeFailure(const std::string& message, std::vector<geometry::Vec3> points,
+                std::vector<std::array<mesh::LocalIndex, 3>> triangles)
+      : CollectiveError(parallel::FailureKind::input, message),
+        _points(std::move(points)),
+        _triangles(std::move(triangles)) {}
+  const std::vector<geometry::Vec3>& points() const { return _points; }
+  const std::vector<std::array<mesh::LocalIndex, 3>>& triangles() const { return _triangles; }
+
+private:
+  std::vector<geometry::Vec3> _points;
+  std::vector<std::array<mesh::LocalIndex, 3>> _triangles;
 };
 
-/// Interior points of a graded, slightly perturbed body-centred lattice that follows the field, inside the
-/// surface and off it, along a space-filling curve. A function of position alone.
-std::vector<geometry::Vec3> lattice_points(const ClosedSurface& surface, const sizing::SizeField& field,
-                                           const VolumeOptions& options);
-
-/// Fills one closed surface; the boundary is never altered. TetGen runs contained; failures climb the ladder
-/// of retries (other perturbations, lattice points inserted after the boundary, none). Not collective. Throws
-/// VolumeError.
-FilledVolume fill_volume(const ClosedSurface& surface, const sizing::SizeField& field,
-                         const VolumeOptions& options);
+/// Fills the zones, dealt out largest first, and proves that they fit together. A zone that cannot be filled gets
+/// other perturbations of its points, then points farther off the surface, then is merged with a neighbour; where
+/// zones disagree the lowest of them counts. One mesh piece per zone and region, by zone, then region. The triangles
+/// of a face between two regions belong to pieces of its front region. Collective. Throws VolumeFailure.
+mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
+                                 Decomposition decomposition, parallel::StageClock& clock, VolumeReport& report);
 
 /// Makes the contained task known; call before parallel::Environment is constructed.
 void register_volume_tasks();

@@ -58,7 +58,7 @@ TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   EXPECT_FALSE(input.sizing.minimum || input.sizing.maximum || input.sizing.surface_maximum);
   EXPECT_FALSE(input.sizing.curvature_angle || input.sizing.growth);
   EXPECT_EQ(input.surface.piece_triangles, 50'000);
-  EXPECT_EQ(input.piece_tets, 250'000);
+  EXPECT_EQ(input.volume.piece_tets, 250'000);
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::pieces);
   EXPECT_TRUE(input.improve.enabled);
   EXPECT_EQ(input.output.directory, "out");
@@ -84,7 +84,7 @@ farfield: {shape: box, extent: 12.5}
 sizing: {minimum: 0.01, maximum: 1.5, surface_maximum: 0.5, curvature_angle: 15, growth: 1.2, target_tetrahedra: 2e6,
          feature_minimum: 0.002, chordal_deviation: 1e-4}
 surface: {piece_triangles: 1000, decomposition: faces}
-volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.1, inject: aborts}
+volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.02, halo: 2, inject: aborts, inject_piece: 3}
 improve: {enabled: false, target_angle: 18, sweeps: 3}
 output: {directory: out/a, log: verbose}
 )");
@@ -125,10 +125,12 @@ output: {directory: out/a, log: verbose}
   EXPECT_EQ(input.narrow_faces, NarrowFaces::keep);
   EXPECT_EQ(input.surface.piece_triangles, 1000);
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::faces);
-  EXPECT_EQ(input.piece_tets, 300'000);
+  EXPECT_EQ(input.volume.piece_tets, 300'000);
   EXPECT_EQ(input.volume.lattice_clearance, 0.5);
-  EXPECT_EQ(input.volume.perturbation, 0.1);
+  EXPECT_EQ(input.volume.perturbation, 0.02);
+  EXPECT_EQ(input.volume.halo, 2);
   EXPECT_EQ(input.volume.sabotage, volume::VolumeOptions::Sabotage::aborts);
+  EXPECT_EQ(input.volume.sabotaged_zone, 3);
   EXPECT_FALSE(input.improve.enabled);
   EXPECT_EQ(input.improve.target_angle, 18);
   EXPECT_EQ(input.improve.sweeps, 3);
@@ -178,6 +180,20 @@ TEST_F(CaseTest, UnknownKeysWithNothingNearListTheValidOnes) {
             "case.yaml:2:10: unknown key 'quux' in 'output'; valid keys: directory, log");
 }
 
+TEST_F(CaseTest, RetiredKeysSayWhyTheyAre) {
+  EXPECT_EQ(
+      error_of(transport + "volume: {piece_tets: 1000, erase_interfaces: false}\n"),
+      "case.yaml:2:28: 'volume.erase_interfaces' is no longer needed: volume pieces have no interfaces");
+  EXPECT_EQ(
+      error_of(transport, {"volume.interface_angle=45"}),
+      "--set volume.interface_angle=45: 'volume.interface_angle' is no longer needed: volume pieces have "
+      "no interfaces");
+  EXPECT_EQ(error_of(transport + "volume: {interface_angel: 45}\n"),
+            "case.yaml:2:10: unknown key 'interface_angel' in 'volume'; valid keys: piece_tets, "
+            "lattice_clearance, perturbation, halo, inject, inject_piece");
+  EXPECT_EQ(resolved_yaml(read(transport)).find("interface"), std::string::npos);
+}
+
 TEST_F(CaseTest, WrongTypes) {
   EXPECT_EQ(error_of(transport + "sizing: {minimum: abc}\n"),
             "case.yaml:2:19: 'sizing.minimum': expected a number, got 'abc'");
@@ -218,6 +234,13 @@ TEST_F(CaseTest, ValuesOutOfRangeNameTheRange) {
   EXPECT_EQ(
       error_of(transport + "volume: {piece_tets: 1e300}\n"),
       "case.yaml:2:22: 'volume.piece_tets' is 1e+300, but must be at least 100 and at most 1e+09 elements");
+  EXPECT_EQ(
+      error_of(transport + "volume: {perturbation: 0.1}\n"),
+      "case.yaml:2:24: 'volume.perturbation' is 0.1, but must be at least 0 and at most 0.05 mean edges of "
+      "the lattice");
+  EXPECT_EQ(
+      error_of(transport + "volume: {halo: 0}\n"),
+      "case.yaml:2:16: 'volume.halo' is 0, but must be at least 0.5 and at most 5 largest sizes nearby");
   EXPECT_EQ(error_of("geometry: {builtin: transport, dimensions: {wing: {taper: 1.5}}}\n"),
             "case.yaml:1:59: 'geometry.dimensions.wing.taper' is 1.5, but must be above 0 and at most 1");
   EXPECT_EQ(error_of(transport + "sizing: {growth: 3, curvature_angle: 0.1}\n"), "no error");

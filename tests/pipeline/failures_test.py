@@ -40,6 +40,8 @@ def main():
         checks += [
             expect("unknown key", Run(program, COARSE_TRANSPORT + "sizng: {minimum: 1}\n", ranks), 2, "sizng", "sizing",
                    "case.yaml:5:"),
+            expect("retired key", Run(program, COARSE_TRANSPORT, ranks, ["volume.erase_interfaces=false"]), 2,
+                   "volume.erase_interfaces", "no longer needed"),
             expect("size of zero", Run(program, COARSE_TRANSPORT, ranks, ["sizing.minimum=0"]), 2, "sizing.minimum"),
             expect("missing file", Run(program, file_case(folder / "absent.step"), ranks), 7, "absent.step"),
             expect("corrupt file", Run(program, file_case(corrupt), ranks), 3, "corrupt.step"),

@@ -1,4 +1,4 @@
-// A region in many volume pieces: one mesh, good angles, no trace of the interfaces, whatever the rank count.
+// A region in many volume pieces: the mesh of one piece, whatever the rank count.
 #include "tests/pipeline/cad_cases.hpp"
 
 #include <algorithm>
@@ -26,41 +26,39 @@ TopoDS_Shape box_with_sphere() {
 Case pieces_case(const Folder& folder, const TopoDS_Shape& shape, double target, std::int64_t piece_tets) {
   Case input = cad_cases::coarse_case(folder.write(shape, "pieces.brep"), folder, target);
   input.domain.kind = geometry::DomainKind::fluid;
-  input.piece_tets = piece_tets;
+  input.volume.piece_tets = piece_tets;
   return input;
 }
 
 TEST(VolumePieces, AreOneMeshForAnyNumberOfRanks) {
   const Folder folder;
-  Case input = pieces_case(folder, box_with_sphere(), 60'000, 4'000);
+  const Case input = pieces_case(folder, box_with_sphere(), 60'000, 4'000);
   std::string alone;
   const RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
-  EXPECT_GE(record.parts, 10);
+  EXPECT_GE(record.decomposition.zones, 10);
   EXPECT_NEAR(record.mesh_volume, 64 - 4 * M_PI / 3, 0.15);
-  const InterfaceAngles& angles = record.volume.angles;
-  EXPECT_GT(angles.edges, 100);
-  EXPECT_LE(angles.below - angles.forced, angles.edges / 100);
-  EXPECT_EQ(record.erasure.vertices_left, 0);
-  EXPECT_GT(record.erasure.vertices_before, 1000);
-  EXPECT_GT(record.erasure.mean_ratio_refilled, 0.97 * record.erasure.mean_ratio_elsewhere);
   EXPECT_GT(record.quality->mean_ratio.mean, 0.83);
   EXPECT_GT(record.quality->min_dihedral.minimum, 10);
   EXPECT_LT(record.conformity.bytes_per_cell, 60);
 }
 
-TEST(VolumePieces, KeepTheirInterfacesWhenAsked) {
+TEST(VolumePieces, AreTheMeshOfOnePiece) {
   const Folder folder;
   Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
-  input.erase_interfaces = false;
-  input.interface_angle = 0;
-  std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
-  EXPECT_EQ(record.hash, alone);
-  EXPECT_EQ(record.erasure.rounds, 0);
+  input.improve.enabled = false;
+  RunRecord many, one;
+  run_case(parallel::Communicator::world(), input, many);
+  input.volume.piece_tets = 1'000'000'000;
+  run_case(parallel::Communicator::world(), input, one);
+  EXPECT_GE(many.decomposition.zones, 5);
+  EXPECT_EQ(one.decomposition.zones, 1);
+  EXPECT_EQ(many.counts.cells, one.counts.cells);
+  EXPECT_EQ(many.counts.vertices, one.counts.vertices);
+  EXPECT_EQ(many.decomposition.lattice_points, one.decomposition.lattice_points);
 }
 
-TEST(VolumePieces, RegionsAreDividedEachForItself) {
+TEST(VolumePieces, OfTwoRegionsKeepThemApart) {
   const Folder folder;
   const TopoDS_Shape rod = BRepPrimAPI_MakeCylinder(0.5, 3).Shape();
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(gp_Pnt(-2, -2, 0), gp_Pnt(2, 2, 3)).Shape();
@@ -69,30 +67,30 @@ TEST(VolumePieces, RegionsAreDividedEachForItself) {
   builder.MakeCompound(both);
   builder.Add(both, BRepAlgoAPI_Cut(block, rod).Shape());
   builder.Add(both, rod);
-  Case input = pieces_case(folder, both, 40'000, 5'000);
+  const Case input = pieces_case(folder, both, 40'000, 5'000);
   std::string alone;
   const RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_EQ(record.regions_filled.size(), 2u);
-  EXPECT_GT(record.parts, 4);
-  EXPECT_EQ(record.erasure.vertices_left, 0);
+  EXPECT_GT(record.decomposition.zones, 4);
 }
 
 class FailingPiece : public testing::TestWithParam<volume::VolumeOptions::Sabotage> {};
 
-TEST_P(FailingPiece, IsMergedWithItsNeighbour) {
+TEST_P(FailingPiece, EndsMergedWithItsNeighbour) {
   const Folder folder;
   Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
   input.volume.sabotage = GetParam();
   input.volume.retries = GetParam() == volume::VolumeOptions::Sabotage::hangs ? 0 : 1;
-  input.sabotaged_piece = 2;
+  input.volume.sabotaged_zone = 2;
   RunRecord record;
   run_case(parallel::Communicator::world(), input, record);
-  const auto& merges = record.volume.merges;
-  const auto merge = std::find_if(merges.begin(), merges.end(), [](const Merge& m) { return m.part == 2; });
-  ASSERT_NE(merge, merges.end());
-  EXPECT_NE(merge->reason.find("no way of filling it worked"), std::string::npos) << merge->reason;
-  EXPECT_EQ(record.erasure.vertices_left, 0);
+  const auto& retries = record.volume.retries;
+  const auto merge = std::find_if(retries.begin(), retries.end(), [](const volume::Retry& retry) {
+    return retry.zone == 2 && retry.change.find("merged") != std::string::npos;
+  });
+  ASSERT_NE(merge, retries.end());
+  EXPECT_FALSE(merge->reason.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FailingPiece,

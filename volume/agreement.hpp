@@ -1,0 +1,26 @@
+/// Whether zones fit together, and what is done where they do not.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "volume/volume_mesher.hpp"
+#include "volume/zone_piece.hpp"
+
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// The faces that have no partner: another zone's face with the same vertices, turned the other way, in the same
+/// region. By vertices and zone, the same on every rank. Collective.
+std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator, std::span<const ZoneFace> faces);
+
+/// A place where zones disagree: faces without partner that are connected by vertices.
+struct DisputedPlace {
+  std::vector<std::int64_t> leaves;  ///< of the vertices, ascending: 8 * block + child
+  std::vector<ZoneIndex> zones;      ///< that claim faces there, ascending
+  std::int32_t faces = 0;
+};
+/// By lowest vertex.
+std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched);
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,178 @@
+#include "volume/block_points.hpp"
+
+#include "mesh/mixing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+
+namespace {
+
+/// The size of boundary triangles counts in the clearance as far as it is within these bounds, in local
+/// sizes.
+constexpr double smallest_edge = 0.3, largest_edge = 1.5;
+/// What the clearance grows by in each step of a retry.
+constexpr double step_factor = 1.6;
+constexpr int most_steps = 2;
+/// Trilinear interpolation may be steeper than the growth limit by this factor.
+constexpr double slope_margin = std::numbers::sqrt3;
+
+/// A slot's place in its leaf, in halves of the leaf's edge.
+constexpr int slot_places[slots_per_leaf][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                                {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+/// Slots that hang: a point stands there if one of the cells of the leaf's level is split that touch the place
+/// from below: their offsets.
+struct Touching {
+  int slot, count;
+  int offsets[3][3];
+};
+constexpr Touching hanging[] = {
+    {1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}}, {2, 3, {{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
+    {3, 3, {{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}}, {4, 1, {{0, 0, -1}}},
+    {5, 1, {{0, -1, 0}}},                          {6, 1, {{-1, 0, 0}}}};
+
+/// The largest size in a block, at most.
+double largest_size(const LatticeSource& source, BlockIndex b) {
+  const GridCell cell = source.tree.cell(b);
+  const double half = 0.5 * cell.edge();
+  const Vec3 center = source.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
+  const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.frame.edge(cell.level);
+  const double slope = slope_margin * std::log(source.field.options().growth);
+  return std::min(source.field.maximum(), source.field(center) + slope * half_diagonal);
+}
+
+double clearance_of(const LatticeSource& source, BlockIndex b) {
+  return source.options.clearance * std::pow(step_factor, source.changes[b].farther);
+}
+
+/// Makes the points of one block after the other.
+class PointMaker {
+public:
+  PointMaker(const LatticeSource& source, const NearSurface& surface, BlockPoints& result)
+      : _source(source), _surface(surface), _result(result) {}
+
+  void make(BlockIndex b) {
+    const bool met = _source.table.is_met(b);
+    if (!met && _source.regions[b] == mesh::no_region) return;
+    _block = b;
+    _clearance = clearance_of(_source, b);
+    _near = met || is_near(b);
+    for (int child = 0; child < _source.tree.leaf_count(b); ++child) make_leaf(child);
+  }
+
+private:
+  bool is_near(BlockIndex b) {
+    if (_surface.empty()) return false;
+    const GridCell cell = _source.tree.cell(b);
+    const double half = 0.5 * cell.edge();
+    const Vec3 center = _source.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
+    const double range = 1.1 * 0.5 * std::numbers::sqrt3 * _source.frame.edge(cell.level) +
+                         largest_edge * _clearance * largest_size(_source, b);
+    const auto nearest = _surface.distance().nearest(center, _guess, range);
+    if (nearest.triangle < 0) return false;
+    _guess = nearest.triangle;
+    return true;
+  }
+
+  void make_leaf(int child) {
+    const GridCell leaf = _source.tree.leaf(_block, child);
+    offer(leaf, child, 0);
+    for (const Touching& touching : hanging) {
+      const auto is_split = [&](const int (&offset)[3]) { return is_neighbour_split(leaf, offset); };
+      if (std::any_of(touching.offsets, touching.offsets + touching.count, is_split))
+        offer(leaf, child, touching.slot);
+    }
+    offer(leaf, child, 7);
+  }
+
+  bool is_neighbour_split(const GridCell& leaf, const int (&offset)[3]) const {
+    const std::uint32_t edge = leaf.edge();
+    if ((offset[0] < 0 && leaf.low.x == 0) || (offset[1] < 0 && leaf.low.y == 0) ||
+        (offset[2] < 0 && leaf.low.z == 0))
+      return false;
+    return _source.tree.is_split({{leaf.low.x - (offset[0] < 0 ? edge : 0), leaf.low.y - (offset[1] < 0 ? edge : 0),
+                                   leaf.low.z - (offset[2] < 0 ? edge : 0)},
+                                  leaf.level});
+  }
+
+  void offer(const GridCell& leaf, int child, int slot) {
+    const double half = 0.5 * leaf.edge();
+    const int(&place)[3] = slot_places[slot];
+    const Vec3 grid = GridBox::of(leaf).low + Vec3{half * place[0], half * place[1], half * place[2]};
+    const Vec3 p = _source.frame.to_space(grid) + perturbation(leaf, slot);
+    mesh::RegionId region = _source.regions[_block];
+    if (_near && !is_clear(p, region)) return;
+    if (region == mesh::no_region) return;
+    _result.slots.push_back(static_cast<std::uint8_t>(child * slots_per_leaf + slot));
+    _result.points.push_back(p);
+    _result.regions.push_back(region);
+  }
+
+  Vec3 perturbation(const GridCell& leaf, int slot) const {
+    std::uint64_t state = mesh::mix_in(_source.changes[_block].variant, static_cast<std::uint64_t>(slot));
+    state = mesh::mix_in(state, static_cast<std::uint64_t>(leaf.level));
+    state = mesh::mix_in(state, sizing::morton_key(leaf.low));
+    const double width = _source.options.perturbation * mean_edge_of_cell * _source.frame.edge(leaf.level);
+    Vec3 shift;
+    for (int axis = 0; axis < 3; ++axis) {
+      state = mesh::mix_in(state, 0);
+      shift[axis] = width * (static_cast<double>(state >> 11) * 0x1p-53 - 0.5);
+    }
+    return shift;
+  }
+
+  /// Whether a point keeps off the surface. In a block that the surface meets, its region is told as well.
+  bool is_clear(Vec3 p, mesh::RegionId& region) {
+    const double size = _source.field(p), range = largest_edge * _clearance * size;
+    const bool ask = _source.table.is_met(_block);
+    const auto nearest = ask ? _surface.distance().nearest(p, _guess) : _surface.distance().nearest(p, _guess, range);
+    if (nearest.triangle < 0) return true;
+    _guess = nearest.triangle;
+    const auto limit = [&](std::int32_t triangle) {
+      return _clearance *
+             std::clamp(_surface.distance().mean_edge(triangle), smallest_edge * size, largest_edge * size);
+    };
+    if (nearest.distance < limit(nearest.triangle)) return false;
+    if (nearest.distance < range && _surface.distance().any_nearer(p, range, limit)) return false;
+    if (!ask) return true;
+    const auto found = _surface.region_at(p, nearest);
+    region = found.value_or(mesh::no_region);
+    return true;
+  }
+
+  const LatticeSource& _source;
+  const NearSurface& _surface;
+  BlockPoints& _result;
+  BlockIndex _block = 0;
+  double _clearance = 0;
+  bool _near = false;
+  std::int32_t _guess = -1;
+};
+
+}  // namespace
+
+double reach_of_block(const LatticeSource& source, BlockIndex b) {
+  const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
+  const double clear = largest_edge * farthest * largest_size(source, b);
+  if (!source.table.is_met(b)) return source.frame.grid_distance(clear);
+  const double diagonal = std::numbers::sqrt3 * source.tree.cell(b).edge();
+  return std::max(source.frame.grid_distance(clear),
+                  1.1 * diagonal + source.frame.grid_distance(source.table.longest_edge[b]));
+}
+
+BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last, const NearSurface& surface) {
+  BlockPoints result;
+  result.first = first;
+  result.starts.push_back(0);
+  PointMaker maker(source, surface, result);
+  for (BlockIndex b = first; b < last; ++b) {
+    maker.make(b);
+    result.starts.push_back(static_cast<std::int64_t>(result.points.size()));
+  }
+  return result;
+}
+
+}  // namespace aeroloom::volume

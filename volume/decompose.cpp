@@ -1,0 +1,98 @@
+#include "volume/decomposition_parts.hpp"
+
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace aeroloom::volume {
+
+using parallel::ScopedCpu;
+
+namespace {
+
+/// A volume of less than this many wanted zones stays whole.
+constexpr double whole_below = 1.5;
+
+/// The box of the surface, the same on every rank.
+geometry::Box box_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface) {
+  geometry::Box box;
+  for (const mesh::Piece& piece : surface.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = communicator.minimum(box.low[axis]);
+    box.high[axis] = communicator.maximum(box.high[axis]);
+  }
+  return box;
+}
+
+/// The surface near each rank's blocks.
+void share_surface(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Parts& parts,
+                   parallel::StageClock& clock) {
+  const ScopedCpu task(clock, ScopedCpu::As::task);
+  parts.table = tabulate_surface(communicator, *parts.frame, *parts.tree, input.surface);
+  parts.changes.assign(parts.tree->block_count(), {});
+  parts.shares = share_blocks(*parts.tree, parts.table, communicator.size());
+  const BlockIndex first = parts.shares[communicator.rank()], last = parts.shares[communicator.rank() + 1];
+  std::vector<double> reach;
+  if (communicator.size() > 1) {
+    for (BlockIndex b = first; b < last; ++b) reach.push_back(reach_of_block(parts.source(input), b));
+  }
+  parts.triangles = deliver_surface(communicator, *parts.frame, *parts.tree, parts.table, parts.shares, reach,
+                                    input.surface, input.numbering);
+  parts.surface = std::make_unique<NearSurface>(parts.triangles);
+  parts.of_blocks = std::make_unique<TrianglesOfBlocks>(*parts.frame, *parts.tree, first, last, parts.triangles);
+}
+
+/// Zones of equal expected size.
+void divide(const VolumeInput& input, Decomposition::Parts& parts, parallel::StageClock& clock) {
+  const ScopedCpu repeated(clock, ScopedCpu::As::serial);
+  const std::vector<double> loads = block_loads(parts.table, parts.counts);
+  const double zones = std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(input.options.piece_tets);
+  const auto count = zones < whole_below ? 1 : static_cast<ZoneIndex>(std::lround(zones));
+  parts.zones = std::make_unique<Zones>(bisect(*parts.tree, loads, count));
+  parts.report.zones = count;
+}
+
+}  // namespace
+
+Decomposition::Decomposition(std::unique_ptr<Parts> parts) : _parts(std::move(parts)) {}
+Decomposition::Decomposition(Decomposition&&) noexcept = default;
+Decomposition& Decomposition::operator=(Decomposition&&) noexcept = default;
+Decomposition::~Decomposition() = default;
+
+const DecompositionReport& Decomposition::report() const {
+  return _parts->report;
+}
+
+void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
+                     Decomposition::Parts& parts, parallel::StageClock& clock) {
+  const BlockIndex first = parts.shares[communicator.rank()], last = parts.shares[communicator.rank() + 1];
+  std::vector<std::uint8_t> mine;
+  parallel::agree(communicator, [&] {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    parts.points = make_points(parts.source(input), first, last, *parts.surface);
+    for (BlockIndex b = first; b < last; ++b) mine.push_back(static_cast<std::uint8_t>(parts.points.count(b)));
+  });
+  parts.counts = communicator.all_gather_items<std::uint8_t>(mine);
+  parts.report.lattice_points = communicator.sum(static_cast<std::int64_t>(parts.points.points.size()));
+}
+
+Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
+                        parallel::StageClock& clock) {
+  auto parts = std::make_unique<Decomposition::Parts>();
+  const geometry::Box box = box_of(communicator, input.surface);
+  parts->frame = std::make_unique<LatticeFrame>(input.field, box);
+  parts->tree = std::make_unique<LatticeTree>(communicator, *parts->frame, input.field, parts->frame->grid_box(box), clock);
+  parts->report.blocks = parts->tree->block_count();
+  share_surface(communicator, input, *parts, clock);
+  parts->regions = find_block_regions(communicator, *parts->frame, *parts->tree, parts->table, parts->shares,
+                                      *parts->surface, clock);
+  make_all_points(communicator, input, *parts, clock);
+  divide(input, *parts, clock);
+  return Decomposition(std::move(parts));
+}
+
+}  // namespace aeroloom::volume

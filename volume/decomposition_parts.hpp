@@ -1,0 +1,44 @@
+/// What is inside of a Decomposition. Used by the two halves of the stage's driver.
+#pragma once
+
+#include "volume/block_points.hpp"
+#include "volume/block_regions.hpp"
+#include "volume/halo.hpp"
+#include "volume/near_surface.hpp"
+#include "volume/volume_mesher.hpp"
+#include "volume/zone_supply.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace aeroloom::volume {
+
+struct Decomposition::Parts {
+  // The same on every rank.
+  std::unique_ptr<const LatticeFrame> frame;
+  std::unique_ptr<const LatticeTree> tree;
+  SurfaceTable table;
+  std::vector<mesh::RegionId> regions;  ///< per block
+  std::vector<BlockChange> changes;     ///< per block
+  std::vector<BlockIndex> shares;       ///< see share_blocks
+  std::vector<std::uint8_t> counts;     ///< points per block
+  std::unique_ptr<Zones> zones;
+  DecompositionReport report;
+
+  // Of this rank's blocks.
+  std::vector<SurfaceTriangle> triangles;
+  std::unique_ptr<const NearSurface> surface;
+  std::unique_ptr<const TrianglesOfBlocks> of_blocks;
+  BlockPoints points;
+
+  LatticeSource source(const VolumeInput& input) const {
+    return {*frame, *tree, input.field, table, regions,
+            {input.options.lattice_clearance, input.options.perturbation}, changes};
+  }
+};
+
+/// Makes the points of this rank's blocks (anew) and counts those of all. Collective.
+void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
+                     Decomposition::Parts& parts, parallel::StageClock& clock);
+
+}  // namespace aeroloom::volume

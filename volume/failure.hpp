@@ -1,0 +1,42 @@
+/// What is known of zones that could not be filled, and the message the user gets.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "volume/surface_check.hpp"
+#include "volume/volume_mesher.hpp"
+#include "volume/zone_supply.hpp"
+
+#include <string>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// Keeps what this rank's failing zones looked like.
+class Evidence {
+public:
+  /// A zone failed: its triangles are looked at for defects, and kept.
+  void note(const ZoneContent& content, const mesh::DistributedMesh& surface, const std::string& reason);
+
+  /// The remedy belongs to the cause: a surface that meets itself cannot be helped by trying again. Throws
+  /// VolumeFailure on every rank where a zone's triangles have a defect. Collective.
+  void stop_at_defects(const parallel::Communicator& communicator) const;
+  /// Throws VolumeFailure on every rank: no rung of the ladder was left for this zone. Collective.
+  [[noreturn]] void give_up(const parallel::Communicator& communicator, ZoneIndex zone,
+                            const std::vector<Retry>& tried) const;
+
+private:
+  struct Item {
+    ZoneIndex zone = no_zone;
+    bool has_defect = false;
+    std::string message;
+    std::vector<geometry::Vec3> points;
+    std::vector<LocalTriangle> triangles;
+  };
+  /// The item of the lowest zone among all ranks' chosen ones; zone is no_zone when there is none.
+  static Item lowest(const parallel::Communicator& communicator, const Item* mine);
+  [[noreturn]] static void raise(const Item& item, const std::string& tried);
+
+  std::vector<Item> _items;
+};
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,172 @@
+#include "volume/owned_cells.hpp"
+
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::RegionId;
+
+namespace {
+
+/// Turns of the three vertices of a face against those of a triangle with the same vertices.
+bool same_turn(const LocalTriangle& face, const LocalTriangle& triangle) {
+  const auto at = std::find(triangle.begin(), triangle.end(), face[0]) - triangle.begin();
+  return triangle[(at + 1) % 3] == face[1];
+}
+
+LocalTriangle face_of(const LocalCell& cell, int face) {
+  const int* corner = mesh::tetrahedron_faces[face];
+  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
+}
+
+/// Finds the region of cells without lattice vertices.
+class RegionSearch {
+public:
+  RegionSearch(const ZoneProblem& problem, const TetgenMesh& mesh)
+      : _problem(problem),
+        _mesh(mesh),
+        _first_lattice(static_cast<LocalIndex>(problem.surface_points())),
+        _first_added(static_cast<LocalIndex>(problem.points.size())),
+        _visit(mesh.cells.size(), 0) {}
+
+  /// The region told by a lattice vertex of the cell; false: it has none.
+  bool told_by_vertex(std::int32_t cell, RegionId& region) const {
+    for (const LocalIndex v : _mesh.cells[cell]) {
+      if (v < _first_lattice || v >= _first_added) continue;
+      region = _problem.regions[v - _first_lattice];
+      return true;
+    }
+    return false;
+  }
+
+  /// Searches the star of vertex v, one of the cell's.
+  RegionId region_in_star(std::int32_t cell, LocalIndex v) {
+    ++_round;
+    _open.assign(1, cell);
+    _visit[cell] = _round;
+    RegionId region = mesh::no_region;
+    for (std::size_t i = 0; i < _open.size(); ++i) {
+      const std::int32_t c = _open[i];
+      if (told_by_vertex(c, region)) return region;
+      for (int face = 0; face < 4; ++face) {
+        if (_mesh.cells[c][face] == v) continue;
+        const std::int32_t next = _mesh.neighbours[c][face];
+        if (next <= -2) return region_beside(c, face, -2 - next);
+        if (next < 0 || _visit[next] == _round) continue;
+        _visit[next] = _round;
+        _open.push_back(next);
+      }
+    }
+    throw std::runtime_error("a point of the surface has no triangle around it");
+  }
+
+  RegionId region_beside(std::int32_t cell, int face, std::int32_t triangle) const {
+    const bool front = same_turn(face_of(_mesh.cells[cell], face), _problem.triangles[triangle]);
+    return front ? _problem.front[triangle] : _problem.back[triangle];
+  }
+
+private:
+  const ZoneProblem& _problem;
+  const TetgenMesh& _mesh;
+  LocalIndex _first_lattice, _first_added;
+  std::vector<std::int32_t> _visit;
+  std::vector<std::int32_t> _open;
+  std::int32_t _round = 0;
+};
+
+/// Every triangle at a vertex of the zone must have become a face of the mesh, and faces be what they are said to.
+void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
+  std::vector<std::uint8_t> seen(problem.triangles.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    for (int face = 0; face < 4; ++face) {
+      const std::int32_t t = -2 - mesh.neighbours[c][face];
+      if (t < 0) continue;
+      LocalTriangle a = face_of(mesh.cells[c], face), b = problem.triangles[t];
+      std::sort(a.begin(), a.end());
+      std::sort(b.begin(), b.end());
+      if (a != b) throw std::runtime_error("a triangle of the surface was changed");
+      seen[t] = 1;
+    }
+  }
+  for (std::size_t t = 0; t < seen.size(); ++t) {
+    const auto& v = problem.triangles[t];
+    if (!seen[t] && std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.owners[w] == Owner::mine; }))
+      throw std::runtime_error("a triangle of the surface is missing");
+  }
+}
+
+/// Owners of all vertices, those that TetGen added included: the lowest zone in the star.
+std::vector<Owner> owners_of(const ZoneProblem& problem, const TetgenMesh& mesh, std::size_t points) {
+  std::vector<Owner> owners = problem.owners;
+  const std::size_t given = owners.size();
+  owners.resize(points, Owner::higher);
+  const auto rank = [](Owner o) { return o == Owner::lower ? 0 : o == Owner::mine ? 1 : 2; };
+  if (points == given) return owners;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const LocalCell& cell : mesh.cells) {
+      Owner lowest = Owner::higher;
+      for (const LocalIndex v : cell) {
+        if (rank(owners[v]) < rank(lowest)) lowest = owners[v];
+      }
+      for (const LocalIndex v : cell) {
+        if (static_cast<std::size_t>(v) < given || rank(owners[v]) <= rank(lowest)) continue;
+        owners[v] = lowest;
+        changed = true;
+      }
+    }
+  }
+  return owners;
+}
+
+}  // namespace
+
+OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std::span<const Vec3> points) {
+  require_triangles(problem, mesh);
+  const std::vector<Owner> owners = owners_of(problem, mesh, points.size());
+  RegionSearch search(problem, mesh);
+  OwnedCells result;
+  std::vector<std::int32_t> kept(mesh.cells.size(), -1);
+  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+    const LocalCell& cell = mesh.cells[i];
+    LocalIndex mine = -1;
+    bool lower = false;
+    for (const LocalIndex v : cell) {
+      lower = lower || owners[v] == Owner::lower;
+      if (owners[v] == Owner::mine) mine = mine < 0 ? v : std::min(mine, v);
+    }
+    if (mine < 0 || lower) continue;
+    const auto c = static_cast<std::int32_t>(i);
+    RegionId region = mesh::no_region;
+    if (!search.told_by_vertex(c, region)) region = search.region_in_star(c, mine);
+    if (region == mesh::no_region) continue;
+    if (!geometry::has_positive_volume(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]))
+      throw std::runtime_error("a tetrahedron is flat or inverted");
+    kept[i] = static_cast<std::int32_t>(result.cells.size());
+    result.cells.push_back(cell);
+    result.regions.push_back(region);
+  }
+  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+    if (kept[i] < 0) continue;
+    for (int face = 0; face < 4; ++face) {
+      const std::int32_t next = mesh.neighbours[i][face];
+      if (next == -1) throw std::runtime_error("the filling ends at a face that is no triangle of the surface");
+      if (next >= 0) {
+        if (kept[next] < 0) result.crossings.push_back({kept[i], face});
+        else if (result.regions[kept[next]] != result.regions[kept[i]])
+          throw std::runtime_error("two regions touch without a triangle of the surface between them");
+      } else if (same_turn(face_of(mesh.cells[i], face), problem.triangles[-2 - next])) {
+        result.triangles.push_back(-2 - next);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace aeroloom::volume

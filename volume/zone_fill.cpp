@@ -1,0 +1,187 @@
+#include "volume/zone_fill.hpp"
+
+#include "parallel/contained.hpp"
+#include "volume/cell_order.hpp"
+#include "volume/volume_mesher.hpp"
+#include "volume/zones.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+using parallel::Bytes;
+
+namespace {
+
+const char* const task_name = "volume.zone";
+
+// Limits of a child. TetGen takes about 1 us and 350 bytes per tetrahedron; what takes forty times as long is
+// stuck.
+constexpr double base_cpu_seconds = 10.0;
+constexpr double cpu_seconds_per_tetrahedron = 40e-6;
+constexpr std::int64_t base_bytes = 2LL << 30;
+constexpr std::int64_t bytes_per_tetrahedron = 1500;
+
+/// Moves a zone near the origin and to about unit size, where TetGen's tolerances suit it. Exact: a coordinate
+/// axis is shifted only when the zone is far from its zero (Sterbenz: such a difference has no rounding), and the
+/// scale is a power of two. So every orientation and every circumsphere is what it was, in every zone alike.
+class UnitFrame {
+public:
+  explicit UnitFrame(std::span<const Vec3> points) {
+    geometry::Box box;
+    for (const Vec3& p : points) box.add(p);
+    const Vec3 center = box.center(), size = box.size();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(center[axis]) > size[axis]) _shift[axis] = center[axis];
+    }
+    _exponent = -std::ilogb(std::max({size.x, size.y, size.z}));
+  }
+  Vec3 to_unit(Vec3 p) const { return std::ldexp(1.0, _exponent) * (p - _shift); }
+  Vec3 from_unit(Vec3 p) const { return std::ldexp(1.0, -_exponent) * p + _shift; }
+
+private:
+  Vec3 _shift;
+  int _exponent = 0;
+};
+
+void commit_sabotage(VolumeOptions::Sabotage sabotage) {
+  using Sabotage = VolumeOptions::Sabotage;
+  if (sabotage == Sabotage::throws) throw std::runtime_error("sabotage: an exception");
+  if (sabotage == Sabotage::aborts) std::abort();
+  if (sabotage == Sabotage::hangs) {
+    for (;;) std::atomic_signal_fence(std::memory_order_seq_cst);
+  }
+  if (sabotage == Sabotage::exhausts_memory) {
+    constexpr std::size_t chunk = 64 << 20;
+    std::vector<std::vector<char>> hoard;
+    for (;;) hoard.emplace_back(chunk, 'x');
+  }
+}
+
+Bytes pack_problem(const ZoneProblem& problem, VolumeOptions::Sabotage sabotage) {
+  parallel::Packer packer;
+  packer.value(sabotage);
+  packer.array(problem.points);
+  packer.array(problem.owners);
+  packer.array(problem.triangles);
+  packer.array(problem.front);
+  packer.array(problem.back);
+  packer.array(problem.regions);
+  return packer.take();
+}
+
+ZoneProblem unpack_problem(parallel::Unpacker& unpacker) {
+  ZoneProblem problem;
+  problem.points = unpacker.array<Vec3>();
+  problem.owners = unpacker.array<Owner>();
+  problem.triangles = unpacker.array<LocalTriangle>();
+  problem.front = unpacker.array<mesh::RegionId>();
+  problem.back = unpacker.array<mesh::RegionId>();
+  problem.regions = unpacker.array<mesh::RegionId>();
+  return problem;
+}
+
+/// Along a space-filling curve, crossings with them.
+void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
+  OwnedCells sorted;
+  std::vector<std::int32_t> place(owned.cells.size());
+  for (const std::uint32_t c : order_along_curve(points, owned.cells)) {
+    place[c] = static_cast<std::int32_t>(sorted.cells.size());
+    sorted.cells.push_back(owned.cells[c]);
+    sorted.regions.push_back(owned.regions[c]);
+  }
+  for (const Crossing& crossing : owned.crossings) sorted.crossings.push_back({place[crossing.cell], crossing.face});
+  std::sort(sorted.crossings.begin(), sorted.crossings.end(), [](const Crossing& a, const Crossing& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
+  });
+  sorted.triangles = std::move(owned.triangles);
+  std::sort(sorted.triangles.begin(), sorted.triangles.end());
+  owned = std::move(sorted);
+}
+
+/// Runs in the child.
+Bytes fill_task(std::span<const std::byte> input) {
+  parallel::Unpacker unpacker(input);
+  commit_sabotage(unpacker.value<VolumeOptions::Sabotage>());
+  const ZoneProblem problem = unpack_problem(unpacker);
+  const UnitFrame frame(problem.points);
+  std::vector<Vec3> points = problem.points, added;
+  OwnedCells owned;
+  {
+    std::vector<double> unit;
+    unit.reserve(3 * points.size());
+    for (const Vec3& p : points) {
+      const Vec3 q = frame.to_unit(p);
+      unit.insert(unit.end(), {q.x, q.y, q.z});
+    }
+    const TetgenMesh mesh =
+        run_tetgen(unit, problem.triangles);
+    for (std::size_t s = 0; s < mesh.added.size(); s += 3)
+      added.push_back(frame.from_unit({mesh.added[s], mesh.added[s + 1], mesh.added[s + 2]}));
+    points.insert(points.end(), added.begin(), added.end());
+    owned = select_owned(problem, mesh, points);
+  }
+  sort_cells(points, owned);
+  parallel::Packer packer;
+  packer.array(owned.cells);
+  packer.array(owned.regions);
+  packer.array(owned.crossings);
+  packer.array(owned.triangles);
+  packer.array(added);
+  return packer.take();
+}
+
+std::string describe(const parallel::ContainedResult& result) {
+  using Status = parallel::ContainedStatus;
+  switch (result.status) {
+    case Status::aborted:
+      return "the mesher crashed: " + result.message;
+    case Status::out_of_time:
+      return "the mesher did not end in " + std::to_string(std::lround(result.cpu_seconds)) + " CPU seconds";
+    case Status::out_of_memory:
+      return "the mesher ran out of its memory";
+    default:
+      return result.message;
+  }
+}
+
+}  // namespace
+
+std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
+  return static_cast<std::int64_t>(tetrahedra_per_point * static_cast<double>(problem.regions.size()) +
+                                   tetrahedra_per_triangle * static_cast<double>(problem.triangles.size()));
+}
+
+ZoneFilling fill_zone(const ZoneProblem& problem, VolumeOptions::Sabotage sabotage) {
+  const std::int64_t predicted = predict_tetrahedra(problem);
+  const parallel::ContainedLimits limits{
+      base_cpu_seconds + cpu_seconds_per_tetrahedron * static_cast<double>(predicted),
+      base_bytes + bytes_per_tetrahedron * predicted};
+  const auto result = parallel::run_contained(task_name, pack_problem(problem, sabotage), limits);
+  ZoneFilling filling;
+  filling.cpu_seconds = result.cpu_seconds;
+  filling.child_peak_bytes = result.peak_resident_bytes;
+  filling.filled = result.status == parallel::ContainedStatus::ok;
+  if (!filling.filled) {
+    filling.failure = describe(result);
+    return filling;
+  }
+  parallel::Unpacker unpacker(result.output);
+  filling.owned.cells = unpacker.array<LocalCell>();
+  filling.owned.regions = unpacker.array<mesh::RegionId>();
+  filling.owned.crossings = unpacker.array<Crossing>();
+  filling.owned.triangles = unpacker.array<std::int32_t>();
+  filling.added = unpacker.array<Vec3>();
+  return filling;
+}
+
+void register_volume_tasks() {
+  parallel::register_contained_task(task_name, fill_task);
+}
+
+}  // namespace aeroloom::volume

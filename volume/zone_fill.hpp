@@ -1,0 +1,30 @@
+/// One try at filling a zone, in a contained child.
+#pragma once
+
+#include "volume/owned_cells.hpp"
+#include "volume/volume_options.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// What came of it.
+struct ZoneFilling {
+  bool filled = false;
+  std::string failure;               ///< why not, one line or more
+  OwnedCells owned;                  ///< cells ordered along a space-filling curve
+  std::vector<geometry::Vec3> added; ///< points of TetGen, numbered behind the given ones
+  double cpu_seconds = 0;            ///< of the child
+  std::int64_t child_peak_bytes = 0;
+};
+
+/// Tetrahedra to expect, halo included.
+std::int64_t predict_tetrahedra(const ZoneProblem& problem);
+
+/// Runs TetGen in a child under limits that follow from the predicted count. Nothing the child does harms the
+/// caller.
+ZoneFilling fill_zone(const ZoneProblem& problem, VolumeOptions::Sabotage sabotage);
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,152 @@
+#include "volume/zone_piece.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::Piece;
+using mesh::RegionId;
+
+namespace {
+
+/// Tokens of points that TetGen added: they have no leaf and fit no other zone.
+constexpr mesh::SharedToken added_token = mesh::SharedToken{1} << 61;
+
+class PieceMaker {
+public:
+  PieceMaker(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder)
+      : _content(content), _filling(filling), _finder(finder), _shared(content.problem.points.size(), 0) {
+    mark_shared();
+  }
+
+  Piece make(RegionId region) const {
+    const OwnedCells& owned = _filling.owned;
+    Piece piece;
+    piece.id = region;
+    piece.region = region;
+    std::vector<LocalIndex> number(_content.problem.points.size() + _filling.added.size(), -1);
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < owned.cells.size(); ++c) {
+      if (owned.regions[c] != region) continue;
+      ++count;
+      for (const LocalIndex v : owned.cells[c]) number[v] = 0;
+    }
+    add_vertices(region, number, piece);
+    piece.cells.reserve(4 * count);
+    for (std::size_t c = 0; c < owned.cells.size(); ++c) {
+      if (owned.regions[c] != region) continue;
+      for (const LocalIndex v : owned.cells[c]) piece.cells.push_back(number[v]);
+    }
+    for (const std::int32_t t : owned.triangles) {
+      if (_content.problem.front[t] != region) continue;
+      for (const LocalIndex v : _content.problem.triangles[t]) piece.boundary.push_back(number[v]);
+      piece.triangle_face.push_back(_content.face[t]);
+      piece.triangle_patch.push_back(_content.patch[t]);
+    }
+    return piece;
+  }
+
+  std::vector<ZoneFace> faces() const {
+    std::vector<ZoneFace> result;
+    for (const Crossing& crossing : _filling.owned.crossings) {
+      const int* corner = mesh::tetrahedron_faces[crossing.face];
+      ZoneFace face{};
+      face.zone = _content.zone;
+      face.region = _filling.owned.regions[crossing.cell];
+      std::array<LocalIndex, 3> v;
+      for (int k = 0; k < 3; ++k) v[k] = _filling.owned.cells[crossing.cell][corner[k]];
+      const auto order = [&](int i, int j) {
+        if (token(v[j]) < token(v[i])) std::swap(v[i], v[j]), face.odd ^= 1;
+      };
+      order(0, 1), order(1, 2), order(0, 1);
+      for (int k = 0; k < 3; ++k) {
+        face.vertices[k] = token(v[k]);
+        face.leaves[k] = leaf(v[k]);
+      }
+      result.push_back(face);
+    }
+    return result;
+  }
+
+private:
+  std::size_t given() const { return _content.problem.points.size(); }
+  mesh::SharedToken token(LocalIndex v) const {
+    if (static_cast<std::size_t>(v) < given()) return _content.tokens[v];
+    return added_token | static_cast<mesh::SharedToken>(_content.zone) << 32 |
+           (static_cast<std::size_t>(v) - given());
+  }
+  std::int64_t leaf(LocalIndex v) const {
+    if (static_cast<std::size_t>(v) >= given()) return -1;
+    const ZoneFinder::Leaf at = _finder.leaf_of(_content.tokens[v], _content.problem.points[v]);
+    return 8 * std::int64_t{at.block} + at.child;
+  }
+
+  /// Vertices on faces to other zones, and where triangles of several regions meet.
+  void mark_shared() {
+    for (const Crossing& crossing : _filling.owned.crossings) {
+      const int* corner = mesh::tetrahedron_faces[crossing.face];
+      for (int k = 0; k < 3; ++k) {
+        const LocalIndex v = _filling.owned.cells[crossing.cell][corner[k]];
+        if (static_cast<std::size_t>(v) < given()) _shared[v] = 1;
+      }
+    }
+    const ZoneProblem& problem = _content.problem;
+    std::vector<RegionId> first(problem.surface_points(), mesh::no_region);
+    for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
+      for (const RegionId region : {problem.front[t], problem.back[t]}) {
+        if (region == mesh::no_region) continue;
+        for (const LocalIndex v : problem.triangles[t]) {
+          if (first[v] == mesh::no_region) first[v] = region;
+          if (first[v] != region) _shared[v] = 1;
+        }
+      }
+    }
+  }
+
+  /// Numbers the vertices that are used, in their order.
+  void add_vertices(RegionId region, std::vector<LocalIndex>& number, Piece& piece) const {
+    const std::size_t surface_points = _content.problem.surface_points();
+    const auto used = static_cast<std::size_t>(std::count(number.begin(), number.end(), 0));
+    piece.coordinates.reserve(3 * used);
+    piece.vertex_dimension.reserve(used);
+    piece.vertex_entity.reserve(used);
+    LocalIndex next = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] < 0) continue;
+      number[v] = next++;
+      const Vec3 p = v < given() ? _content.problem.points[v] : _filling.added[v - given()];
+      piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+      const bool on_surface = v < surface_points;
+      piece.vertex_dimension.push_back(on_surface ? _content.dimension[v] : std::int8_t{3});
+      piece.vertex_entity.push_back(on_surface ? _content.entity[v] : region);
+      if (v >= given() || !_shared[v]) continue;
+      piece.shared_vertices.push_back(number[v]);
+      piece.shared_tokens.push_back(_content.tokens[v]);
+    }
+  }
+
+  const ZoneContent& _content;
+  const ZoneFilling& _filling;
+  const ZoneFinder& _finder;
+  std::vector<std::uint8_t> _shared;  // per given point
+};
+
+}  // namespace
+
+ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder) {
+  ZoneResult result;
+  result.zone = content.zone;
+  std::vector<RegionId> regions = filling.owned.regions;
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  const PieceMaker maker(content, filling, finder);
+  for (const RegionId region : regions) result.pieces.push_back(maker.make(region));
+  result.faces = maker.faces();
+  result.steiner_points = static_cast<std::int64_t>(filling.added.size());
+  result.tetrahedra = static_cast<std::int64_t>(filling.owned.cells.size());
+  return result;
+}
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,35 @@
+/// From a filled zone to pieces of the mesh, and the faces by which zones must fit together.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "volume/zone_fill.hpp"
+#include "volume/zone_supply.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A face of a zone's cell behind which another zone's cell must be.
+struct ZoneFace {
+  std::array<mesh::SharedToken, 3> vertices;  ///< ascending
+  std::array<std::int64_t, 3> leaves;         ///< 8 * block + child of each vertex; -1 of one that TetGen added
+  ZoneIndex zone;
+  mesh::RegionId region;
+  std::int32_t odd;         ///< 1 where its turn, seen from outside of the cell, is that of the descending vertices
+  std::int32_t unused = 0;  ///< no padding travels
+};
+
+/// A zone's part of the mesh.
+struct ZoneResult {
+  ZoneIndex zone = no_zone;
+  std::vector<mesh::Piece> pieces;  ///< by region; ids are those of regions so far
+  std::vector<ZoneFace> faces;
+  std::int64_t steiner_points = 0;
+  std::int64_t tetrahedra = 0;
+};
+
+ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder);
+
+}  // namespace aeroloom::volume

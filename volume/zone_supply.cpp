@@ -1,0 +1,178 @@
+#include "volume/zone_supply.hpp"
+
+#include "mesh/delivery.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+
+namespace {
+
+struct PointOfZone {
+  ZoneIndex zone;
+  parallel::Rank rank;
+  std::int64_t number;  ///< of the lattice
+  Vec3 point;
+  mesh::RegionId region;
+  std::int32_t unused = 0;  ///< no padding travels
+};
+
+struct TriangleOfZone {
+  ZoneIndex zone;
+  parallel::Rank rank;
+  SurfaceTriangle triangle;
+};
+
+/// What this rank sends.
+class Answer {
+public:
+  Answer(const BlockStore& store, const LatticeFrame& frame, const LatticeTree& tree)
+      : _store(store), _frame(frame), _tree(tree), _sent_to(store.triangles.size(), no_zone) {}
+
+  /// Wants come zone by zone.
+  void add(const ZoneWant& want) {
+    const BlockPoints& all = _store.points;
+    for (std::int64_t i = all.starts[want.block - all.first]; i < all.starts[want.block - all.first + 1]; ++i) {
+      if ((want.leaves >> all.slots[i] / slots_per_leaf & 1) == 0) continue;
+      points.push_back(
+          {want.zone, want.rank, lattice_number(want.block, all.slots[i]), all.points[i], all.regions[i]});
+    }
+    for (const std::int32_t t : _store.of_blocks.of(want.block)) {
+      if (_sent_to[t] == want.zone || !meets(want, _store.triangles[t])) continue;
+      _sent_to[t] = want.zone;
+      triangles.push_back({want.zone, want.rank, _store.triangles[t]});
+    }
+  }
+
+  std::vector<PointOfZone> points;
+  std::vector<TriangleOfZone> triangles;
+
+private:
+  bool meets(const ZoneWant& want, const SurfaceTriangle& triangle) const {
+    if (want.leaves == _tree.all_leaves(want.block)) return true;
+    const GridBox box = grid_box(_frame, triangle.points);
+    for (int child = 0; child < 8; ++child) {
+      if ((want.leaves >> child & 1) && GridBox::of(_tree.leaf(want.block, child)).overlaps(box)) return true;
+    }
+    return false;
+  }
+
+  const BlockStore& _store;
+  const LatticeFrame& _frame;
+  const LatticeTree& _tree;
+  std::vector<ZoneIndex> _sent_to;
+};
+
+/// A zone's points and triangles become its problem.
+class ContentBuilder {
+public:
+  ContentBuilder(ZoneIndex zone, const ZoneFinder& finder) : _finder(finder) { _content.zone = zone; }
+
+  /// Both by number; triangles that come from several ranks may come several times.
+  ZoneContent build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles) {
+    std::vector<Corner> corners;
+    for (const auto& [zone, rank, t] : triangles) {
+      for (int k = 0; k < 3; ++k) corners.push_back({t.vertices[k], t.points[k], t.dimension[k], t.entity[k]});
+    }
+    std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.number < b.number; });
+    corners.erase(std::unique(corners.begin(), corners.end(),
+                              [](const Corner& a, const Corner& b) { return a.number == b.number; }),
+                  corners.end());
+    for (const Corner& corner : corners) {
+      const auto token = static_cast<mesh::SharedToken>(corner.number);
+      add_point(token, corner.point);
+      _content.dimension.push_back(corner.dimension);
+      _content.entity.push_back(corner.entity);
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      if (i == 0 || triangles[i].triangle.number != triangles[i - 1].triangle.number) add_triangle(triangles[i].triangle, corners);
+    }
+    for (const PointOfZone& p : points) {
+      add_point(_finder.token_of(p.number), p.point);
+      _content.problem.regions.push_back(p.region);
+    }
+    return std::move(_content);
+  }
+
+private:
+  struct Corner {
+    mesh::GlobalIndex number;
+    Vec3 point;
+    std::int8_t dimension;
+    std::int32_t entity;
+  };
+
+  void add_point(mesh::SharedToken token, Vec3 p) {
+    const ZoneIndex zone = _finder.zone_of(_finder.leaf_of(token, p));
+    _content.tokens.push_back(token);
+    _content.problem.points.push_back(p);
+    _content.problem.owners.push_back(zone == _content.zone  ? Owner::mine
+                                      : zone < _content.zone ? Owner::lower
+                                                             : Owner::higher);
+  }
+
+  void add_triangle(const SurfaceTriangle& t, const std::vector<Corner>& corners) {
+    LocalTriangle local;
+    for (int k = 0; k < 3; ++k) {
+      const auto at =
+          std::lower_bound(corners.begin(), corners.end(), t.vertices[k],
+                           [](const Corner& corner, mesh::GlobalIndex number) { return corner.number < number; });
+      local[k] = static_cast<mesh::LocalIndex>(at - corners.begin());
+    }
+    _content.problem.triangles.push_back(local);
+    _content.problem.front.push_back(t.front);
+    _content.problem.back.push_back(t.back);
+    _content.face.push_back(t.face);
+    _content.patch.push_back(t.patch);
+  }
+
+  const ZoneFinder& _finder;
+  ZoneContent _content;
+};
+
+/// Groups items by zone, without changing their order within one.
+template <class Item>
+void sort_by_zone(std::vector<Item>& items) {
+  const auto before = [](const Item& a, const Item& b) { return a.zone < b.zone; };
+  if (!std::is_sorted(items.begin(), items.end(), before)) std::stable_sort(items.begin(), items.end(), before);
+}
+
+}  // namespace
+
+std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockStore& store,
+                                      const LatticeFrame& frame, const LatticeTree& tree, const ZoneFinder& finder,
+                                      std::span<const BlockIndex> shares, const std::vector<ZoneWant>& wants) {
+  const auto owner = [&](const ZoneWant& want) {
+    return static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, want.block) - shares.begin() - 1);
+  };
+  std::vector<ZoneWant> asked = mesh::deliver(communicator, wants, owner);
+  sort_by_zone(asked);
+  Answer answer(store, frame, tree);
+  for (const ZoneWant& want : asked) answer.add(want);
+  // Ranks have ascending blocks, so what arrives is by number within each zone.
+  std::vector<PointOfZone> points =
+      mesh::deliver(communicator, answer.points, [](const PointOfZone& p) { return p.rank; });
+  answer.points = {};
+  sort_by_zone(points);
+  std::vector<TriangleOfZone> triangles =
+      mesh::deliver(communicator, answer.triangles, [](const TriangleOfZone& t) { return t.rank; });
+  answer.triangles = {};
+  std::sort(triangles.begin(), triangles.end(), [](const TriangleOfZone& a, const TriangleOfZone& b) {
+    return a.zone != b.zone ? a.zone < b.zone : a.triangle.number < b.triangle.number;
+  });
+  std::vector<ZoneContent> contents;
+  auto p = points.begin();
+  auto t = triangles.begin();
+  while (p != points.end() || t != triangles.end()) {
+    const ZoneIndex zone = std::min(p != points.end() ? p->zone : INT32_MAX, t != triangles.end() ? t->zone : INT32_MAX);
+    const auto last_p = std::find_if(p, points.end(), [&](const PointOfZone& q) { return q.zone != zone; });
+    const auto last_t = std::find_if(t, triangles.end(), [&](const TriangleOfZone& q) { return q.zone != zone; });
+    contents.push_back(ContentBuilder(zone, finder).build({p, last_p}, {t, last_t}));
+    p = last_p, t = last_t;
+  }
+  return contents;
+}
+
+}  // namespace aeroloom::volume

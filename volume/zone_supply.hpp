@@ -1,0 +1,87 @@
+/// From the blocks that ranks have to the problems that zones are.
+#pragma once
+
+#include "mesh/piece.hpp"
+#include "parallel/communicator.hpp"
+#include "volume/block_points.hpp"
+#include "volume/halo.hpp"
+#include "volume/owned_cells.hpp"
+#include "volume/surface_share.hpp"
+#include "volume/zones.hpp"
+
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// All that a zone knows: what TetGen gets, and what the mesh piece will need.
+struct ZoneContent {
+  ZoneIndex zone = no_zone;
+  ZoneProblem problem;
+  std::vector<mesh::SharedToken> tokens;  ///< per point, ascending: number in the surface, then lattice points
+  std::vector<std::int8_t> dimension;     ///< per surface point
+  std::vector<std::int32_t> entity;       ///< per surface point
+  std::vector<std::int32_t> face, patch;  ///< per triangle
+};
+
+/// A zone wants leaves of a block, to be sent to the rank that fills it.
+struct ZoneWant {
+  ZoneIndex zone;
+  BlockIndex block;
+  parallel::Rank rank;
+  std::int32_t leaves;  ///< a bit each
+};
+
+/// What a rank has of the volume: the points of its blocks and the triangles that meet them.
+struct BlockStore {
+  const BlockPoints& points;
+  std::span<const SurfaceTriangle> triangles;
+  const TrianglesOfBlocks& of_blocks;
+};
+
+/// Where tokens and places belong.
+class ZoneFinder {
+public:
+  ZoneFinder(const LatticeFrame& frame, const LatticeTree& tree, const Zones& zones,
+             mesh::GlobalIndex surface_vertices)
+      : _frame(frame), _tree(tree), _zones(zones), _surface_vertices(surface_vertices) {}
+
+  struct Leaf {
+    BlockIndex block;
+    int child;
+  };
+  Leaf leaf_of_place(geometry::Vec3 p) const {
+    const sizing::GridPoint cell = _frame.cell_at(_frame.to_grid(p));
+    const BlockIndex b = _tree.block_at(cell);
+    return {b, _tree.child_at(b, cell)};
+  }
+  static Leaf leaf_of_number(std::int64_t lattice_number) {
+    return {static_cast<BlockIndex>(lattice_number / slots_per_block),
+            static_cast<int>(lattice_number % slots_per_block) / slots_per_leaf};
+  }
+  /// The leaf of a vertex with this token at this place.
+  Leaf leaf_of(mesh::SharedToken token, geometry::Vec3 p) const {
+    return is_surface(token) ? leaf_of_place(p)
+                             : leaf_of_number(static_cast<std::int64_t>(token) - _surface_vertices);
+  }
+  ZoneIndex zone_of(const Leaf& leaf) const { return _zones.of(leaf.block, leaf.child); }
+  bool is_surface(mesh::SharedToken token) const {
+    return token < static_cast<mesh::SharedToken>(_surface_vertices);
+  }
+  mesh::SharedToken token_of(std::int64_t lattice_number) const {
+    return static_cast<mesh::SharedToken>(_surface_vertices + lattice_number);
+  }
+
+private:
+  const LatticeFrame& _frame;
+  const LatticeTree& _tree;
+  const Zones& _zones;
+  mesh::GlobalIndex _surface_vertices;
+};
+
+/// Brings together what zones want, each at the rank that its wants name. By zone. Collective.
+std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockStore& store,
+                                      const LatticeFrame& frame, const LatticeTree& tree, const ZoneFinder& finder,
+                                      std::span<const BlockIndex> shares, const std::vector<ZoneWant>& wants);
+
+}  // namespace aeroloom::volume

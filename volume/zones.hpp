@@ -1,0 +1,57 @@
+/// Zones: the pieces of space that tetrahedra are dealt out by.
+#pragma once
+
+#include "volume/block_points.hpp"
+#include "volume/lattice_tree.hpp"
+#include "volume/surface_share.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+using ZoneIndex = std::int32_t;
+inline constexpr ZoneIndex no_zone = -1;
+
+/// Tetrahedra around a lattice point, and next to the surface, per triangle.
+inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2;
+
+/// Which zone each leaf of the lattice belongs to: that of its block, unless the leaf was given away. The same on
+/// every rank.
+class Zones {
+public:
+  Zones(std::vector<ZoneIndex> zone_of_block, ZoneIndex count) : _of_block(std::move(zone_of_block)), _count(count) {}
+
+  ZoneIndex count() const { return _count; }
+  ZoneIndex of(BlockIndex b, int child) const {
+    return _given.empty() ? _of_block[b] : find(b, child);
+  }
+  /// Whether all leaves of a block are in one zone.
+  bool is_whole(BlockIndex b) const;
+  /// Gives a leaf to another zone.
+  void give(BlockIndex b, int child, ZoneIndex zone);
+  /// All that is of zone `from` becomes of zone `to`.
+  void merge(ZoneIndex from, ZoneIndex to);
+
+private:
+  struct Given {
+    std::int64_t leaf;  ///< 8 * block + child
+    ZoneIndex zone;
+  };
+  ZoneIndex find(BlockIndex b, int child) const;
+
+  std::vector<ZoneIndex> _of_block;
+  std::vector<Given> _given;  // by leaf
+  ZoneIndex _count;
+};
+
+/// Expected tetrahedra of each block from its points and triangles.
+std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points);
+
+/// Zones of equal load by recursive bisection: always across the axis where the two halves have least in
+/// common, in expected tetrahedra of the blocks beside the cut. Blocks without load go with their neighbours
+/// along the curve. A function of its arguments.
+Zones bisect(const LatticeTree& tree, std::span<const double> loads, ZoneIndex count);
+
+}  // namespace aeroloom::volume
