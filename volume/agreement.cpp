@@ -15,8 +15,8 @@ struct WireFace {
   std::array<mesh::SharedToken, 3> vertices;
   ZoneIndex zone;
   mesh::RegionId region;
-  parallel::Rank rank;   ///< where the face is
-  std::int32_t index;    ///< in that rank's list, times two, plus its turn
+  parallel::Rank rank;  ///< where the face is
+  std::int32_t index;   ///< in that rank's list, times two, plus its turn
 
   bool odd() const { return index & 1; }
 };
@@ -27,13 +27,14 @@ bool before(const WireFace& a, const WireFace& b) {
 
 }  // namespace
 
-std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator, std::span<const ZoneFace> faces) {
+std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
+                                     std::span<const ZoneFace> faces, parallel::StageClock& clock) {
   std::vector<WireFace> outgoing;
   outgoing.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const ZoneFace& face = faces[i];
-    outgoing.push_back(
-        {face.vertices, face.zone, face.region, communicator.rank(), static_cast<std::int32_t>(2 * i) + face.odd});
+    outgoing.push_back({face.vertices, face.zone, face.region, communicator.rank(),
+                        static_cast<std::int32_t>(2 * i) + face.odd});
   }
   std::vector<WireFace> met = mesh::deliver(communicator, outgoing, [&](const WireFace& face) {
     std::uint64_t mixed = 0;
@@ -41,20 +42,27 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
     return mesh::meeting_rank(mixed, communicator.size());
   });
   outgoing = {};
-  std::sort(met.begin(), met.end(), before);
   std::vector<WireFace> alone;
-  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    while (j < met.size() && met[j].vertices == met[i].vertices) ++j;
-    const bool fit = j - i == 2 && met[i].zone != met[i + 1].zone && met[i].region == met[i + 1].region &&
-                     met[i].odd() != met[i + 1].odd();
-    if (!fit) alone.insert(alone.end(), met.begin() + static_cast<std::ptrdiff_t>(i), met.begin() + static_cast<std::ptrdiff_t>(j));
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    std::sort(met.begin(), met.end(), before);
+    for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
+      while (j < met.size() && met[j].vertices == met[i].vertices) ++j;
+      const bool fit = j - i == 2 && met[i].zone != met[i + 1].zone && met[i].region == met[i + 1].region &&
+                       met[i].odd() != met[i + 1].odd();
+      if (!fit)
+        alone.insert(alone.end(), met.begin() + static_cast<std::ptrdiff_t>(i),
+                     met.begin() + static_cast<std::ptrdiff_t>(j));
+    }
   }
   std::vector<ZoneFace> mine;
   for (const WireFace& face : mesh::deliver(communicator, alone, [](const WireFace& f) { return f.rank; }))
     mine.push_back(faces[face.index / 2]);
   std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);
   std::sort(all.begin(), all.end(), [](const ZoneFace& a, const ZoneFace& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.zone != b.zone ? a.zone < b.zone : a.odd < b.odd;
+    return a.vertices != b.vertices ? a.vertices < b.vertices
+           : a.zone != b.zone       ? a.zone < b.zone
+                                    : a.odd < b.odd;
   });
   return all;
 }
@@ -68,7 +76,9 @@ std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {
   for (std::size_t f = 0; f < unmatched.size(); ++f) {
     for (const mesh::SharedToken v : unmatched[f].vertices) uses.push_back({v, static_cast<std::int32_t>(f)});
   }
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.vertex != b.vertex ? a.vertex < b.vertex : a.face < b.face; });
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.face < b.face;
+  });
   std::vector<std::int32_t> parent(unmatched.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](std::int32_t f) {

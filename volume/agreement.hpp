@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
 #include "volume/volume_mesher.hpp"
 #include "volume/zone_piece.hpp"
 
@@ -10,9 +11,10 @@
 
 namespace aeroloom::volume {
 
-/// The faces that have no partner: another zone's face with the same vertices, turned the other way, in the same
-/// region. By vertices and zone, the same on every rank. Collective.
-std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator, std::span<const ZoneFace> faces);
+/// The faces that have no partner: another zone's face with the same vertices, turned the other way, in the
+/// same region. By vertices and zone, the same on every rank. Collective.
+std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
+                                     std::span<const ZoneFace> faces, parallel::StageClock& clock);
 
 /// A place where zones disagree: faces without partner that are connected by vertices.
 struct DisputedPlace {

@@ -23,16 +23,18 @@ constexpr double slope_margin = std::numbers::sqrt3;
 /// A slot's place in its leaf, in halves of the leaf's edge.
 constexpr int slot_places[slots_per_leaf][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
                                                 {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-/// Slots that hang: a point stands there if one of the cells of the leaf's level is split that touch the place
-/// from below: their offsets.
+/// Slots that hang: a point stands there if one of the cells of the leaf's level is split that touch the
+/// place from below: their offsets.
 struct Touching {
   int slot, count;
   int offsets[3][3];
 };
-constexpr Touching hanging[] = {
-    {1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}}, {2, 3, {{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
-    {3, 3, {{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}}, {4, 1, {{0, 0, -1}}},
-    {5, 1, {{0, -1, 0}}},                          {6, 1, {{-1, 0, 0}}}};
+constexpr Touching hanging[] = {{1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}},
+                                {2, 3, {{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
+                                {3, 3, {{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}},
+                                {4, 1, {{0, 0, -1}}},
+                                {5, 1, {{0, -1, 0}}},
+                                {6, 1, {{-1, 0, 0}}}};
 
 /// The largest size in a block, at most.
 double largest_size(const LatticeSource& source, BlockIndex b) {
@@ -81,7 +83,7 @@ private:
     const GridCell leaf = _source.tree.leaf(_block, child);
     offer(leaf, child, 0);
     for (const Touching& touching : hanging) {
-      const auto is_split = [&](const int (&offset)[3]) { return is_neighbour_split(leaf, offset); };
+      const auto is_split = [&](const int(&offset)[3]) { return is_neighbour_split(leaf, offset); };
       if (std::any_of(touching.offsets, touching.offsets + touching.count, is_split))
         offer(leaf, child, touching.slot);
     }
@@ -93,9 +95,10 @@ private:
     if ((offset[0] < 0 && leaf.low.x == 0) || (offset[1] < 0 && leaf.low.y == 0) ||
         (offset[2] < 0 && leaf.low.z == 0))
       return false;
-    return _source.tree.is_split({{leaf.low.x - (offset[0] < 0 ? edge : 0), leaf.low.y - (offset[1] < 0 ? edge : 0),
-                                   leaf.low.z - (offset[2] < 0 ? edge : 0)},
-                                  leaf.level});
+    return _source.tree.is_split(
+        {{leaf.low.x - (offset[0] < 0 ? edge : 0), leaf.low.y - (offset[1] < 0 ? edge : 0),
+          leaf.low.z - (offset[2] < 0 ? edge : 0)},
+         leaf.level});
   }
 
   void offer(const GridCell& leaf, int child, int slot) {
@@ -128,7 +131,8 @@ private:
   bool is_clear(Vec3 p, mesh::RegionId& region) {
     const double size = _source.field(p), range = largest_edge * _clearance * size;
     const bool ask = _source.table.is_met(_block);
-    const auto nearest = ask ? _surface.distance().nearest(p, _guess) : _surface.distance().nearest(p, _guess, range);
+    const auto nearest =
+        ask ? _surface.distance().nearest(p, _guess) : _surface.distance().nearest(p, _guess, range);
     if (nearest.triangle < 0) return true;
     _guess = nearest.triangle;
     const auto limit = [&](std::int32_t triangle) {
@@ -163,7 +167,8 @@ double reach_of_block(const LatticeSource& source, BlockIndex b) {
                   1.1 * diagonal + source.frame.grid_distance(source.table.longest_edge[b]));
 }
 
-BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last, const NearSurface& surface) {
+BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
+                        const NearSurface& surface) {
   BlockPoints result;
   result.first = first;
   result.starts.push_back(0);

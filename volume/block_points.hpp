@@ -21,15 +21,16 @@ struct LatticeOptions {
 
 /// What retries have changed of a block.
 struct BlockChange {
-  std::uint8_t variant = 0;    ///< another number gives other perturbations
-  std::uint8_t farther = 0;    ///< steps by which its points keep farther off the surface
+  std::uint8_t variant = 0;  ///< another number gives other perturbations
+  std::uint8_t farther = 0;  ///< steps by which its points keep farther off the surface
 };
 
-/// A lattice point stands at the low corner of a leaf, in the middle of one of three edges or faces there (where
-/// smaller leaves touch it), or in its centre: eight *slots* of each of the eight leaves of a block.
+/// A lattice point stands at the low corner of a leaf, in the middle of one of three edges or faces there
+/// (where smaller leaves touch it), or in its centre: eight *slots* of each of the eight leaves of a block.
 inline constexpr int slots_per_leaf = 8, slots_per_block = 64;
 
-/// Which block and slot a point of the lattice has, by a running number: its token behind those of the surface.
+/// Which block and slot a point of the lattice has, by a running number: its token behind those of the
+/// surface.
 inline std::int64_t lattice_number(BlockIndex block, int slot) {
   return std::int64_t{block} * slots_per_block + slot;
 }
@@ -61,8 +62,10 @@ struct LatticeSource {
 /// region. Retries included.
 double reach_of_block(const LatticeSource& source, BlockIndex b);
 
-/// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the surface.
-/// `surface` has the triangles within reach of these blocks. A function of place, sizes and the surface nearby.
-BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last, const NearSurface& surface);
+/// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the
+/// surface. `surface` has the triangles within reach of these blocks. A function of place, sizes and the
+/// surface nearby.
+BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
+                        const NearSurface& surface);
 
 }  // namespace aeroloom::volume

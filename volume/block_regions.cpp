@@ -68,10 +68,10 @@ struct Witness {
 
 }  // namespace
 
-std::vector<RegionId> find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                                         const LatticeTree& tree, const SurfaceTable& table,
-                                         std::span<const BlockIndex> shares, const NearSurface& surface,
-                                         parallel::StageClock& clock) {
+std::vector<RegionId> find_block_regions(const parallel::Communicator& communicator,
+                                         const LatticeFrame& frame, const LatticeTree& tree,
+                                         const SurfaceTable& table, std::span<const BlockIndex> shares,
+                                         const NearSurface& surface, parallel::StageClock& clock) {
   const BlockIndex count = tree.block_count();
   BlockSets sets(count);
   std::vector<Contact> contacts;
@@ -79,7 +79,8 @@ std::vector<RegionId> find_block_regions(const parallel::Communicator& communica
   {
     const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
     for_each_face(tree, [&](BlockIndex b, BlockIndex n, Vec3 place) {
-      if (!table.is_met(b) && !table.is_met(n)) sets.join(b, n);
+      if (!table.is_met(b) && !table.is_met(n))
+        sets.join(b, n);
       else if (table.is_met(b) != table.is_met(n))
         contacts.push_back(table.is_met(n) ? Contact{b, n, place} : Contact{n, b, place});
     });
@@ -103,9 +104,10 @@ std::vector<RegionId> find_block_regions(const parallel::Communicator& communica
       const Vec3 p = frame.to_space(GridBox::of(tree.cell(seen.set)).low);
       throw parallel::CollectiveError(
           parallel::FailureKind::input,
-          fmt::format("the surface has a gap: the space around ({:.6g}, {:.6g}, {:.6g}) lies in different regions "
-                      "seen from different sides. Repair the geometry, or use smaller elements there",
-                      p.x, p.y, p.z));
+          fmt::format(
+              "the surface has a gap: the space around ({:.6g}, {:.6g}, {:.6g}) lies in different regions "
+              "seen from different sides. Repair the geometry, or use smaller elements there",
+              p.x, p.y, p.z));
     }
     of_set[seen.set] = seen.region;
     known[seen.set] = 1;

@@ -12,9 +12,9 @@
 
 namespace aeroloom::volume {
 
-/// Per block: its region, mesh::no_region outside of all, and also where the surface meets it (there each point
-/// is asked for itself). Blocks that share a face are of one region; for each such set one place where it
-/// touches a block that the surface meets is looked at, by the rank that has that block. The same on every
+/// Per block: its region, mesh::no_region outside of all, and also where the surface meets it (there each
+/// point is asked for itself). Blocks that share a face are of one region; for each such set one place where
+/// it touches a block that the surface meets is looked at, by the rank that has that block. The same on every
 /// rank. Collective. Throws CollectiveError when the surface has a gap.
 std::vector<mesh::RegionId> find_block_regions(const parallel::Communicator& communicator,
                                                const LatticeFrame& frame, const LatticeTree& tree,

@@ -32,7 +32,9 @@ public:
 
   /// The point of one triangle that is nearest to p, and how far it is.
   geometry::Vec3 foot_point(geometry::Vec3 p, std::int32_t triangle) const;
-  double distance_to(geometry::Vec3 p, std::int32_t triangle) const { return distance(p, foot_point(p, triangle)); }
+  double distance_to(geometry::Vec3 p, std::int32_t triangle) const {
+    return distance(p, foot_point(p, triangle));
+  }
 
   /// Whether a triangle lies nearer to p than its own limit; `limit(t)` is at most `largest_limit`.
   template <class Limit>

@@ -8,7 +8,8 @@ namespace aeroloom::volume {
 
 using geometry::Vec3;
 
-std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> points, std::span<const std::array<mesh::LocalIndex, 4>> cells) {
+std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> points,
+                                             std::span<const std::array<mesh::LocalIndex, 4>> cells) {
   // By radix: a few bits of the key in each pass, the lowest ones first.
   constexpr int passes = 3, bits = 11;
   constexpr std::uint64_t mask = (1 << bits) - 1;

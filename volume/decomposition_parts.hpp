@@ -6,6 +6,7 @@
 #include "volume/halo.hpp"
 #include "volume/near_surface.hpp"
 #include "volume/volume_mesher.hpp"
+#include "volume/zone_plan.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <memory>
@@ -30,10 +31,13 @@ struct Decomposition::Parts {
   std::unique_ptr<const NearSurface> surface;
   std::unique_ptr<const TrianglesOfBlocks> of_blocks;
   BlockPoints points;
+  ZonePlan plan;  ///< of all zones
 
+  BlockTables tables() const { return {*frame, *tree, table, counts, *zones}; }
   LatticeSource source(const VolumeInput& input) const {
-    return {*frame, *tree, input.field, table, regions,
-            {input.options.lattice_clearance, input.options.perturbation}, changes};
+    return {*frame, *tree,   input.field,
+            table,  regions, {input.options.lattice_clearance, input.options.perturbation},
+            changes};
   }
 };
 

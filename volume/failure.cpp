@@ -31,33 +31,40 @@ std::string name_faces(const ZoneContent& content, const std::vector<std::int32_
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   std::string text = faces.empty() ? "" : "; CAD faces:";
-  for (std::size_t i = 0; i < std::min(faces.size(), most_names); ++i) text += " '" + surface.faces[faces[i]] + "'";
+  for (std::size_t i = 0; i < std::min(faces.size(), most_names); ++i)
+    text += " '" + surface.faces[faces[i]] + "'";
   if (faces.size() > most_names) text += fmt::format(" and {} more", faces.size() - most_names);
   return text;
 }
 
 }  // namespace
 
-void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& surface, const std::string& reason) {
+void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& surface,
+                    const std::string& reason, Look look) {
   const ZoneProblem& problem = content.problem;
   const SurfacePart part{problem.points, problem.triangles};
   Item item;
   item.zone = content.zone;
-  SurfaceDefect defect = find_defect(part);
-  if (defect.what.empty() && !problem.triangles.empty())
-    defect = find_intersections(part, BoundaryDistance(problem.points, problem.triangles));
+  SurfaceDefect defect;
+  if (look == Look::for_defects) {
+    defect = find_defect(part);
+    if (defect.what.empty() && !problem.triangles.empty())
+      defect = find_intersections(part, BoundaryDistance(problem.points, problem.triangles));
+  }
   item.has_defect = !defect.what.empty();
   std::vector<std::int32_t> triangles = item.has_defect ? defect.triangles : own_triangles(problem);
   geometry::Box box;
   for (std::size_t v = 0; v < problem.points.size(); ++v) {
     if (problem.owners[v] == Owner::mine) box.add(problem.points[v]);
   }
-  item.message = fmt::format("zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ",
-                             content.zone, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
-  item.message += item.has_defect ? defect.what + describe_triangles(part, triangles) + "\nThe mesher said: " + reason +
-                                        "\nUse smaller elements there, so that surfaces close to each other are "
-                                        "resolved, or repair the geometry"
-                                  : reason;
+  item.message =
+      fmt::format("zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ",
+                  content.zone, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+  item.message += item.has_defect
+                      ? defect.what + describe_triangles(part, triangles) + "\nThe mesher said: " + reason +
+                            "\nUse smaller elements there, so that surfaces close to each other are "
+                            "resolved, or repair the geometry"
+                      : reason;
   item.message += name_faces(content, triangles, surface);
   if (triangles.empty()) {
     triangles.resize(problem.triangles.size());

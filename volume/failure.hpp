@@ -14,8 +14,11 @@ namespace aeroloom::volume {
 /// Keeps what this rank's failing zones looked like.
 class Evidence {
 public:
-  /// A zone failed: its triangles are looked at for defects, and kept.
-  void note(const ZoneContent& content, const mesh::DistributedMesh& surface, const std::string& reason);
+  /// Whether triangles are looked at for defects: takes a while, and a first failure may have lighter causes.
+  enum class Look { later, for_defects };
+  /// A zone failed: its triangles are kept.
+  void note(const ZoneContent& content, const mesh::DistributedMesh& surface, const std::string& reason,
+            Look look);
 
   /// The remedy belongs to the cause: a surface that meets itself cannot be helped by trying again. Throws
   /// VolumeFailure on every rank where a zone's triangles have a defect. Collective.

@@ -1,16 +1,13 @@
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "volume/agreement.hpp"
 #include "volume/decomposition_parts.hpp"
 #include "volume/failure.hpp"
 #include "volume/zone_piece.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "parallel/schedule.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -19,23 +16,21 @@ namespace {
 
 using parallel::ScopedCpu;
 
-/// Zones that a rank is sent at a time.
-constexpr std::size_t zones_at_a_time = 4;
-/// Changes that a zone which cannot be filled gets before it is merged.
-constexpr int most_changes = 2;
+/// A rung of the ladder: what is done differently to get a stubborn zone filled. Each makes its halo wider.
+struct Rung {
+  const char* name;
+  bool other_points;     ///< or only this zone is filled again, and the mesh stays what it was to be
+  std::uint8_t farther;  ///< see BlockChange
+};
+constexpr Rung ladder[] = {
+    {"a wider halo", false, 0},
+    {"a wider halo, other perturbations of its points", true, 0},
+    {"a wider halo, points farther off the surface", true, 1},
+};
 /// What the halo grows by with each of them.
 constexpr double wider = 1.5;
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
-
-/// Expected work on a zone.
-struct ZoneLoad {
-  ZoneIndex zone;
-  float points;     ///< of the lattice, halo included
-  float triangles;  ///< halo included
-
-  double work() const { return tetrahedra_per_point * points + tetrahedra_per_triangle * triangles; }
-};
 
 /// Why a zone was not filled.
 struct ZoneFailure {
@@ -46,8 +41,8 @@ struct ZoneFailure {
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
 public:
-  ZoneFiller(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Parts& parts,
-             parallel::StageClock& clock, VolumeReport& report)
+  ZoneFiller(const parallel::Communicator& communicator, const VolumeInput& input,
+             Decomposition::Parts& parts, parallel::StageClock& clock, VolumeReport& report)
       : _communicator(communicator),
         _input(input),
         _parts(parts),
@@ -58,49 +53,24 @@ public:
         _merged(parts.zones->count(), 0) {}
 
   mesh::DistributedMesh run() {
-    std::vector<ZoneIndex> pending;
-    for (ZoneIndex z = 0; z < _parts.zones->count(); ++z) pending.push_back(z);
-    for (_report.rounds = 0; !pending.empty(); ++_report.rounds) {
-      fill(pending);
-      pending = change_failed();
+    fill(std::move(_parts.plan));
+    for (_report.rounds = 1;; ++_report.rounds) {
+      std::vector<ZoneIndex> pending = change_failed();
       if (pending.empty()) pending = settle_disputes();
+      if (pending.empty()) return assemble();
+      fill(plan(pending));
     }
-    return assemble();
   }
 
 private:
   // --- one round of filling
 
-  void fill(const std::vector<ZoneIndex>& pending) {
-    for (const ZoneIndex z : pending) _results.erase(z);
-    std::vector<ZoneLoad> loads;
-    std::vector<ZoneWant> wants = list_wants(pending, loads);
-    std::vector<double> work;
-    for (const ZoneLoad& load : loads) work.push_back(load.work());
-    const std::vector<parallel::Rank> owners = parallel::assign_largest_first(work, _communicator.size());
-    if (_report.rounds == 0) note_loads(loads);
-
-    // Which zones come together: those that are n-th, n + 1-th, ... on their ranks.
-    std::vector<std::size_t> batch_of(_parts.zones->count(), 0);
-    std::vector<parallel::Rank> rank_of(_parts.zones->count(), 0);
-    std::size_t batches = 0;
-    for (parallel::Rank r = 0; r < _communicator.size(); ++r) {
-      const std::vector<int> tasks = parallel::tasks_of_rank(owners, work, r);
-      for (std::size_t i = 0; i < tasks.size(); ++i) {
-        const ZoneIndex z = loads[tasks[i]].zone;
-        batch_of[z] = i / zones_at_a_time;
-        rank_of[z] = r;
-        batches = std::max(batches, i / zones_at_a_time + 1);
-      }
-    }
-    for (std::size_t batch = 0; batch < batches; ++batch) {
-      std::vector<ZoneWant> now;
-      for (ZoneWant& want : wants) {
-        if (batch_of[want.zone] != batch) continue;
-        want.rank = rank_of[want.zone];
-        now.push_back(want);
-      }
-      std::vector<ZoneContent> contents = bring(now);
+  void fill(ZonePlan plan) {
+    for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
+    for (const std::vector<ZoneWant>& wants : plan.wants) {
+      std::vector<ZoneContent> contents =
+          supply_zones(_communicator, {_parts.points, _parts.triangles, *_parts.of_blocks}, *_parts.frame,
+                       *_parts.tree, _finder, _parts.shares, wants, _clock);
       parallel::agree(_communicator, [&] {
         for (ZoneContent& content : contents) {
           fill_one(content);
@@ -110,50 +80,10 @@ private:
     }
   }
 
-  std::vector<ZoneContent> bring(const std::vector<ZoneWant>& wants) {
-    const ScopedCpu task(_clock, ScopedCpu::As::task);
-    return supply_zones(_communicator, {_parts.points, _parts.triangles, *_parts.of_blocks}, *_parts.frame,
-                        *_parts.tree, _finder, _parts.shares, wants);
-  }
-
-  /// What the zones know; each rank looks at some of them. Loads come for all, in the order of `zones`.
-  std::vector<ZoneWant> list_wants(const std::vector<ZoneIndex>& zones, std::vector<ZoneLoad>& loads) {
-    std::vector<ZoneWant> wants;
-    std::vector<ZoneLoad> mine;
-    {
-      const ScopedCpu task(_clock, ScopedCpu::As::task);
-      const BlocksOfZones blocks = list_blocks(*_parts.tree, *_parts.zones);
-      HaloTaker taker(*_parts.frame, *_parts.tree, _parts.table, *_parts.zones);
-      const bool whole = _parts.zones->count() == 1;
-      for (std::size_t i = _communicator.rank(); i < zones.size(); i += _communicator.size()) {
-        const ZoneIndex z = zones[i];
-        const double width = _input.options.halo * std::pow(wider, _changes_of[z]);
-        ZoneLoad load{z, 0, 0};
-        for (const TakenBlock& taken : whole ? take_all(*_parts.tree) : taker.take(z, blocks.of(z), width)) {
-          const float part = static_cast<float>(__builtin_popcount(taken.leaves)) / static_cast<float>(_parts.tree->leaf_count(taken.block));
-          load.points += part * _parts.counts[taken.block];
-          load.triangles += part * static_cast<float>(_parts.table.triangles[taken.block]);
-          if (_parts.counts[taken.block] > 0 || _parts.table.is_met(taken.block))
-            wants.push_back({z, taken.block, 0, taken.leaves});
-        }
-        mine.push_back(load);
-      }
-    }
-    loads = _communicator.all_gather_items<ZoneLoad>(mine);
-    std::sort(loads.begin(), loads.end(), [](const ZoneLoad& a, const ZoneLoad& b) { return a.zone < b.zone; });
-    return wants;
-  }
-
-  void note_loads(const std::vector<ZoneLoad>& loads) {
-    double points = 0, work = 0, heaviest = 0;
-    _expected.assign(loads.size(), 0);
-    for (const ZoneLoad& load : loads) {
-      points += load.points;
-      work += load.work();
-      heaviest = std::max(heaviest, load.work());
-    }
-    _parts.report.halo = points / std::max(1.0, static_cast<double>(_parts.report.lattice_points));
-    _parts.report.imbalance = heaviest * static_cast<double>(loads.size()) / std::max(work, 1.0);
+  ZonePlan plan(const std::vector<ZoneIndex>& pending) {
+    std::vector<double> widths;
+    for (const int changes : _changes_of) widths.push_back(_input.options.halo * std::pow(wider, changes));
+    return plan_zones(_communicator, _parts.tables(), pending, widths, _clock);
   }
 
   void fill_one(ZoneContent& content) {
@@ -162,13 +92,18 @@ private:
     ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone));
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);
+    parallel::log_verbose(fmt::format(
+        "volume: zone {}: {} points and {} triangles known, {} tetrahedra of its own, {:.3g} CPU s",
+        content.zone, content.problem.points.size(), content.problem.triangles.size(),
+        filling.owned.cells.size(), filling.cpu_seconds));
     if (filling.filled) {
       _clock.add_pieces(1);
       _results[content.zone] = make_pieces(content, filling, _finder);
       return;
     }
     _failures.push_back({content.zone, filling.failure});
-    _evidence.note(content, _input.surface, filling.failure);
+    _evidence.note(content, _input.surface, filling.failure,
+                   _changes_of[content.zone] == 0 ? Evidence::Look::later : Evidence::Look::for_defects);
   }
 
   void require_size(const ZoneContent& content) const {
@@ -200,23 +135,24 @@ private:
       const BlocksOfZones blocks = list_blocks(*_parts.tree, *_parts.zones);
       const std::span<const BlockIndex> own = blocks.of(failure.zone);
       if (own.empty()) continue;  // merged with one that failed before it
-      for (const BlockIndex b : own) touched[b] = 1;
       pending.push_back(failure.zone);
       int& changes = _changes_of[failure.zone];
       std::string change;
-      if (changes < std::min(_input.options.retries, most_changes)) {
+      if (changes < std::min<int>(_input.options.retries, std::size(ladder))) {
+        const Rung& rung = ladder[changes++];
+        change = rung.name;
         for (const BlockIndex b : own) {
+          if (!rung.other_points) break;
+          touched[b] = 1;
           ++_parts.changes[b].variant;
-          _parts.changes[b].farther = static_cast<std::uint8_t>(changes);
+          _parts.changes[b].farther = rung.farther;
         }
-        change = changes == 0 ? "other perturbations of its points, a wider halo"
-                              : "points farther off the surface, a wider halo";
-        ++changes;
-        points_change = true;
+        points_change = points_change || rung.other_points;
       } else {
         const ZoneIndex with = widest_neighbour(failure.zone, own);
         if (with == no_zone) _evidence.give_up(_communicator, failure.zone, _report.retries);
         change = fmt::format("merged with zone {}", with);
+        for (const BlockIndex b : own) touched[b] = 1;
         merge(failure.zone, with);
         pending.push_back(std::min(failure.zone, with));
       }
@@ -245,7 +181,8 @@ private:
         failure.reason = unpacker.text();
       }
     }
-    std::sort(all.begin(), all.end(), [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
+    std::sort(all.begin(), all.end(),
+              [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
     return all;
   }
 
@@ -270,16 +207,17 @@ private:
     _changes_of[low] = 0;
   }
 
-  /// Adds the zones that may know leaves of the touched blocks, sorts, each once; those without blocks go.
+  /// Adds the zones that know leaves of the touched blocks, sorts, each once; those without blocks go.
   void add_those_that_see(const std::vector<std::uint8_t>& touched, std::vector<ZoneIndex>& pending) {
     const LatticeTree& tree = *_parts.tree;
     int most = 0;
     for (const int changes : _changes_of) most = std::max(most, changes);
-    const double width = 4 * _input.options.halo * std::pow(wider, most);
+    const double width = _input.options.halo * std::pow(wider, most);
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
       if (!touched[b]) continue;
-      const double size = std::max(_parts.frame->edge(tree.leaf_level(b)), double{_parts.table.longest_edge[b]});
-      tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(_parts.frame->grid_distance(width * size)), [&](BlockIndex n) {
+      const double reach =
+          _parts.frame->grid_distance(width * largest_size_around(*_parts.frame, tree, _parts.table, b));
+      tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach), [&](BlockIndex n) {
         for (int child = 0; child < tree.leaf_count(n); ++child) {
           const ZoneIndex z = _parts.zones->of(n, child);
           if (pending.empty() || pending.back() != z) pending.push_back(z);
@@ -297,48 +235,57 @@ private:
   /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again.
   std::vector<ZoneIndex> settle_disputes() {
     std::vector<ZoneFace> faces;
-    for (const auto& [zone, result] : _results) faces.insert(faces.end(), result.faces.begin(), result.faces.end());
-    std::vector<ZoneFace> unmatched;
-    {
-      const ScopedCpu task(_clock, ScopedCpu::As::task);
-      unmatched = find_unmatched(_communicator, faces);
-    }
+    for (const auto& [zone, result] : _results)
+      faces.insert(faces.end(), result.faces.begin(), result.faces.end());
+    const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces, _clock);
     if (unmatched.empty()) return {};
     ++_rounds_of_giving;
     std::vector<std::uint8_t> touched(_parts.tree->block_count(), 0);
     std::vector<ZoneIndex> pending;
     for (const DisputedPlace& place : find_places(unmatched)) {
       const ZoneIndex lowest = place.zones.front();
-      const geometry::Vec3 where = place_of(place.leaves.front());
+      const geometry::Vec3 where = place.leaves.empty() ? geometry::Vec3{} : place_of(place.leaves.front());
       _report.disagreements.push_back({where, lowest, place.faces, _rounds_of_giving});
       parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
                                         place.faces, place.zones.size(), where.x, where.y, where.z));
       pending.insert(pending.end(), place.zones.begin(), place.zones.end());
-      if (_rounds_of_giving > most_rounds_of_giving) {
-        if (place.zones.size() == 1) throw_dispute(where);
-        const BlocksOfZones blocks = list_blocks(*_parts.tree, *_parts.zones);
-        for (const ZoneIndex z : place.zones) {
-          for (const BlockIndex b : blocks.of(z)) touched[b] = 1;
-          if (z != lowest) merge(lowest, z);
-        }
-      } else {
+      if (_rounds_of_giving <= most_rounds_of_giving) {
         give(place, lowest, touched);
+      } else if (!merge_all(place.zones, touched)) {
+        throw_dispute(where);
       }
     }
     add_those_that_see(touched, pending);
     return pending;
   }
 
+  /// Makes one zone of several, some of which another place may have merged before. False: they were one
+  /// already.
+  bool merge_all(const std::vector<ZoneIndex>& zones, std::vector<std::uint8_t>& touched) {
+    const BlocksOfZones blocks = list_blocks(*_parts.tree, *_parts.zones);
+    std::vector<ZoneIndex> left;
+    for (const ZoneIndex z : zones) {
+      if (!blocks.of(z).empty()) left.push_back(z);
+      for (const BlockIndex b : blocks.of(z)) touched[b] = 1;
+    }
+    for (const ZoneIndex z : left) {
+      if (z != left.front()) merge(left.front(), z);
+    }
+    return left.size() > 1 || zones.size() > left.size();
+  }
+
   [[noreturn]] void throw_dispute(geometry::Vec3 where) const {
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
-        fmt::format("the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) do not fit together, in any way that was tried. Use "
+        fmt::format("the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) do not fit together, in any way that was "
+                    "tried. Use "
                     "other sizes there, or another piece size (volume.piece_tets)",
                     where.x, where.y, where.z));
   }
 
   geometry::Vec3 place_of(std::int64_t leaf) const {
-    const GridBox box = GridBox::of(_parts.tree->leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8)));
+    const GridBox box =
+        GridBox::of(_parts.tree->leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8)));
     return _parts.frame->to_space(0.5 * (box.low + box.high));
   }
 
@@ -375,7 +322,9 @@ private:
       _report.steiner_points += result.steiner_points;
     }
     rows = _communicator.all_gather_items<Row>(rows);
-    const auto before = [](const Row& a, const Row& b) { return a.zone != b.zone ? a.zone < b.zone : a.region < b.region; };
+    const auto before = [](const Row& a, const Row& b) {
+      return a.zone != b.zone ? a.zone < b.zone : a.region < b.region;
+    };
     std::sort(rows.begin(), rows.end(), before);
     mesh::DistributedMesh mesh;
     mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
@@ -400,9 +349,8 @@ private:
   parallel::StageClock& _clock;
   VolumeReport& _report;
   ZoneFinder _finder;
-  std::vector<int> _changes_of;   // per zone: of its points so far
+  std::vector<int> _changes_of;  // per zone: of its points so far
   std::vector<std::uint8_t> _merged;
-  std::vector<double> _expected;
   int _rounds_of_giving = 0;
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   std::vector<ZoneFailure> _failures;        // of this rank in this round
@@ -412,7 +360,8 @@ private:
 }  // namespace
 
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
-                                 Decomposition decomposition, parallel::StageClock& clock, VolumeReport& report) {
+                                 Decomposition decomposition, parallel::StageClock& clock,
+                                 VolumeReport& report) {
   return ZoneFiller(communicator, input, decomposition.parts(), clock, report).run();
 }
 

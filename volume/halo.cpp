@@ -41,43 +41,111 @@ BlocksOfZones list_blocks(const LatticeTree& tree, const Zones& zones) {
 
 HaloTaker::HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
                      const Zones& zones)
-    : _frame(frame), _tree(tree), _table(table), _zones(zones), _leaves(tree.block_count(), 0) {}
+    : _frame(frame),
+      _tree(tree),
+      _table(table),
+      _zones(zones),
+      _leaves(tree.block_count(), 0),
+      _seen(tree.block_count(), 0) {}
 
-double HaloTaker::size_of(BlockIndex b) const {
-  return std::max(mean_edge_of_cell * _frame.edge(_tree.leaf_level(b)), double{_table.longest_edge[b]});
+double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                           BlockIndex b) {
+  double size = 0;
+  tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(0.5), [&](BlockIndex n) {
+    size =
+        std::max({size, mean_edge_of_cell * frame.edge(tree.leaf_level(n)), double{table.longest_edge[n]}});
+  });
+  return size;
 }
 
-void HaloTaker::add(BlockIndex b, std::uint8_t leaves) {
-  if (_leaves[b] == 0) _touched.push_back(b);
-  _leaves[b] |= leaves;
+void NearBoxes::build() {
+  std::size_t nodes = 1;
+  while (nodes < 2 * _boxes.size()) nodes *= 2;
+  _nodes.assign(nodes, {});
+  if (!_boxes.empty()) build(0, 0, _boxes.size());
+}
+
+GridBox NearBoxes::build(std::size_t node, std::size_t first, std::size_t last) {
+  if (last - first == 1) return _nodes[node] = _boxes[first];
+  const std::size_t middle = first + (last - first) / 2;
+  const GridBox a = build(2 * node + 1, first, middle), b = build(2 * node + 2, middle, last);
+  return _nodes[node] = {
+             {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+             {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+}
+
+bool NearBoxes::any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
+                          double reach) const {
+  if (_nodes[node].gap_to(box) > reach) return false;
+  if (last - first == 1) return true;
+  const std::size_t middle = first + (last - first) / 2;
+  return any_below(2 * node + 1, first, middle, box, reach) ||
+         any_below(2 * node + 2, middle, last, box, reach);
+}
+
+/// Queues the blocks next to one. Whether there are any of other zones.
+bool HaloTaker::look_around(BlockIndex b) {
+  bool others = false;
+  _tree.for_each_block_in(GridBox::of(_tree.cell(b)).dilated(0.5), [&](BlockIndex n) {
+    others = others || !is_all_own(n);
+    if (_seen[n]) return;
+    _seen[n] = 1;
+    _queue.push_back(n);
+  });
+  return others;
+}
+
+/// Takes what the zone has itself, and lists what of it is beside others.
+void HaloTaker::list_border(std::span<const BlockIndex> own_blocks) {
+  _border.clear();
+  for (const BlockIndex b : own_blocks) {
+    if (is_all_own(b)) {
+      if (!_seen[b]) _queue.push_back(b);
+      _seen[b] = 1;
+      _leaves[b] = _tree.all_leaves(b);
+      if (look_around(b)) _border.add(GridBox::of(_tree.cell(b)));
+      continue;
+    }
+    for (int child = 0; child < _tree.leaf_count(b); ++child) {
+      if (!is_own(b, child)) continue;
+      _leaves[b] |= static_cast<std::uint8_t>(1U << child);
+      _border.add(GridBox::of(_tree.leaf(b, child)));
+    }
+    look_around(b);
+  }
+  _border.build();
+}
+
+/// Takes the leaves of a block that are near enough. Looks further where it is nearly so.
+void HaloTaker::judge(BlockIndex b, double width) {
+  constexpr double nearly = 1.5;
+  const GridBox box = GridBox::of(_tree.cell(b));
+  const double reach = _frame.grid_distance(width * largest_size_around(_frame, _tree, _table, b));
+  if (!_border.any_within(box, nearly * reach)) return;
+  look_around(b);
+  if (!_border.any_within(box, reach)) return;
+  for (int child = 0; child < _tree.leaf_count(b); ++child) {
+    if (_border.any_within(GridBox::of(_tree.leaf(b, child)), reach))
+      _leaves[b] |= static_cast<std::uint8_t>(1U << child);
+  }
 }
 
 std::vector<TakenBlock> HaloTaker::take(ZoneIndex zone, std::span<const BlockIndex> own_blocks,
                                         double width) {
-  _touched.clear();
-  for (const BlockIndex b : own_blocks) {
-    const GridBox box = GridBox::of(_tree.cell(b));
-    double size = 0;
-    _tree.for_each_block_in(box.dilated(0.5), [&](BlockIndex n) { size = std::max(size, size_of(n)); });
-    const double reach = _frame.grid_distance(width * size);
-    _tree.for_each_block_in(box.dilated(reach), [&](BlockIndex n) {
-      if (_leaves[n] == _tree.all_leaves(n)) return;
-      if (_zones.is_whole(n) && _zones.of(n, 0) == zone) return add(n, _tree.all_leaves(n));
-      std::uint8_t leaves = 0;
-      for (int child = 0; child < _tree.leaf_count(n); ++child) {
-        const bool taken = _zones.of(n, child) == zone || GridBox::of(_tree.leaf(n, child)).gap_to(box) <= reach;
-        if (taken) leaves |= static_cast<std::uint8_t>(1U << child);
-      }
-      if (leaves != 0) add(n, leaves);
-    });
+  _zone = zone;
+  _queue.clear();
+  list_border(own_blocks);
+  for (std::size_t i = 0; i < _queue.size(); ++i) {
+    if (_leaves[_queue[i]] != _tree.all_leaves(_queue[i])) judge(_queue[i], width);
   }
-  std::sort(_touched.begin(), _touched.end());
   std::vector<TakenBlock> taken;
-  taken.reserve(_touched.size());
-  for (const BlockIndex b : _touched) {
-    taken.push_back({b, _leaves[b]});
-    _leaves[b] = 0;
+  taken.reserve(_queue.size());
+  for (const BlockIndex b : _queue) {
+    if (_leaves[b] != 0) taken.push_back({b, _leaves[b]});
+    _leaves[b] = _seen[b] = 0;
   }
+  std::sort(taken.begin(), taken.end(),
+            [](const TakenBlock& a, const TakenBlock& b) { return a.block < b.block; });
   return taken;
 }
 

@@ -30,26 +30,59 @@ struct BlocksOfZones {
 std::vector<TakenBlock> take_all(const LatticeTree& tree);
 BlocksOfZones list_blocks(const LatticeTree& tree, const Zones& zones);
 
-/// Takes what zones know: their own leaves and those nearer to one of their blocks than `width` times the largest
-/// size found in that block or next to it; a size is the mean edge of the lattice or the longest edge of the
+/// The largest size in a block and next to it: the mean edge of the lattice, or the longest edge of the
+/// surface.
+double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                           BlockIndex b);
+
+/// A tree over boxes of the grid that tells whether one is near.
+class NearBoxes {
+public:
+  void clear() { _boxes.clear(), _nodes.clear(); }
+  /// Boxes that are near each other should follow each other.
+  void add(const GridBox& box) { _boxes.push_back(box); }
+  void build();
+  /// Whether a box is at most `reach` away.
+  bool any_within(const GridBox& box, double reach) const {
+    return !_boxes.empty() && any_below(0, 0, _boxes.size(), box, reach);
+  }
+
+private:
+  GridBox build(std::size_t node, std::size_t first, std::size_t last);
+  bool any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
+                 double reach) const;
+
+  std::vector<GridBox> _boxes;
+  std::vector<GridBox> _nodes;  // children of node n: 2 n + 1, 2 n + 2
+};
+
+/// Takes what zones know: their own leaves, and those nearer to them than `width` times the largest size
+/// found in the leaf's block or next to it; a size is the mean edge of the lattice or the longest edge of the
 /// surface. A halo in each point's own size would fail where sizes jump.
 class HaloTaker {
 public:
-  HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table, const Zones& zones);
+  HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+            const Zones& zones);
 
   /// By block, ascending.
   std::vector<TakenBlock> take(ZoneIndex zone, std::span<const BlockIndex> own_blocks, double width);
 
 private:
-  double size_of(BlockIndex b) const;
-  void add(BlockIndex b, std::uint8_t leaves);
+  bool is_own(BlockIndex b, int child) const { return _zones.of(b, child) == _zone; }
+  bool is_all_own(BlockIndex b) const { return _zones.is_whole(b) && is_own(b, 0); }
+  bool look_around(BlockIndex b);
+  void list_border(std::span<const BlockIndex> own_blocks);
+  void judge(BlockIndex b, double width);
 
   const LatticeFrame& _frame;
   const LatticeTree& _tree;
   const SurfaceTable& _table;
   const Zones& _zones;
-  std::vector<std::uint8_t> _leaves;  // per block
-  std::vector<BlockIndex> _touched;
+  ZoneIndex _zone = no_zone;
+  std::vector<std::uint8_t> _leaves;  // per block: those taken
+  std::vector<std::uint8_t> _seen;    // per block
+  std::vector<BlockIndex> _queue;     // blocks that were seen
+  NearBoxes _border;                  // own blocks that have neighbours of other zones
 };
 
 }  // namespace aeroloom::volume

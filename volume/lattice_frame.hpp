@@ -1,4 +1,5 @@
-/// The grid that the interior points stand on: cubic cells in grid units, seen in space through one affine map.
+/// The grid that the interior points stand on: cubic cells in grid units, seen in space through one affine
+/// map.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -36,8 +37,8 @@ struct GridBox {
     return {low - geometry::Vec3{by, by, by}, high + geometry::Vec3{by, by, by}};
   }
   bool overlaps(const GridBox& b) const {
-    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&
-           b.low.z <= high.z;
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
+           low.z <= b.high.z && b.low.z <= high.z;
   }
   /// The distance between two boxes; 0 where they touch.
   double gap_to(const GridBox& b) const {
@@ -50,8 +51,8 @@ struct GridBox {
 };
 
 /// Grid and space. A shear of a few per cent takes the four points of every square of the lattice off one
-/// circle, but leaves them in one plane: so the Delaunay mesh has no flat tetrahedra and picks the diagonals of
-/// its squares everywhere alike. Immutable, the same on every rank.
+/// circle, but leaves them in one plane: so the Delaunay mesh has no flat tetrahedra and picks the diagonals
+/// of its squares everywhere alike. Immutable, the same on every rank.
 class LatticeFrame {
 public:
   /// Anchored at the centre of the field's domain; the root cell covers `box`. The scale is such that the

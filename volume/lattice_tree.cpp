@@ -23,8 +23,8 @@ public:
 
   enum class Verdict { keep, split, look_below };
 
-  /// A split cell's centre sees a small size. In fields so steep that it may miss one in a corner, children are
-  /// looked at where that is possible.
+  /// A split cell's centre sees a small size. In fields so steep that it may miss one in a corner, children
+  /// are looked at where that is possible.
   Verdict judge(const GridCell& cell) const {
     if (cell.level >= finest_level || !GridBox::of(cell).overlaps(_box)) return Verdict::keep;
     const double edge = _frame.edge(cell.level), half = 0.5 * cell.edge();
@@ -82,7 +82,8 @@ std::vector<std::uint64_t> find_splits(const parallel::Communicator& communicato
   }
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    for (std::size_t i = communicator.rank(); i < open.size(); i += communicator.size()) search.search(open[i], mine);
+    for (std::size_t i = communicator.rank(); i < open.size(); i += communicator.size())
+      search.search(open[i], mine);
   }
   std::vector<std::uint64_t> all = communicator.all_gather_items<std::uint64_t>(mine);
   all.insert(all.end(), common.begin(), common.end());

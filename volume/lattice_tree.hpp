@@ -15,16 +15,16 @@ namespace aeroloom::volume {
 
 using BlockIndex = std::int32_t;  ///< of a block, along the Morton curve
 
-/// An octree whose leaves are as fine as the sizes ask for and whose neighbours, over faces, edges and corners,
-/// differ by one level at most. A *block* is a cell with eight leaves, or a leaf that has a split sibling.
-/// Blocks fill the root. Immutable, the same on every rank: one key and one level per block.
+/// An octree whose leaves are as fine as the sizes ask for and whose neighbours, over faces, edges and
+/// corners, differ by one level at most. A *block* is a cell with eight leaves, or a leaf that has a split
+/// sibling. Blocks fill the root. Immutable, the same on every rank: one key and one level per block.
 class LatticeTree {
 public:
-  /// A cell is split where the mean edge of its lattice is above `coarsest_edge` times the size at its centre.
-  /// Cells off `box` are not split. Ranks share the asking for sizes. Collective.
+  /// A cell is split where the mean edge of its lattice is above `coarsest_edge` times the size at its
+  /// centre. Cells off `box` are not split. Ranks share the asking for sizes. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
               const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock);
-  static constexpr double coarsest_edge = 1.6;
+  static constexpr double coarsest_edge = 1.47;
 
   BlockIndex block_count() const { return static_cast<BlockIndex>(_blocks.keys.size()); }
   GridCell cell(BlockIndex b) const { return {sizing::grid_point(_blocks.keys[b]), _blocks.levels[b]}; }
@@ -42,51 +42,56 @@ public:
 
   /// Calls visit(b) for all blocks that touch the box, ascending.
   template <class Visit>
-  void for_each_block_in(const GridBox& box, const Visit& visit) const;
+  void for_each_block_in(const GridBox& box, const Visit& visit) const {
+    any_block_in(box, [&](BlockIndex b) {
+      visit(b);
+      return false;
+    });
+  }
+  /// Whether holds(b) for a block that touches the box; it is not asked any further then.
+  template <class Holds>
+  bool any_block_in(const GridBox& box, const Holds& holds) const;
 
 private:
-  template <class Visit>
-  void descend(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
-               const Visit& visit) const;
+  template <class Holds>
+  bool any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
+                 const Holds& holds) const;
 
   sizing::SplitCells::Leaves _blocks;
   std::vector<std::uint8_t> _split;
   sizing::LeafTable _table;
 };
 
-template <class Visit>
-void LatticeTree::for_each_block_in(const GridBox& box, const Visit& visit) const {
+template <class Holds>
+bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds) const {
   const auto clamp = [](double t) {
     return static_cast<std::uint32_t>(std::clamp(t, 0.0, sizing::grid_size - 1.0));
   };
   const std::uint64_t low = sizing::morton_key({clamp(box.low.x), clamp(box.low.y), clamp(box.low.z)});
   const std::uint64_t high = sizing::morton_key({clamp(box.high.x), clamp(box.high.y), clamp(box.high.z)});
-  int level = sizing::finest_level;
-  while (level > 0 && low >> 3 * (sizing::finest_level - level) != high >> 3 * (sizing::finest_level - level)) --level;
-  const int shift = 3 * (sizing::finest_level - level);
+  // The smallest cell that holds both corners.
+  const int differing = low == high ? 0 : 64 - __builtin_clzll(low ^ high);
+  const int shift = (differing + 2) / 3 * 3;
   const std::uint64_t key = low >> shift << shift;
-  const auto& keys = _blocks.keys;
-  const auto first = std::upper_bound(keys.begin(), keys.end(), key) - keys.begin() - 1;
-  const auto last = shift >= 60 ? keys.end() : std::lower_bound(keys.begin() + first, keys.end(), key + (1ULL << shift));
-  descend(box, key, level, static_cast<BlockIndex>(first), static_cast<BlockIndex>(last - keys.begin()), visit);
+  const BlockIndex first = _table.find(key), end = block_count();
+  const std::uint64_t next = key + (1ULL << shift);
+  const BlockIndex last = next >> 3 * sizing::finest_level != 0 ? end : _table.find(next);
+  if (last <= first) return holds(first);
+  return any_below(box, key, sizing::finest_level - shift / 3, first, last, holds);
 }
 
-template <class Visit>
-void LatticeTree::descend(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
-                          const Visit& visit) const {
-  if (last - first == 1) {
-    if (GridBox::of(cell(first)).overlaps(box)) visit(first);
-    return;
-  }
-  if (!GridBox::of({sizing::grid_point(key), level}).overlaps(box)) return;
+template <class Holds>
+bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first,
+                            BlockIndex last, const Holds& holds) const {
+  if (last - first == 1) return GridBox::of(cell(first)).overlaps(box) && holds(first);
+  if (!GridBox::of({sizing::grid_point(key), level}).overlaps(box)) return false;
   const int shift = 3 * (sizing::finest_level - level - 1);
-  const auto begin = _blocks.keys.begin();
   for (std::uint64_t child = 0; child < 8; ++child) {
-    const std::uint64_t next = key + ((child + 1) << shift);
-    const auto end = child == 7 ? last : static_cast<BlockIndex>(std::lower_bound(begin + first, begin + last, next) - begin);
-    if (end > first) descend(box, key + (child << shift), level + 1, first, end, visit);
+    const BlockIndex end = child == 7 ? last : _table.find(key + ((child + 1) << shift));
+    if (any_below(box, key + (child << shift), level + 1, first, end, holds)) return true;
     first = end;
   }
+  return false;
 }
 
 }  // namespace aeroloom::volume

@@ -13,7 +13,8 @@ using geometry::Vec3;
 NearSurface::NearSurface(std::span<const SurfaceTriangle> triangles) {
   std::vector<mesh::GlobalIndex> numbers;
   numbers.reserve(3 * triangles.size());
-  for (const SurfaceTriangle& t : triangles) numbers.insert(numbers.end(), t.vertices.begin(), t.vertices.end());
+  for (const SurfaceTriangle& t : triangles)
+    numbers.insert(numbers.end(), t.vertices.begin(), t.vertices.end());
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   _points.resize(numbers.size());
@@ -21,8 +22,8 @@ NearSurface::NearSurface(std::span<const SurfaceTriangle> triangles) {
   for (const SurfaceTriangle& t : triangles) {
     auto& local = _triangles.emplace_back();
     for (int k = 0; k < 3; ++k) {
-      local[k] = static_cast<mesh::LocalIndex>(std::lower_bound(numbers.begin(), numbers.end(), t.vertices[k]) -
-                                               numbers.begin());
+      local[k] = static_cast<mesh::LocalIndex>(
+          std::lower_bound(numbers.begin(), numbers.end(), t.vertices[k]) - numbers.begin());
       _points[local[k]] = t.points[k];
       ++_first_around[local[k] + 1];
     }
@@ -68,7 +69,7 @@ std::optional<NearSurface::Sight> NearSurface::first_on_way(Vec3 p, Vec3 q, std:
     if (side == 0 || side != -orient3d(a, b, c, q)) continue;
     const int ab = orient3d(p, q, a, b), bc = orient3d(p, q, b, c), ca = orient3d(p, q, c, a);
     const int least = std::min({ab, bc, ca}), most = std::max({ab, bc, ca});
-    if (least < 0 && most > 0) continue;      // beside the triangle
+    if (least < 0 && most > 0) continue;               // beside the triangle
     if (least == 0 || most == 0) return std::nullopt;  // through an edge
     const double before = std::abs(volume6(a, b, c, p)), behind = std::abs(volume6(a, b, c, q));
     const double place = before / (before + behind);
@@ -93,7 +94,8 @@ std::optional<mesh::RegionId> NearSurface::region_at(Vec3 p, const BoundaryDista
       const auto& v = _triangles[target];
       const Vec3 center = (1.0 / 3.0) * (_points[v[0]] + _points[v[1]] + _points[v[2]]);
       const Vec3 foot = _distance->foot_point(p, target);
-      if (const auto sight = first_on_way(p, foot + inward * (center - foot), target, candidates)) return region_of(*sight);
+      if (const auto sight = first_on_way(p, foot + inward * (center - foot), target, candidates))
+        return region_of(*sight);
     }
   }
   return std::nullopt;

@@ -25,9 +25,9 @@ public:
   const BoundaryDistance& distance() const { return *_distance; }
 
   /// The region that a point off the surface lies in, mesh::no_region outside of all. `nearest` is the
-  /// triangle nearest to it: nothing lies between. Where that is met in an edge or vertex, what the way to its
-  /// inside crosses first decides, by exact signs, so any number of sheets may meet there. Nothing when the
-  /// point sees all triangles there edge-on.
+  /// triangle nearest to it: nothing lies between. Where that is met in an edge or vertex, what the way to
+  /// its inside crosses first decides, by exact signs, so any number of sheets may meet there. Nothing when
+  /// the point sees all triangles there edge-on.
   std::optional<mesh::RegionId> region_at(geometry::Vec3 p, const BoundaryDistance::Nearest& nearest) const;
 
 private:
@@ -44,7 +44,7 @@ private:
 
   std::vector<geometry::Vec3> _points;
   std::vector<BoundaryDistance::Triangle> _triangles;
-  std::vector<mesh::RegionId> _front, _back;  ///< per triangle
+  std::vector<mesh::RegionId> _front, _back;         ///< per triangle
   std::vector<std::int32_t> _first_around, _around;  ///< triangles around each point
   std::optional<BoundaryDistance> _distance;
 };

@@ -80,7 +80,8 @@ private:
   std::int32_t _round = 0;
 };
 
-/// Every triangle at a vertex of the zone must have become a face of the mesh, and faces be what they are said to.
+/// Every triangle at a vertex of the zone must have become a face of the mesh, and faces be what they are
+/// said to.
 void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
   std::vector<std::uint8_t> seen(problem.triangles.size(), 0);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -96,7 +97,8 @@ void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
   }
   for (std::size_t t = 0; t < seen.size(); ++t) {
     const auto& v = problem.triangles[t];
-    if (!seen[t] && std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.owners[w] == Owner::mine; }))
+    if (!seen[t] &&
+        std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.owners[w] == Owner::mine; }))
       throw std::runtime_error("a triangle of the surface is missing");
   }
 }
@@ -156,9 +158,11 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
     if (kept[i] < 0) continue;
     for (int face = 0; face < 4; ++face) {
       const std::int32_t next = mesh.neighbours[i][face];
-      if (next == -1) throw std::runtime_error("the filling ends at a face that is no triangle of the surface");
+      if (next == -1)
+        throw std::runtime_error("the filling ends at a face that is no triangle of the surface");
       if (next >= 0) {
-        if (kept[next] < 0) result.crossings.push_back({kept[i], face});
+        if (kept[next] < 0)
+          result.crossings.push_back({kept[i], face});
         else if (result.regions[kept[next]] != result.regions[kept[i]])
           throw std::runtime_error("two regions touch without a triangle of the surface between them");
       } else if (same_turn(face_of(mesh.cells[i], face), problem.triangles[-2 - next])) {

@@ -18,14 +18,15 @@ using LocalCell = std::array<mesh::LocalIndex, 4>;
 /// Whose a vertex is, seen from a zone.
 enum class Owner : std::int8_t { mine, lower, higher };
 
-/// What a zone is filled with, halo included. Vertices: those of the surface first, then lattice points, both in
-/// global order, which is the order of TetGen's symbolic perturbation.
+/// What a zone is filled with, halo included. Vertices: those of the surface first, then lattice points, both
+/// in global order, which is the order of TetGen's symbolic perturbation.
 struct ZoneProblem {
   std::vector<geometry::Vec3> points;
   std::vector<Owner> owners;             ///< per point: own zone, one of lower or of higher number
   std::vector<LocalTriangle> triangles;  ///< those of all vertices that are `mine`, at least
-  std::vector<mesh::RegionId> front, back;  ///< regions on either side of each triangle; front: it is seen from outside
-  std::vector<mesh::RegionId> regions;   ///< of the lattice points
+  std::vector<mesh::RegionId> front,
+      back;  ///< regions on either side of each triangle; front: it is seen from outside
+  std::vector<mesh::RegionId> regions;  ///< of the lattice points
 
   std::size_t surface_points() const { return points.size() - regions.size(); }
 };
@@ -44,11 +45,13 @@ struct OwnedCells {
   std::vector<std::int32_t> triangles;  ///< whose front side they cover
 };
 
-/// A tetrahedron with a lattice vertex lies in the region of that. At another the star of a vertex of the zone is
-/// searched, without crossing the surface, up to a triangle or a lattice vertex: no tetrahedron elsewhere in the halo
-/// counts, since some reach through triangles that the zone does not know. A point TetGen added belongs to the
-/// lowest zone in its star. `points` has what TetGen added behind the others. Throws std::runtime_error when a
-/// triangle at a vertex of the zone is missing, or a cell is flat, inverted, or open.
-OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std::span<const geometry::Vec3> points);
+/// A tetrahedron with a lattice vertex lies in the region of that. At another the star of a vertex of the
+/// zone is searched, without crossing the surface, up to a triangle or a lattice vertex: no tetrahedron
+/// elsewhere in the halo counts, since some reach through triangles that the zone does not know. A point
+/// TetGen added belongs to the lowest zone in its star. `points` has what TetGen added behind the others.
+/// Throws std::runtime_error when a triangle at a vertex of the zone is missing, or a cell is flat, inverted,
+/// or open.
+OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh,
+                        std::span<const geometry::Vec3> points);
 
 }  // namespace aeroloom::volume

@@ -53,8 +53,7 @@ SurfaceDefect find_flat_triangles(const SurfacePart& surface) {
 }
 
 /// The triangles that have a marked point.
-std::vector<std::int32_t> triangles_at(const SurfacePart& surface,
-                                       const std::vector<std::uint8_t>& marked) {
+std::vector<std::int32_t> triangles_at(const SurfacePart& surface, const std::vector<std::uint8_t>& marked) {
   std::vector<std::int32_t> found;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
@@ -126,7 +125,8 @@ bool meet_improperly(const SurfacePart& surface, const Indices& s, const Indices
 }  // namespace
 
 SurfaceDefect find_defect(const SurfacePart& surface) {
-  for (const auto find : {find_wild_indices, find_infinite_points, find_flat_triangles, find_coincident_points}) {
+  for (const auto find :
+       {find_wild_indices, find_infinite_points, find_flat_triangles, find_coincident_points}) {
     if (SurfaceDefect defect = find(surface); !defect.what.empty()) return defect;
   }
   return {};

@@ -23,7 +23,8 @@ struct SurfaceDefect {
   std::vector<std::int32_t> triangles;  ///< ascending, each once
 };
 
-/// Indices out of range, coordinates that are not finite, triangles without area, different points at the same place.
+/// Indices out of range, coordinates that are not finite, triangles without area, different points at the
+/// same place.
 SurfaceDefect find_defect(const SurfacePart& surface);
 
 /// Triangles that meet elsewhere than in common vertices and edges. Exact.

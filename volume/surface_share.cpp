@@ -72,19 +72,9 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
 class Fringe {
 public:
   Fringe(const parallel::Communicator& communicator, const LatticeTree& tree, const SurfaceTable& table,
-         std::span<const BlockIndex> shares, std::span<const double> reach) {
+         std::span<const BlockIndex> shares, std::span<const double> reach, parallel::StageClock& clock) {
     if (communicator.size() == 1) return;
-    const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
-    std::vector<BlockIndex> wanted;
-    for (BlockIndex b = first; b < last; ++b) {
-      tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach[b - first]), [&](BlockIndex n) {
-        if (table.is_met(n) && (n < first || n >= last)) wanted.push_back(n);
-      });
-    }
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    std::vector<Want> mine;
-    for (const BlockIndex b : wanted) mine.push_back({b, communicator.rank()});
+    std::vector<Want> mine = list_wants(communicator.rank(), tree, table, shares, reach, clock);
     _wants = communicator.all_gather_items<Want>(mine);
     std::sort(_wants.begin(), _wants.end(), [](const Want& a, const Want& b) { return a.block < b.block; });
   }
@@ -101,6 +91,26 @@ private:
     BlockIndex block;
     parallel::Rank rank;
   };
+
+  static std::vector<Want> list_wants(parallel::Rank rank, const LatticeTree& tree, const SurfaceTable& table,
+                                      std::span<const BlockIndex> shares, std::span<const double> reach,
+                                      parallel::StageClock& clock) {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const BlockIndex first = shares[rank], last = shares[rank + 1];
+    std::vector<BlockIndex> wanted;
+    for (BlockIndex b = first; b < last; ++b) {
+      tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach[b - first]), [&](BlockIndex n) {
+        if (table.is_met(n) && (n < first || n >= last)) wanted.push_back(n);
+      });
+    }
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    std::vector<Want> mine;
+    std::vector<Want> wants;
+    for (const BlockIndex b : wanted) wants.push_back({b, rank});
+    return wants;
+  }
+
   std::vector<Want> _wants;
 };
 
@@ -113,18 +123,22 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
 }
 
 SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                              const LatticeTree& tree, const mesh::DistributedMesh& surface) {
+                              const LatticeTree& tree, const mesh::DistributedMesh& surface,
+                              parallel::StageClock& clock) {
   std::vector<BlockRow> rows;
-  for (const Piece& piece : surface.pieces) {
-    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const std::array<Vec3, 3> p = corners_of(piece, t);
-      const auto edge = static_cast<float>(longest_edge(p));
-      tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) { rows.push_back({b, edge, 0}); });
-      const Vec3 center = frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]));
-      rows.push_back({tree.block_at(frame.cell_at(center)), edge, 1});
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (const Piece& piece : surface.pieces) {
+      for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+        const std::array<Vec3, 3> p = corners_of(piece, t);
+        const auto edge = static_cast<float>(longest_edge(p));
+        tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) { rows.push_back({b, edge, 0}); });
+        const Vec3 center = frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]));
+        rows.push_back({tree.block_at(frame.cell_at(center)), edge, 1});
+      }
     }
+    unite_rows(rows);
   }
-  unite_rows(rows);
   rows = communicator.all_gather_items<BlockRow>(rows);
   SurfaceTable table;
   table.longest_edge.assign(tree.block_count(), 0);
@@ -138,13 +152,15 @@ SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const 
 
 std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable& table, int ranks) {
   const auto work = [&](BlockIndex b) {
-    return leaf_work * tree.leaf_count(b) + triangle_work * table.triangles[b] + (table.is_met(b) ? met_work : 0);
+    return leaf_work * tree.leaf_count(b) + triangle_work * table.triangles[b] +
+           (table.is_met(b) ? met_work : 0);
   };
   double total = 0, sum = 0;
   for (BlockIndex b = 0; b < tree.block_count(); ++b) total += work(b);
   std::vector<BlockIndex> shares{0};
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    while (static_cast<int>(shares.size()) < ranks && sum >= total * static_cast<double>(shares.size()) / ranks)
+    while (static_cast<int>(shares.size()) < ranks &&
+           sum >= total * static_cast<double>(shares.size()) / ranks)
       shares.push_back(b);
     sum += work(b);
   }
@@ -152,32 +168,39 @@ std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable
   return shares;
 }
 
-std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                                             const LatticeTree& tree, const SurfaceTable& table,
-                                             std::span<const BlockIndex> shares, std::span<const double> reach,
+std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
+                                             const LatticeFrame& frame, const LatticeTree& tree,
+                                             const SurfaceTable& table, std::span<const BlockIndex> shares,
+                                             std::span<const double> reach,
                                              const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering) {
-  const Fringe fringe(communicator, tree, table, shares, reach);
+                                             const mesh::Numbering& numbering, parallel::StageClock& clock) {
+  const Fringe fringe(communicator, tree, table, shares, reach, clock);
   struct Parcel {
     SurfaceTriangle triangle;
     std::int64_t rank;
   };
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
-  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
-    const Piece& piece = surface.pieces[p];
-    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      ranks.clear();
-      if (communicator.size() == 1) ranks.push_back(0);
-      else
-        tree.for_each_block_in(grid_box(frame, corners_of(piece, t)), [&](BlockIndex b) {
-          ranks.push_back(static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, b) - shares.begin() - 1));
-          fringe.for_each_rank(b, [&](parallel::Rank rank) { ranks.push_back(rank); });
-        });
-      std::sort(ranks.begin(), ranks.end());
-      ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-      for (const parallel::Rank rank : ranks)
-        outgoing.push_back({describe(piece, t, numbering.vertices[p], numbering.first_cell[p], surface), rank});
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+      const Piece& piece = surface.pieces[p];
+      for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+        ranks.clear();
+        if (communicator.size() == 1)
+          ranks.push_back(0);
+        else
+          tree.for_each_block_in(grid_box(frame, corners_of(piece, t)), [&](BlockIndex b) {
+            ranks.push_back(static_cast<parallel::Rank>(
+                std::upper_bound(shares.begin(), shares.end() - 1, b) - shares.begin() - 1));
+            fringe.for_each_rank(b, [&](parallel::Rank rank) { ranks.push_back(rank); });
+          });
+        std::sort(ranks.begin(), ranks.end());
+        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+        for (const parallel::Rank rank : ranks)
+          outgoing.push_back(
+              {describe(piece, t, numbering.vertices[p], numbering.first_cell[p], surface), rank});
+      }
     }
   }
   std::vector<SurfaceTriangle> result;

@@ -1,8 +1,10 @@
-/// The surface mesh seen from the blocks of the lattice: a table of what meets each block, and each rank's share.
+/// The surface mesh seen from the blocks of the lattice: a table of what meets each block, and each rank's
+/// share.
 #pragma once
 
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
 #include "volume/lattice_tree.hpp"
 
 #include <array>
@@ -17,7 +19,7 @@ struct SurfaceTriangle {
   mesh::GlobalIndex number;                   ///< of the cell of the surface mesh
   std::array<mesh::GlobalIndex, 3> vertices;  ///< by number in the surface mesh
   std::array<geometry::Vec3, 3> points;
-  std::array<std::int32_t, 3> entity;     ///< classification of the vertices
+  std::array<std::int32_t, 3> entity;  ///< classification of the vertices
   std::array<std::int8_t, 3> dimension;
   std::int8_t unused = 0;  ///< no padding travels
   std::int32_t face, patch;
@@ -30,7 +32,7 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<geometry::Vec3, 3>&
 
 /// What meets each block, the same on every rank.
 struct SurfaceTable {
-  std::vector<float> longest_edge;     ///< per block: of the triangles that meet it; 0: none does
+  std::vector<float> longest_edge;      ///< per block: of the triangles that meet it; 0: none does
   std::vector<std::int32_t> triangles;  ///< per block: those whose centre lies in it
 
   bool is_met(BlockIndex b) const { return longest_edge[b] > 0; }
@@ -38,19 +40,21 @@ struct SurfaceTable {
 
 /// Collective.
 SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                              const LatticeTree& tree, const mesh::DistributedMesh& surface);
+                              const LatticeTree& tree, const mesh::DistributedMesh& surface,
+                              parallel::StageClock& clock);
 
 /// The blocks of each rank: rank r has those from [r] to [r + 1]. Equal shares of expected work. No result
 /// depends on it.
 std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable& table, int ranks);
 
-/// The triangles a rank needs: those that meet its blocks, or come within `reach(b)`, in the grid, of block b.
-/// By number, each once. Collective.
+/// The triangles a rank needs: those that meet its blocks, or come within `reach(b)`, in the grid, of block
+/// b. By number, each once. Collective.
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,
                                              const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                             std::span<const double> reach, const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering);
+                                             std::span<const double> reach,
+                                             const mesh::DistributedMesh& surface,
+                                             const mesh::Numbering& numbering, parallel::StageClock& clock);
 
 /// The triangles that meet each block of a range.
 class TrianglesOfBlocks {

@@ -96,8 +96,8 @@ void collect_cells(tetgenmesh& mesh, TetgenMesh& result) {
   }
 }
 
-/// The order of tetrahedralize(), without its pass recoverdelaunay(): hardly anything is left to do for it where all
-/// points are given at once, and it nearly doubles time and memory.
+/// The order of tetrahedralize(), without its pass recoverdelaunay(): hardly anything is left to do for it
+/// where all points are given at once, and it nearly doubles time and memory.
 void run_phases(tetgenmesh& mesh) {
   clock_t unused = 0;
   mesh.initializepools();

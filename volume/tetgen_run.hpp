@@ -18,9 +18,9 @@ struct TetgenMesh {
   std::vector<std::array<std::int32_t, 4>> neighbours;
 };
 
-/// The Delaunay mesh of points (n,3), changed where it takes that for all triangles to be faces. The triangles need
-/// not be closed. The order of the points decides where more than four lie on a sphere. Coordinates should be of
-/// unit size. Throws std::runtime_error.
+/// The Delaunay mesh of points (n,3), changed where it takes that for all triangles to be faces. The
+/// triangles need not be closed. The order of the points decides where more than four lie on a sphere.
+/// Coordinates should be of unit size. Throws std::runtime_error.
 TetgenMesh run_tetgen(std::span<const double> coordinates,
                       std::span<const std::array<mesh::LocalIndex, 3>> triangles);
 

@@ -1,6 +1,7 @@
-/// The volume stage: from a surface mesh and sizes to tetrahedra, without interfaces. All points are known before
-/// any tetrahedron exists, and the Delaunay mesh of points in general position is unique: so overlapping zones of
-/// space are meshed on their own, agree where they overlap, and each keeps its own tetrahedra.
+/// The volume stage: from a surface mesh and sizes to tetrahedra, without interfaces. All points are known
+/// before any tetrahedron exists, and the Delaunay mesh of points in general position is unique: so
+/// overlapping zones of space are meshed on their own, agree where they overlap, and each keeps its own
+/// tetrahedra.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -29,11 +30,11 @@ struct VolumeInput {
 
 /// What the decomposition tells.
 struct DecompositionReport {
-  std::int64_t blocks = 0;          ///< of the lattice
+  std::int64_t blocks = 0;  ///< of the lattice
   std::int64_t lattice_points = 0;
   std::int32_t zones = 0;
-  double halo = 1;                  ///< points that zones know, all together, over points
-  double imbalance = 1;             ///< heaviest zone over the mean, halo included
+  double halo = 1;       ///< points that zones know, all together, over points
+  double imbalance = 1;  ///< heaviest zone over the mean, halo included
 };
 
 /// A zone that could not be filled at first.
@@ -56,8 +57,8 @@ struct VolumeReport {
   std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
   std::vector<Retry> retries;
   std::vector<Disagreement> disagreements;
-  int rounds = 1;                   ///< of filling; further ones fill again what failed or disagreed
-  double load_error_90 = 0;         ///< the relative error that 90 % of the predicted loads stay below
+  int rounds = 1;            ///< of filling; further ones fill again what failed or disagreed
+  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
 };
 
 /// The points and zones of a volume. Each rank has the points of its blocks.
@@ -81,8 +82,8 @@ private:
 Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
                         parallel::StageClock& clock);
 
-/// A zone that no rung of the ladder fills. The message names CAD faces, place and sizes, what was tried and what
-/// to do; the triangles at fault are for a file to look at. The same on every rank.
+/// A zone that no rung of the ladder fills. The message names CAD faces, place and sizes, what was tried and
+/// what to do; the triangles at fault are for a file to look at. The same on every rank.
 class VolumeFailure : public parallel::CollectiveError {
 public:
   VolumeFailure(const std::string& message, std::vector<geometry::Vec3> points,
@@ -98,12 +99,14 @@ private:
   std::vector<std::array<mesh::LocalIndex, 3>> _triangles;
 };
 
-/// Fills the zones, dealt out largest first, and proves that they fit together. A zone that cannot be filled gets
-/// other perturbations of its points, then points farther off the surface, then is merged with a neighbour; where
-/// zones disagree the lowest of them counts. One mesh piece per zone and region, by zone, then region. The triangles
-/// of a face between two regions belong to pieces of its front region. Collective. Throws VolumeFailure.
+/// Fills the zones, dealt out largest first, and proves that they fit together. A zone that cannot be filled
+/// gets other perturbations of its points, then points farther off the surface, then is merged with a
+/// neighbour; where zones disagree the lowest of them counts. One mesh piece per zone and region, by zone,
+/// then region. The triangles of a face between two regions belong to pieces of its front region. Collective.
+/// Throws VolumeFailure.
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
-                                 Decomposition decomposition, parallel::StageClock& clock, VolumeReport& report);
+                                 Decomposition decomposition, parallel::StageClock& clock,
+                                 VolumeReport& report);
 
 /// Makes the contained task known; call before parallel::Environment is constructed.
 void register_volume_tasks();

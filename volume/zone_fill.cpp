@@ -27,9 +27,10 @@ constexpr double cpu_seconds_per_tetrahedron = 40e-6;
 constexpr std::int64_t base_bytes = 2LL << 30;
 constexpr std::int64_t bytes_per_tetrahedron = 1500;
 
-/// Moves a zone near the origin and to about unit size, where TetGen's tolerances suit it. Exact: a coordinate
-/// axis is shifted only when the zone is far from its zero (Sterbenz: such a difference has no rounding), and the
-/// scale is a power of two. So every orientation and every circumsphere is what it was, in every zone alike.
+/// Moves a zone near the origin and to about unit size, where TetGen's tolerances suit it. Exact: a
+/// coordinate axis is shifted only when the zone is far from its zero (Sterbenz: such a difference has no
+/// rounding), and the scale is a power of two. So every orientation and every circumsphere is what it was, in
+/// every zone alike.
 class UnitFrame {
 public:
   explicit UnitFrame(std::span<const Vec3> points) {
@@ -95,7 +96,8 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
     sorted.cells.push_back(owned.cells[c]);
     sorted.regions.push_back(owned.regions[c]);
   }
-  for (const Crossing& crossing : owned.crossings) sorted.crossings.push_back({place[crossing.cell], crossing.face});
+  for (const Crossing& crossing : owned.crossings)
+    sorted.crossings.push_back({place[crossing.cell], crossing.face});
   std::sort(sorted.crossings.begin(), sorted.crossings.end(), [](const Crossing& a, const Crossing& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
   });
@@ -119,8 +121,7 @@ Bytes fill_task(std::span<const std::byte> input) {
       const Vec3 q = frame.to_unit(p);
       unit.insert(unit.end(), {q.x, q.y, q.z});
     }
-    const TetgenMesh mesh =
-        run_tetgen(unit, problem.triangles);
+    const TetgenMesh mesh = run_tetgen(unit, problem.triangles);
     for (std::size_t s = 0; s < mesh.added.size(); s += 3)
       added.push_back(frame.from_unit({mesh.added[s], mesh.added[s + 1], mesh.added[s + 2]}));
     points.insert(points.end(), added.begin(), added.end());

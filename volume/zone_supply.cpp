@@ -34,7 +34,8 @@ public:
   /// Wants come zone by zone.
   void add(const ZoneWant& want) {
     const BlockPoints& all = _store.points;
-    for (std::int64_t i = all.starts[want.block - all.first]; i < all.starts[want.block - all.first + 1]; ++i) {
+    for (std::int64_t i = all.starts[want.block - all.first]; i < all.starts[want.block - all.first + 1];
+         ++i) {
       if ((want.leaves >> all.slots[i] / slots_per_leaf & 1) == 0) continue;
       points.push_back(
           {want.zone, want.rank, lattice_number(want.block, all.slots[i]), all.points[i], all.regions[i]});
@@ -74,9 +75,11 @@ public:
   ZoneContent build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles) {
     std::vector<Corner> corners;
     for (const auto& [zone, rank, t] : triangles) {
-      for (int k = 0; k < 3; ++k) corners.push_back({t.vertices[k], t.points[k], t.dimension[k], t.entity[k]});
+      for (int k = 0; k < 3; ++k)
+        corners.push_back({t.vertices[k], t.points[k], t.dimension[k], t.entity[k]});
     }
-    std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.number < b.number; });
+    std::sort(corners.begin(), corners.end(),
+              [](const Corner& a, const Corner& b) { return a.number < b.number; });
     corners.erase(std::unique(corners.begin(), corners.end(),
                               [](const Corner& a, const Corner& b) { return a.number == b.number; }),
                   corners.end());
@@ -87,7 +90,8 @@ public:
       _content.entity.push_back(corner.entity);
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-      if (i == 0 || triangles[i].triangle.number != triangles[i - 1].triangle.number) add_triangle(triangles[i].triangle, corners);
+      if (i == 0 || triangles[i].triangle.number != triangles[i - 1].triangle.number)
+        add_triangle(triangles[i].triangle, corners);
     }
     for (const PointOfZone& p : points) {
       add_point(_finder.token_of(p.number), p.point);
@@ -116,9 +120,9 @@ private:
   void add_triangle(const SurfaceTriangle& t, const std::vector<Corner>& corners) {
     LocalTriangle local;
     for (int k = 0; k < 3; ++k) {
-      const auto at =
-          std::lower_bound(corners.begin(), corners.end(), t.vertices[k],
-                           [](const Corner& corner, mesh::GlobalIndex number) { return corner.number < number; });
+      const auto at = std::lower_bound(
+          corners.begin(), corners.end(), t.vertices[k],
+          [](const Corner& corner, mesh::GlobalIndex number) { return corner.number < number; });
       local[k] = static_cast<mesh::LocalIndex>(at - corners.begin());
     }
     _content.problem.triangles.push_back(local);
@@ -136,29 +140,37 @@ private:
 template <class Item>
 void sort_by_zone(std::vector<Item>& items) {
   const auto before = [](const Item& a, const Item& b) { return a.zone < b.zone; };
-  if (!std::is_sorted(items.begin(), items.end(), before)) std::stable_sort(items.begin(), items.end(), before);
+  if (!std::is_sorted(items.begin(), items.end(), before))
+    std::stable_sort(items.begin(), items.end(), before);
 }
 
 }  // namespace
 
 std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockStore& store,
-                                      const LatticeFrame& frame, const LatticeTree& tree, const ZoneFinder& finder,
-                                      std::span<const BlockIndex> shares, const std::vector<ZoneWant>& wants) {
+                                      const LatticeFrame& frame, const LatticeTree& tree,
+                                      const ZoneFinder& finder, std::span<const BlockIndex> shares,
+                                      const std::vector<ZoneWant>& wants, parallel::StageClock& clock) {
   const auto owner = [&](const ZoneWant& want) {
-    return static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, want.block) - shares.begin() - 1);
+    return static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, want.block) -
+                                       shares.begin() - 1);
   };
   std::vector<ZoneWant> asked = mesh::deliver(communicator, wants, owner);
-  sort_by_zone(asked);
   Answer answer(store, frame, tree);
-  for (const ZoneWant& want : asked) answer.add(want);
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    sort_by_zone(asked);
+    for (const ZoneWant& want : asked) answer.add(want);
+    asked = {};
+  }
   // Ranks have ascending blocks, so what arrives is by number within each zone.
   std::vector<PointOfZone> points =
       mesh::deliver(communicator, answer.points, [](const PointOfZone& p) { return p.rank; });
   answer.points = {};
-  sort_by_zone(points);
   std::vector<TriangleOfZone> triangles =
       mesh::deliver(communicator, answer.triangles, [](const TriangleOfZone& t) { return t.rank; });
   answer.triangles = {};
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  sort_by_zone(points);
   std::sort(triangles.begin(), triangles.end(), [](const TriangleOfZone& a, const TriangleOfZone& b) {
     return a.zone != b.zone ? a.zone < b.zone : a.triangle.number < b.triangle.number;
   });
@@ -166,9 +178,11 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
   auto p = points.begin();
   auto t = triangles.begin();
   while (p != points.end() || t != triangles.end()) {
-    const ZoneIndex zone = std::min(p != points.end() ? p->zone : INT32_MAX, t != triangles.end() ? t->zone : INT32_MAX);
+    const ZoneIndex zone =
+        std::min(p != points.end() ? p->zone : INT32_MAX, t != triangles.end() ? t->zone : INT32_MAX);
     const auto last_p = std::find_if(p, points.end(), [&](const PointOfZone& q) { return q.zone != zone; });
-    const auto last_t = std::find_if(t, triangles.end(), [&](const TriangleOfZone& q) { return q.zone != zone; });
+    const auto last_t =
+        std::find_if(t, triangles.end(), [&](const TriangleOfZone& q) { return q.zone != zone; });
     contents.push_back(ContentBuilder(zone, finder).build({p, last_p}, {t, last_t}));
     p = last_p, t = last_t;
   }

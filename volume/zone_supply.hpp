@@ -3,6 +3,7 @@
 
 #include "mesh/piece.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
 #include "volume/block_points.hpp"
 #include "volume/halo.hpp"
 #include "volume/owned_cells.hpp"
@@ -18,9 +19,10 @@ namespace aeroloom::volume {
 struct ZoneContent {
   ZoneIndex zone = no_zone;
   ZoneProblem problem;
-  std::vector<mesh::SharedToken> tokens;  ///< per point, ascending: number in the surface, then lattice points
-  std::vector<std::int8_t> dimension;     ///< per surface point
-  std::vector<std::int32_t> entity;       ///< per surface point
+  std::vector<mesh::SharedToken>
+      tokens;                          ///< per point, ascending: number in the surface, then lattice points
+  std::vector<std::int8_t> dimension;  ///< per surface point
+  std::vector<std::int32_t> entity;    ///< per surface point
   std::vector<std::int32_t> face, patch;  ///< per triangle
 };
 
@@ -81,7 +83,8 @@ private:
 
 /// Brings together what zones want, each at the rank that its wants name. By zone. Collective.
 std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockStore& store,
-                                      const LatticeFrame& frame, const LatticeTree& tree, const ZoneFinder& finder,
-                                      std::span<const BlockIndex> shares, const std::vector<ZoneWant>& wants);
+                                      const LatticeFrame& frame, const LatticeTree& tree,
+                                      const ZoneFinder& finder, std::span<const BlockIndex> shares,
+                                      const std::vector<ZoneWant>& wants, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

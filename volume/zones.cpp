@@ -82,7 +82,8 @@ private:
     double cost = 0;
     for (std::size_t i = first; i < last; ++i) {
       const Item& item = _items[_orders[axis][i]];
-      if (std::abs(item.twice_center[axis] - plane) <= 3 * std::int64_t{item.edge}) cost += _loads[item.block];
+      if (std::abs(item.twice_center[axis] - plane) <= 3 * std::int64_t{item.edge})
+        cost += _loads[item.block];
     }
     return cost;
   }
@@ -98,23 +99,28 @@ private:
 
 ZoneIndex Zones::find(BlockIndex b, int child) const {
   const std::int64_t leaf = 8 * std::int64_t{b} + child;
-  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf,
-                                   [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
+  const auto at =
+      std::lower_bound(_given.begin(), _given.end(), leaf,
+                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
   return at != _given.end() && at->leaf == leaf ? at->zone : _of_block[b];
 }
 
 bool Zones::is_whole(BlockIndex b) const {
-  const auto at = std::lower_bound(_given.begin(), _given.end(), 8 * std::int64_t{b},
-                                   [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
+  const auto at =
+      std::lower_bound(_given.begin(), _given.end(), 8 * std::int64_t{b},
+                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
   return at == _given.end() || at->leaf >= 8 * (std::int64_t{b} + 1);
 }
 
 void Zones::give(BlockIndex b, int child, ZoneIndex zone) {
   const std::int64_t leaf = 8 * std::int64_t{b} + child;
-  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf,
-                                   [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
-  if (at != _given.end() && at->leaf == leaf) at->zone = zone;
-  else _given.insert(at, {leaf, zone});
+  const auto at =
+      std::lower_bound(_given.begin(), _given.end(), leaf,
+                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
+  if (at != _given.end() && at->leaf == leaf)
+    at->zone = zone;
+  else
+    _given.insert(at, {leaf, zone});
 }
 
 void Zones::merge(ZoneIndex from, ZoneIndex to) {

@@ -17,16 +17,15 @@ inline constexpr ZoneIndex no_zone = -1;
 /// Tetrahedra around a lattice point, and next to the surface, per triangle.
 inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2;
 
-/// Which zone each leaf of the lattice belongs to: that of its block, unless the leaf was given away. The same on
-/// every rank.
+/// Which zone each leaf of the lattice belongs to: that of its block, unless the leaf was given away. The
+/// same on every rank.
 class Zones {
 public:
-  Zones(std::vector<ZoneIndex> zone_of_block, ZoneIndex count) : _of_block(std::move(zone_of_block)), _count(count) {}
+  Zones(std::vector<ZoneIndex> zone_of_block, ZoneIndex count)
+      : _of_block(std::move(zone_of_block)), _count(count) {}
 
   ZoneIndex count() const { return _count; }
-  ZoneIndex of(BlockIndex b, int child) const {
-    return _given.empty() ? _of_block[b] : find(b, child);
-  }
+  ZoneIndex of(BlockIndex b, int child) const { return _given.empty() ? _of_block[b] : find(b, child); }
   /// Whether all leaves of a block are in one zone.
   bool is_whole(BlockIndex b) const;
   /// Gives a leaf to another zone.
