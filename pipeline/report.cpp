@@ -38,9 +38,7 @@ Json sizing_json(const RunRecord& record) {
           {"chordal_deviation", record.sizes.chordal_deviation},
           {"growth", record.sizes.growth},
           {"joined_faces", to_json(record.joined_faces)},
-          {"octree_leaves", record.size_field_leaves},
-          {"predicted_triangles", record.predicted.triangles},
-          {"predicted_tetrahedra", record.predicted.tetrahedra}};
+          {"octree_leaves", record.size_field_leaves}};
 }
 
 Json mesh_json(const RunRecord& record) {
@@ -178,6 +176,7 @@ Json volume_json(const RunRecord& record) {
   return {{"zones", decomposition.zones},
           {"blocks", decomposition.blocks},
           {"lattice_points", decomposition.lattice_points},
+          {"expected_tetrahedra", decomposition.expected_tetrahedra},
           {"halo", decomposition.halo},
           {"imbalance", decomposition.imbalance},
           {"rounds", record.volume.rounds},

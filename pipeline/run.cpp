@@ -253,11 +253,6 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
     return build_sizes(communicator, loaded, input, input.narrow_faces, record);
   });
-  run_stage(record, "decompose", ExitCode::resources, [&] {
-    record.predicted = sizing::predict_counts(communicator, sized.model, sized.field, record.clock);
-    parallel::log_info(fmt::format("decompose: predicted {:.3g} triangles, {:.3g} tetrahedra",
-                                   record.predicted.triangles, record.predicted.tetrahedra));
-  });
   FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface(communicator, loaded, input, sized, record);
   });

@@ -48,7 +48,6 @@ struct RunRecord {
   std::vector<std::string> face_names;  ///< by face id
   geometry::Changes joined_faces;       ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
-  sizing::PredictedCounts predicted;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
   volume::DecompositionReport decomposition;

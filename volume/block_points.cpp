@@ -3,6 +3,7 @@
 #include "mesh/mixing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aeroloom::volume {
@@ -17,6 +18,10 @@ constexpr double smallest_edge = 0.3, largest_edge = 1.5;
 /// What the clearance grows by in each step of a retry.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
+/// Triangles are looked for in this many times the largest clearance, for what it tells of the points around.
+constexpr double look_farther = 4;
+/// Balls without triangles that are remembered.
+constexpr std::size_t remembered_balls = 16;
 /// Trilinear interpolation may be steeper than the growth limit by this factor.
 constexpr double slope_margin = std::numbers::sqrt3;
 
@@ -131,20 +136,45 @@ private:
   bool is_clear(Vec3 p, mesh::RegionId& region) {
     const double size = _source.field(p), range = largest_edge * _clearance * size;
     const bool ask = _source.table.is_met(_block);
-    const auto nearest =
-        ask ? _surface.distance().nearest(p, _guess) : _surface.distance().nearest(p, _guess, range);
-    if (nearest.triangle < 0) return true;
-    _guess = nearest.triangle;
-    const auto limit = [&](std::int32_t triangle) {
-      return _clearance *
-             std::clamp(_surface.distance().mean_edge(triangle), smallest_edge * size, largest_edge * size);
-    };
-    if (nearest.distance < limit(nearest.triangle)) return false;
-    if (nearest.distance < range && _surface.distance().any_nearer(p, range, limit)) return false;
-    if (!ask) return true;
-    const auto found = _surface.region_at(p, nearest);
-    region = found.value_or(mesh::no_region);
+    if (const EmptyBall* ball = ball_around(p, range)) {
+      region = ball->region;
+      return true;
+    }
+    const double seen = look_farther * range;
+    const auto nearest = _surface.distance().nearest(p, _guess, seen);
+    if (nearest.triangle >= 0) {
+      _guess = nearest.triangle;
+      const auto limit = [&](std::int32_t triangle) {
+        return _clearance *
+               std::clamp(_surface.distance().mean_edge(triangle), smallest_edge * size, largest_edge * size);
+      };
+      if (nearest.distance < limit(nearest.triangle)) return false;
+      if (nearest.distance < range && _surface.distance().any_nearer(p, range, limit)) return false;
+    }
+    if (ask) region = region_of(p, nearest);
+    _balls[_next_ball++ % _balls.size()] = {p, nearest.distance, region};
     return true;
+  }
+
+  mesh::RegionId region_of(Vec3 p, BoundaryDistance::Nearest nearest) {
+    if (const EmptyBall* ball = ball_around(p, 0)) return ball->region;
+    if (nearest.triangle < 0) nearest = _surface.distance().nearest(p, _guess);
+    return _surface.region_at(p, nearest).value_or(mesh::no_region);
+  }
+
+  /// No triangle is nearer to the centre than the radius, so a ball lies in one region.
+  struct EmptyBall {
+    Vec3 center;
+    double radius = -1;
+    mesh::RegionId region = mesh::no_region;
+  };
+  /// A ball that holds all that is nearer to p than `margin`; null: none of those that were met last.
+  const EmptyBall* ball_around(Vec3 p, double margin) const {
+    for (const EmptyBall& ball : _balls) {
+      const double rest = ball.radius - margin;
+      if (rest > 0 && dot(p - ball.center, p - ball.center) < rest * rest) return &ball;
+    }
+    return nullptr;
   }
 
   const LatticeSource& _source;
@@ -154,6 +184,8 @@ private:
   double _clearance = 0;
   bool _near = false;
   std::int32_t _guess = -1;
+  std::array<EmptyBall, remembered_balls> _balls{};
+  std::size_t _next_ball = 0;
 };
 
 }  // namespace

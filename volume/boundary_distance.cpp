@@ -1,8 +1,5 @@
 #include "volume/boundary_distance.hpp"
 
-#include "geometry/predicates.hpp"
-
-#include <numbers>
 #include <numeric>
 
 namespace aeroloom::volume {
@@ -13,8 +10,6 @@ using geometry::Vec3;
 namespace {
 
 constexpr std::int32_t leaf_size = 4;
-/// A node is seen as a dipole from this many of its radii.
-constexpr double far_ratio = 2.0;
 
 /// Where on a triangle the point nearest to p lies (Ericson, Real-Time Collision Detection, 2005,
 /// section 5.1.5).
@@ -40,15 +35,6 @@ Vec3 foot_on(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool& in_face) {
   return a + (vb * scale) * ab + (vc * scale) * ac;
 }
 
-/// The solid angle of a triangle seen from the origin, positive from its inner side (Van Oosterom, Strackee,
-/// IEEE Trans. Biomed. Eng. 30, 1983, doi:10.1109/TBME.1983.325207).
-double solid_angle(Vec3 a, Vec3 b, Vec3 c) {
-  const double la = norm(a), lb = norm(b), lc = norm(c);
-  const double numerator = dot(a, cross(b, c));
-  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2.0 * std::atan2(numerator, denominator);
-}
-
 }  // namespace
 
 BoundaryDistance::BoundaryDistance(std::span<const Vec3> points, std::span<const Triangle> triangles)
@@ -61,27 +47,12 @@ BoundaryDistance::BoundaryDistance(std::span<const Vec3> points, std::span<const
   }
   std::iota(_order.begin(), _order.end(), 0);
   _nodes.reserve(triangles.size());
-  _dipoles.reserve(triangles.size());
   build(0, count);
   _corners.reserve(triangles.size());
   for (std::int32_t slot = 0; slot < count; ++slot) {
     const std::int32_t t = _order[slot];
     _slot[t] = slot;
     _corners.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
-  }
-  list_neighbours();
-}
-
-void BoundaryDistance::list_neighbours() {
-  _first_around.assign(_points.size() + 1, 0);
-  for (const Triangle& t : _triangles) {
-    for (const auto v : t) ++_first_around[v + 1];
-  }
-  std::partial_sum(_first_around.begin(), _first_around.end(), _first_around.begin());
-  _around.resize(3 * _triangles.size());
-  std::vector<std::int32_t> next(_first_around.begin(), _first_around.end() - 1);
-  for (std::size_t slot = 0; slot < _order.size(); ++slot) {
-    for (const auto v : _triangles[_order[slot]]) _around[next[v]++] = static_cast<std::int32_t>(slot);
   }
 }
 
@@ -112,22 +83,8 @@ std::int32_t BoundaryDistance::build(std::int32_t first, std::int32_t last) {
 
 void BoundaryDistance::summarise(std::int32_t first, std::int32_t last) {
   Node& node = _nodes.emplace_back();
-  Dipole& dipole = _dipoles.emplace_back();
-  double area_sum = 0;
-  Vec3 moment;
   for (std::int32_t i = first; i < last; ++i) {
-    const Vec3 a = corner(_order[i], 0), b = corner(_order[i], 1), c = corner(_order[i], 2);
-    node.box.add(a), node.box.add(b), node.box.add(c);
-    const Vec3 area = 0.5 * cross(b - a, c - a);
-    dipole.normal += area;
-    area_sum += norm(area);
-    moment += (norm(area) / 3.0) * (a + b + c);
-  }
-  dipole.center = area_sum > 0 ? moment / area_sum : node.box.center();
-  for (std::int32_t i = first; i < last; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      dipole.radius = std::max(dipole.radius, distance(dipole.center, corner(_order[i], k)));
-    }
+    for (int k = 0; k < 3; ++k) node.box.add(corner(_order[i], k));
   }
 }
 
@@ -180,64 +137,6 @@ BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess, 
   return best;
 }
 
-bool BoundaryDistance::inside(Vec3 p) const {
-  return winding_number(p) > 0.5;
-}
-
-bool BoundaryDistance::inside(Vec3 p, const Nearest& nearest) const {
-  if (nearest.triangle >= 0) {
-    const int side =
-        nearest.in_face ? side_of(p, nearest.triangle) : side_of_neighbourhood(p, nearest.triangle);
-    if (side != 0) return side < 0;
-  }
-  return inside(p);
-}
-
-/// Nothing lies between p and a foot point inside a face, so that face's side decides.
-int BoundaryDistance::side_of(Vec3 p, std::int32_t triangle) const {
-  const Corners& corners = _corners[_slot[triangle]];
-  return geometry::orient3d(corners.a, corners.b, corners.c, p);
-}
-
-/// The side p is on of all triangles that share a point with its nearest one, 0 if not of all the same. With
-/// the foot point on an edge or point of the surface, one of the triangles there decides; when all agree it
-/// is known.
-int BoundaryDistance::side_of_neighbourhood(Vec3 p, std::int32_t triangle) const {
-  const int side = side_of(p, triangle);
-  for (const auto v : _triangles[triangle]) {
-    for (std::int32_t i = _first_around[v]; i < _first_around[v + 1]; ++i) {
-      const Corners& corners = _corners[_around[i]];
-      if (geometry::orient3d(corners.a, corners.b, corners.c, p) != side) return 0;
-    }
-  }
-  return side;
-}
-
-double BoundaryDistance::winding_number(Vec3 p) const {
-  double solid = 0;
-  std::int32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::int32_t index = stack[--depth];
-    const Node& node = _nodes[index];
-    const Dipole& dipole = _dipoles[index];
-    const Vec3 away = dipole.center - p;
-    const double range = norm(away);
-    if (range > far_ratio * dipole.radius) {
-      solid += dot(away, dipole.normal) / (range * range * range);
-    } else if (node.count == 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-    } else {
-      for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-        solid += solid_angle(_corners[i].a - p, _corners[i].b - p, _corners[i].c - p);
-      }
-    }
-  }
-  return solid / (4.0 * std::numbers::pi);
-}
-
 void BoundaryDistance::for_each_overlapping_pair(
     const std::function<void(std::int32_t, std::int32_t)>& visit) const {
   std::vector<std::pair<std::int32_t, std::int32_t>> stack{{0, 0}};
@@ -258,7 +157,7 @@ void BoundaryDistance::for_each_overlapping_pair(
       visit_leaves(a, b, i == j);
     } else if (i == j) {
       stack.insert(stack.end(), {{i + 1, i + 1}, {a.right, a.right}, {i + 1, a.right}});
-    } else if (b.count > 0 || (a.count == 0 && _dipoles[i].radius >= _dipoles[j].radius)) {
+    } else if (b.count > 0 || (a.count == 0 && a.box.diagonal() >= b.box.diagonal())) {
       stack.insert(stack.end(), {{i + 1, j}, {a.right, j}});
     } else {
       stack.insert(stack.end(), {{i, j + 1}, {i, b.right}});

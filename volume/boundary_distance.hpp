@@ -1,4 +1,4 @@
-/// Distance to a triangulated boundary, and which side of it a point is on.
+/// Distance to a triangulated boundary.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -12,7 +12,7 @@
 
 namespace aeroloom::volume {
 
-/// A tree of boxes over the triangles of a closed, oriented surface. Refers to the arrays it was built from.
+/// A tree of boxes over triangles, at least one. Refers to the arrays it was built from.
 /// Queries do not allocate. Immutable.
 class BoundaryDistance {
 public:
@@ -40,16 +40,6 @@ public:
   template <class Limit>
   bool any_nearer(geometry::Vec3 p, double largest_limit, const Limit& limit) const;
 
-  /// Whether p is enclosed, in the sense of the winding number; right wherever p is off the surface.
-  bool inside(geometry::Vec3 p) const;
-  /// The same, knowing the nearest triangle (or -1), which often decides it alone.
-  bool inside(geometry::Vec3 p, const Nearest& nearest) const;
-
-  /// How often the surface winds around p (1 inside, 0 outside); far triangles are summed as dipoles (Barill,
-  /// Dickson, Schmidt, Levin, Jacobson, ACM Trans. Graph. 37, 2018, doi:10.1145/3197517.3201337), error about
-  /// 0.02.
-  double winding_number(geometry::Vec3 p) const;
-
   /// Mean edge length of a triangle.
   double mean_edge(std::int32_t triangle) const { return _mean_edges[triangle]; }
   const geometry::Box& box() const { return _nodes.front().box; }
@@ -63,21 +53,12 @@ private:
     std::int32_t first = 0, count = 0;  ///< slots of a leaf; count 0: inner node
     std::int32_t right = 0;             ///< second child of an inner node; the first one follows the node
   };
-  /// What a node looks like from far.
-  struct Dipole {
-    geometry::Vec3 center;  ///< area-weighted
-    geometry::Vec3 normal;  ///< sum of area vectors
-    double radius = 0;      ///< of the ball around `center` that holds the triangles
-  };
   /// Corners of the triangles in the order of the leaves (slots).
   struct Corners {
     geometry::Vec3 a, b, c;
   };
 
   std::int32_t build(std::int32_t first, std::int32_t last);
-  void list_neighbours();
-  int side_of(geometry::Vec3 p, std::int32_t triangle) const;
-  int side_of_neighbourhood(geometry::Vec3 p, std::int32_t triangle) const;
   void summarise(std::int32_t first, std::int32_t last);
   static double squared_distance(geometry::Vec3 p, const Corners& triangle, bool& in_face);
   static double squared_distance(geometry::Vec3 p, const geometry::Box& box);
@@ -89,11 +70,7 @@ private:
   std::vector<std::int32_t> _order;  ///< triangle of each slot
   std::vector<std::int32_t> _slot;   ///< slot of each triangle
   std::vector<Corners> _corners;
-  std::vector<std::int32_t>
-      _first_around;  ///< (points + 1) where the slots of the triangles around each point start
-  std::vector<std::int32_t> _around;
   std::vector<Node> _nodes;
-  std::vector<Dipole> _dipoles;
 };
 
 template <class Limit>

@@ -51,10 +51,13 @@ void share_surface(const parallel::Communicator& communicator, const VolumeInput
 void divide(const VolumeInput& input, Decomposition::Parts& parts, parallel::StageClock& clock) {
   const ScopedCpu repeated(clock, ScopedCpu::As::serial);
   const std::vector<double> loads = block_loads(parts.table, parts.counts);
-  const double zones =
-      std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(input.options.piece_tets);
+  parts.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
+  const double zones = parts.report.expected_tetrahedra / static_cast<double>(input.options.piece_tets);
   const auto count = zones < whole_below ? 1 : static_cast<ZoneIndex>(std::lround(zones));
   parts.zones = std::make_unique<Zones>(bisect(*parts.tree, loads, count));
+  parts.expected.assign(count, 0);
+  for (BlockIndex b = 0; b < parts.tree->block_count(); ++b)
+    parts.expected[parts.zones->of(b, 0)] += loads[b];
   parts.report.zones = count;
 }
 

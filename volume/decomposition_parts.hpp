@@ -24,6 +24,7 @@ struct Decomposition::Parts {
   std::vector<BlockIndex> shares;       ///< see share_blocks
   std::vector<std::uint8_t> counts;     ///< points per block
   std::unique_ptr<Zones> zones;
+  std::vector<double> expected;  ///< tetrahedra per zone
   DecompositionReport report;
 
   // Of this rank's blocks.

@@ -46,7 +46,8 @@ HaloTaker::HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const S
       _table(table),
       _zones(zones),
       _leaves(tree.block_count(), 0),
-      _seen(tree.block_count(), 0) {}
+      _seen(tree.block_count(), 0),
+      _sizes(tree.block_count(), 0) {}
 
 double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
                            BlockIndex b) {
@@ -116,11 +117,16 @@ void HaloTaker::list_border(std::span<const BlockIndex> own_blocks) {
   _border.build();
 }
 
+double HaloTaker::size_around(BlockIndex b) {
+  if (_sizes[b] == 0) _sizes[b] = static_cast<float>(largest_size_around(_frame, _tree, _table, b));
+  return _sizes[b];
+}
+
 /// Takes the leaves of a block that are near enough. Looks further where it is nearly so.
 void HaloTaker::judge(BlockIndex b, double width) {
   constexpr double nearly = 1.5;
   const GridBox box = GridBox::of(_tree.cell(b));
-  const double reach = _frame.grid_distance(width * largest_size_around(_frame, _tree, _table, b));
+  const double reach = _frame.grid_distance(width * size_around(b));
   if (!_border.any_within(box, nearly * reach)) return;
   look_around(b);
   if (!_border.any_within(box, reach)) return;

@@ -70,6 +70,7 @@ public:
 private:
   bool is_own(BlockIndex b, int child) const { return _zones.of(b, child) == _zone; }
   bool is_all_own(BlockIndex b) const { return _zones.is_whole(b) && is_own(b, 0); }
+  double size_around(BlockIndex b);
   bool look_around(BlockIndex b);
   void list_border(std::span<const BlockIndex> own_blocks);
   void judge(BlockIndex b, double width);
@@ -81,6 +82,7 @@ private:
   ZoneIndex _zone = no_zone;
   std::vector<std::uint8_t> _leaves;  // per block: those taken
   std::vector<std::uint8_t> _seen;    // per block
+  std::vector<float> _sizes;          // per block: largest size around, 0 where not asked for yet
   std::vector<BlockIndex> _queue;     // blocks that were seen
   NearBoxes _border;                  // own blocks that have neighbours of other zones
 };

@@ -35,10 +35,11 @@ public:
         _first_added(static_cast<LocalIndex>(problem.points.size())),
         _visit(mesh.cells.size(), 0) {}
 
-  /// The region told by a lattice vertex of the cell; false: it has none.
+  /// The region told by a lattice vertex of the zone among the cell's vertices; false: there is none. Those
+  /// of other zones do not count: the cell may reach them through triangles that this zone does not know.
   bool told_by_vertex(std::int32_t cell, RegionId& region) const {
     for (const LocalIndex v : _mesh.cells[cell]) {
-      if (v < _first_lattice || v >= _first_added) continue;
+      if (v < _first_lattice || v >= _first_added || _problem.owners[v] != Owner::mine) continue;
       region = _problem.regions[v - _first_lattice];
       return true;
     }
@@ -61,6 +62,14 @@ public:
         if (next < 0 || _visit[next] == _round) continue;
         _visit[next] = _round;
         _open.push_back(next);
+      }
+    }
+    // Only around a point that TetGen added there may be neither; nothing is known of its star but what
+    // others have.
+    for (const std::int32_t c : _open) {
+      for (const LocalIndex w : _mesh.cells[c]) {
+        if (v >= _first_added && w >= _first_lattice && w < _first_added)
+          return _problem.regions[w - _first_lattice];
       }
     }
     throw std::runtime_error("a point of the surface has no triangle around it");

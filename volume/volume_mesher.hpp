@@ -32,6 +32,7 @@ struct VolumeInput {
 struct DecompositionReport {
   std::int64_t blocks = 0;  ///< of the lattice
   std::int64_t lattice_points = 0;
+  double expected_tetrahedra = 0;  ///< from points and triangles
   std::int32_t zones = 0;
   double halo = 1;       ///< points that zones know, all together, over points
   double imbalance = 1;  ///< heaviest zone over the mean, halo included

@@ -9,7 +9,7 @@ struct VolumeOptions {
   std::int64_t piece_tets = 250'000;  ///< wanted size of a zone, tetrahedra
   double lattice_clearance = 0.75;    ///< distance lattice points keep from the surface, in local sizes
   double perturbation = 0.005;        ///< of lattice points, in mean edges of the lattice
-  double halo = 1.5;                  ///< width of what a zone knows around it, in the largest sizes there
+  double halo = 1.2;                  ///< width of what a zone knows around it, in the largest sizes there
   std::int64_t largest_piece = 20'000'000;  ///< predicted tetrahedra above which a zone is refused
   int retries = 3;                          ///< rungs of the ladder after the first try
   /// What the contained run does before its work; for tests of containment.

@@ -1,103 +1,353 @@
-#include "volume/lattice.hpp"
-
+/// The grid of the interior points and its octree.
+#include "mesh/mixing.hpp"
 #include "tests/volume/fields.hpp"
-#include "tests/volume/surfaces.hpp"
+#include "tests/volume/steps.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <random>
 
 #include <gtest/gtest.h>
 
 namespace aeroloom::volume {
 namespace {
 
+using geometry::Box;
 using geometry::Vec3;
+using parallel::Communicator;
 
-std::vector<Vec3> lattice(const ClosedSurface& surface, const sizing::SizeField& field,
-                          LatticeOptions options = {}) {
-  return body_centred_lattice(BoundaryDistance(surface.points, surface.triangles), field, options).points;
-}
+constexpr double root_size = sizing::grid_size;
 
-bool lies_before(Vec3 a, Vec3 b) {
-  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
+class Random {
+public:
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(_engine);
+  }
+  Vec3 in(const Box& box) {
+    return {between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};
+  }
 
-double smallest_ratio_of_distance_to_size(std::vector<Vec3> points, const sizing::SizeField& field) {
-  std::sort(points.begin(), points.end(), lies_before);
-  double smallest = 1e300;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size() && points[j].x - points[i].x < 2 * field(points[i]); ++j) {
-      smallest = std::min(smallest, distance(points[i], points[j]) / field(points[i]));
+private:
+  std::mt19937_64 _engine{7};
+};
+
+// --- frame
+
+TEST(LatticeFrame, leads_to_the_grid_and_back) {
+  Random random;
+  for (const Box& box : {fields::domain, Box{{9e3, -2e4, 5}, {9.003e3, -1.999e4, 6}}}) {
+    const LatticeFrame frame(fields::uniform(0.1, box), box);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 grid{random.between(0, root_size), random.between(0, root_size),
+                      random.between(0, root_size)};
+      EXPECT_LT(distance(frame.to_grid(frame.to_space(grid)), grid), 1e-4);  // a tenth of what others allow for
     }
   }
-  return smallest;
 }
 
-TEST(Lattice, has_the_density_asked_for) {
-  const double h = 0.1;
-  const auto points = lattice(surfaces::cube({0, 0, 0}, 1.9, 20), fields::uniform(h));
-  // Two points per cell, whose mean edge is h; the outermost layer is missing.
-  const double cell = h / 0.923, expected = 2 * std::pow((3.8 - 2 * 0.75 * h) / cell, 3);
-  EXPECT_NEAR(static_cast<double>(points.size()), expected, 0.06 * expected);
-}
-
-TEST(Lattice, stays_inside_and_off_the_boundary) {
-  const ClosedSurface surface = surfaces::cube_with_ball(14, 12);
-  const auto field = fields::around_unit_sphere(0.08, 0.3);
-  const BoundaryDistance boundary(surface.points, surface.triangles);
-  const Lattice lattice = body_centred_lattice(boundary, field, {});
-  ASSERT_GT(lattice.points.size(), 1000u);
-  for (const Vec3& p : lattice.scaffold) {
-    EXPECT_FALSE(boundary.inside(p));
-    EXPECT_LT(norm(p), 1);
-  }
-  for (const Vec3& p : lattice.points) {
-    const auto nearest = boundary.nearest(p);
-    EXPECT_TRUE(boundary.inside(p));
-    EXPECT_GE(nearest.distance, 0.75 * std::min(boundary.mean_edge(nearest.triangle), 0.9 * field(p)));
+TEST(LatticeFrame, has_a_root_around_the_box) {
+  Random random;
+  const auto field = fields::uniform(0.3);
+  for (const Box& box : {fields::domain, Box{{-1e-3, 0, 0}, {1e-3, 2e-3, 1e-3}}, Box{{3, 4, 5}, {30, 5, 6}}}) {
+    const LatticeFrame frame(field, box);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 g = frame.to_grid(random.in(box));
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GT(g[axis], 0);
+        EXPECT_LT(g[axis], root_size);
+      }
+    }
   }
 }
 
-TEST(Lattice, keeps_distance_between_points_where_sizes_change) {
-  const auto field = fields::around_unit_sphere(0.08, 0.5);
-  const auto points = lattice(surfaces::cube_with_ball(8, 12), field);
-  EXPECT_GT(smallest_ratio_of_distance_to_size(points, field), 0.5);
-}
-
-TEST(Lattice, is_a_function_of_position_alone) {
-  const auto field = fields::around_unit_sphere(0.08, 0.5);
-  const auto whole = lattice(surfaces::cube({0, 0, 0}, 1.9, 10), field);
-  const auto corner = lattice(surfaces::cube({0.8, 0.8, 0.8}, 1.0, 10), field);
-  std::vector<Vec3> sorted = whole;
-  std::sort(sorted.begin(), sorted.end(), lies_before);
-  std::size_t common = 0;
-  for (const Vec3& p : corner) common += std::binary_search(sorted.begin(), sorted.end(), p, lies_before);
-  EXPECT_GT(common, corner.size() * 9 / 10);  // nearly: the clearances differ
-  EXPECT_EQ(whole, lattice(surfaces::cube({0, 0, 0}, 1.9, 10), field));
-}
-
-TEST(Lattice, covers_pieces_that_reach_out_of_the_domain) {
-  const auto field = fields::uniform(0.25);
-  const auto points = lattice(surfaces::cube({9, 9, 9}, 1, 8), field);
-  EXPECT_GT(points.size(), 400u);
-}
-
-TEST(Lattice, variants_differ_slightly) {
-  const ClosedSurface surface = surfaces::cube({0, 0, 0}, 1, 8);
-  const auto field = fields::uniform(0.25);
-  const auto first = lattice(surface, field, {.variant = 0}),
-             second = lattice(surface, field, {.variant = 1});
-  ASSERT_EQ(first.size(), second.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_NE(first[i], second[i]);
-    EXPECT_LT(distance(first[i], second[i]), 0.05 * 0.25 * std::sqrt(3.0));
+TEST(LatticeFrame, is_scaled_to_the_sizes) {
+  for (const double size : {0.1, 0.15, 0.19}) {
+    const LatticeFrame frame(fields::uniform(size), fields::domain);
+    double nearest = 1;
+    for (int level = 0; level < 12; ++level)
+      nearest = std::min(nearest, std::abs(mean_edge_of_cell * frame.edge(level) / size - 1));
+    EXPECT_LT(nearest, 1e-9) << size;
   }
 }
 
-TEST(Lattice, gives_up_above_the_largest_count) {
-  const auto points =
-      lattice(surfaces::cube({0, 0, 0}, 1.9, 20), fields::uniform(0.1), {.largest_count = 1000});
-  EXPECT_GT(points.size(), 1000u);
-  EXPECT_LT(points.size(), 1010u);
+/// Where two edges are not at right angles the four points are not on a circle.
+TEST(LatticeFrame, takes_squares_off_their_circles) {
+  const LatticeFrame frame(fields::uniform(0.1), fields::domain);
+  const Vec3 edges[3] = {{1e5, 0, 0}, {0, 1e5, 0}, {0, 0, 1e5}};
+  Vec3 sheared[3];
+  for (int k = 0; k < 3; ++k) {
+    sheared[k] = frame.to_space(edges[k]) - frame.to_space({0, 0, 0});
+    const double length = frame.edge(0) * 1e5 / root_size;
+    EXPECT_NEAR(norm(sheared[k]) / length, 1, 0.01);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 a = normalized(sheared[k]), b = normalized(sheared[(k + 1) % 3]);
+    EXPECT_GT(std::abs(dot(a, b)), 0.002);
+    EXPECT_LT(std::abs(dot(a, b)), 0.05);
+  }
+}
+
+TEST(LatticeFrame, bounds_distances_and_boxes_in_the_grid) {
+  Random random;
+  const LatticeFrame frame(fields::uniform(0.1), fields::domain);
+  double tightest = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 a = random.in(fields::domain), b = random.in(fields::domain);
+    const double in_grid = distance(frame.to_grid(a), frame.to_grid(b));
+    EXPECT_LE(in_grid, frame.grid_distance(distance(a, b)));
+    tightest = std::max(tightest, in_grid / frame.grid_distance(distance(a, b)));
+    Box box;
+    box.add(a), box.add(b);
+    const GridBox image = frame.grid_box(box);
+    const Vec3 inside = frame.to_grid(random.in(box));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GE(inside[axis], image.low[axis] - 1e-3);
+      EXPECT_LE(inside[axis], image.high[axis] + 1e-3);
+    }
+  }
+  EXPECT_GT(tightest, 0.95);
+}
+
+TEST(LatticeFrame, finds_the_nearest_cell_of_any_place) {
+  const LatticeFrame frame(fields::uniform(0.1), fields::domain);
+  const sizing::GridPoint inside = frame.cell_at({5.99, 7, 0.01});
+  EXPECT_EQ(inside.x, 5u);
+  EXPECT_EQ(inside.y, 7u);
+  EXPECT_EQ(inside.z, 0u);
+  const sizing::GridPoint outside = frame.cell_at({-3, root_size, 1e300});
+  EXPECT_EQ(outside.x, 0u);
+  EXPECT_EQ(outside.y, sizing::grid_size - 1);
+  EXPECT_EQ(outside.z, sizing::grid_size - 1);
+}
+
+TEST(GridBox, knows_gaps_and_touching) {
+  const GridBox a{{0, 0, 0}, {4, 4, 4}};
+  EXPECT_EQ(a.gap_to({{7, 8, 2}, {9, 9, 3}}), 5);
+  EXPECT_EQ((GridBox{{7, 8, 2}, {9, 9, 3}}).gap_to(a), 5);
+  EXPECT_EQ(a.gap_to({{4, 4, 4}, {5, 5, 5}}), 0);
+  EXPECT_TRUE(a.overlaps({{4, 4, 4}, {5, 5, 5}}));
+  EXPECT_FALSE(a.overlaps({{0, 0, 4.5}, {4, 4, 5}}));
+  EXPECT_TRUE(a.dilated(0.5).overlaps({{0, 0, 4.5}, {4, 4, 5}}));
+}
+
+// --- tree
+
+sizing::SizeField graded() {
+  return fields::around_unit_sphere(0.06, 0.5);
+}
+
+/// A field so steep that the size at a cell's centre tells little of that in its corners.
+const std::vector<sizing::SizeSource> few_sources{
+    {{0.31, -0.77, 1.2}, 0.01}, {{-1.6, 1.4, 0.2}, 0.02}, {{1.9, 1.9, -1.9}, 0.015}};
+sizing::SizeField steep() {
+  return sizing::SizeField::build(fields::domain, few_sources, {0.01, 1.0, 12, 2.5});
+}
+
+struct Grown {
+  explicit Grown(sizing::SizeField sizes, const Communicator& communicator = Communicator::self(),
+                 const Box& box = fields::domain)
+      : field(std::move(sizes)),
+        frame(field, box),
+        wanted(frame.grid_box(box)),
+        tree(communicator, frame, field, wanted, clock) {}
+
+  /// Whether sizes ask for a cell to be split.
+  bool is_too_coarse(const GridCell& cell) const {
+    if (!GridBox::of(cell).overlaps(wanted)) return false;
+    const double half = 0.5 * cell.edge();
+    const double size = field(frame.to_space(GridBox::of(cell).low + Vec3{half, half, half}));
+    return mean_edge_of_cell * frame.edge(cell.level) > LatticeTree::coarsest_edge * size;
+  }
+
+  sizing::SizeField field;
+  parallel::StageClock clock;
+  LatticeFrame frame;
+  GridBox wanted;
+  LatticeTree tree;
+};
+
+TEST(LatticeTree, fills_the_root_along_the_curve) {
+  for (const Grown& grown : {Grown(graded()), Grown(steep())}) {
+    std::uint64_t next = 0;
+    for (BlockIndex b = 0; b < grown.tree.block_count(); ++b) {
+      const GridCell cell = grown.tree.cell(b);
+      EXPECT_EQ(sizing::morton_key(cell.low), next);
+      next += std::uint64_t{cell.edge()} * cell.edge() * cell.edge();
+      double volume = 0;
+      for (int child = 0; child < grown.tree.leaf_count(b); ++child) {
+        const GridCell leaf = grown.tree.leaf(b, child);
+        EXPECT_EQ(leaf.level, grown.tree.leaf_level(b));
+        volume += std::pow(leaf.edge(), 3);
+      }
+      EXPECT_EQ(volume, std::pow(cell.edge(), 3));
+      EXPECT_EQ(grown.tree.all_leaves(b), grown.tree.leaf_count(b) == 8 ? 0xff : 1);
+    }
+    EXPECT_EQ(next, std::uint64_t{1} << 3 * sizing::finest_level);
+  }
+}
+
+TEST(LatticeTree, keeps_neighbours_within_one_level) {
+  for (const Grown& grown : {Grown(fields::around_unit_sphere(0.12, 0.9)), Grown(steep())}) {
+    std::vector<LeafOfBlock> leaves = all_leaves(grown.tree);
+    std::sort(leaves.begin(), leaves.end(),
+              [](const LeafOfBlock& a, const LeafOfBlock& b) { return a.cell.low.x < b.cell.low.x; });
+    int most = 0;
+    std::int64_t pairs = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const GridBox box = GridBox::of(leaves[i].cell);
+      for (std::size_t j = i + 1; j < leaves.size() && leaves[j].cell.low.x <= box.high.x; ++j) {
+        if (!box.overlaps(GridBox::of(leaves[j].cell))) continue;
+        most = std::max(most, std::abs(leaves[i].cell.level - leaves[j].cell.level));
+        ++pairs;
+      }
+    }
+    EXPECT_EQ(most, 1);
+    EXPECT_GT(pairs, 1000);
+  }
+}
+
+TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
+  const Grown grown(graded());
+  const LatticeTree& tree = grown.tree;
+  const std::vector<LeafOfBlock> leaves = all_leaves(tree);
+  int split = 0;
+  for (const LeafOfBlock& leaf : leaves) EXPECT_FALSE(grown.is_too_coarse(leaf.cell));
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+    if (tree.leaf_count(b) != 8 || grown.is_too_coarse(tree.cell(b))) continue;
+    ++split;
+    const GridBox box = GridBox::of(tree.cell(b));
+    EXPECT_TRUE(std::any_of(leaves.begin(), leaves.end(), [&](const LeafOfBlock& leaf) {
+      return leaf.cell.level >= tree.cell(b).level + 2 && GridBox::of(leaf.cell).overlaps(box);
+    })) << "block " << b << " is split without need";
+  }
+  EXPECT_GT(split, 10);
+}
+
+TEST(LatticeTree, is_no_finer_than_the_sizes_off_the_box) {
+  const Grown grown(fields::uniform(0.1), Communicator::self(), {{1, 1, 1}, {1.5, 1.5, 1.5}});
+  int inside = 0;
+  for (const LeafOfBlock& leaf : all_leaves(grown.tree)) {
+    const double ratio = mean_edge_of_cell * grown.frame.edge(leaf.cell.level) / 0.1;
+    if (GridBox::of(leaf.cell).overlaps(grown.wanted)) {
+      EXPECT_NEAR(ratio, 1, 1e-9);
+      ++inside;
+    } else {
+      EXPECT_GT(ratio, 0.99);
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_LT(grown.tree.leaf_level(0), 3);
+}
+
+TEST(LatticeTree, misses_no_small_size_in_a_steep_field) {
+  const Grown grown(steep());
+  for (const sizing::SizeSource& source : few_sources) {
+    const sizing::GridPoint p = grown.frame.cell_at(grown.frame.to_grid(source.point));
+    const BlockIndex b = grown.tree.block_at(p);
+    for (int level = grown.tree.leaf_level(b); level < sizing::finest_level; ++level) {
+      const std::uint32_t mask = ~((sizing::grid_size >> level) - 1);
+      EXPECT_FALSE(grown.is_too_coarse({{p.x & mask, p.y & mask, p.z & mask}, level}));
+    }
+    EXPECT_LT(mean_edge_of_cell * grown.frame.edge(grown.tree.leaf_level(b)), 2.5 * source.size);
+  }
+}
+
+TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
+  const Communicator world = Communicator::world();
+  // Several thousand cells of one level are needed for the ranks to have anything to share out.
+  for (const auto& field : {fields::uniform(0.08), fields::around_unit_sphere(0.04, 0.4), steep()}) {
+    const Grown shared(field, world), alone(field);
+    ASSERT_EQ(shared.tree.block_count(), alone.tree.block_count());
+    std::uint64_t mixed = 0;
+    for (BlockIndex b = 0; b < alone.tree.block_count(); ++b) {
+      const GridCell cell = alone.tree.cell(b), same = shared.tree.cell(b);
+      ASSERT_EQ(sizing::morton_key(cell.low), sizing::morton_key(same.low));
+      ASSERT_EQ(cell.level, same.level);
+      ASSERT_EQ(alone.tree.leaf_count(b), shared.tree.leaf_count(b));
+      mixed = mesh::mix_in(mixed, sizing::morton_key(cell.low) + cell.level);
+    }
+    for (const std::uint64_t other : world.all_gather_items<std::uint64_t>({&mixed, 1})) EXPECT_EQ(other, mixed);
+  }
+}
+
+TEST(LatticeTree, finds_blocks_and_leaves_of_places) {
+  Random random;
+  const Grown grown(graded());
+  const std::vector<LeafOfBlock> leaves = all_leaves(grown.tree);
+  for (int i = 0; i < 300; ++i) {
+    const sizing::GridPoint p{static_cast<std::uint32_t>(random.between(0, root_size)),
+                              static_cast<std::uint32_t>(random.between(0, root_size)),
+                              static_cast<std::uint32_t>(random.between(0, root_size))};
+    const BlockIndex b = grown.tree.block_at(p);
+    const int child = grown.tree.child_at(b, p);
+    int holders = 0;
+    for (const LeafOfBlock& leaf : leaves) {
+      const auto within = [&](std::uint32_t low, std::uint32_t x) { return low <= x && x < low + leaf.cell.edge(); };
+      if (!within(leaf.cell.low.x, p.x) || !within(leaf.cell.low.y, p.y) || !within(leaf.cell.low.z, p.z))
+        continue;
+      ++holders;
+      EXPECT_EQ(leaf.block, b);
+      EXPECT_EQ(leaf.child, child);
+    }
+    EXPECT_EQ(holders, 1);
+  }
+}
+
+TEST(LatticeTree, knows_which_cells_are_split) {
+  const Grown grown(graded());
+  for (const LeafOfBlock& leaf : all_leaves(grown.tree)) {
+    EXPECT_FALSE(grown.tree.is_split(leaf.cell));
+    for (int level = 0; level < leaf.cell.level; ++level) {
+      const std::uint32_t mask = ~((sizing::grid_size >> level) - 1);
+      const GridCell above{{leaf.cell.low.x & mask, leaf.cell.low.y & mask, leaf.cell.low.z & mask}, level};
+      EXPECT_TRUE(grown.tree.is_split(above));
+    }
+    EXPECT_FALSE(grown.tree.is_split({leaf.cell.low, leaf.cell.level + 1}));
+  }
+}
+
+TEST(LatticeTree, visits_the_blocks_in_a_box) {
+  Random random;
+  const Grown grown(graded());
+  std::size_t visited = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double size = root_size * std::exp2(-random.between(0, 14));
+    const Vec3 low{random.between(-size, root_size), random.between(-size, root_size),
+                   random.between(-size, root_size)};
+    const GridBox box{low, low + Vec3{size * random.between(0, 1), size * random.between(0, 1), size}};
+    if (box.high.x < 0 || box.high.y < 0 || box.high.z < 0) continue;
+    std::vector<BlockIndex> expected, found;
+    for (BlockIndex b = 0; b < grown.tree.block_count(); ++b) {
+      if (GridBox::of(grown.tree.cell(b)).overlaps(box)) expected.push_back(b);
+    }
+    grown.tree.for_each_block_in(box, [&](BlockIndex b) { found.push_back(b); });
+    EXPECT_EQ(found, expected);
+    visited += found.size();
+    int asked = 0;
+    const bool any = grown.tree.any_block_in(box, [&](BlockIndex b) { return ++asked, b == expected.back(); });
+    EXPECT_TRUE(any);
+    EXPECT_EQ(asked, static_cast<int>(expected.size()));
+    asked = 0;
+    EXPECT_TRUE(grown.tree.any_block_in(box, [&](BlockIndex) { return ++asked > 0; }));
+    EXPECT_EQ(asked, 1);
+    EXPECT_FALSE(grown.tree.any_block_in(box, [](BlockIndex) { return false; }));
+  }
+  EXPECT_GT(visited, 1000u);
+}
+
+/// Halos look for what is half a cell away from a block: neighbours over faces, edges and corners.
+TEST(LatticeTree, visits_the_neighbours_of_a_block) {
+  const Grown grown(fields::around_unit_sphere(0.15, 0.9));
+  const LatticeTree& tree = grown.tree;
+  for (BlockIndex b = 0; b < tree.block_count(); b += 7) {
+    const GridBox box = GridBox::of(tree.cell(b));
+    std::vector<BlockIndex> expected, found;
+    for (BlockIndex n = 0; n < tree.block_count(); ++n) {
+      if (GridBox::of(tree.cell(n)).overlaps(box)) expected.push_back(n);
+    }
+    tree.for_each_block_in(box.dilated(0.5), [&](BlockIndex n) { found.push_back(n); });
+    EXPECT_EQ(found, expected);
+  }
 }
 
 }  // namespace

@@ -1,60 +1,103 @@
-/// Closed surfaces to fill.
+/// Small surfaces to fill, and their way into a distributed mesh.
 #pragma once
 
-#include "volume/volume_mesher.hpp"
+#include "geometry/vec.hpp"
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "volume/owned_cells.hpp"
+#include "volume/surface_share.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace aeroloom::volume::surfaces {
 
+using geometry::Vec3;
+using mesh::RegionId;
+
+/// Triangles on CAD faces, counter-clockwise seen from outside of the face's front region.
+struct Surface {
+  std::vector<Vec3> points;
+  std::vector<LocalTriangle> triangles;
+  std::vector<std::int32_t> face;      ///< per triangle
+  std::vector<mesh::FaceSides> sides;  ///< per face
+};
+
 /// Appends `part` to `whole`; `inward` turns its triangles, which makes it a void.
 enum class Turn { outward, inward };
-inline void append(ClosedSurface& whole, const ClosedSurface& part, Turn turn = Turn::outward) {
-  const auto offset = static_cast<mesh::LocalIndex>(whole.points.size());
+inline void append(Surface& whole, const Surface& part, Turn turn = Turn::outward) {
+  const auto first_point = static_cast<mesh::LocalIndex>(whole.points.size());
+  const auto first_face = static_cast<std::int32_t>(whole.sides.size());
   whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+  whole.sides.insert(whole.sides.end(), part.sides.begin(), part.sides.end());
   for (auto [a, b, c] : part.triangles) {
     if (turn == Turn::inward) std::swap(b, c);
-    whole.triangles.push_back({a + offset, b + offset, c + offset});
+    whole.triangles.push_back({a + first_point, b + first_point, c + first_point});
   }
+  for (const std::int32_t f : part.face) whole.face.push_back(f + first_face);
 }
 
-/// A box with nx, ny, nz squares per axis on its faces, two triangles each.
-inline ClosedSurface box(geometry::Vec3 low, geometry::Vec3 high, int nx, int ny, int nz) {
-  ClosedSurface surface;
-  const int n[3] = {nx, ny, nz};
+/// The same triangles between other regions.
+inline Surface between(Surface surface, RegionId front, RegionId back) {
+  for (mesh::FaceSides& sides : surface.sides) sides = {front, back};
+  return surface;
+}
+
+/// The surface around and between the regions of n[0] n[1] n[2] cells of a grid, two triangles per square.
+/// `region_of(i, j, k)` is asked for each cell, mesh::no_region outside of all. `place` maps grid to space
+/// and keeps the orientation. A CAD face for each plane and pair of regions.
+inline Surface voxels(std::array<int, 3> n, const std::function<RegionId(int, int, int)>& region_of,
+                      const std::function<Vec3(Vec3)>& place) {
+  Surface surface;
   std::map<std::array<int, 3>, mesh::LocalIndex> numbers;
   const auto number = [&](std::array<int, 3> at) {
-    const auto [place, is_new] = numbers.emplace(at, static_cast<mesh::LocalIndex>(surface.points.size()));
-    if (is_new) {
-      geometry::Vec3 p;
-      for (int k = 0; k < 3; ++k) p[k] = at[k] == n[k] ? high[k] : low[k] + (high[k] - low[k]) * at[k] / n[k];
-      surface.points.push_back(p);
-    }
-    return place->second;
+    const auto [known, is_new] = numbers.emplace(at, static_cast<mesh::LocalIndex>(surface.points.size()));
+    if (is_new) surface.points.push_back(place({double(at[0]), double(at[1]), double(at[2])}));
+    return known->second;
   };
+  const auto region_at = [&](std::array<int, 3> at) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (at[axis] < 0 || at[axis] >= n[axis]) return mesh::no_region;
+    }
+    return region_of(at[0], at[1], at[2]);
+  };
+  std::map<std::tuple<int, int, RegionId, RegionId, bool>, std::int32_t> faces;
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    for (const bool top : {false, true}) {
-      for (int i = 0; i < n[u]; ++i) {
-        for (int j = 0; j < n[v]; ++j) {
-          const auto at = [&](int di, int dj) {
-            std::array<int, 3> index{};
-            index[axis] = top ? n[axis] : 0;
-            index[u] = i + di;
-            index[v] = j + dj;
-            return number(index);
+    std::array<int, 3> at{};
+    for (at[axis] = 0; at[axis] <= n[axis]; ++at[axis]) {
+      for (at[u] = 0; at[u] < n[u]; ++at[u]) {
+        for (at[v] = 0; at[v] < n[v]; ++at[v]) {
+          std::array<int, 3> before = at;
+          --before[axis];
+          const RegionId low = region_at(before), high = region_at(at);
+          if (low == high) continue;
+          const bool low_in_front = high == mesh::no_region || (low != mesh::no_region && low < high);
+          const RegionId front = low_in_front ? low : high, back = low_in_front ? high : low;
+          const auto [face, is_new] =
+              faces.emplace(std::tuple{axis, at[axis], front, back, low_in_front},
+                            static_cast<std::int32_t>(surface.sides.size()));
+          if (is_new) surface.sides.push_back({front, back});
+          const auto corner = [&](int du, int dv) {
+            std::array<int, 3> c = at;
+            c[u] += du, c[v] += dv;
+            return number(c);
           };
-          const auto a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
-          const bool diagonal = (i + j) % 2 == 0;
-          const std::array<std::array<mesh::LocalIndex, 3>, 2> pair =
-              diagonal ? std::array<std::array<mesh::LocalIndex, 3>, 2>{{{a, b, c}, {a, c, d}}}
-                       : std::array<std::array<mesh::LocalIndex, 3>, 2>{{{a, b, d}, {b, c, d}}};
-          for (auto [p, q, r] : pair) {
-            if (!top) std::swap(q, r);
-            surface.triangles.push_back({p, q, r});
+          const auto a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+          const bool even = (at[u] + at[v]) % 2 == 0;
+          for (LocalTriangle t : {even ? LocalTriangle{a, b, c} : LocalTriangle{a, b, d},
+                                  even ? LocalTriangle{a, c, d} : LocalTriangle{b, c, d}}) {
+            if (!low_in_front) std::swap(t[1], t[2]);
+            surface.triangles.push_back(t);
+            surface.face.push_back(face->second);
           }
         }
       }
@@ -63,34 +106,49 @@ inline ClosedSurface box(geometry::Vec3 low, geometry::Vec3 high, int nx, int ny
   return surface;
 }
 
+/// The map of grids with n cells per axis onto a box.
+inline std::function<Vec3(Vec3)> onto(Vec3 low, Vec3 high, std::array<int, 3> n) {
+  return [=](Vec3 grid) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k)
+      p[k] = grid[k] == n[k] ? high[k] : low[k] + (high[k] - low[k]) * grid[k] / n[k];
+    return p;
+  };
+}
+
+/// A box with n squares per axis on its sides.
+inline Surface box(Vec3 low, Vec3 high, std::array<int, 3> n) {
+  return voxels(n, [](int, int, int) { return 0; }, onto(low, high, n));
+}
+
 /// A cube of edge 2 r around `center` with n squares per edge.
-inline ClosedSurface cube(geometry::Vec3 center, double r, int n) {
-  return box(center - geometry::Vec3{r, r, r}, center + geometry::Vec3{r, r, r}, n, n, n);
+inline Surface cube(Vec3 center, double r, int n) {
+  return box(center - Vec3{r, r, r}, center + Vec3{r, r, r}, {n, n, n});
 }
 
 /// A sphere from an icosahedron whose edges are split into `n` parts; edges are about 1.1 r / n long.
-inline ClosedSurface sphere(geometry::Vec3 center, double r, int n) {
+inline Surface sphere(Vec3 center, double r, int n) {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  const std::vector<geometry::Vec3> corners{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
-                                            {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                                            {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const std::vector<Vec3> corners{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
+                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
   const std::vector<std::array<int, 3>> faces{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                                               {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                                               {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                               {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-  ClosedSurface surface;
+  Surface surface;
+  surface.sides.push_back({0, mesh::no_region});
   std::map<std::vector<std::pair<int, int>>, mesh::LocalIndex> numbers;
   const auto number = [&](const std::array<int, 3>& face, std::array<int, 3> weights) {
     std::vector<std::pair<int, int>> key;
-    geometry::Vec3 p;
+    Vec3 p;
     for (int k = 0; k < 3; ++k) {
       if (weights[k] > 0) key.emplace_back(face[k], weights[k]);
     }
     std::sort(key.begin(), key.end());
     for (const auto& [corner, weight] : key) p += static_cast<double>(weight) * corners[corner];
-    const auto [place, is_new] = numbers.emplace(key, static_cast<mesh::LocalIndex>(surface.points.size()));
+    const auto [known, is_new] = numbers.emplace(key, static_cast<mesh::LocalIndex>(surface.points.size()));
     if (is_new) surface.points.push_back(center + r * normalized(p));
-    return place->second;
+    return known->second;
   };
   for (const auto& face : faces) {
     const auto at = [&](int i, int j) { return number(face, {n - i - j, i, j}); };
@@ -101,24 +159,123 @@ inline ClosedSurface sphere(geometry::Vec3 center, double r, int n) {
       }
     }
   }
+  surface.face.assign(surface.triangles.size(), 0);
   return surface;
 }
 
 /// The cube [-2,2]^3 less the unit ball.
-inline ClosedSurface cube_with_ball(int cube_squares, int ball_parts) {
-  ClosedSurface surface = cube({0, 0, 0}, 2, cube_squares);
+inline Surface cube_with_ball(int cube_squares, int ball_parts) {
+  Surface surface = cube({0, 0, 0}, 2, cube_squares);
   append(surface, sphere({0, 0, 0}, 1, ball_parts), Turn::inward);
   return surface;
 }
 
-/// Enclosed volume, by the divergence theorem.
-inline double volume(const ClosedSurface& surface) {
-  const geometry::Vec3 apex = surface.points.front();
+/// The cube [-1,1]^3 of n squares per edge, n a multiple of 4: region 1 within [-1/2,1/2]^3, region 0 around.
+inline Surface nested_cubes(int n) {
+  const auto inner = [=](int i) { return 4 * i >= n && 4 * i < 3 * n; };
+  return voxels({n, n, n}, [=](int i, int j, int k) { return inner(i) && inner(j) && inner(k) ? 1 : 0; },
+                onto({-1, -1, -1}, {1, 1, 1}, {n, n, n}));
+}
+
+inline RegionId region_count(const Surface& surface) {
+  RegionId last = 0;
+  for (const mesh::FaceSides& sides : surface.sides) last = std::max({last, sides.front, sides.back});
+  return last + 1;
+}
+
+/// What a region's triangles enclose, by the divergence theorem.
+inline double volume(const Surface& surface, RegionId region = 0) {
+  const Vec3 apex = surface.points.front();
   double sum = 0;
-  for (const auto& [a, b, c] : surface.triangles) {
-    sum += volume6(surface.points[a], surface.points[c], surface.points[b], apex) / 6;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const mesh::FaceSides sides = surface.sides[surface.face[t]];
+    const double part = volume6(surface.points[a], surface.points[c], surface.points[b], apex) / 6;
+    sum += (sides.front == region ? part : 0) - (sides.back == region ? part : 0);
   }
   return sum;
+}
+
+/// A surface as pieces of triangles of one CAD face each, piece p on rank p % size, its vertices classified
+/// by the number of faces they lie on. The whole mesh is the same for any number of ranks.
+inline mesh::DistributedMesh spread(const parallel::Communicator& communicator, const Surface& surface,
+                                    std::size_t triangles_per_piece = 40) {
+  std::vector<std::set<std::int32_t>> faces_at(surface.points.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const auto v : surface.triangles[t]) faces_at[v].insert(surface.face[t]);
+  }
+  std::map<std::set<std::int32_t>, std::int32_t> curves;
+  for (const auto& faces : faces_at) {
+    if (faces.size() == 2) curves.emplace(faces, static_cast<std::int32_t>(curves.size()));
+  }
+  std::vector<std::vector<std::size_t>> parts;
+  for (std::size_t f = 0; f < surface.sides.size(); ++f) {
+    std::vector<std::size_t> part;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      if (surface.face[t] != static_cast<std::int32_t>(f)) continue;
+      part.push_back(t);
+      if (part.size() == triangles_per_piece) parts.push_back(std::move(part)), part = {};
+    }
+    if (!part.empty()) parts.push_back(part);
+  }
+  std::vector<std::set<std::size_t>> parts_at(surface.points.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (const std::size_t t : parts[p]) {
+      for (const auto v : surface.triangles[t]) parts_at[v].insert(p);
+    }
+  }
+  mesh::DistributedMesh mesh;
+  mesh.kind = mesh::CellKind::triangle;
+  mesh.piece_count = static_cast<mesh::PieceId>(parts.size());
+  for (std::size_t p = communicator.rank(); p < parts.size(); p += communicator.size()) {
+    mesh::Piece& piece = mesh.pieces.emplace_back();
+    piece.id = static_cast<mesh::PieceId>(p);
+    piece.kind = mesh::CellKind::triangle;
+    std::map<mesh::LocalIndex, mesh::LocalIndex> local;
+    for (const std::size_t t : parts[p]) {
+      for (const auto v : surface.triangles[t]) {
+        const auto [known, is_new] = local.emplace(v, piece.vertex_count());
+        piece.cells.push_back(known->second);
+        if (!is_new) continue;
+        const Vec3 x = surface.points[v];
+        piece.coordinates.insert(piece.coordinates.end(), {x.x, x.y, x.z});
+        const auto& faces = faces_at[v];
+        piece.vertex_dimension.push_back(faces.size() == 1 ? 2 : faces.size() == 2 ? 1 : 0);
+        piece.vertex_entity.push_back(faces.size() == 1   ? *faces.begin()
+                                      : faces.size() == 2 ? curves.at(faces)
+                                                          : v);
+        if (parts_at[v].size() < 2) continue;
+        piece.shared_vertices.push_back(known->second);
+        piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(v));
+      }
+      piece.triangle_face.push_back(surface.face[t]);
+      piece.triangle_patch.push_back(surface.face[t] % 2);
+    }
+  }
+  mesh.patches = {"even", "odd"};
+  for (std::size_t f = 0; f < surface.sides.size(); ++f) mesh.faces.push_back("face " + std::to_string(f));
+  mesh.sides = surface.sides;
+  for (RegionId r = 0; region_count(surface) > 1 && r < region_count(surface); ++r)
+    mesh.regions.push_back("region " + std::to_string(r));
+  return mesh;
+}
+
+/// The triangles as a rank gets them, numbered as they are here.
+inline std::vector<SurfaceTriangle> numbered_triangles(const Surface& surface) {
+  std::vector<SurfaceTriangle> result;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    SurfaceTriangle triangle{};
+    triangle.number = static_cast<mesh::GlobalIndex>(t);
+    for (int k = 0; k < 3; ++k) {
+      triangle.vertices[k] = surface.triangles[t][k];
+      triangle.points[k] = surface.points[surface.triangles[t][k]];
+    }
+    triangle.face = surface.face[t];
+    triangle.front = surface.sides[surface.face[t]].front;
+    triangle.back = surface.sides[surface.face[t]].back;
+    result.push_back(triangle);
+  }
+  return result;
 }
 
 }  // namespace aeroloom::volume::surfaces

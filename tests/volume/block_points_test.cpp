@@ -1,0 +1,340 @@
+/// The graded body-centred lattice, block by block.
+#include "volume/block_points.hpp"
+
+#include "mesh/quality.hpp"
+#include "tests/volume/fields.hpp"
+#include "tests/volume/steps.hpp"
+#include "volume/tetgen_run.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::volume {
+namespace {
+
+using geometry::Vec3;
+using mesh::RegionId;
+using parallel::Communicator;
+
+/// A place of the lattice, in halves of the finest cells.
+using Place = std::array<std::int64_t, 3>;
+
+/// [-1.5,1.5]^3 with region 1 in its inner half, [-0.75,0.75]^3, among sizes that change.
+surfaces::Surface nested() {
+  surfaces::Surface surface = surfaces::nested_cubes(12);
+  for (Vec3& p : surface.points) p *= 1.5;
+  return surface;
+}
+RegionId region_of(Vec3 p) {
+  const double r = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return r < 0.75 ? 1 : r < 1.5 ? 0 : mesh::no_region;
+}
+
+struct Made {
+  explicit Made(const Communicator& communicator, VolumeOptions options = {})
+      : surface(nested()),
+        problem(communicator, surface, fields::around_unit_sphere(0.08, 0.4), options),
+        lattice(problem, box_of(surface)),
+        around(problem, lattice) {}
+
+  LatticeSource source() const { return lattice.source(problem, around.regions); }
+  BlockPoints make() const { return make(lattice.first(problem.communicator), lattice.last(problem.communicator)); }
+  BlockPoints make(BlockIndex first, BlockIndex last) const {
+    return make_points(source(), first, last, around.surface);
+  }
+
+  surfaces::Surface surface;
+  Problem problem;
+  Lattice lattice;
+  Surroundings around;
+};
+
+template <class Visit>
+void for_each_point(const BlockPoints& points, const Visit& visit) {
+  for (BlockIndex b = points.first; b < points.last(); ++b) {
+    for (std::int64_t i = points.starts[b - points.first]; i < points.starts[b - points.first + 1]; ++i)
+      visit(b, i);
+  }
+}
+
+/// Corners and centres of all leaves, and the edge of the coarsest leaf around each.
+std::map<Place, double> all_places(const Lattice& lattice) {
+  std::map<Place, double> places;
+  for (const LeafOfBlock& leaf : all_leaves(lattice.tree)) {
+    const Place low{2 * std::int64_t{leaf.cell.low.x}, 2 * std::int64_t{leaf.cell.low.y},
+                    2 * std::int64_t{leaf.cell.low.z}};
+    const std::int64_t edge = leaf.cell.edge();
+    const auto add = [&](std::int64_t dx, std::int64_t dy, std::int64_t dz) {
+      double& coarsest = places[{low[0] + dx, low[1] + dy, low[2] + dz}];
+      coarsest = std::max(coarsest, lattice.frame.edge(leaf.cell.level));
+    };
+    add(edge, edge, edge);
+    for (int k = 0; k < 8; ++k) add(k & 1 ? 2 * edge : 0, k & 2 ? 2 * edge : 0, k & 4 ? 2 * edge : 0);
+  }
+  return places;
+}
+
+Vec3 place_in_space(const Lattice& lattice, const Place& place) {
+  return lattice.frame.to_space({0.5 * double(place[0]), 0.5 * double(place[1]), 0.5 * double(place[2])});
+}
+
+/// Where a slot of a leaf stands, by what the header says of slots.
+Place place_of_slot(const LatticeTree& tree, BlockIndex b, int slot) {
+  const GridCell leaf = tree.leaf(b, slot / slots_per_leaf);
+  const int in_leaf = slot % slots_per_leaf;
+  const std::set<int> middles[8] = {{}, {0}, {1}, {2}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}};
+  Place place{2 * std::int64_t{leaf.low.x}, 2 * std::int64_t{leaf.low.y}, 2 * std::int64_t{leaf.low.z}};
+  for (const int axis : middles[in_leaf]) place[axis] += leaf.edge();
+  return place;
+}
+
+TEST(BlockPoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
+  const Made made(Communicator::self());
+  const BlockPoints points = made.make();
+  const std::map<Place, double> places = all_places(made.lattice);
+  std::set<Place> used;
+  std::array<int, slots_per_leaf> of_slot{};
+  for_each_point(points, [&](BlockIndex b, std::int64_t i) {
+    const Place place = place_of_slot(made.lattice.tree, b, points.slots[i]);
+    ASSERT_TRUE(places.count(place));
+    EXPECT_TRUE(used.insert(place).second);
+    ++of_slot[points.slots[i] % slots_per_leaf];
+    const double most = 0.5 * 0.005 * mean_edge_of_cell * places.at(place);
+    const Vec3 off = points.points[i] - place_in_space(made.lattice, place);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(off[axis]), most);
+  });
+  for (const int count : of_slot) EXPECT_GT(count, 20);  // the lattice hangs in all possible ways
+}
+
+TEST(BlockPoints, leave_out_nothing_that_is_off_the_surface) {
+  const Made made(Communicator::self());
+  const BlockPoints points = made.make();
+  std::set<Place> used;
+  for_each_point(points, [&](BlockIndex b, std::int64_t i) {
+    used.insert(place_of_slot(made.lattice.tree, b, points.slots[i]));
+  });
+  int free = 0;
+  for (const auto& [place, edge] : all_places(made.lattice)) {
+    const Vec3 p = place_in_space(made.lattice, place);
+    if (region_of(p) == mesh::no_region) continue;
+    const auto nearest = made.around.surface.distance().nearest(p);
+    if (nearest.distance < 1.02 * 0.75 * 1.5 * made.problem.field(p)) continue;
+    ++free;
+    EXPECT_TRUE(used.count(place)) << p.x << ' ' << p.y << ' ' << p.z;
+  }
+  EXPECT_GT(free, 2000);
+  EXPECT_GT(static_cast<int>(used.size()), free);
+}
+
+TEST(BlockPoints, stay_inside_and_know_their_region) {
+  const Made made(Communicator::self());
+  const BlockPoints points = made.make();
+  std::array<int, 2> count{};
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    ASSERT_EQ(points.regions[i], region_of(points.points[i]));
+    ++count[points.regions[i]];
+  }
+  EXPECT_GT(count[0], 1000);
+  EXPECT_GT(count[1], 500);
+}
+
+/// The least of distance over size, both that of triangles and that asked for: what clearances are about.
+double least_clearance(const Made& made, const BlockPoints& points) {
+  const BoundaryDistance& distance = made.around.surface.distance();
+  double least = 1e300;
+  for (const Vec3& p : points.points) {
+    const double size = made.problem.field(p);
+    for (std::size_t t = 0; t < made.around.triangles.size(); ++t) {
+      const auto triangle = static_cast<std::int32_t>(t);
+      least = std::min(least,
+                       distance.distance_to(p, triangle) / std::min(size, distance.mean_edge(triangle)));
+    }
+  }
+  return least;
+}
+
+TEST(BlockPoints, keep_off_the_surface) {
+  for (const double clearance : {0.5, 0.75}) {
+    VolumeOptions options;
+    options.lattice_clearance = clearance;
+    const Made made(Communicator::self(), options);
+    const double least = least_clearance(made, made.make());
+    EXPECT_GE(least, clearance);
+    EXPECT_LT(least, 1.6 * clearance);
+  }
+}
+
+TEST(BlockPoints, keep_farther_off_where_a_retry_wants_it) {
+  Made made(Communicator::self());
+  const BlockPoints before = made.make();
+  for (BlockChange& change : made.lattice.changes) change.farther = 1;
+  const BlockPoints after = made.make();
+  EXPECT_LT(after.points.size(), before.points.size());
+  EXPECT_GE(least_clearance(made, after), 1.6 * 0.75);
+  // In its own blocks only.
+  const BlockIndex changed = made.lattice.tree.block_count() / 2;
+  for (BlockIndex b = 0; b < changed; ++b) made.lattice.changes[b].farther = 0;
+  const BlockPoints half = made.make();
+  for (BlockIndex b = 0; b < made.lattice.tree.block_count(); ++b)
+    EXPECT_EQ(half.count(b), (b < changed ? before : after).count(b));
+}
+
+TEST(BlockPoints, are_the_same_however_blocks_are_divided) {
+  const Made made(Communicator::self());
+  const BlockPoints whole = made.make();
+  const BlockIndex blocks = made.lattice.tree.block_count();
+  for (const BlockIndex step : {blocks / 2, blocks / 7, BlockIndex{37}}) {
+    std::vector<Vec3> points;
+    std::vector<std::uint8_t> slots;
+    std::vector<RegionId> regions;
+    for (BlockIndex first = 0; first < blocks; first += step) {
+      const BlockPoints part = made.make(first, std::min(blocks, first + step));
+      EXPECT_EQ(part.last(), std::min(blocks, first + step));
+      points.insert(points.end(), part.points.begin(), part.points.end());
+      slots.insert(slots.end(), part.slots.begin(), part.slots.end());
+      regions.insert(regions.end(), part.regions.begin(), part.regions.end());
+    }
+    EXPECT_EQ(points, whole.points);
+    EXPECT_EQ(slots, whole.slots);
+    EXPECT_EQ(regions, whole.regions);
+  }
+}
+
+/// With the triangles within reach of the blocks alone, retries included.
+TEST(BlockPoints, are_the_same_on_any_number_of_ranks) {
+  const Communicator world = Communicator::world();
+  for (const std::uint8_t farther : {0, 2}) {
+    Made alone(Communicator::self()), shared(world);
+    for (BlockChange& change : alone.lattice.changes) change.farther = farther;
+    for (BlockChange& change : shared.lattice.changes) change.farther = farther;
+    if (world.size() > 1) {
+      EXPECT_LT(shared.around.triangles.size(), alone.around.triangles.size());
+    }
+    const BlockPoints whole = alone.make(), mine = shared.make();
+    EXPECT_EQ(world.all_gather_items<Vec3>(mine.points), whole.points);
+    EXPECT_EQ(world.all_gather_items<std::uint8_t>(mine.slots), whole.slots);
+    EXPECT_EQ(world.all_gather_items<RegionId>(mine.regions), whole.regions);
+  }
+}
+
+TEST(BlockPoints, move_by_their_perturbation_in_another_variant) {
+  Made made(Communicator::self());
+  std::map<std::int64_t, Vec3> before;
+  const BlockPoints first = made.make();
+  for_each_point(first, [&](BlockIndex b, std::int64_t i) {
+    before[lattice_number(b, first.slots[i])] = first.points[i];
+  });
+  const BlockIndex changed = made.lattice.tree.block_count() / 2;
+  for (BlockIndex b = changed; b < made.lattice.tree.block_count(); ++b) made.lattice.changes[b].variant = 1;
+  const BlockPoints second = made.make();
+  int moved = 0, common = 0;
+  double farthest = 0;
+  for_each_point(second, [&](BlockIndex b, std::int64_t i) {
+    const auto at = before.find(lattice_number(b, second.slots[i]));
+    if (at == before.end()) return;  // near the surface, where it came within reach or left it
+    ++common;
+    const Vec3 by = second.points[i] - at->second;
+    if (b < changed) {
+      EXPECT_EQ(norm(by), 0);
+      return;
+    }
+    ++moved;
+    const double most = 0.005 * mean_edge_of_cell * made.lattice.frame.edge(made.lattice.tree.leaf_level(b));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(std::abs(by[axis]), most);
+      farthest = std::max(farthest, std::abs(by[axis]) / most);
+    }
+    EXPECT_GT(norm(by), 0);
+  });
+  EXPECT_GT(moved, 500);
+  EXPECT_GT(farthest, 0.7);
+  EXPECT_GT(common, static_cast<int>(0.97 * static_cast<double>(before.size())));
+}
+
+TEST(BlockPoints, follow_the_perturbation_asked_for) {
+  VolumeOptions still;
+  still.perturbation = 0;
+  const Made made(Communicator::self(), still);
+  const BlockPoints points = made.make();
+  for_each_point(points, [&](BlockIndex b, std::int64_t i) {
+    const Vec3 place = place_in_space(made.lattice, place_of_slot(made.lattice.tree, b, points.slots[i]));
+    EXPECT_EQ(points.points[i], place);
+  });
+  EXPECT_GT(points.points.size(), 2000u);
+}
+
+/// In all space, without any surface.
+struct Endless {
+  Endless(const sizing::SizeField& sizes, const geometry::Box& box)
+      : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, frame.grid_box(box), clock) {
+    const auto blocks = static_cast<std::size_t>(tree.block_count());
+    table.longest_edge.assign(blocks, 0);
+    table.triangles.assign(blocks, 0);
+    const std::vector<RegionId> regions(blocks, 0);
+    const std::vector<BlockChange> changes(blocks);
+    points = make_points({frame, tree, field, table, regions, {0.75, 0.005}, changes}, 0, tree.block_count(),
+                         NearSurface({}))
+                 .points;
+  }
+
+  const sizing::SizeField& field;
+  parallel::StageClock clock;
+  LatticeFrame frame;
+  LatticeTree tree;
+  SurfaceTable table;
+  std::vector<Vec3> points;
+};
+
+TEST(BlockPoints, have_a_good_delaunay_mesh_across_all_levels) {
+  for (const double growth : {1.2, 1.3}) {
+    for (const Vec3 anchor : {Vec3{0, 0, 0}, Vec3{0.23, -0.11, 0.37}}) {
+      const std::vector<sizing::SizeSource> sources{{{0.31, -0.2, 0.13}, 0.02}, {{-0.6, 0.5, 0.4}, 0.05}};
+      const geometry::Box box{Vec3{-1.4, -1.4, -1.4} + anchor, Vec3{1.4, 1.4, 1.4} + anchor};
+      const auto field = sizing::SizeField::build(box, sources, {0.02, 0.5, 12, growth});
+      const Endless lattice(field, box);
+      std::vector<double> coordinates;
+      for (const Vec3& p : lattice.points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+      const TetgenMesh mesh = run_tetgen(coordinates, {});
+      EXPECT_TRUE(mesh.added.empty());
+      double smallest = 180, largest = 0;
+      int count = 0;
+      for (const auto& cell : mesh.cells) {
+        Vec3 p[4];
+        bool is_inner = true;
+        for (int k = 0; k < 4; ++k) {
+          p[k] = lattice.points[cell[k]];
+          const Vec3 off = p[k] - anchor;
+          is_inner = is_inner && std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)}) < 1.0;
+        }
+        if (!is_inner) continue;
+        const mesh::DihedralRange range = mesh::dihedral_range(p[0], p[1], p[2], p[3]);
+        smallest = std::min(smallest, range.smallest);
+        largest = std::max(largest, range.largest);
+        ++count;
+      }
+      EXPECT_GT(count, 5000);
+      EXPECT_GT(smallest, 28) << growth;
+      EXPECT_LT(largest, 138) << growth;
+    }
+  }
+}
+
+TEST(BlockPoints, have_the_density_asked_for) {
+  for (const double size : {0.1, 0.13}) {
+    const auto field = fields::uniform(size);
+    const Endless lattice(field, fields::domain);
+    double inside = 0;
+    for (const Vec3& p : lattice.points)
+      inside += std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 1.5;
+    const double cell = size / mean_edge_of_cell;
+    EXPECT_NEAR(inside * std::pow(cell / 3, 3), 2, 0.1);  // two points per cell
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::volume

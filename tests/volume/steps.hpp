@@ -1,0 +1,110 @@
+/// The steps of the decomposition, taken one by one so that tests can look at each.
+#pragma once
+
+#include "tests/volume/surfaces.hpp"
+#include "volume/block_points.hpp"
+#include "volume/block_regions.hpp"
+#include "volume/near_surface.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A surface on its ranks, with sizes: what the stage starts from.
+struct Problem {
+  Problem(const parallel::Communicator& ranks, const surfaces::Surface& of, sizing::SizeField sizes,
+          VolumeOptions wishes = {})
+      : communicator(ranks),
+        surface(surfaces::spread(ranks, of)),
+        numbering(mesh::number_mesh(ranks, surface)),
+        field(std::move(sizes)),
+        options(wishes) {}
+
+  VolumeInput input() const { return {surface, numbering, field, options}; }
+
+  parallel::Communicator communicator;
+  mesh::DistributedMesh surface;
+  mesh::Numbering numbering;
+  sizing::SizeField field;
+  VolumeOptions options;
+};
+
+/// The box of all points of a surface.
+inline geometry::Box box_of(const surfaces::Surface& surface) {
+  geometry::Box box;
+  for (const geometry::Vec3& p : surface.points) box.add(p);
+  return box;
+}
+
+/// Frame, tree and table of a problem: what every rank knows of the lattice.
+struct Lattice {
+  Lattice(const Problem& problem, const geometry::Box& box)
+      : frame(problem.field, box),
+        tree(problem.communicator, frame, problem.field, frame.grid_box(box), clock),
+        table(tabulate_surface(problem.communicator, frame, tree, problem.surface, clock)),
+        shares(share_blocks(tree, table, problem.communicator.size())),
+        changes(tree.block_count()) {}
+  Lattice(const Lattice&) = delete;
+  Lattice& operator=(const Lattice&) = delete;
+
+  /// What points are made from. `regions` per block.
+  LatticeSource source(const Problem& problem, std::span<const mesh::RegionId> regions) const {
+    return {frame,
+            tree,
+            problem.field,
+            table,
+            regions,
+            {problem.options.lattice_clearance, problem.options.perturbation},
+            changes};
+  }
+  BlockIndex first(const parallel::Communicator& communicator) const { return shares[communicator.rank()]; }
+  BlockIndex last(const parallel::Communicator& communicator) const {
+    return shares[communicator.rank() + 1];
+  }
+
+  parallel::StageClock clock;
+  LatticeFrame frame;
+  LatticeTree tree;
+  SurfaceTable table;
+  std::vector<BlockIndex> shares;
+  std::vector<BlockChange> changes;
+};
+
+/// The triangles within reach of a rank's blocks, and the regions of all blocks.
+struct Surroundings {
+  Surroundings(const Problem& problem, Lattice& lattice)
+      : triangles(deliver(problem, lattice)),
+        surface(triangles),
+        regions(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table,
+                                   lattice.shares, surface, lattice.clock)) {}
+
+  static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
+    std::vector<double> reach;
+    for (BlockIndex b = lattice.first(problem.communicator); b < lattice.last(problem.communicator); ++b)
+      reach.push_back(reach_of_block(lattice.source(problem, {}), b));
+    return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
+                           reach, problem.surface, problem.numbering, lattice.clock);
+  }
+
+  std::vector<SurfaceTriangle> triangles;
+  NearSurface surface;
+  std::vector<mesh::RegionId> regions;
+};
+
+/// A leaf of the lattice, for searches by brute force.
+struct LeafOfBlock {
+  BlockIndex block;
+  int child;
+  GridCell cell;
+};
+inline std::vector<LeafOfBlock> all_leaves(const LatticeTree& tree) {
+  std::vector<LeafOfBlock> leaves;
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+    for (int child = 0; child < tree.leaf_count(b); ++child) leaves.push_back({b, child, tree.leaf(b, child)});
+  }
+  return leaves;
+}
+
+}  // namespace aeroloom::volume
