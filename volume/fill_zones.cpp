@@ -252,12 +252,22 @@ private:
       pending.insert(pending.end(), place.zones.begin(), place.zones.end());
       if (_rounds_of_giving <= most_rounds_of_giving) {
         give(place, lowest, touched);
-      } else if (!merge_all(place.zones, touched)) {
+      } else if (!merge_all(zones_around(place), touched)) {
         throw_dispute(where);
       }
     }
     add_those_that_see(touched, pending);
     return pending;
+  }
+
+  /// The zones that claim faces at a place or have leaves around it.
+  std::vector<ZoneIndex> zones_around(const DisputedPlace& place) const {
+    std::vector<ZoneIndex> zones = place.zones;
+    for_each_leaf_around(place, 2,
+                         [&](BlockIndex b, int child) { zones.push_back(_parts.zones->of(b, child)); });
+    std::sort(zones.begin(), zones.end());
+    zones.erase(std::unique(zones.begin(), zones.end()), zones.end());
+    return zones;
   }
 
   /// Makes one zone of several, some of which another place may have merged before. False: they were one
@@ -290,24 +300,31 @@ private:
     return _parts.frame->to_space(0.5 * (box.low + box.high));
   }
 
-  /// The leaves of a place, from the second round on with those around them.
-  void give(const DisputedPlace& place, ZoneIndex to, std::vector<std::uint8_t>& touched) {
+  /// Calls visit(block, child) for the leaves of a place and those less than `rings` leaves away from one.
+  template <class Visit>
+  void for_each_leaf_around(const DisputedPlace& place, int rings, const Visit& visit) const {
     const LatticeTree& tree = *_parts.tree;
     for (const std::int64_t leaf : place.leaves) {
-      const auto b = static_cast<BlockIndex>(leaf / 8);
-      const int child = static_cast<int>(leaf % 8);
-      touched[b] = 1;
-      _parts.zones->give(b, child, to);
-      if (_rounds_of_giving == 1) continue;
-      const GridBox box = GridBox::of(tree.leaf(b, child)).dilated(0.5);
+      const GridCell cell = tree.leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
+      if (rings == 0) {
+        visit(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
+        continue;
+      }
+      const GridBox box = GridBox::of(cell).dilated((rings - 0.5) * cell.edge());
       tree.for_each_block_in(box, [&](BlockIndex n) {
         for (int c = 0; c < tree.leaf_count(n); ++c) {
-          if (!GridBox::of(tree.leaf(n, c)).overlaps(box)) continue;
-          touched[n] = 1;
-          _parts.zones->give(n, c, to);
+          if (GridBox::of(tree.leaf(n, c)).overlaps(box)) visit(n, c);
         }
       });
     }
+  }
+
+  /// The leaves of a place, from the second round on with more and more of those around them.
+  void give(const DisputedPlace& place, ZoneIndex to, std::vector<std::uint8_t>& touched) {
+    for_each_leaf_around(place, _rounds_of_giving - 1, [&](BlockIndex b, int child) {
+      touched[b] = 1;
+      _parts.zones->give(b, child, to);
+    });
   }
 
   // --- the mesh

@@ -7,9 +7,7 @@
 #include "volume/tetgen_run.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -20,6 +18,8 @@ namespace {
 using geometry::Vec3;
 using mesh::RegionId;
 using parallel::Communicator;
+
+class LatticePoints : public OnOneRank {};
 
 /// A place of the lattice, in halves of the finest cells.
 using Place = std::array<std::int64_t, 3>;
@@ -37,8 +37,11 @@ RegionId region_of(Vec3 p) {
 
 struct Made {
   explicit Made(const Communicator& communicator, VolumeOptions options = {})
-      : surface(nested()),
-        problem(communicator, surface, fields::around_unit_sphere(0.08, 0.4), options),
+      : Made(communicator, nested(), fields::around_unit_sphere(0.08, 0.4), options) {}
+  Made(const Communicator& communicator, surfaces::Surface of, const sizing::SizeField& field,
+       VolumeOptions options = {})
+      : surface(std::move(of)),
+        problem(communicator, surface, field, options),
         lattice(problem, box_of(surface)),
         around(problem, lattice) {}
 
@@ -62,16 +65,15 @@ void for_each_point(const BlockPoints& points, const Visit& visit) {
   }
 }
 
-/// Corners and centres of all leaves, and the edge of the coarsest leaf around each.
-std::map<Place, double> all_places(const Lattice& lattice) {
-  std::map<Place, double> places;
+/// Corners and centres of all leaves.
+std::set<Place> all_places(const Lattice& lattice) {
+  std::set<Place> places;
   for (const LeafOfBlock& leaf : all_leaves(lattice.tree)) {
     const Place low{2 * std::int64_t{leaf.cell.low.x}, 2 * std::int64_t{leaf.cell.low.y},
                     2 * std::int64_t{leaf.cell.low.z}};
     const std::int64_t edge = leaf.cell.edge();
     const auto add = [&](std::int64_t dx, std::int64_t dy, std::int64_t dz) {
-      double& coarsest = places[{low[0] + dx, low[1] + dy, low[2] + dz}];
-      coarsest = std::max(coarsest, lattice.frame.edge(leaf.cell.level));
+      places.insert({low[0] + dx, low[1] + dy, low[2] + dz});
     };
     add(edge, edge, edge);
     for (int k = 0; k < 8; ++k) add(k & 1 ? 2 * edge : 0, k & 2 ? 2 * edge : 0, k & 4 ? 2 * edge : 0);
@@ -93,10 +95,10 @@ Place place_of_slot(const LatticeTree& tree, BlockIndex b, int slot) {
   return place;
 }
 
-TEST(BlockPoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
+TEST_F(LatticePoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
   const Made made(Communicator::self());
   const BlockPoints points = made.make();
-  const std::map<Place, double> places = all_places(made.lattice);
+  const std::set<Place> places = all_places(made.lattice);
   std::set<Place> used;
   std::array<int, slots_per_leaf> of_slot{};
   for_each_point(points, [&](BlockIndex b, std::int64_t i) {
@@ -104,14 +106,14 @@ TEST(BlockPoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
     ASSERT_TRUE(places.count(place));
     EXPECT_TRUE(used.insert(place).second);
     ++of_slot[points.slots[i] % slots_per_leaf];
-    const double most = 0.5 * 0.005 * mean_edge_of_cell * places.at(place);
+    const double most = 0.5 * 0.005 * mean_edge_of_cell * made.lattice.frame.edge(made.lattice.tree.leaf_level(b));
     const Vec3 off = points.points[i] - place_in_space(made.lattice, place);
     for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(off[axis]), most);
   });
   for (const int count : of_slot) EXPECT_GT(count, 20);  // the lattice hangs in all possible ways
 }
 
-TEST(BlockPoints, leave_out_nothing_that_is_off_the_surface) {
+TEST_F(LatticePoints, leave_out_nothing_that_is_off_the_surface) {
   const Made made(Communicator::self());
   const BlockPoints points = made.make();
   std::set<Place> used;
@@ -119,7 +121,7 @@ TEST(BlockPoints, leave_out_nothing_that_is_off_the_surface) {
     used.insert(place_of_slot(made.lattice.tree, b, points.slots[i]));
   });
   int free = 0;
-  for (const auto& [place, edge] : all_places(made.lattice)) {
+  for (const Place& place : all_places(made.lattice)) {
     const Vec3 p = place_in_space(made.lattice, place);
     if (region_of(p) == mesh::no_region) continue;
     const auto nearest = made.around.surface.distance().nearest(p);
@@ -131,7 +133,7 @@ TEST(BlockPoints, leave_out_nothing_that_is_off_the_surface) {
   EXPECT_GT(static_cast<int>(used.size()), free);
 }
 
-TEST(BlockPoints, stay_inside_and_know_their_region) {
+TEST_F(LatticePoints, stay_inside_and_know_their_region) {
   const Made made(Communicator::self());
   const BlockPoints points = made.make();
   std::array<int, 2> count{};
@@ -158,7 +160,7 @@ double least_clearance(const Made& made, const BlockPoints& points) {
   return least;
 }
 
-TEST(BlockPoints, keep_off_the_surface) {
+TEST_F(LatticePoints, keep_off_the_surface) {
   for (const double clearance : {0.5, 0.75}) {
     VolumeOptions options;
     options.lattice_clearance = clearance;
@@ -169,7 +171,7 @@ TEST(BlockPoints, keep_off_the_surface) {
   }
 }
 
-TEST(BlockPoints, keep_farther_off_where_a_retry_wants_it) {
+TEST_F(LatticePoints, keep_farther_off_where_a_retry_wants_it) {
   Made made(Communicator::self());
   const BlockPoints before = made.make();
   for (BlockChange& change : made.lattice.changes) change.farther = 1;
@@ -184,7 +186,7 @@ TEST(BlockPoints, keep_farther_off_where_a_retry_wants_it) {
     EXPECT_EQ(half.count(b), (b < changed ? before : after).count(b));
 }
 
-TEST(BlockPoints, are_the_same_however_blocks_are_divided) {
+TEST_F(LatticePoints, are_the_same_however_blocks_are_divided) {
   const Made made(Communicator::self());
   const BlockPoints whole = made.make();
   const BlockIndex blocks = made.lattice.tree.block_count();
@@ -206,15 +208,18 @@ TEST(BlockPoints, are_the_same_however_blocks_are_divided) {
 }
 
 /// With the triangles within reach of the blocks alone, retries included.
-TEST(BlockPoints, are_the_same_on_any_number_of_ranks) {
+TEST(PointsOfRanks, are_the_same_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
-  for (const std::uint8_t farther : {0, 2}) {
-    Made alone(Communicator::self()), shared(world);
+  const std::array<int, 3> n{20, 5, 5};
+  const surfaces::Surface bar = surfaces::voxels(n, [](int i, int, int) { return i < 9 ? 0 : 1; },
+                                                 surfaces::onto({-2, -0.5, -0.5}, {2, 0.5, 0.5}, n));
+  for (const std::uint8_t farther : {0, 1, 2}) {
+    Made alone(Communicator::self(), bar, fields::uniform(0.06)), shared(world, bar, fields::uniform(0.06));
     for (BlockChange& change : alone.lattice.changes) change.farther = farther;
     for (BlockChange& change : shared.lattice.changes) change.farther = farther;
-    if (world.size() > 1) {
-      EXPECT_LT(shared.around.triangles.size(), alone.around.triangles.size());
-    }
+    const auto all = static_cast<std::int64_t>(bar.triangles.size());
+    const std::int64_t known = world.sum(static_cast<std::int64_t>(shared.around.triangles.size()));
+    EXPECT_TRUE(world.size() == 1 || known < world.size() * all);
     const BlockPoints whole = alone.make(), mine = shared.make();
     EXPECT_EQ(world.all_gather_items<Vec3>(mine.points), whole.points);
     EXPECT_EQ(world.all_gather_items<std::uint8_t>(mine.slots), whole.slots);
@@ -222,7 +227,7 @@ TEST(BlockPoints, are_the_same_on_any_number_of_ranks) {
   }
 }
 
-TEST(BlockPoints, move_by_their_perturbation_in_another_variant) {
+TEST_F(LatticePoints, move_by_their_perturbation_in_another_variant) {
   Made made(Communicator::self());
   std::map<std::int64_t, Vec3> before;
   const BlockPoints first = made.make();
@@ -256,7 +261,7 @@ TEST(BlockPoints, move_by_their_perturbation_in_another_variant) {
   EXPECT_GT(common, static_cast<int>(0.97 * static_cast<double>(before.size())));
 }
 
-TEST(BlockPoints, follow_the_perturbation_asked_for) {
+TEST_F(LatticePoints, follow_the_perturbation_asked_for) {
   VolumeOptions still;
   still.perturbation = 0;
   const Made made(Communicator::self(), still);
@@ -290,7 +295,7 @@ struct Endless {
   std::vector<Vec3> points;
 };
 
-TEST(BlockPoints, have_a_good_delaunay_mesh_across_all_levels) {
+TEST_F(LatticePoints, have_a_good_delaunay_mesh_across_all_levels) {
   for (const double growth : {1.2, 1.3}) {
     for (const Vec3 anchor : {Vec3{0, 0, 0}, Vec3{0.23, -0.11, 0.37}}) {
       const std::vector<sizing::SizeSource> sources{{{0.31, -0.2, 0.13}, 0.02}, {{-0.6, 0.5, 0.4}, 0.05}};
@@ -324,7 +329,7 @@ TEST(BlockPoints, have_a_good_delaunay_mesh_across_all_levels) {
   }
 }
 
-TEST(BlockPoints, have_the_density_asked_for) {
+TEST_F(LatticePoints, have_the_density_asked_for) {
   for (const double size : {0.1, 0.13}) {
     const auto field = fields::uniform(size);
     const Endless lattice(field, fields::domain);

@@ -7,10 +7,19 @@
 #include "volume/near_surface.hpp"
 #include "volume/volume_mesher.hpp"
 
-#include <memory>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 namespace aeroloom::volume {
+
+/// Tests that would do the same on every rank: run on one alone.
+class OnOneRank : public testing::Test {
+protected:
+  void SetUp() override {
+    if (parallel::Communicator::world().size() > 1) GTEST_SKIP();
+  }
+};
 
 /// A surface on its ranks, with sizes: what the stage starts from.
 struct Problem {

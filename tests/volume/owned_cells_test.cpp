@@ -1,0 +1,438 @@
+/// What TetGen makes of points and triangles, and which of it is a zone's own.
+#include "volume/owned_cells.hpp"
+
+#include "geometry/predicates.hpp"
+#include "tests/volume/surfaces.hpp"
+#include "volume/boundary_distance.hpp"
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::volume {
+namespace {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::no_region;
+using mesh::RegionId;
+
+std::vector<double> flat(const std::vector<Vec3>& points) {
+  std::vector<double> coordinates;
+  for (const Vec3& p : points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+  return coordinates;
+}
+
+LocalTriangle face_of(const LocalCell& cell, int face) {
+  const int* corner = mesh::tetrahedron_faces[face];
+  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
+}
+
+template <std::size_t n>
+std::array<LocalIndex, n> sorted(std::array<LocalIndex, n> indices) {
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+double volume_of(const LocalCell& c, const std::vector<Vec3>& points) {
+  return volume6(points[c[0]], points[c[1]], points[c[2]], points[c[3]]) / 6;
+}
+
+/// A problem of all points of a surface and `inner` random ones off it; `region_of` tells theirs.
+template <class RegionOf>
+ZoneProblem make_problem(const surfaces::Surface& surface, int inner, double clearance, const RegionOf& region_of) {
+  ZoneProblem problem;
+  problem.points = surface.points;
+  problem.triangles = surface.triangles;
+  for (const std::int32_t f : surface.face) {
+    problem.front.push_back(surface.sides[f].front);
+    problem.back.push_back(surface.sides[f].back);
+  }
+  geometry::Box box;
+  for (const Vec3& p : surface.points) box.add(p);
+  const BoundaryDistance distance(surface.points, surface.triangles);
+  std::mt19937_64 random(17);
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  while (static_cast<int>(problem.regions.size()) < inner) {
+    const Vec3 p{between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};
+    const RegionId region = region_of(p);
+    if (region == no_region || distance.nearest(p).distance < clearance) continue;
+    problem.points.push_back(p);
+    problem.regions.push_back(region);
+  }
+  problem.owners.assign(problem.points.size(), Owner::mine);
+  return problem;
+}
+
+ZoneProblem cube_problem() {
+  return make_problem(surfaces::cube({0, 0, 0}, 1, 6), 400, 0.1, [](Vec3) { return 0; });
+}
+
+/// As the zone of number `zone` sees it, vertices divided by `zone_of(place)`.
+template <class ZoneOf>
+ZoneProblem seen_from(ZoneProblem problem, int zone, const ZoneOf& zone_of) {
+  for (std::size_t v = 0; v < problem.points.size(); ++v) {
+    const int z = zone_of(problem.points[v]);
+    problem.owners[v] = z == zone ? Owner::mine : z < zone ? Owner::lower : Owner::higher;
+  }
+  return problem;
+}
+
+// --- the run of TetGen
+
+TEST(RunTetgen, gives_positive_cells_that_know_their_neighbours) {
+  const ZoneProblem problem = cube_problem();
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  EXPECT_TRUE(mesh.added.empty());
+  ASSERT_EQ(mesh.cells.size(), mesh.neighbours.size());
+  double volume = 0;
+  std::vector<int> seen(problem.triangles.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const LocalCell& cell = mesh.cells[c];
+    EXPECT_EQ(geometry::orient3d(problem.points[cell[0]], problem.points[cell[1]], problem.points[cell[2]],
+                                 problem.points[cell[3]]),
+              1);
+    volume += volume_of(cell, problem.points);
+    for (int face = 0; face < 4; ++face) {
+      const std::int32_t next = mesh.neighbours[c][face];
+      ASSERT_NE(next, -1);  // the hull of a cube is its triangles
+      if (next <= -2) {
+        ++seen[-2 - next];
+        EXPECT_EQ(sorted(face_of(cell, face)), sorted(problem.triangles[-2 - next]));
+        continue;
+      }
+      const auto& back = mesh.neighbours[next];
+      const auto at = std::find(back.begin(), back.end(), static_cast<std::int32_t>(c));
+      ASSERT_NE(at, back.end());
+      EXPECT_EQ(sorted(face_of(cell, face)), sorted(face_of(mesh.cells[next], static_cast<int>(at - back.begin()))));
+    }
+  }
+  EXPECT_NEAR(volume, 8, 1e-12);
+  for (const int count : seen) EXPECT_EQ(count, 1);
+}
+
+TEST(RunTetgen, gives_the_delaunay_mesh_of_points_alone_with_their_hull) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-1, 1);
+  std::vector<Vec3> points(150);
+  for (Vec3& p : points) p = {place(random), place(random), place(random)};
+  const TetgenMesh mesh = run_tetgen(flat(points), {});
+  std::set<LocalIndex> on_hull;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const LocalCell& v = mesh.cells[c];
+    for (const Vec3& p : points)
+      EXPECT_LE(geometry::in_sphere(points[v[0]], points[v[1]], points[v[2]], points[v[3]], p), 0);
+    for (int face = 0; face < 4; ++face) {
+      if (mesh.neighbours[c][face] != -1) continue;
+      const LocalTriangle t = face_of(v, face);
+      on_hull.insert(t.begin(), t.end());
+      for (const Vec3& p : points) EXPECT_LE(geometry::orient3d(points[t[0]], points[t[1]], points[t[2]], p), 0);
+    }
+  }
+  EXPECT_GT(on_hull.size(), 10u);
+}
+
+/// An open sheet: both sides of each triangle are seen.
+TEST(RunTetgen, keeps_triangles_that_are_not_closed) {
+  surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1, 3);
+  ZoneProblem problem = make_problem(surface, 50, 0.1, [](Vec3) { return 0; });
+  for (const Vec3 p : {Vec3{-3, -3, -3}, Vec3{3, -3, -3}, Vec3{0, 3, -3}, Vec3{0, 0, 3}, Vec3{0, -3.5, 3.3}})
+    problem.points.push_back(p);
+  problem.triangles.resize(problem.triangles.size() / 2);
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  std::vector<int> seen(problem.triangles.size(), 0);
+  for (const auto& across : mesh.neighbours) {
+    for (const std::int32_t next : across) {
+      if (next <= -2) ++seen[-2 - next];
+    }
+  }
+  for (const int count : seen) EXPECT_EQ(count, 2);
+}
+
+/// Zones overlap: what lies deep within both must be cut alike, also where points are on one sphere.
+TEST(RunTetgen, cuts_points_on_a_sphere_by_their_order_whatever_lies_around) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> place(-4, 4);
+  std::vector<Vec3> all;
+  // Cubes of eight points on a sphere, in an order of their own, and points around.
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 p{place(random), place(random), place(random)};
+    bool is_near = false;
+    for (int k = -1; k <= 1; ++k) is_near = is_near || distance(p, {2.0 * k, 0, 0}) < 0.9;
+    if (!is_near) all.push_back(p);
+  }
+  for (int k = -1; k <= 1; ++k) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p = Vec3{2.0 * k, 0, 0} + 0.25 * Vec3{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(random() % all.size()), p);
+    }
+  }
+  // The cells within the cubes, as sets of points.
+  const auto cut = [](const std::vector<Vec3>& points) {
+    std::set<std::array<std::array<double, 3>, 4>> cells;
+    const TetgenMesh mesh = run_tetgen(flat(points), {});
+    for (const LocalCell& cell : mesh.cells) {
+      std::array<std::array<double, 3>, 4> places;
+      bool is_inner = true;
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 p = points[cell[k]];
+        places[k] = {p.x, p.y, p.z};
+        is_inner = is_inner && std::abs(p.y) == 0.25 && std::abs(p.z) == 0.25;
+      }
+      std::sort(places.begin(), places.end());
+      if (is_inner && places[3][0] - places[0][0] < 1) cells.insert(places);
+    }
+    return cells;
+  };
+  const auto expected = cut(all);
+  EXPECT_GE(expected.size(), 15u);
+  for (const double reach : {1.6, 2.2, 3.0}) {
+    std::vector<Vec3> part;
+    for (const Vec3& p : all) {
+      if (std::max(std::abs(p.y), std::abs(p.z)) < reach && std::abs(p.x) < 2 + reach) part.push_back(p);
+    }
+    EXPECT_LT(part.size(), all.size());
+    EXPECT_EQ(cut(part), expected);
+  }
+}
+
+// --- what is owned
+
+TEST(SelectOwned, keeps_all_of_a_cube_for_a_single_zone) {
+  const ZoneProblem problem = cube_problem();
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  const OwnedCells owned = select_owned(problem, mesh, problem.points);
+  EXPECT_EQ(owned.cells.size(), mesh.cells.size());
+  EXPECT_TRUE(owned.crossings.empty());
+  EXPECT_EQ(std::set<std::int32_t>(owned.triangles.begin(), owned.triangles.end()).size(), problem.triangles.size());
+  EXPECT_EQ(owned.triangles.size(), problem.triangles.size());
+}
+
+TEST(SelectOwned, cuts_a_cube_into_zones_without_overlap_or_gap) {
+  const ZoneProblem problem = cube_problem();
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  constexpr int zones = 8;
+  const auto zone_of = [](Vec3 p) { return (p.x > 0.1 ? 1 : 0) + (p.y > -0.2 ? 2 : 0) + (p.z > 0.3 ? 4 : 0); };
+  std::set<LocalCell> cells;
+  std::map<LocalTriangle, std::vector<int>> crossings;
+  std::vector<int> covered(problem.triangles.size(), 0);
+  double volume = 0;
+  for (int zone = 0; zone < zones; ++zone) {
+    const ZoneProblem mine = seen_from(problem, zone, zone_of);
+    const OwnedCells owned = select_owned(mine, mesh, mine.points);
+    ASSERT_EQ(owned.cells.size(), owned.regions.size());
+    EXPECT_GT(owned.cells.size(), 20u);
+    for (const LocalCell& cell : owned.cells) {
+      EXPECT_TRUE(cells.insert(sorted(cell)).second);
+      volume += volume_of(cell, problem.points);
+      int lowest = zones;
+      for (const LocalIndex v : cell) lowest = std::min(lowest, zone_of(problem.points[v]));
+      EXPECT_EQ(lowest, zone);
+    }
+    for (const Crossing& crossing : owned.crossings)
+      crossings[sorted(face_of(owned.cells[crossing.cell], crossing.face))].push_back(zone);
+    for (const std::int32_t t : owned.triangles) ++covered[t];
+  }
+  EXPECT_EQ(cells.size(), mesh.cells.size());
+  EXPECT_NEAR(volume, 8, 1e-12);
+  EXPECT_GT(crossings.size(), 100u);
+  for (const auto& [face, zones_at] : crossings) {
+    ASSERT_EQ(zones_at.size(), 2u);
+    EXPECT_NE(zones_at[0], zones_at[1]);
+  }
+  for (const int count : covered) EXPECT_EQ(count, 1);
+}
+
+/// Slabs so thin that every tetrahedron has its vertices on the surface: what is around a vertex tells.
+TEST(SelectOwned, tells_the_regions_of_slabs_without_points_inside) {
+  const std::array<int, 3> n{8, 8, 4};
+  // From below: region 1, region 0, nothing, region 2.
+  const RegionId of_layer[4] = {1, 0, no_region, 2};
+  const surfaces::Surface surface = surfaces::voxels(
+      n, [&](int, int, int k) { return of_layer[k]; }, surfaces::onto({-1, -1, 0}, {1, 1, 0.08}, n));
+  const ZoneProblem problem = make_problem(surface, 0, 0, [](Vec3) { return no_region; });
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  ASSERT_TRUE(mesh.added.empty());
+  const auto zone_of = [](Vec3 p) { return (p.x > 0 ? 1 : 0) + (p.y > 0.3 ? 2 : 0); };
+  std::array<double, 3> volume{};
+  std::vector<int> covered(problem.triangles.size(), 0);
+  for (int zone = 0; zone < 4; ++zone) {
+    const ZoneProblem mine = seen_from(problem, zone, zone_of);
+    const OwnedCells owned = select_owned(mine, mesh, mine.points);
+    for (std::size_t c = 0; c < owned.cells.size(); ++c) {
+      double z = 0;
+      for (const LocalIndex v : owned.cells[c]) z += 0.25 * problem.points[v].z;
+      EXPECT_EQ(owned.regions[c], of_layer[static_cast<int>(z / 0.02)]);
+      volume[owned.regions[c]] += volume_of(owned.cells[c], problem.points);
+    }
+    for (const std::int32_t t : owned.triangles) ++covered[t];
+  }
+  for (const double v : volume) EXPECT_NEAR(v, 4 * 0.02, 1e-12);
+  for (const int count : covered) EXPECT_EQ(count, 1);
+}
+
+TEST(SelectOwned, leaves_out_what_lies_outside) {
+  surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1, 4);
+  surfaces::append(surface, surfaces::cube({0.1, 0, 0}, 0.4, 3), surfaces::Turn::inward);
+  surfaces::append(surface, surfaces::between(surfaces::cube({3, 0.2, 0.1}, 0.7, 3), 1, no_region));
+  const auto region_of = [](Vec3 p) {
+    return p.x > 2 ? std::max({std::abs(p.x - 3), std::abs(p.y - 0.2), std::abs(p.z - 0.1)}) < 0.7 ? 1 : no_region
+           : std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1     ? no_region
+           : std::max({std::abs(p.x - 0.1), std::abs(p.y), std::abs(p.z)}) < 0.4 ? no_region
+                                                                                 : 0;
+  };
+  const ZoneProblem problem = make_problem(surface, 300, 0.1, region_of);
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  const OwnedCells owned = select_owned(problem, mesh, problem.points);
+  std::array<double, 2> volume{};
+  for (std::size_t c = 0; c < owned.cells.size(); ++c)
+    volume[owned.regions[c]] += volume_of(owned.cells[c], problem.points);
+  EXPECT_NEAR(volume[0], 8 - 0.512, 1e-12);
+  EXPECT_NEAR(volume[1], 2.744, 1e-12);
+  EXPECT_LT(owned.cells.size(), mesh.cells.size());
+}
+
+// --- what is refused
+
+std::string refusal(const ZoneProblem& problem, const TetgenMesh& mesh, const std::vector<Vec3>& points) {
+  try {
+    select_owned(problem, mesh, points);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct Filled {
+  ZoneProblem problem = cube_problem();
+  TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+
+  /// The place in the mesh where a triangle is met.
+  std::int32_t& mark_of(std::int32_t triangle) {
+    for (auto& across : mesh.neighbours) {
+      const auto at = std::find(across.begin(), across.end(), -2 - triangle);
+      if (at != across.end()) return *at;
+    }
+    throw std::logic_error("the triangle is not there");
+  }
+  std::string refusal() const { return volume::refusal(problem, mesh, problem.points); }
+};
+
+TEST(SelectOwned, refuses_a_missing_triangle_at_its_own_vertices_alone) {
+  Filled filled;
+  EXPECT_EQ(filled.refusal(), "");
+  // As if TetGen had filled the space beyond.
+  const auto count = static_cast<std::int32_t>(filled.mesh.cells.size());
+  filled.mark_of(7) = count;
+  filled.mesh.cells.push_back({0, 1, 2, 3});
+  filled.mesh.neighbours.push_back({-1, -1, -1, -1});
+  EXPECT_NE(filled.refusal().find("missing"), std::string::npos) << filled.refusal();
+  // Others are not this zone's business.
+  for (const LocalIndex v : filled.problem.triangles[7]) filled.problem.owners[v] = Owner::lower;
+  for (const LocalIndex v : {0, 1, 2, 3}) filled.problem.owners[v] = Owner::lower;
+  EXPECT_EQ(filled.refusal(), "");
+}
+
+TEST(SelectOwned, refuses_a_changed_triangle) {
+  Filled filled;
+  std::int32_t &a = filled.mark_of(7), &b = filled.mark_of(20);
+  std::swap(a, b);
+  EXPECT_NE(filled.refusal().find("changed"), std::string::npos) << filled.refusal();
+}
+
+TEST(SelectOwned, refuses_to_end_in_the_open) {
+  Filled filled;
+  for (std::size_t c = 0; c < filled.mesh.cells.size(); ++c) {
+    for (std::int32_t& next : filled.mesh.neighbours[c]) {
+      if (next < 0) continue;
+      next = -1;
+      EXPECT_NE(filled.refusal().find("ends at a face"), std::string::npos) << filled.refusal();
+      return;
+    }
+  }
+}
+
+TEST(SelectOwned, refuses_flat_and_inverted_cells) {
+  Filled filled;
+  LocalCell& cell = filled.mesh.cells[5];
+  std::swap(cell[0], cell[1]);
+  std::swap(filled.mesh.neighbours[5][0], filled.mesh.neighbours[5][1]);
+  EXPECT_NE(filled.refusal().find("inverted"), std::string::npos) << filled.refusal();
+  Filled other;
+  std::vector<Vec3> points = other.problem.points;
+  const LocalCell& c = other.mesh.cells[9];
+  points[c[3]] = points[c[0]];
+  EXPECT_NE(refusal(other.problem, other.mesh, points), "");
+}
+
+TEST(SelectOwned, refuses_regions_that_touch_without_a_triangle_between) {
+  Filled filled;
+  filled.problem.regions[3] = 1;
+  EXPECT_NE(filled.refusal().find("two regions touch"), std::string::npos) << filled.refusal();
+}
+
+// --- points that TetGen added
+
+/// An octahedron around a point that was not given.
+struct Octahedron {
+  Octahedron() {
+    problem.points = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}};
+    problem.owners.assign(6, Owner::mine);
+    for (int i = 0; i < 4; ++i) {
+      const int j = (i + 1) % 4;
+      for (const LocalTriangle& t : {LocalTriangle{i, j, 5}, LocalTriangle{j, i, 4}}) {
+        mesh.cells.push_back({t[0], t[1], t[2], 6});
+        std::swap(mesh.cells.back()[0], mesh.cells.back()[1]);
+        problem.triangles.push_back(t);
+        problem.front.push_back(0);
+        problem.back.push_back(no_region);
+      }
+    }
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      auto& across = mesh.neighbours.emplace_back();
+      for (int face = 0; face < 4; ++face) {
+        across[face] = face == 3 ? -2 - static_cast<std::int32_t>(c) : -1;
+        for (std::size_t d = 0; d < mesh.cells.size() && face < 3; ++d) {
+          for (int other = 0; other < 3; ++other) {
+            if (d != c && sorted(face_of(mesh.cells[c], face)) == sorted(face_of(mesh.cells[d], other)))
+              across[face] = static_cast<std::int32_t>(d);
+          }
+        }
+      }
+    }
+    points = problem.points;
+    points.push_back({0, 0, 0.1});
+  }
+
+  ZoneProblem problem;
+  TetgenMesh mesh;
+  std::vector<Vec3> points;
+};
+
+TEST(SelectOwned, gives_an_added_point_to_the_lowest_zone_around_it) {
+  const auto owned_cells = [](const std::vector<Owner>& owners) {
+    Octahedron octahedron;
+    octahedron.problem.owners = owners;
+    octahedron.problem.regions = {0};  // as if its last corner were a point of the lattice
+    return select_owned(octahedron.problem, octahedron.mesh, octahedron.points).cells.size();
+  };
+  using enum Owner;
+  EXPECT_EQ(owned_cells({mine, mine, mine, mine, mine, mine}), 8u);
+  EXPECT_EQ(owned_cells({higher, higher, mine, higher, higher, higher}), 8u);
+  EXPECT_EQ(owned_cells({mine, mine, mine, lower, mine, mine}), 0u);
+  EXPECT_EQ(owned_cells({higher, higher, higher, higher, higher, higher}), 0u);
+}
+
+/// A cell may be a zone's own by such a point alone, without any of the lattice around.
+TEST(SelectOwned, tells_the_region_around_an_added_point) {
+  Octahedron octahedron;
+  octahedron.problem.owners.assign(6, Owner::higher);
+  octahedron.problem.owners[2] = Owner::mine;
+  EXPECT_EQ(select_owned(octahedron.problem, octahedron.mesh, octahedron.points).cells.size(), 8u);
+}
+
+}  // namespace
+}  // namespace aeroloom::volume

@@ -1,0 +1,270 @@
+/// Who fills which zone, and what each gets to know.
+#include "tests/volume/fields.hpp"
+#include "tests/volume/steps.hpp"
+#include "volume/decomposition_parts.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::volume {
+namespace {
+
+using geometry::Vec3;
+using parallel::Communicator;
+
+VolumeOptions in_zones_of(std::int64_t tets) {
+  VolumeOptions options;
+  options.piece_tets = tets;
+  return options;
+}
+
+/// Two nested regions, divided into a dozen zones, one of which was given some leaves of others.
+struct Divided {
+  explicit Divided(const Communicator& communicator)
+      : surface(surfaces::nested_cubes(8)),
+        problem(communicator, surface, fields::around_unit_sphere(0.1, 0.4), in_zones_of(1500)),
+        decomposition(decompose(communicator, problem.input(), clock)),
+        parts(decomposition.parts()),
+        finder(*parts.frame, *parts.tree, *parts.zones, problem.numbering.vertex_count) {
+    for (BlockIndex b = 10; b < parts.tree->block_count(); b += 50)
+      parts.zones->give(b, parts.tree->leaf_count(b) / 2, 3);
+    all.resize(parts.zones->count());
+    std::iota(all.begin(), all.end(), 0);
+    widths.assign(all.size(), problem.options.halo);
+    plan = plan_zones(communicator, parts.tables(), all, widths, clock);
+  }
+
+  std::vector<ZoneContent> supply(const std::vector<ZoneWant>& wants) {
+    return supply_zones(problem.communicator, {parts.points, parts.triangles, *parts.of_blocks}, *parts.frame,
+                        *parts.tree, finder, parts.shares, wants, clock);
+  }
+  std::vector<ZoneContent> supply_all() {
+    std::vector<ZoneContent> contents;
+    for (const std::vector<ZoneWant>& wants : plan.wants) {
+      for (ZoneContent& content : supply(wants)) contents.push_back(std::move(content));
+    }
+    return contents;
+  }
+
+  surfaces::Surface surface;
+  Problem problem;
+  parallel::StageClock clock;
+  Decomposition decomposition;
+  Decomposition::Parts& parts;
+  ZoneFinder finder;
+  std::vector<ZoneIndex> all;
+  std::vector<double> widths;
+  ZonePlan plan;
+};
+
+/// The leaves that each zone is to know.
+std::set<std::pair<BlockIndex, int>> leaves_known(const Divided& divided, ZoneIndex zone) {
+  const LatticeTree& tree = *divided.parts.tree;
+  HaloTaker taker(*divided.parts.frame, tree, divided.parts.table, *divided.parts.zones);
+  const BlocksOfZones own = list_blocks(tree, *divided.parts.zones);
+  std::set<std::pair<BlockIndex, int>> leaves;
+  for (const TakenBlock& taken : taker.take(zone, own.of(zone), divided.problem.options.halo)) {
+    for (int child = 0; child < 8; ++child) {
+      if (taken.leaves >> child & 1) leaves.insert({taken.block, child});
+    }
+  }
+  return leaves;
+}
+
+TEST(PlanZones, is_the_same_on_every_rank_and_looks_at_each_zone_once) {
+  const Communicator world = Communicator::world();
+  const Divided divided(world), alone(Communicator::self());
+  ASSERT_EQ(divided.plan.loads.size(), divided.all.size());
+  EXPECT_GT(divided.all.size(), 6u);
+  for (std::size_t i = 0; i < divided.all.size(); ++i) {
+    const ZoneLoad &a = divided.plan.loads[i], &b = alone.plan.loads[i];
+    EXPECT_EQ(a.zone, divided.all[i]);
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_GT(a.points, 0);
+    EXPECT_EQ(a.work(), 5.75 * a.points + 2 * a.triangles);
+  }
+  const auto batches = static_cast<std::int64_t>(divided.plan.wants.size());
+  EXPECT_EQ(world.minimum(batches), world.maximum(batches));
+}
+
+TEST(PlanZones, deals_zones_out_evenly_in_small_batches) {
+  const Communicator world = Communicator::world();
+  const Divided divided(world);
+  struct Row {
+    std::int64_t batch;
+    ZoneIndex zone;
+    parallel::Rank rank;
+  };
+  std::vector<Row> mine;
+  for (std::size_t batch = 0; batch < divided.plan.wants.size(); ++batch) {
+    for (const ZoneWant& want : divided.plan.wants[batch])
+      mine.push_back({static_cast<std::int64_t>(batch), want.zone, want.rank});
+  }
+  std::map<ZoneIndex, std::set<parallel::Rank>> ranks;
+  std::map<std::pair<std::int64_t, parallel::Rank>, std::set<ZoneIndex>> zones;
+  for (const Row& row : world.all_gather_items<Row>(mine)) {
+    ranks[row.zone].insert(row.rank);
+    zones[{row.batch, row.rank}].insert(row.zone);
+  }
+  EXPECT_EQ(ranks.size(), divided.all.size());
+  for (const auto& [zone, at] : ranks) EXPECT_EQ(at.size(), 1u);
+  for (const auto& [turn, at] : zones) EXPECT_LE(at.size(), 4u);
+  std::vector<double> work(world.size(), 0);
+  double heaviest = 0;
+  for (const ZoneLoad& load : divided.plan.loads) {
+    work[*ranks[load.zone].begin()] += load.work();
+    heaviest = std::max(heaviest, load.work());
+  }
+  const auto [least, most] = std::minmax_element(work.begin(), work.end());
+  EXPECT_LE(*most - *least, heaviest);
+}
+
+TEST(PlanZones, plans_what_it_is_asked_for) {
+  const Communicator world = Communicator::world();
+  Divided divided(world);
+  const std::vector<ZoneIndex> some{2, 5};
+  std::vector<double> widths(divided.all.size(), 1.5);
+  widths[5] = 2.25;
+  const ZonePlan plan = plan_zones(world, divided.parts.tables(), some, widths, divided.clock);
+  ASSERT_EQ(plan.loads.size(), 2u);
+  EXPECT_EQ(plan.loads[0].zone, 2);
+  EXPECT_EQ(plan.loads[1].zone, 5);
+  EXPECT_EQ(plan.loads[0].points, divided.plan.loads[2].points);
+  EXPECT_GT(plan.loads[1].points, divided.plan.loads[5].points);
+}
+
+TEST(SupplyZones, brings_the_points_of_all_leaves_a_zone_knows) {
+  const Communicator world = Communicator::world();
+  Divided divided(world);
+  struct Row {
+    std::int64_t number;
+    Vec3 point;
+    mesh::RegionId region;
+    std::int32_t unused = 0;
+  };
+  std::vector<Row> mine;
+  const BlockPoints& points = divided.parts.points;
+  for (BlockIndex b = points.first; b < points.last(); ++b) {
+    for (std::int64_t i = points.starts[b - points.first]; i < points.starts[b - points.first + 1]; ++i)
+      mine.push_back({lattice_number(b, points.slots[i]), points.points[i], points.regions[i]});
+  }
+  const std::vector<Row> all = world.all_gather_items<Row>(mine);
+  std::int64_t zones = 0;
+  for (const ZoneContent& content : divided.supply_all()) {
+    ++zones;
+    const auto leaves = leaves_known(divided, content.zone);
+    std::size_t at = content.problem.surface_points();
+    const std::size_t first = at;
+    for (const Row& row : all) {
+      const ZoneFinder::Leaf leaf = ZoneFinder::leaf_of_number(row.number);
+      if (!leaves.count({leaf.block, leaf.child})) continue;
+      ASSERT_LT(at, content.tokens.size());
+      EXPECT_EQ(content.tokens[at], static_cast<mesh::SharedToken>(divided.problem.numbering.vertex_count + row.number));
+      EXPECT_EQ(content.problem.points[at], row.point);
+      EXPECT_EQ(content.problem.regions[at - first], row.region);
+      ++at;
+    }
+    EXPECT_EQ(at, content.tokens.size());
+    EXPECT_EQ(content.problem.points.size(), content.tokens.size());
+    EXPECT_NEAR(divided.plan.loads[content.zone].points, static_cast<double>(at - first), 0.12 * static_cast<double>(at - first));
+  }
+  EXPECT_EQ(world.sum(zones), static_cast<std::int64_t>(divided.all.size()));
+}
+
+TEST(SupplyZones, brings_each_triangle_that_meets_a_leaf_once) {
+  const Communicator world = Communicator::world();
+  Divided divided(world);
+  const LatticeFrame& frame = *divided.parts.frame;
+  std::set<mesh::GlobalIndex> numbers;
+  std::vector<SurfaceTriangle> all;
+  for (const SurfaceTriangle& t : world.all_gather_items<SurfaceTriangle>(divided.parts.triangles)) {
+    if (numbers.insert(t.number).second) all.push_back(t);
+  }
+  ASSERT_EQ(all.size(), divided.surface.triangles.size());
+  std::sort(all.begin(), all.end(), [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
+  for (const ZoneContent& content : divided.supply_all()) {
+    const auto leaves = leaves_known(divided, content.zone);
+    std::size_t at = 0;
+    std::set<mesh::GlobalIndex> vertices;
+    for (const SurfaceTriangle& t : all) {
+      const GridBox box = grid_box(frame, t.points);
+      const bool is_known = std::any_of(leaves.begin(), leaves.end(), [&](const auto& leaf) {
+        return GridBox::of(divided.parts.tree->leaf(leaf.first, leaf.second)).overlaps(box);
+      });
+      if (!is_known) continue;
+      ASSERT_LT(at, content.problem.triangles.size());
+      for (int k = 0; k < 3; ++k) {
+        const auto v = content.problem.triangles[at][k];
+        vertices.insert(t.vertices[k]);
+        EXPECT_EQ(content.tokens[v], static_cast<mesh::SharedToken>(t.vertices[k]));
+        EXPECT_EQ(content.problem.points[v], t.points[k]);
+        EXPECT_EQ(content.dimension[v], t.dimension[k]);
+        EXPECT_EQ(content.entity[v], t.entity[k]);
+      }
+      EXPECT_EQ(content.problem.front[at], t.front);
+      EXPECT_EQ(content.problem.back[at], t.back);
+      EXPECT_EQ(content.face[at], t.face);
+      EXPECT_EQ(content.patch[at], t.patch);
+      ++at;
+    }
+    EXPECT_EQ(at, content.problem.triangles.size());
+    EXPECT_EQ(vertices.size(), content.problem.surface_points());
+  }
+}
+
+TEST(SupplyZones, tells_whose_each_vertex_is) {
+  Divided divided(Communicator::world());
+  for (const ZoneContent& content : divided.supply_all()) {
+    const auto& tokens = content.tokens;
+    EXPECT_EQ(std::adjacent_find(tokens.begin(), tokens.end(), std::greater_equal<>()), tokens.end());
+    std::array<int, 3> count{};
+    for (std::size_t v = 0; v < content.tokens.size(); ++v) {
+      const bool is_surface = v < content.problem.surface_points();
+      EXPECT_EQ(divided.finder.is_surface(content.tokens[v]), is_surface);
+      ZoneFinder::Leaf leaf{};
+      if (is_surface) {  // by brute force
+        const Vec3 g = divided.parts.frame->to_grid(content.problem.points[v]);
+        for (const LeafOfBlock& other : all_leaves(*divided.parts.tree)) {
+          const GridBox box = GridBox::of(other.cell);
+          const auto within = [&](int axis) { return g[axis] >= box.low[axis] && g[axis] < box.high[axis]; };
+          if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
+        }
+      } else {
+        leaf = ZoneFinder::leaf_of_number(static_cast<std::int64_t>(content.tokens[v]) - divided.problem.numbering.vertex_count);
+      }
+      const ZoneIndex zone = divided.parts.zones->of(leaf.block, leaf.child);
+      const Owner expected = zone == content.zone ? Owner::mine : zone < content.zone ? Owner::lower : Owner::higher;
+      EXPECT_EQ(content.problem.owners[v], expected);
+      ++count[static_cast<int>(expected)];
+    }
+    EXPECT_GT(count[0], 0);
+    EXPECT_GT(count[1] + count[2], 0);
+  }
+}
+
+TEST(SupplyZones, brings_the_same_on_any_number_of_ranks) {
+  Divided divided(Communicator::world()), alone(Communicator::self());
+  std::map<ZoneIndex, ZoneContent> expected;
+  for (ZoneContent& content : alone.supply_all()) expected.emplace(content.zone, content);
+  for (const ZoneContent& content : divided.supply_all()) {
+    const ZoneContent& same = expected.at(content.zone);
+    EXPECT_EQ(content.tokens, same.tokens);
+    EXPECT_EQ(content.problem.points, same.problem.points);
+    EXPECT_EQ(content.problem.owners, same.problem.owners);
+    EXPECT_EQ(content.problem.triangles, same.problem.triangles);
+    EXPECT_EQ(content.problem.regions, same.problem.regions);
+    EXPECT_EQ(content.problem.front, same.problem.front);
+    EXPECT_EQ(content.dimension, same.dimension);
+    EXPECT_EQ(content.entity, same.entity);
+    EXPECT_EQ(content.face, same.face);
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::volume

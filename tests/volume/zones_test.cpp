@@ -1,0 +1,174 @@
+/// Zones of equal load, and what becomes of their leaves.
+#include "volume/zones.hpp"
+
+#include "tests/volume/fields.hpp"
+#include "tests/volume/steps.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::volume {
+namespace {
+
+using geometry::Vec3;
+using parallel::Communicator;
+
+struct Tree {
+  explicit Tree(const sizing::SizeField& field, const geometry::Box& box = fields::domain)
+      : frame(field, box), tree(Communicator::self(), frame, field, frame.grid_box(box), clock) {}
+
+  /// A load for each block in the box, in proportion to its leaves, and a little chance.
+  std::vector<double> loads(const geometry::Box& box = fields::domain) const {
+    std::mt19937_64 random(3);
+    std::vector<double> result(tree.block_count(), 0);
+    for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+      const Vec3 center = center_of(b);
+      if (box.contains(center)) result[b] = (0.5 + 1e-19 * static_cast<double>(random() >> 1)) * tree.leaf_count(b);
+    }
+    return result;
+  }
+  Vec3 center_of(BlockIndex b) const {
+    const GridBox box = GridBox::of(tree.cell(b));
+    return frame.to_space(0.5 * (box.low + box.high));
+  }
+
+  parallel::StageClock clock;
+  LatticeFrame frame;
+  LatticeTree tree;
+};
+
+std::vector<ZoneIndex> zone_of_each(const LatticeTree& tree, const Zones& zones) {
+  std::vector<ZoneIndex> result;
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) result.push_back(zones.of(b, 0));
+  return result;
+}
+
+TEST(Bisect, makes_zones_of_equal_load) {
+  const auto field = fields::around_unit_sphere(0.05, 0.4);
+  const Tree lattice(field);
+  const std::vector<double> loads = lattice.loads();
+  const double total = std::accumulate(loads.begin(), loads.end(), 0.0);
+  for (const ZoneIndex count : {1, 2, 3, 5, 8, 13, 40}) {
+    const Zones zones = bisect(lattice.tree, loads, count);
+    EXPECT_EQ(zones.count(), count);
+    std::vector<double> of_zone(count, 0);
+    for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
+      const ZoneIndex z = zones.of(b, 0);
+      ASSERT_GE(z, 0);
+      ASSERT_LT(z, count);
+      of_zone[z] += loads[b];
+      EXPECT_TRUE(zones.is_whole(b));
+      EXPECT_EQ(zones.of(b, 7), z);
+    }
+    for (const double load : of_zone) EXPECT_NEAR(load * count / total, 1, 0.05) << count;
+  }
+}
+
+TEST(Bisect, is_a_function_of_its_arguments) {
+  const auto field = fields::around_unit_sphere(0.08, 0.4);
+  const Tree lattice(field), again(field);
+  const std::vector<double> loads = lattice.loads();
+  EXPECT_EQ(zone_of_each(lattice.tree, bisect(lattice.tree, loads, 9)),
+            zone_of_each(again.tree, bisect(again.tree, again.loads(), 9)));
+}
+
+TEST(Bisect, cuts_a_bar_across_its_length) {
+  const auto field = fields::uniform(0.1);
+  const Tree lattice(field);
+  for (int axis = 0; axis < 3; ++axis) {
+    geometry::Box bar{{-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}};
+    bar.low[axis] = -1.9, bar.high[axis] = 1.9;
+    const std::vector<double> loads = lattice.loads(bar);
+    const Zones zones = bisect(lattice.tree, loads, 4);
+    // One behind the other along the bar; the lattice is sheared by three parts in a hundred.
+    std::vector<double> low(4, 10), high(4, -10);
+    for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
+      if (loads[b] == 0) continue;
+      const double place = lattice.center_of(b)[axis];
+      double& l = low[zones.of(b, 0)];
+      double& h = high[zones.of(b, 0)];
+      l = std::min(l, place), h = std::max(h, place);
+    }
+    for (int z = 0; z < 3; ++z) EXPECT_LT(high[z], low[z + 1] + 0.06) << "axis " << axis;
+  }
+}
+
+TEST(Bisect, gives_blocks_without_load_to_a_neighbour_along_the_curve) {
+  const auto field = fields::uniform(0.15);
+  const Tree lattice(field);
+  const std::vector<double> loads = lattice.loads({{-1, -1, -1}, {0.5, 1, 1}});
+  const std::vector<ZoneIndex> zones = zone_of_each(lattice.tree, bisect(lattice.tree, loads, 5));
+  ZoneIndex before = 0;
+  int idle = 0;
+  for (std::size_t b = 0; b < zones.size(); ++b) {
+    if (loads[b] == 0) {
+      EXPECT_EQ(zones[b], before);
+      ++idle;
+    }
+    before = zones[b];
+  }
+  EXPECT_GT(idle, 50);
+}
+
+TEST(Bisect, copes_with_fewer_blocks_than_zones) {
+  const auto field = fields::uniform(0.5);
+  const Tree lattice(field);
+  std::vector<double> loads(lattice.tree.block_count(), 0);
+  loads[3] = 5, loads[10] = 1, loads[11] = 1;
+  const Zones zones = bisect(lattice.tree, loads, 8);
+  EXPECT_EQ(zones.count(), 8);
+  const std::vector<ZoneIndex> used{zones.of(3, 0), zones.of(10, 0), zones.of(11, 0)};
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    EXPECT_GE(used[i], 0);
+    EXPECT_LT(used[i], 8);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(used[i], used[j]);
+  }
+}
+
+TEST(BlockLoads, count_tetrahedra_at_points_and_triangles) {
+  SurfaceTable table;
+  table.triangles = {0, 3, 0, 10};
+  table.longest_edge = {0, 1, 0, 1};
+  const std::vector<std::uint8_t> points{0, 0, 16, 4};
+  EXPECT_EQ(block_loads(table, points), (std::vector<double>{0, 6, 92, 43}));
+}
+
+TEST(Zones, give_leaves_away) {
+  Zones zones({0, 1, 2, 1}, 3);
+  zones.give(1, 5, 0);
+  zones.give(1, 2, 2);
+  zones.give(0, 7, 2);
+  zones.give(1, 2, 0);  // a second time counts
+  EXPECT_EQ(zones.of(1, 5), 0);
+  EXPECT_EQ(zones.of(1, 2), 0);
+  EXPECT_EQ(zones.of(0, 7), 2);
+  for (const int child : {0, 1, 3, 4, 6, 7}) EXPECT_EQ(zones.of(1, child), 1);
+  for (int child = 0; child < 7; ++child) EXPECT_EQ(zones.of(0, child), 0);
+  EXPECT_EQ(zones.of(2, 0), 2);
+  EXPECT_FALSE(zones.is_whole(0));
+  EXPECT_FALSE(zones.is_whole(1));
+  EXPECT_TRUE(zones.is_whole(2));
+  EXPECT_TRUE(zones.is_whole(3));
+}
+
+TEST(Zones, merge_blocks_and_given_leaves) {
+  Zones zones({0, 1, 2, 1}, 3);
+  zones.give(0, 3, 2);
+  zones.give(2, 4, 1);
+  zones.merge(2, 0);
+  EXPECT_EQ(zones.of(0, 3), 0);
+  EXPECT_EQ(zones.of(2, 0), 0);
+  EXPECT_EQ(zones.of(2, 4), 1);
+  EXPECT_EQ(zones.of(1, 0), 1);
+  EXPECT_EQ(zones.of(3, 7), 1);
+  zones.merge(1, 0);
+  for (BlockIndex b = 0; b < 4; ++b) {
+    for (int child = 0; child < 8; ++child) EXPECT_EQ(zones.of(b, child), 0);
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::volume
