@@ -14,9 +14,6 @@ using mesh::RegionId;
 
 namespace {
 
-/// Places that are looked at for each set of blocks: they must agree.
-constexpr int witnesses = 5;
-
 /// Sets of blocks that are joined over faces.
 class BlockSets {
 public:
@@ -60,10 +57,11 @@ void for_each_face(const LatticeTree& tree, const Visit& visit) {
   }
 }
 
-/// What was seen at one place.
+/// What was seen of a set of blocks at one place or several.
 struct Witness {
   BlockIndex set;
   RegionId region;
+  friend auto operator<=>(const Witness&, const Witness&) = default;
 };
 
 }  // namespace
@@ -85,17 +83,17 @@ std::vector<RegionId> find_block_regions(const parallel::Communicator& communica
         contacts.push_back(table.is_met(n) ? Contact{b, n, place} : Contact{n, b, place});
     });
   }
-  std::vector<std::int8_t> looked_at(count, 0);
-  const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
-  for (const Contact& contact : contacts) {
-    const BlockIndex set = sets.root(contact.free);
-    if (looked_at[set] == witnesses) continue;
-    ++looked_at[set];
-    if (contact.met < first || contact.met >= last) continue;
-    const Vec3 p = frame.to_space(contact.place);
-    const auto nearest = surface.distance().nearest(p);
-    if (nearest.triangle < 0) continue;
-    if (const auto region = surface.region_at(p, nearest)) mine.push_back({set, *region});
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
+    for (const Contact& contact : contacts) {
+      if (contact.met < first || contact.met >= last) continue;
+      const Vec3 p = frame.to_space(contact.place);
+      const auto region = surface.region_at(p, surface.distance().nearest(p));
+      if (region) mine.push_back({sets.root(contact.free), *region});
+    }
+    std::sort(mine.begin(), mine.end());
+    mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
   }
   std::vector<RegionId> of_set(count, mesh::no_region);
   std::vector<std::int8_t> known(count, 0);

@@ -64,14 +64,7 @@ public:
         _open.push_back(next);
       }
     }
-    // Only around a point that TetGen added there may be neither; nothing is known of its star but what
-    // others have.
-    for (const std::int32_t c : _open) {
-      for (const LocalIndex w : _mesh.cells[c]) {
-        if (v >= _first_added && w >= _first_lattice && w < _first_added)
-          return _problem.regions[w - _first_lattice];
-      }
-    }
+    if (v >= _first_added) return region_around_added();
     throw std::runtime_error("a point of the surface has no triangle around it");
   }
 
@@ -81,6 +74,27 @@ public:
   }
 
 private:
+  /// Around a point that TetGen added there may be neither; then other points of the zone in its star tell,
+  /// or what bounds the star.
+  RegionId region_around_added() {
+    const std::vector<std::int32_t> star = _open;
+    for (const std::int32_t c : star) {
+      for (const LocalIndex w : _mesh.cells[c]) {
+        if (w < _first_added && _problem.owners[w] == Owner::mine) return region_in_star(c, w);
+      }
+    }
+    for (const std::int32_t c : star) {
+      for (const LocalIndex w : _mesh.cells[c]) {
+        if (w >= _first_lattice && w < _first_added) return _problem.regions[w - _first_lattice];
+      }
+      for (int face = 0; face < 4; ++face) {
+        const std::int32_t triangle = -2 - _mesh.neighbours[c][face];
+        if (triangle >= 0) return region_beside(c, face, triangle);
+      }
+    }
+    throw std::runtime_error("nothing tells the region around a point that TetGen added");
+  }
+
   const ZoneProblem& _problem;
   const TetgenMesh& _mesh;
   LocalIndex _first_lattice, _first_added;
@@ -110,6 +124,30 @@ void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
         std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.owners[w] == Owner::mine; }))
       throw std::runtime_error("a triangle of the surface is missing");
   }
+}
+
+/// Points of the surface that cells of other zones may have too: those of other zones in cells that are kept,
+/// and those of the zone itself in cells that a lower zone may keep. Where sheets touch, no face need tell of
+/// it.
+std::vector<LocalIndex> list_touched(const ZoneProblem& problem, const TetgenMesh& mesh,
+                                     const std::vector<Owner>& owners,
+                                     const std::vector<std::int32_t>& kept) {
+  std::vector<std::uint8_t> touched(problem.surface_points(), 0);
+  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+    const LocalCell& cell = mesh.cells[i];
+    const bool lower =
+        std::any_of(cell.begin(), cell.end(), [&](LocalIndex v) { return owners[v] == Owner::lower; });
+    if (kept[i] < 0 && !lower) continue;
+    for (const LocalIndex v : cell) {
+      if (static_cast<std::size_t>(v) < touched.size() && (owners[v] == Owner::mine) == (kept[i] < 0))
+        touched[v] = 1;
+    }
+  }
+  std::vector<LocalIndex> list;
+  for (std::size_t v = 0; v < touched.size(); ++v) {
+    if (touched[v]) list.push_back(static_cast<LocalIndex>(v));
+  }
+  return list;
 }
 
 /// Owners of all vertices, those that TetGen added included: the lowest zone in the star.
@@ -179,6 +217,7 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
       }
     }
   }
+  result.touched = list_touched(problem, mesh, owners, kept);
   return result;
 }
 

@@ -43,6 +43,8 @@ struct OwnedCells {
   std::vector<mesh::RegionId> regions;
   std::vector<Crossing> crossings;
   std::vector<std::int32_t> triangles;  ///< whose front side they cover
+  /// Points of the surface that cells of other zones may have too, be it in a corner alone; ascending.
+  std::vector<mesh::LocalIndex> touched;
 };
 
 /// A tetrahedron with a lattice vertex lies in the region of that. At another the star of a vertex of the

@@ -101,6 +101,7 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
   std::sort(sorted.crossings.begin(), sorted.crossings.end(), [](const Crossing& a, const Crossing& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
   });
+  sorted.touched = std::move(owned.touched);
   sorted.triangles = std::move(owned.triangles);
   std::sort(sorted.triangles.begin(), sorted.triangles.end());
   owned = std::move(sorted);
@@ -133,6 +134,7 @@ Bytes fill_task(std::span<const std::byte> input) {
   packer.array(owned.regions);
   packer.array(owned.crossings);
   packer.array(owned.triangles);
+  packer.array(owned.touched);
   packer.array(added);
   return packer.take();
 }
@@ -177,6 +179,7 @@ ZoneFilling fill_zone(const ZoneProblem& problem, VolumeOptions::Sabotage sabota
   filling.owned.regions = unpacker.array<mesh::RegionId>();
   filling.owned.crossings = unpacker.array<Crossing>();
   filling.owned.triangles = unpacker.array<std::int32_t>();
+  filling.owned.touched = unpacker.array<mesh::LocalIndex>();
   filling.added = unpacker.array<Vec3>();
   return filling;
 }

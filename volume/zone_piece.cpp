@@ -92,6 +92,7 @@ private:
         if (static_cast<std::size_t>(v) < given()) _shared[v] = 1;
       }
     }
+    for (const LocalIndex v : _filling.owned.touched) _shared[v] = 1;
     const ZoneProblem& problem = _content.problem;
     std::vector<RegionId> first(problem.surface_points(), mesh::no_region);
     for (std::size_t t = 0; t < problem.triangles.size(); ++t) {

@@ -28,7 +28,8 @@ std::vector<ZoneFace> fitting_faces() {
   std::vector<ZoneFace> faces;
   for (mesh::SharedToken i = 0; i < 300; ++i) {
     const Vertices vertices{i, i + 1 + random() % 50, 1000 + i * i};
-    const auto zone = static_cast<ZoneIndex>(random() % 12), other = static_cast<ZoneIndex>((zone + 1 + random() % 11) % 12);
+    const auto zone = static_cast<ZoneIndex>(random() % 12),
+               other = static_cast<ZoneIndex>((zone + 1 + random() % 11) % 12);
     const auto odd = static_cast<int>(random() % 2), region = static_cast<int>(random() % 3);
     faces.push_back(face(vertices, zone, odd, region));
     faces.push_back(face(vertices, other, 1 - odd, region));
@@ -36,7 +37,8 @@ std::vector<ZoneFace> fitting_faces() {
   return faces;
 }
 
-/// What is found when each zone's faces are on a rank of their own; the same on every rank, or the test fails.
+/// What is found when each zone's faces are on a rank of their own; the same on every rank, or the test
+/// fails.
 std::vector<ZoneFace> unmatched(const std::vector<ZoneFace>& faces, int shift = 0) {
   const Communicator world = Communicator::world();
   std::vector<ZoneFace> mine;
@@ -52,7 +54,9 @@ std::vector<ZoneFace> unmatched(const std::vector<ZoneFace>& faces, int shift = 
 
 void expect_same(std::vector<ZoneFace> found, std::vector<ZoneFace> expected) {
   const auto before = [](const ZoneFace& a, const ZoneFace& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.zone != b.zone ? a.zone < b.zone : a.odd < b.odd;
+    return a.vertices != b.vertices ? a.vertices < b.vertices
+           : a.zone != b.zone       ? a.zone < b.zone
+                                    : a.odd < b.odd;
   };
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), before));
   std::sort(expected.begin(), expected.end(), before);

@@ -46,7 +46,9 @@ struct Made {
         around(problem, lattice) {}
 
   LatticeSource source() const { return lattice.source(problem, around.regions); }
-  BlockPoints make() const { return make(lattice.first(problem.communicator), lattice.last(problem.communicator)); }
+  BlockPoints make() const {
+    return make(lattice.first(problem.communicator), lattice.last(problem.communicator));
+  }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
     return make_points(source(), first, last, around.surface);
   }
@@ -106,7 +108,8 @@ TEST_F(LatticePoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
     ASSERT_TRUE(places.count(place));
     EXPECT_TRUE(used.insert(place).second);
     ++of_slot[points.slots[i] % slots_per_leaf];
-    const double most = 0.5 * 0.005 * mean_edge_of_cell * made.lattice.frame.edge(made.lattice.tree.leaf_level(b));
+    const double most =
+        0.5 * 0.005 * mean_edge_of_cell * made.lattice.frame.edge(made.lattice.tree.leaf_level(b));
     const Vec3 off = points.points[i] - place_in_space(made.lattice, place);
     for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(off[axis]), most);
   });
@@ -153,8 +156,8 @@ double least_clearance(const Made& made, const BlockPoints& points) {
     const double size = made.problem.field(p);
     for (std::size_t t = 0; t < made.around.triangles.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
-      least = std::min(least,
-                       distance.distance_to(p, triangle) / std::min(size, distance.mean_edge(triangle)));
+      least =
+          std::min(least, distance.distance_to(p, triangle) / std::min(size, distance.mean_edge(triangle)));
     }
   }
   return least;
@@ -211,8 +214,8 @@ TEST_F(LatticePoints, are_the_same_however_blocks_are_divided) {
 TEST(PointsOfRanks, are_the_same_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   const std::array<int, 3> n{20, 5, 5};
-  const surfaces::Surface bar = surfaces::voxels(n, [](int i, int, int) { return i < 9 ? 0 : 1; },
-                                                 surfaces::onto({-2, -0.5, -0.5}, {2, 0.5, 0.5}, n));
+  const surfaces::Surface bar = surfaces::voxels(
+      n, [](int i, int, int) { return i < 9 ? 0 : 1; }, surfaces::onto({-2, -0.5, -0.5}, {2, 0.5, 0.5}, n));
   for (const std::uint8_t farther : {0, 1, 2}) {
     Made alone(Communicator::self(), bar, fields::uniform(0.06)), shared(world, bar, fields::uniform(0.06));
     for (BlockChange& change : alone.lattice.changes) change.farther = farther;
@@ -276,7 +279,9 @@ TEST_F(LatticePoints, follow_the_perturbation_asked_for) {
 /// In all space, without any surface.
 struct Endless {
   Endless(const sizing::SizeField& sizes, const geometry::Box& box)
-      : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, frame.grid_box(box), clock) {
+      : field(sizes),
+        frame(field, box),
+        tree(Communicator::self(), frame, field, frame.grid_box(box), clock) {
     const auto blocks = static_cast<std::size_t>(tree.block_count());
     table.longest_edge.assign(blocks, 0);
     table.triangles.assign(blocks, 0);

@@ -33,8 +33,10 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
     const GridBox box = GridBox::of(lattice.tree.cell(b));
     const Vec3 size = box.high - box.low;
     for (int k = 0; k < 9; ++k) {
-      const Vec3 part = k == 8 ? Vec3{0.5, 0.5, 0.5} : Vec3{0.01 + 0.98 * (k & 1), 0.01 + 0.49 * (k & 2), 0.01 + 0.245 * (k & 4)};
-      const Vec3 p = lattice.frame.to_space(box.low + Vec3{part.x * size.x, part.y * size.y, part.z * size.z});
+      const Vec3 part = k == 8 ? Vec3{0.5, 0.5, 0.5}
+                               : Vec3{0.01 + 0.98 * (k & 1), 0.01 + 0.49 * (k & 2), 0.01 + 0.245 * (k & 4)};
+      const Vec3 p =
+          lattice.frame.to_space(box.low + Vec3{part.x * size.x, part.y * size.y, part.z * size.z});
       wrong += expected(p) != around.regions[b];
     }
   }

@@ -57,9 +57,9 @@ TEST(BoundaryDistance, tells_whether_the_foot_point_is_inside_of_its_triangle) {
   const BoundaryDistance boundary(surface.points, surface.triangles);
   EXPECT_TRUE(boundary.nearest({1.5, 0.3, 0.1}).in_face);
   EXPECT_TRUE(boundary.nearest({0.9, 0.3, 0.1}).in_face);
-  EXPECT_FALSE(boundary.nearest({1.5, 1.5, 0.1}).in_face);   // an edge
-  EXPECT_FALSE(boundary.nearest({1.5, 1.5, 1.5}).in_face);   // a corner
-  EXPECT_FALSE(boundary.nearest({1.5, 0, 0}).in_face);       // the diagonal of a side
+  EXPECT_FALSE(boundary.nearest({1.5, 1.5, 0.1}).in_face);  // an edge
+  EXPECT_FALSE(boundary.nearest({1.5, 1.5, 1.5}).in_face);  // a corner
+  EXPECT_FALSE(boundary.nearest({1.5, 0, 0}).in_face);      // the diagonal of a side
 }
 
 TEST(BoundaryDistance, does_not_see_what_is_out_of_range) {

@@ -113,14 +113,16 @@ TEST(Halo, is_what_the_rule_says_where_sizes_change) {
 
 TEST(Halo, is_what_the_rule_says_where_sizes_jump) {
   const std::vector<sizing::SizeSource> sources{{{0.3, 0.2, -0.4}, 0.02}, {{-1.2, 1, 1}, 0.03}};
-  Divided divided(sizing::SizeField::build(fields::domain, sources, {0.02, 0.9, 12, 1.6}), surfaces::cube({0, 0, 0}, 1.9, 5), 4);
+  Divided divided(sizing::SizeField::build(fields::domain, sources, {0.02, 0.9, 12, 1.6}),
+                  surfaces::cube({0, 0, 0}, 1.9, 5), 4);
   expect_rule(divided, {1.5});
 }
 
 /// Triangles much longer than the lattice beside them.
 TEST(Halo, is_what_the_rule_says_beside_long_triangles) {
   surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1.9, 14);
-  surfaces::append(surface, surfaces::box({-1.5, -0.1, -0.1}, {1.5, 0.1, 0.1}, {2, 1, 1}), surfaces::Turn::inward);
+  surfaces::append(surface, surfaces::box({-1.5, -0.1, -0.1}, {1.5, 0.1, 0.1}, {2, 1, 1}),
+                   surfaces::Turn::inward);
   Divided divided(fields::uniform(0.2), surface, 5);
   expect_rule(divided, {1.5});
 }
@@ -131,7 +133,8 @@ TEST(Halo, is_what_the_rule_says_around_leaves_given_away) {
   const LatticeTree& tree = divided.lattice.tree;
   for (int i = 0; i < 40; ++i) {
     const auto b = static_cast<BlockIndex>(random() % tree.block_count());
-    divided.zones.give(b, static_cast<int>(random() % tree.leaf_count(b)), static_cast<ZoneIndex>(random() % 4));
+    divided.zones.give(b, static_cast<int>(random() % tree.leaf_count(b)),
+                       static_cast<ZoneIndex>(random() % 4));
   }
   expect_rule(divided, {1.5});
   divided.zones.merge(3, 1);
@@ -158,7 +161,8 @@ TEST(Halo, is_the_same_whichever_zones_were_asked_before) {
   const Divided divided(fields::uniform(0.2), surfaces::cube({0, 0, 0}, 1.9, 14), 5);
   const BlocksOfZones blocks = list_blocks(divided.lattice.tree, divided.zones);
   HaloTaker taker(divided.lattice.frame, divided.lattice.tree, divided.lattice.table, divided.zones);
-  for (const ZoneIndex z : {3, 0, 3, 4, 1}) expect_same(taker.take(z, blocks.of(z), 1.5), divided.take(z, 1.5));
+  for (const ZoneIndex z : {3, 0, 3, 4, 1})
+    expect_same(taker.take(z, blocks.of(z), 1.5), divided.take(z, 1.5));
 }
 
 TEST(Halo, of_one_zone_is_all_there_is) {
@@ -186,7 +190,8 @@ TEST(ListBlocks, knows_the_blocks_that_have_leaves_of_a_zone) {
   for (ZoneIndex z = 0; z < 4; ++z) {
     std::vector<BlockIndex> expected;
     for (const LeafOfBlock& leaf : all_leaves(tree)) {
-      if (divided.zones.of(leaf.block, leaf.child) == z && (expected.empty() || expected.back() != leaf.block))
+      if (divided.zones.of(leaf.block, leaf.child) == z &&
+          (expected.empty() || expected.back() != leaf.block))
         expected.push_back(leaf.block);
     }
     EXPECT_EQ(std::vector<BlockIndex>(blocks.of(z).begin(), blocks.of(z).end()), expected);
@@ -213,8 +218,8 @@ TEST(NearBoxes, tell_whether_one_is_near) {
     for (int i = 0; i < 200; ++i) {
       const GridBox asked = box();
       const double reach = 0.3 * place(random);
-      const bool expected = std::any_of(boxes.begin(), boxes.end(),
-                                        [&](const GridBox& b) { return b.gap_to(asked) <= reach; });
+      const bool expected =
+          std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& b) { return b.gap_to(asked) <= reach; });
       EXPECT_EQ(near.any_within(asked, reach), expected);
     }
   }

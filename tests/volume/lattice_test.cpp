@@ -40,7 +40,8 @@ TEST(LatticeFrame, leads_to_the_grid_and_back) {
     for (int i = 0; i < 1000; ++i) {
       const Vec3 grid{random.between(0, root_size), random.between(0, root_size),
                       random.between(0, root_size)};
-      EXPECT_LT(distance(frame.to_grid(frame.to_space(grid)), grid), 1e-4);  // a tenth of what others allow for
+      EXPECT_LT(distance(frame.to_grid(frame.to_space(grid)), grid),
+                1e-4);  // a tenth of what others allow for
     }
   }
 }
@@ -48,7 +49,8 @@ TEST(LatticeFrame, leads_to_the_grid_and_back) {
 TEST(LatticeFrame, has_a_root_around_the_box) {
   Random random;
   const auto field = fields::uniform(0.3);
-  for (const Box& box : {fields::domain, Box{{-1e-3, 0, 0}, {1e-3, 2e-3, 1e-3}}, Box{{3, 4, 5}, {30, 5, 6}}}) {
+  for (const Box& box :
+       {fields::domain, Box{{-1e-3, 0, 0}, {1e-3, 2e-3, 1e-3}}, Box{{3, 4, 5}, {30, 5, 6}}}) {
     const LatticeFrame frame(field, box);
     for (int i = 0; i < 1000; ++i) {
       const Vec3 g = frame.to_grid(random.in(box));
@@ -216,9 +218,12 @@ TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
     if (tree.leaf_count(b) != 8 || grown.is_too_coarse(tree.cell(b))) continue;
     ++split;
     const GridBox box = GridBox::of(tree.cell(b));
-    EXPECT_TRUE(std::any_of(leaves.begin(), leaves.end(), [&](const LeafOfBlock& leaf) {
-      return leaf.cell.level >= tree.cell(b).level + 2 && GridBox::of(leaf.cell).overlaps(box);
-    })) << "block " << b << " is split without need";
+    EXPECT_TRUE(std::any_of(leaves.begin(), leaves.end(),
+                            [&](const LeafOfBlock& leaf) {
+                              return leaf.cell.level >= tree.cell(b).level + 2 &&
+                                     GridBox::of(leaf.cell).overlaps(box);
+                            }))
+        << "block " << b << " is split without need";
   }
   EXPECT_GT(split, 10);
 }
@@ -266,7 +271,8 @@ TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
       ASSERT_EQ(alone.tree.leaf_count(b), shared.tree.leaf_count(b));
       mixed = mesh::mix_in(mixed, sizing::morton_key(cell.low) + cell.level);
     }
-    for (const std::uint64_t other : world.all_gather_items<std::uint64_t>({&mixed, 1})) EXPECT_EQ(other, mixed);
+    for (const std::uint64_t other : world.all_gather_items<std::uint64_t>({&mixed, 1}))
+      EXPECT_EQ(other, mixed);
   }
 }
 
@@ -282,7 +288,9 @@ TEST(LatticeTree, finds_blocks_and_leaves_of_places) {
     const int child = grown.tree.child_at(b, p);
     int holders = 0;
     for (const LeafOfBlock& leaf : leaves) {
-      const auto within = [&](std::uint32_t low, std::uint32_t x) { return low <= x && x < low + leaf.cell.edge(); };
+      const auto within = [&](std::uint32_t low, std::uint32_t x) {
+        return low <= x && x < low + leaf.cell.edge();
+      };
       if (!within(leaf.cell.low.x, p.x) || !within(leaf.cell.low.y, p.y) || !within(leaf.cell.low.z, p.z))
         continue;
       ++holders;
@@ -324,7 +332,8 @@ TEST(LatticeTree, visits_the_blocks_in_a_box) {
     EXPECT_EQ(found, expected);
     visited += found.size();
     int asked = 0;
-    const bool any = grown.tree.any_block_in(box, [&](BlockIndex b) { return ++asked, b == expected.back(); });
+    const bool any =
+        grown.tree.any_block_in(box, [&](BlockIndex b) { return ++asked, b == expected.back(); });
     EXPECT_TRUE(any);
     EXPECT_EQ(asked, static_cast<int>(expected.size()));
     asked = 0;

@@ -75,7 +75,8 @@ void expect_right_everywhere(const Cells& cells, int count) {
   int wrong = 0, asked = 0;
   std::array<int, 3> answers{};
   for (int i = 0; i < count; ++i) {
-    Vec3 grid{between(-0.8, cells.n[0] + 0.8), between(-0.8, cells.n[1] + 0.8), between(-0.8, cells.n[2] + 0.8)};
+    Vec3 grid{between(-0.8, cells.n[0] + 0.8), between(-0.8, cells.n[1] + 0.8),
+              between(-0.8, cells.n[2] + 0.8)};
     const int kind = i % 6;
     if (kind == 1 || kind == 2) {  // close to a corner
       const double close = kind == 1 ? 1e-2 : 1e-6;
@@ -127,13 +128,13 @@ TEST(RegionAt, is_right_at_sharp_edges) {
 
 TEST(RegionAt, is_right_where_three_sheets_meet_in_an_edge) {
   expect_right_everywhere(make_cells({1, 2, 2}, [](int, int j, int) { return j; }), 3000);
-  expect_right_everywhere(make_cells({2, 2, 1},
-                                     [](int i, int j, int) { return i == 1 && j == 1 ? no_region : i; }),
-                          3000);
+  expect_right_everywhere(
+      make_cells({2, 2, 1}, [](int i, int j, int) { return i == 1 && j == 1 ? no_region : i; }), 3000);
 }
 
 TEST(RegionAt, is_right_where_bodies_touch_in_an_edge_or_point) {
-  expect_right_everywhere(make_cells({2, 2, 1}, [](int i, int j, int) { return i == j ? i : no_region; }), 3000);
+  expect_right_everywhere(make_cells({2, 2, 1}, [](int i, int j, int) { return i == j ? i : no_region; }),
+                          3000);
   expect_right_everywhere(
       make_cells({2, 2, 2}, [](int i, int j, int k) { return i == j && j == k ? i : no_region; }), 3000);
 }
@@ -168,7 +169,8 @@ TEST(RegionAt, is_right_at_tips_and_dents) {
     }
     surfaces::Surface dented = surfaces::cube({0, 0, 1}, 4, 1);
     surfaces::append(dented, cone, surfaces::Turn::inward);
-    for (const auto& [surface, within] : {std::pair{cone, 0}, std::pair{dented, static_cast<int>(no_region)}}) {
+    for (const auto& [surface, within] :
+         {std::pair{cone, 0}, std::pair{dented, static_cast<int>(no_region)}}) {
       const auto triangles = surfaces::numbered_triangles(surface);
       const NearSurface near(triangles);
       const RegionId around = within == 0 ? no_region : 0;
@@ -176,7 +178,8 @@ TEST(RegionAt, is_right_at_tips_and_dents) {
         const double close = std::exp2(-between(0, 20));
         const Vec3 p = Vec3{0, 0, height} + 0.2 * close * direction();
         const double below = (height - p.z) / (height + 1), r = std::hypot(p.x, p.y) / 0.2;
-        if (p.z < -1 || (below > 0 && r > below * std::cos(std::numbers::pi / count) * 0.999 && r < below * 1.001))
+        if (p.z < -1 ||
+            (below > 0 && r > below * std::cos(std::numbers::pi / count) * 0.999 && r < below * 1.001))
           continue;  // at the facets
         EXPECT_EQ(region_at(near, p), below > 0 && r < below ? within : around);
       }

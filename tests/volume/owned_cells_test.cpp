@@ -43,7 +43,8 @@ double volume_of(const LocalCell& c, const std::vector<Vec3>& points) {
 
 /// A problem of all points of a surface and `inner` random ones off it; `region_of` tells theirs.
 template <class RegionOf>
-ZoneProblem make_problem(const surfaces::Surface& surface, int inner, double clearance, const RegionOf& region_of) {
+ZoneProblem make_problem(const surfaces::Surface& surface, int inner, double clearance,
+                         const RegionOf& region_of) {
   ZoneProblem problem;
   problem.points = surface.points;
   problem.triangles = surface.triangles;
@@ -55,9 +56,12 @@ ZoneProblem make_problem(const surfaces::Surface& surface, int inner, double cle
   for (const Vec3& p : surface.points) box.add(p);
   const BoundaryDistance distance(surface.points, surface.triangles);
   std::mt19937_64 random(17);
-  const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
   while (static_cast<int>(problem.regions.size()) < inner) {
-    const Vec3 p{between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};
+    const Vec3 p{between(box.low.x, box.high.x), between(box.low.y, box.high.y),
+                 between(box.low.z, box.high.z)};
     const RegionId region = region_of(p);
     if (region == no_region || distance.nearest(p).distance < clearance) continue;
     problem.points.push_back(p);
@@ -107,7 +111,8 @@ TEST(RunTetgen, gives_positive_cells_that_know_their_neighbours) {
       const auto& back = mesh.neighbours[next];
       const auto at = std::find(back.begin(), back.end(), static_cast<std::int32_t>(c));
       ASSERT_NE(at, back.end());
-      EXPECT_EQ(sorted(face_of(cell, face)), sorted(face_of(mesh.cells[next], static_cast<int>(at - back.begin()))));
+      EXPECT_EQ(sorted(face_of(cell, face)),
+                sorted(face_of(mesh.cells[next], static_cast<int>(at - back.begin()))));
     }
   }
   EXPECT_NEAR(volume, 8, 1e-12);
@@ -129,7 +134,8 @@ TEST(RunTetgen, gives_the_delaunay_mesh_of_points_alone_with_their_hull) {
       if (mesh.neighbours[c][face] != -1) continue;
       const LocalTriangle t = face_of(v, face);
       on_hull.insert(t.begin(), t.end());
-      for (const Vec3& p : points) EXPECT_LE(geometry::orient3d(points[t[0]], points[t[1]], points[t[2]], p), 0);
+      for (const Vec3& p : points)
+        EXPECT_LE(geometry::orient3d(points[t[0]], points[t[1]], points[t[2]], p), 0);
     }
   }
   EXPECT_GT(on_hull.size(), 10u);
@@ -166,7 +172,8 @@ TEST(RunTetgen, cuts_points_on_a_sphere_by_their_order_whatever_lies_around) {
   }
   for (int k = -1; k <= 1; ++k) {
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 p = Vec3{2.0 * k, 0, 0} + 0.25 * Vec3{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
+      const Vec3 p = Vec3{2.0 * k, 0, 0} +
+                     0.25 * Vec3{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
       all.insert(all.begin() + static_cast<std::ptrdiff_t>(random() % all.size()), p);
     }
   }
@@ -207,7 +214,8 @@ TEST(SelectOwned, keeps_all_of_a_cube_for_a_single_zone) {
   const OwnedCells owned = select_owned(problem, mesh, problem.points);
   EXPECT_EQ(owned.cells.size(), mesh.cells.size());
   EXPECT_TRUE(owned.crossings.empty());
-  EXPECT_EQ(std::set<std::int32_t>(owned.triangles.begin(), owned.triangles.end()).size(), problem.triangles.size());
+  EXPECT_EQ(std::set<std::int32_t>(owned.triangles.begin(), owned.triangles.end()).size(),
+            problem.triangles.size());
   EXPECT_EQ(owned.triangles.size(), problem.triangles.size());
 }
 
@@ -215,7 +223,9 @@ TEST(SelectOwned, cuts_a_cube_into_zones_without_overlap_or_gap) {
   const ZoneProblem problem = cube_problem();
   const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
   constexpr int zones = 8;
-  const auto zone_of = [](Vec3 p) { return (p.x > 0.1 ? 1 : 0) + (p.y > -0.2 ? 2 : 0) + (p.z > 0.3 ? 4 : 0); };
+  const auto zone_of = [](Vec3 p) {
+    return (p.x > 0.1 ? 1 : 0) + (p.y > -0.2 ? 2 : 0) + (p.z > 0.3 ? 4 : 0);
+  };
   std::set<LocalCell> cells;
   std::map<LocalTriangle, std::vector<int>> crossings;
   std::vector<int> covered(problem.triangles.size(), 0);
@@ -279,8 +289,9 @@ TEST(SelectOwned, leaves_out_what_lies_outside) {
   surfaces::append(surface, surfaces::cube({0.1, 0, 0}, 0.4, 3), surfaces::Turn::inward);
   surfaces::append(surface, surfaces::between(surfaces::cube({3, 0.2, 0.1}, 0.7, 3), 1, no_region));
   const auto region_of = [](Vec3 p) {
-    return p.x > 2 ? std::max({std::abs(p.x - 3), std::abs(p.y - 0.2), std::abs(p.z - 0.1)}) < 0.7 ? 1 : no_region
-           : std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1     ? no_region
+    return p.x > 2
+               ? std::max({std::abs(p.x - 3), std::abs(p.y - 0.2), std::abs(p.z - 0.1)}) < 0.7 ? 1 : no_region
+           : std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1         ? no_region
            : std::max({std::abs(p.x - 0.1), std::abs(p.y), std::abs(p.z)}) < 0.4 ? no_region
                                                                                  : 0;
   };

@@ -60,12 +60,8 @@ struct Lattice {
 
   /// What points are made from. `regions` per block.
   LatticeSource source(const Problem& problem, std::span<const mesh::RegionId> regions) const {
-    return {frame,
-            tree,
-            problem.field,
-            table,
-            regions,
-            {problem.options.lattice_clearance, problem.options.perturbation},
+    return {frame,  tree,    problem.field,
+            table,  regions, {problem.options.lattice_clearance, problem.options.perturbation},
             changes};
   }
   BlockIndex first(const parallel::Communicator& communicator) const { return shares[communicator.rank()]; }
@@ -111,7 +107,8 @@ struct LeafOfBlock {
 inline std::vector<LeafOfBlock> all_leaves(const LatticeTree& tree) {
   std::vector<LeafOfBlock> leaves;
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    for (int child = 0; child < tree.leaf_count(b); ++child) leaves.push_back({b, child, tree.leaf(b, child)});
+    for (int child = 0; child < tree.leaf_count(b); ++child)
+      leaves.push_back({b, child, tree.leaf(b, child)});
   }
   return leaves;
 }

@@ -29,8 +29,8 @@ struct Shared {
         lattice(problem, box_of(surface)) {}
 
   std::vector<SurfaceTriangle> deliver(double reach) {
-    const std::vector<double> reaches(lattice.last(problem.communicator) - lattice.first(problem.communicator),
-                                      reach);
+    const std::vector<double> reaches(
+        lattice.last(problem.communicator) - lattice.first(problem.communicator), reach);
     return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
                            reaches, problem.surface, problem.numbering, lattice.clock);
   }
@@ -74,7 +74,9 @@ TEST(SurfaceTable, counts_each_triangle_in_the_block_of_its_centre) {
     const Vec3 center = lattice.frame.to_grid((1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]));
     for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
       const GridBox box = GridBox::of(lattice.tree.cell(b));
-      const auto within = [&](int axis) { return center[axis] >= box.low[axis] && center[axis] < box.high[axis]; };
+      const auto within = [&](int axis) {
+        return center[axis] >= box.low[axis] && center[axis] < box.high[axis];
+      };
       if (within(0) && within(1) && within(2)) ++expected[b];
     }
   }

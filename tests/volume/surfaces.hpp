@@ -1,8 +1,10 @@
 /// Small surfaces to fill, and their way into a distributed mesh.
 #pragma once
 
+#include "geometry/predicates.hpp"
 #include "geometry/vec.hpp"
 #include "mesh/distributed_mesh.hpp"
+#include "mesh/mixing.hpp"
 #include "parallel/communicator.hpp"
 #include "volume/owned_cells.hpp"
 #include "volume/surface_share.hpp"
@@ -82,9 +84,8 @@ inline Surface voxels(std::array<int, 3> n, const std::function<RegionId(int, in
           if (low == high) continue;
           const bool low_in_front = high == mesh::no_region || (low != mesh::no_region && low < high);
           const RegionId front = low_in_front ? low : high, back = low_in_front ? high : low;
-          const auto [face, is_new] =
-              faces.emplace(std::tuple{axis, at[axis], front, back, low_in_front},
-                            static_cast<std::int32_t>(surface.sides.size()));
+          const auto [face, is_new] = faces.emplace(std::tuple{axis, at[axis], front, back, low_in_front},
+                                                    static_cast<std::int32_t>(surface.sides.size()));
           if (is_new) surface.sides.push_back({front, back});
           const auto corner = [&](int du, int dv) {
             std::array<int, 3> c = at;
@@ -118,7 +119,8 @@ inline std::function<Vec3(Vec3)> onto(Vec3 low, Vec3 high, std::array<int, 3> n)
 
 /// A box with n squares per axis on its sides.
 inline Surface box(Vec3 low, Vec3 high, std::array<int, 3> n) {
-  return voxels(n, [](int, int, int) { return 0; }, onto(low, high, n));
+  return voxels(
+      n, [](int, int, int) { return 0; }, onto(low, high, n));
 }
 
 /// A cube of edge 2 r around `center` with n squares per edge.
@@ -129,8 +131,8 @@ inline Surface cube(Vec3 center, double r, int n) {
 /// A sphere from an icosahedron whose edges are split into `n` parts; edges are about 1.1 r / n long.
 inline Surface sphere(Vec3 center, double r, int n) {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  const std::vector<Vec3> corners{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const std::vector<Vec3> corners{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   const std::vector<std::array<int, 3>> faces{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                                               {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                                               {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
@@ -173,8 +175,73 @@ inline Surface cube_with_ball(int cube_squares, int ball_parts) {
 /// The cube [-1,1]^3 of n squares per edge, n a multiple of 4: region 1 within [-1/2,1/2]^3, region 0 around.
 inline Surface nested_cubes(int n) {
   const auto inner = [=](int i) { return 4 * i >= n && 4 * i < 3 * n; };
-  return voxels({n, n, n}, [=](int i, int j, int k) { return inner(i) && inner(j) && inner(k) ? 1 : 0; },
-                onto({-1, -1, -1}, {1, 1, 1}, {n, n, n}));
+  return voxels(
+      {n, n, n}, [=](int i, int j, int k) { return inner(i) && inner(j) && inner(k) ? 1 : 0; },
+      onto({-1, -1, -1}, {1, 1, 1}, {n, n, n}));
+}
+
+/// A surface made of squares along the axes, in general position: vertices moved at random by up to `amount`
+/// within their sides and edges, triangles then the Delaunay triangulation of each side. With points off it,
+/// all of them are in the Delaunay mesh of the volume, and that is unique.
+inline Surface shaken(Surface surface, double amount) {
+  const auto axis_of = [&](const LocalTriangle& t) {
+    int axis = -1;
+    for (int k = 0; k < 3; ++k) {
+      const double x = surface.points[t[0]][k];
+      if (surface.points[t[1]][k] == x && surface.points[t[2]][k] == x) axis = k;
+    }
+    return axis;
+  };
+  std::vector<int> axes;
+  std::vector<std::array<bool, 3>> held(surface.points.size());
+  for (const LocalTriangle& t : surface.triangles) {
+    axes.push_back(axis_of(t));
+    for (const auto v : t) {
+      for (int k = 0; k < 3; ++k) held[v][k] = held[v][k] || axes.back() < 0 || axes.back() == k;
+    }
+  }
+  std::uint64_t state = 1;
+  for (std::size_t v = 0; v < surface.points.size(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      state = mesh::mix_in(state, v);
+      if (!held[v][k]) surface.points[v][k] += amount * (2 * static_cast<double>(state >> 11) * 0x1p-53 - 1);
+    }
+  }
+  // Flips of edges within a side until none is left (Lawson).
+  const auto flip_some = [&] {
+    std::map<std::pair<mesh::LocalIndex, mesh::LocalIndex>, std::vector<std::size_t>> at_edge;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      for (int k = 0; k < 3; ++k)
+        at_edge[std::minmax(surface.triangles[t][k], surface.triangles[t][(k + 1) % 3])].push_back(t);
+    }
+    std::vector<bool> changed(surface.triangles.size(), false);
+    bool any = false;
+    for (const auto& [edge, around] : at_edge) {
+      if (around.size() != 2 || changed[around[0]] || changed[around[1]]) continue;
+      LocalTriangle &s = surface.triangles[around[0]], &t = surface.triangles[around[1]];
+      const int axis = axes[around[0]];
+      if (axis < 0 || surface.face[around[0]] != surface.face[around[1]]) continue;
+      const auto apex = [&](LocalTriangle& triangle) {  // first, the edge behind it
+        while (triangle[0] == edge.first || triangle[0] == edge.second)
+          std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+        return triangle[0];
+      };
+      const auto p = apex(s), q = apex(t);
+      const auto flat = [&](mesh::LocalIndex v) {
+        return geometry::Vec2{surface.points[v][(axis + 1) % 3], surface.points[v][(axis + 2) % 3]};
+      };
+      const geometry::Vec2 a = flat(p), b = flat(s[1]), c = flat(s[2]), d = flat(q);
+      if (geometry::orient2d(a, b, c) * geometry::in_circle(a, b, c, d) <= 0) continue;
+      const auto first = s[1], second = s[2];
+      s = {p, first, q};
+      t = {p, q, second};
+      changed[around[0]] = changed[around[1]] = any = true;
+    }
+    return any;
+  };
+  while (flip_some()) {
+  }
+  return surface;
 }
 
 inline RegionId region_count(const Surface& surface) {

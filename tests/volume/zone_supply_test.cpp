@@ -129,8 +129,8 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   const Communicator world = Communicator::world();
   Divided divided(world);
   const std::vector<ZoneIndex> some{2, 5};
-  std::vector<double> widths(divided.all.size(), 1.5);
-  widths[5] = 2.25;
+  std::vector<double> widths = divided.widths;
+  widths[5] *= 1.5;
   const ZonePlan plan = plan_zones(world, divided.parts.tables(), some, widths, divided.clock);
   ASSERT_EQ(plan.loads.size(), 2u);
   EXPECT_EQ(plan.loads[0].zone, 2);
@@ -165,14 +165,16 @@ TEST(SupplyZones, brings_the_points_of_all_leaves_a_zone_knows) {
       const ZoneFinder::Leaf leaf = ZoneFinder::leaf_of_number(row.number);
       if (!leaves.count({leaf.block, leaf.child})) continue;
       ASSERT_LT(at, content.tokens.size());
-      EXPECT_EQ(content.tokens[at], static_cast<mesh::SharedToken>(divided.problem.numbering.vertex_count + row.number));
+      EXPECT_EQ(content.tokens[at],
+                static_cast<mesh::SharedToken>(divided.problem.numbering.vertex_count + row.number));
       EXPECT_EQ(content.problem.points[at], row.point);
       EXPECT_EQ(content.problem.regions[at - first], row.region);
       ++at;
     }
     EXPECT_EQ(at, content.tokens.size());
     EXPECT_EQ(content.problem.points.size(), content.tokens.size());
-    EXPECT_NEAR(divided.plan.loads[content.zone].points, static_cast<double>(at - first), 0.12 * static_cast<double>(at - first));
+    EXPECT_NEAR(divided.plan.loads[content.zone].points, static_cast<double>(at - first),
+                0.12 * static_cast<double>(at - first));
   }
   EXPECT_EQ(world.sum(zones), static_cast<std::int64_t>(divided.all.size()));
 }
@@ -187,7 +189,8 @@ TEST(SupplyZones, brings_each_triangle_that_meets_a_leaf_once) {
     if (numbers.insert(t.number).second) all.push_back(t);
   }
   ASSERT_EQ(all.size(), divided.surface.triangles.size());
-  std::sort(all.begin(), all.end(), [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
+  std::sort(all.begin(), all.end(),
+            [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
   for (const ZoneContent& content : divided.supply_all()) {
     const auto leaves = leaves_known(divided, content.zone);
     std::size_t at = 0;
@@ -236,10 +239,13 @@ TEST(SupplyZones, tells_whose_each_vertex_is) {
           if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
         }
       } else {
-        leaf = ZoneFinder::leaf_of_number(static_cast<std::int64_t>(content.tokens[v]) - divided.problem.numbering.vertex_count);
+        leaf = ZoneFinder::leaf_of_number(static_cast<std::int64_t>(content.tokens[v]) -
+                                          divided.problem.numbering.vertex_count);
       }
       const ZoneIndex zone = divided.parts.zones->of(leaf.block, leaf.child);
-      const Owner expected = zone == content.zone ? Owner::mine : zone < content.zone ? Owner::lower : Owner::higher;
+      const Owner expected = zone == content.zone  ? Owner::mine
+                             : zone < content.zone ? Owner::lower
+                                                   : Owner::higher;
       EXPECT_EQ(content.problem.owners[v], expected);
       ++count[static_cast<int>(expected)];
     }

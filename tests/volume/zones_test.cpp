@@ -26,7 +26,8 @@ struct Tree {
     std::vector<double> result(tree.block_count(), 0);
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
       const Vec3 center = center_of(b);
-      if (box.contains(center)) result[b] = (0.5 + 1e-19 * static_cast<double>(random() >> 1)) * tree.leaf_count(b);
+      if (box.contains(center))
+        result[b] = (0.5 + 1e-19 * static_cast<double>(random() >> 1)) * tree.leaf_count(b);
     }
     return result;
   }

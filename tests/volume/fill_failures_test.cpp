@@ -1,0 +1,209 @@
+/// What the stage does about zones that cannot be filled: the ladder of retries, and the message at its end.
+#include "parallel/collective_error.hpp"
+#include "tests/volume/fields.hpp"
+#include "tests/volume/filled.hpp"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::volume {
+namespace {
+
+using geometry::Vec3;
+using parallel::Communicator;
+using Sabotage = VolumeOptions::Sabotage;
+
+const bool tasks_are_known = (register_volume_tasks(), true);
+
+const surfaces::Surface& body() {
+  static const surfaces::Surface surface = surfaces::shaken(surfaces::cube_with_ball(8, 5), 0.03);
+  return surface;
+}
+sizing::SizeField sizes() {
+  return fields::uniform(0.35);
+}
+
+VolumeOptions struck(Sabotage sabotage, std::int64_t zone, int retries) {
+  VolumeOptions options;
+  options.piece_tets = 2000;
+  options.sabotage = sabotage;
+  options.sabotaged_zone = zone;
+  options.retries = retries;
+  return options;
+}
+
+/// Bytes that are the same on every rank, or the test fails.
+void expect_same_everywhere(const Communicator& communicator, const std::string& text) {
+  parallel::Packer packer;
+  packer.text(text);
+  const auto all = communicator.all_gather(packer.take());
+  for (const parallel::Bytes& other : all) EXPECT_EQ(other, all.front());
+}
+
+// --- one zone
+
+class OneZone : public testing::TestWithParam<std::tuple<Sabotage, int>> {};
+
+TEST_P(OneZone, climbs_the_ladder_and_is_merged) {
+  const Communicator world = Communicator::world();
+  const auto [sabotage, retries] = GetParam();
+  const Filled filled(world, body(), sizes(), struck(sabotage, 2, retries));
+  EXPECT_GE(filled.decomposed.zones, 4);
+  expect_valid(filled, body());
+  ASSERT_EQ(filled.report.retries.size(), static_cast<std::size_t>(retries) + 1);
+  EXPECT_EQ(filled.report.rounds, retries + 2);
+  std::set<std::string> changes;
+  for (const Retry& retry : filled.report.retries) {
+    EXPECT_EQ(retry.zone, 2);
+    EXPECT_FALSE(retry.reason.empty());
+    changes.insert(retry.change);
+  }
+  EXPECT_EQ(changes.size(), filled.report.retries.size());  // none twice
+  EXPECT_NE(filled.report.retries.back().change.find("merged with zone"), std::string::npos);
+  std::string said;
+  for (const Retry& retry : filled.report.retries) said += retry.change + "; " + retry.reason + "; ";
+  expect_same_everywhere(world, said);
+  // The merged zone has its pieces, the one that is gone none.
+  EXPECT_LT(filled.mesh.piece_count, filled.decomposed.zones);
+}
+
+INSTANTIATE_TEST_SUITE_P(all, OneZone,
+                         testing::Combine(testing::Values(Sabotage::throws, Sabotage::aborts),
+                                          testing::Values(0, 1, 3)));
+
+TEST(Ladder, leads_to_the_same_mesh_on_any_number_of_ranks) {
+  const Communicator world = Communicator::world();
+  for (const int retries : {0, 3}) {
+    const VolumeOptions options = struck(Sabotage::throws, 1, retries);
+    const Filled filled(world, body(), sizes(), options);
+    const std::string hash = mesh::hash_mesh(world, filled.mesh, filled.numbering);
+    std::string alone = hash;
+    if (world.is_root()) {
+      const Filled same(Communicator::self(), body(), sizes(), options);
+      alone = mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering);
+    }
+    EXPECT_EQ(hash, alone);
+  }
+}
+
+/// A merger changes no point, and the mesh is unique: it is that of zones which nothing happened to.
+TEST(Ladder, changes_no_cell_where_zones_are_merged) {
+  const Communicator world = Communicator::world();
+  const Filled merged(world, body(), sizes(), struck(Sabotage::throws, 0, 1));
+  const Filled untouched(world, body(), sizes(), struck(Sabotage::none, -1, 1));
+  EXPECT_FALSE(merged.report.retries.empty());
+  EXPECT_TRUE(untouched.report.retries.empty());
+  EXPECT_TRUE(cells_by_coordinates(merged) == cells_by_coordinates(untouched));
+}
+
+TEST(Ladder, moves_points_of_the_zone_on_its_later_rungs) {
+  const Communicator world = Communicator::world();
+  const Filled moved(world, body(), sizes(), struck(Sabotage::throws, 0, 2));
+  const Filled untouched(world, body(), sizes(), struck(Sabotage::none, -1, 2));
+  expect_valid(moved, body());
+  const auto a = cells_by_coordinates(moved), b = cells_by_coordinates(untouched);
+  std::vector<std::uint64_t> common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  EXPECT_LT(common.size(), b.size());
+  EXPECT_GT(common.size(), b.size() / 4);
+}
+
+// --- no way out
+
+/// What the stage says when it ends with a VolumeFailure, on every rank the same; empty when it does not.
+struct Ending {
+  std::string text;
+  std::vector<Vec3> points;
+  std::vector<LocalTriangle> triangles;
+};
+Ending failure_of(const Communicator& communicator, const surfaces::Surface& surface,
+                  const sizing::SizeField& field, const VolumeOptions& options) {
+  Ending ending;
+  try {
+    const Filled filled(communicator, surface, field, options);
+    ADD_FAILURE() << "filled " << filled.numbering.cell_count << " cells";
+  } catch (const VolumeFailure& failure) {
+    ending = {failure.what(), failure.points(), failure.triangles()};
+    EXPECT_EQ(failure.kind(), parallel::FailureKind::input);
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << "another error: " << error.what();
+  }
+  expect_same_everywhere(communicator, ending.text);
+  parallel::Packer packer;
+  packer.array(ending.points);
+  packer.array(ending.triangles);
+  const auto all = communicator.all_gather(packer.take());
+  for (const parallel::Bytes& other : all) EXPECT_EQ(other, all.front());
+  for (const LocalTriangle& t : ending.triangles) {
+    for (const auto v : t) {
+      EXPECT_GE(v, 0);
+      EXPECT_LT(static_cast<std::size_t>(v), ending.points.size());
+    }
+  }
+  return ending;
+}
+
+TEST(VolumeFailures, name_place_faces_and_what_was_tried) {
+  const Communicator world = Communicator::world();
+  for (const int retries : {0, 1}) {
+    const Ending ending = failure_of(world, body(), sizes(), struck(Sabotage::throws, -1, retries));
+    EXPECT_FALSE(ending.triangles.empty());
+    for (const char* part : {"zone 0 between (-2, -2, -2) and (2, 2, 2)", "sabotage: an exception", "'face ",
+                             "Tried:", "merged with zone", "piece size"})
+      EXPECT_NE(ending.text.find(part), std::string::npos) << part << " in: " << ending.text;
+    EXPECT_EQ(ending.text.find("wider halo") != std::string::npos, retries > 0) << ending.text;
+  }
+}
+
+TEST(VolumeFailures, say_the_same_on_any_number_of_ranks) {
+  const Communicator world = Communicator::world();
+  const VolumeOptions options = struck(Sabotage::throws, -1, 0);
+  const Ending ending = failure_of(world, body(), sizes(), options);
+  if (!world.is_root()) return;
+  const Ending alone = failure_of(Communicator::self(), body(), sizes(), options);
+  EXPECT_EQ(ending.text, alone.text);
+  EXPECT_EQ(ending.points, alone.points);
+}
+
+TEST(VolumeFailures, leave_the_ranks_able_to_go_on) {
+  const Communicator world = Communicator::world();
+  failure_of(world, body(), sizes(), struck(Sabotage::aborts, -1, 0));
+  const Filled filled(world, body(), sizes(), struck(Sabotage::none, -1, 0));
+  expect_valid(filled, body());
+}
+
+class Crossing : public testing::TestWithParam<std::int64_t> {};
+
+TEST_P(Crossing, surfaces_are_named) {
+  const Communicator world = Communicator::world();
+  surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1.8, 9);
+  surfaces::append(surface, surfaces::sphere({1.75, 0, 0}, 0.3, 4), surfaces::Turn::inward);
+  VolumeOptions options;
+  options.piece_tets = GetParam();
+  const Ending ending = failure_of(world, surface, fields::uniform(0.3), options);
+  EXPECT_NE(ending.text.find("intersects itself"), std::string::npos) << ending.text;
+  EXPECT_NE(ending.text.find("'face 6'"), std::string::npos) << ending.text;
+  ASSERT_FALSE(ending.triangles.empty());
+  for (const Vec3& p : ending.points) EXPECT_LT(distance(p, {1.8, 0, 0}), 1.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(in_zones_of, Crossing, testing::Values(100'000, 2'000));
+
+TEST(VolumeFailures, refuse_a_piece_too_large_on_every_rank) {
+  const Communicator world = Communicator::world();
+  VolumeOptions options;
+  options.largest_piece = 1000;
+  std::string said;
+  try {
+    const Filled filled(world, body(), sizes(), options);
+  } catch (const parallel::CollectiveError& error) {
+    said = error.what();
+  }
+  EXPECT_NE(said.find("largest_piece"), std::string::npos) << said;
+  expect_same_everywhere(world, said);
+}
+
+}  // namespace
+}  // namespace aeroloom::volume
