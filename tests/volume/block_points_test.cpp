@@ -174,6 +174,63 @@ TEST_F(LatticePoints, keep_off_the_surface) {
   }
 }
 
+/// Large triangles next to small ones, and corners that look at the blocks around them.
+surfaces::Surface uneven() {
+  const std::array<int, 3> n{10, 10, 10};
+  const auto graded = [](double t) { return 1.5 * std::copysign(std::pow(std::abs(t), 2.5), t); };
+  surfaces::Surface surface = surfaces::voxels(
+      n, [](int, int, int) { return 0; },
+      [&](Vec3 grid) {
+        const Vec3 p = 0.2 * grid - Vec3{1, 1, 1};
+        return Vec3{graded(p.x), graded(p.y), graded(p.z)};
+      });
+  for (int k = 0; k < 27; ++k) {
+    const Vec3 center{0.71 * (k % 3 - 1), 0.67 * (k / 3 % 3 - 1), 0.73 * (k / 9 - 1)};
+    surfaces::append(surface, surfaces::cube(center, 0.08, k % 2 ? 1 : 4), surfaces::Turn::inward);
+  }
+  return surface;
+}
+
+TEST_F(LatticePoints, keep_off_triangles_of_any_size) {
+  for (const double size : {0.1, 0.14}) {
+    const Made made(Communicator::self(), uneven(), fields::uniform(size));
+    const double least = least_clearance(made, made.make());
+    EXPECT_GE(least, 0.75);
+    EXPECT_LT(least, 1.0);
+  }
+}
+
+/// A rank has no other triangles than those within reach of its blocks.
+TEST_F(LatticePoints, need_the_triangles_within_reach_alone) {
+  Made made(Communicator::self(), uneven(), fields::uniform(0.1));
+  const LatticeTree& tree = made.lattice.tree;
+  const TrianglesOfBlocks of_blocks(made.lattice.frame, tree, 0, tree.block_count(), made.around.triangles);
+  for (const std::uint8_t farther : {0, 2}) {
+    for (BlockChange& change : made.lattice.changes) change.farther = farther;
+    const BlockPoints whole = made.make();
+    std::size_t fewest = made.around.triangles.size();
+    for (BlockIndex first = 0; first < tree.block_count(); first += 23) {
+      const BlockIndex last = std::min(tree.block_count(), first + 23);
+      std::set<std::int32_t> known;
+      for (BlockIndex b = first; b < last; ++b) {
+        const double reach = reach_of_block(made.source(), b);
+        tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach), [&](BlockIndex n) {
+          known.insert(of_blocks.of(n).begin(), of_blocks.of(n).end());
+        });
+      }
+      std::vector<SurfaceTriangle> triangles;
+      for (const std::int32_t t : known) triangles.push_back(made.around.triangles[t]);
+      fewest = std::min(fewest, triangles.size());
+      const BlockPoints part = make_points(made.source(), first, last, NearSurface(triangles));
+      const auto from = static_cast<std::ptrdiff_t>(whole.starts[first]);
+      ASSERT_EQ(static_cast<std::int64_t>(part.points.size()), whole.starts[last] - whole.starts[first]);
+      EXPECT_TRUE(std::equal(part.points.begin(), part.points.end(), whole.points.begin() + from));
+      EXPECT_TRUE(std::equal(part.regions.begin(), part.regions.end(), whole.regions.begin() + from));
+    }
+    EXPECT_LT(fewest, made.around.triangles.size() / 10);
+  }
+}
+
 TEST_F(LatticePoints, keep_farther_off_where_a_retry_wants_it) {
   Made made(Communicator::self());
   const BlockPoints before = made.make();

@@ -48,15 +48,21 @@ TEST(LatticeFrame, leads_to_the_grid_and_back) {
 
 TEST(LatticeFrame, has_a_root_around_the_box) {
   Random random;
-  const auto field = fields::uniform(0.3);
-  for (const Box& box :
-       {fields::domain, Box{{-1e-3, 0, 0}, {1e-3, 2e-3, 1e-3}}, Box{{3, 4, 5}, {30, 5, 6}}}) {
-    const LatticeFrame frame(field, box);
-    for (int i = 0; i < 1000; ++i) {
-      const Vec3 g = frame.to_grid(random.in(box));
-      for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_GT(g[axis], 0);
-        EXPECT_LT(g[axis], root_size);
+  for (const double size : {0.2, 0.23, 0.26, 0.3, 0.34, 0.38}) {
+    const auto field = fields::uniform(size);
+    for (const Box& box :
+         {fields::domain, Box{{-1e-3, 0, 0}, {1e-3, 2e-3, 1e-3}}, Box{{3, 4, 5}, {30, 5, 6}}}) {
+      const LatticeFrame frame(field, box);
+      for (int i = 0; i < 100; ++i) {
+        Vec3 p = random.in(box);
+        if (i < 8)
+          p = {i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+               i & 4 ? box.high.z : box.low.z};
+        const Vec3 g = frame.to_grid(p);
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_GT(g[axis], 0);
+          EXPECT_LT(g[axis], root_size);
+        }
       }
     }
   }
@@ -139,10 +145,14 @@ sizing::SizeField graded() {
 }
 
 /// A field so steep that the size at a cell's centre tells little of that in its corners.
-const std::vector<sizing::SizeSource> few_sources{
-    {{0.31, -0.77, 1.2}, 0.01}, {{-1.6, 1.4, 0.2}, 0.02}, {{1.9, 1.9, -1.9}, 0.015}};
+std::vector<sizing::SizeSource> few_sources() {
+  Random random;
+  std::vector<sizing::SizeSource> sources;
+  for (int i = 0; i < 60; ++i) sources.push_back({random.in(fields::domain), random.between(0.01, 0.02)});
+  return sources;
+}
 sizing::SizeField steep() {
-  return sizing::SizeField::build(fields::domain, few_sources, {0.01, 1.0, 12, 2.5});
+  return sizing::SizeField::build(fields::domain, few_sources(), {0.01, 1.0, 12, 2.5});
 }
 
 struct Grown {
@@ -246,15 +256,17 @@ TEST(LatticeTree, is_no_finer_than_the_sizes_off_the_box) {
 
 TEST(LatticeTree, misses_no_small_size_in_a_steep_field) {
   const Grown grown(steep());
-  for (const sizing::SizeSource& source : few_sources) {
+  int fine = 0;
+  for (const sizing::SizeSource& source : few_sources()) {
     const sizing::GridPoint p = grown.frame.cell_at(grown.frame.to_grid(source.point));
     const BlockIndex b = grown.tree.block_at(p);
     for (int level = grown.tree.leaf_level(b); level < sizing::finest_level; ++level) {
       const std::uint32_t mask = ~((sizing::grid_size >> level) - 1);
       EXPECT_FALSE(grown.is_too_coarse({{p.x & mask, p.y & mask, p.z & mask}, level}));
     }
-    EXPECT_LT(mean_edge_of_cell * grown.frame.edge(grown.tree.leaf_level(b)), 2.5 * source.size);
+    fine += mean_edge_of_cell * grown.frame.edge(grown.tree.leaf_level(b)) < 2.5 * source.size;
   }
+  EXPECT_GT(fine, 40);
 }
 
 TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {

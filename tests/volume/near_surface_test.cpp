@@ -3,6 +3,7 @@
 
 #include "tests/volume/surfaces.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -183,6 +184,42 @@ TEST(RegionAt, is_right_at_tips_and_dents) {
           continue;  // at the facets
         EXPECT_EQ(region_at(near, p), below > 0 && r < below ? within : around);
       }
+    }
+  }
+}
+
+/// Sheets that meet in one edge like the pages of a book, a region between each two: what lies behind the
+/// first one that is met does not count.
+TEST(RegionAt, is_right_between_the_pages_of_a_book) {
+  for (int book = 0; book < 200; ++book) {
+    const int pages = 2 + book % 6;
+    const double spread = book % 2 ? 2 * std::numbers::pi : 1;  // open, or nearly shut
+    std::vector<double> angles;
+    for (int k = 0; k < pages; ++k) angles.push_back(between(0, spread));
+    std::sort(angles.begin(), angles.end());
+    std::vector<SurfaceTriangle> triangles;
+    for (int k = 0; k < pages; ++k) {
+      const Vec3 to{std::cos(angles[k]), std::sin(angles[k]), 0};
+      // From page k on lies region k; seen from there the triangle turns counter-clockwise.
+      SurfaceTriangle low{}, high{};
+      low.vertices = {0, 1, 2 + 2 * k};
+      low.points = {Vec3{0, 0, 0}, Vec3{0, 0, 1}, to};
+      high.vertices = {1, 3 + 2 * k, 2 + 2 * k};
+      high.points = {Vec3{0, 0, 1}, to + Vec3{0, 0, 1}, to};
+      for (SurfaceTriangle t : {low, high}) {
+        t.number = static_cast<mesh::GlobalIndex>(triangles.size());
+        t.front = (k + pages - 1) % pages;
+        t.back = k;
+        triangles.push_back(t);
+      }
+    }
+    std::shuffle(triangles.begin(), triangles.end(), engine);
+    const NearSurface near(triangles);
+    for (int i = 0; i < 100; ++i) {
+      const double angle = between(0, 2 * std::numbers::pi), r = 0.2 * between(0.01, 1);
+      const auto above = std::upper_bound(angles.begin(), angles.end(), angle) - angles.begin();
+      EXPECT_EQ(region_at(near, {r * std::cos(angle), r * std::sin(angle), between(0.25, 0.75)}),
+                static_cast<RegionId>((above + pages - 1) % pages));
     }
   }
 }

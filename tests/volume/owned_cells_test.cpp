@@ -306,6 +306,97 @@ TEST(SelectOwned, leaves_out_what_lies_outside) {
   EXPECT_LT(owned.cells.size(), mesh.cells.size());
 }
 
+/// Where bodies touch in an edge or point, zones may meet there without a common face.
+TEST(SelectOwned, tells_the_points_of_the_surface_that_zones_have_in_common) {
+  const std::array<int, 3> n{4, 4, 4};
+  const auto touch_in_an_edge = [](int i, int j, int) { return (i < 2) == (j < 2) ? 0 : no_region; };
+  const auto touch_in_a_point = [](int i, int j, int k) {
+    return (i < 2) == (j < 2) && (j < 2) == (k < 2) ? 0 : no_region;
+  };
+  int without_face = 0;
+  for (const bool in_an_edge : {true, false}) {
+    const surfaces::Surface surface = surfaces::voxels(
+        n,
+        [&](int i, int j, int k) {
+          return in_an_edge ? touch_in_an_edge(i, j, k) : touch_in_a_point(i, j, k);
+        },
+        surfaces::onto({-1, -1, -1}, {1, 1, 1}, n));
+    const ZoneProblem problem = make_problem(surface, 0, 0, [](Vec3) { return no_region; });
+    const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+    for (const bool reversed : {false, true}) {
+      const auto zone_of = [&](Vec3 p) { return (p.x < -0.1) == reversed ? 1 : 0; };
+      std::map<LocalIndex, std::set<int>> users;
+      std::map<int, std::set<LocalIndex>> told, on_faces;
+      for (const int zone : {0, 1}) {
+        const ZoneProblem mine = seen_from(problem, zone, zone_of);
+        const OwnedCells owned = select_owned(mine, mesh, mine.points);
+        for (const LocalCell& cell : owned.cells) {
+          for (const LocalIndex v : cell) users[v].insert(zone);
+        }
+        for (const Crossing& crossing : owned.crossings) {
+          const LocalTriangle face = face_of(owned.cells[crossing.cell], crossing.face);
+          on_faces[zone].insert(face.begin(), face.end());
+        }
+        EXPECT_TRUE(std::is_sorted(owned.touched.begin(), owned.touched.end()));
+        told[zone].insert(owned.touched.begin(), owned.touched.end());
+        told[zone].insert(on_faces[zone].begin(), on_faces[zone].end());
+      }
+      for (const auto& [v, zones] : users) {
+        if (zones.size() < 2) continue;
+        for (const int zone : zones) {
+          EXPECT_TRUE(told[zone].count(v));
+          without_face += on_faces[zone].count(v) == 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(without_face, 0);
+}
+
+/// A lattice point of another zone may be reached through triangles that are not known here.
+TEST(SelectOwned, believes_lattice_points_of_the_zone_alone) {
+  ZoneProblem problem;
+  problem.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {3, 3, 4}, {3, 4, 3}, {4, 3, 3}};
+  using enum Owner;
+  problem.owners = {mine, mine, mine, higher, mine, higher, higher, higher};
+  problem.regions = {1, 0, 1, 1, 1};  // of the last five
+  TetgenMesh mesh;
+  mesh.cells = {{0, 1, 2, 3}, {0, 2, 1, 4}, {3, 5, 6, 7}};
+  mesh.neighbours = {{2, 2, 2, 1}, {2, 2, 2, 0}, {-1, -1, -1, -1}};
+  const OwnedCells owned = select_owned(problem, mesh, problem.points);
+  EXPECT_EQ(owned.regions, (std::vector<RegionId>{0, 0}));
+}
+
+/// Where a zone's knowledge ends, both sides of the surface are connected.
+TEST(SelectOwned, tells_regions_beside_an_open_rim) {
+  const std::array<int, 3> n{12, 12, 2};
+  const surfaces::Surface surface = surfaces::voxels(
+      n, [](int, int, int k) { return k; }, surfaces::onto({-1, -1, 0}, {1, 1, 0.04}, n));
+  ZoneProblem problem = make_problem(surface, 0, 0, [](Vec3) { return no_region; });
+  for (std::size_t t = problem.triangles.size(); t-- > 0;) {
+    const auto& v = problem.triangles[t];
+    if (std::all_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.points[w].x < 0.4; })) continue;
+    const auto at = static_cast<std::ptrdiff_t>(t);
+    problem.triangles.erase(problem.triangles.begin() + at);
+    problem.front.erase(problem.front.begin() + at);
+    problem.back.erase(problem.back.begin() + at);
+  }
+  problem = seen_from(std::move(problem), 0, [](Vec3 p) { return p.x < 0.2 ? 0 : 1; });
+  const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
+  const OwnedCells owned = select_owned(problem, mesh, problem.points);
+  std::array<double, 2> volume{};
+  for (std::size_t c = 0; c < owned.cells.size(); ++c) {
+    double z = 0;
+    for (const LocalIndex v : owned.cells[c]) z += 0.25 * problem.points[v].z;
+    EXPECT_EQ(owned.regions[c], z < 0.02 ? 0 : 1);
+    volume[owned.regions[c]] += volume_of(owned.cells[c], problem.points);
+  }
+  for (const double v : volume) {
+    EXPECT_GT(v, 0.02 * 2 * 1.1);
+    EXPECT_LT(v, 0.02 * 2 * 1.4);
+  }
+}
+
 // --- what is refused
 
 std::string refusal(const ZoneProblem& problem, const TetgenMesh& mesh, const std::vector<Vec3>& points) {

@@ -91,6 +91,18 @@ TEST(SurfaceCheck, describes_ten_triangles_and_counts_the_rest) {
   EXPECT_NE(text.find("edges 1 to 1.41"), std::string::npos) << text;
 }
 
+TEST(SurfaceCheck, finds_triangles_that_meet_beside_a_common_point) {
+  // The edge of one pierces the other.
+  surfaces::Surface surface;
+  surface.points = {{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {1.2, 0.1, 1}};
+  surface.triangles = {{0, 1, 2}, {0, 3, 4}};
+  EXPECT_EQ(intersections(surface).triangles, (std::vector<std::int32_t>{0, 1}));
+  std::swap(surface.triangles[0], surface.triangles[1]);
+  EXPECT_EQ(intersections(surface).triangles, (std::vector<std::int32_t>{0, 1}));
+  for (geometry::Vec3& p : surface.points) p.z += p.z < 0 ? 1.5 : 0;
+  EXPECT_TRUE(intersections(surface).triangles.empty());
+}
+
 TEST(SurfaceCheck, finds_a_fold) {
   surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1, 4);
   for (auto& p : surface.points) {

@@ -84,7 +84,24 @@ TEST(FillZone, makes_the_same_cells_anywhere_and_of_any_scale) {
     for (Vec3& p : problem.points) p = scale * p + by;
     return problem;
   };
-  const ZoneProblem problem = coarse(cube_problem());
+  ZoneProblem problem = coarse(cube_problem());
+  // Cubes of eight points on a sphere: any rounding would decide how they are cut.
+  const auto is_near = [](Vec3 p) {
+    for (const double x : {-0.5, 0.0, 0.5}) {
+      for (const double y : {-0.5, 0.0, 0.5}) {
+        if (distance(p, {x, y, 0.25}) < 0.15) return true;
+      }
+    }
+    return false;
+  };
+  std::erase_if(problem.points, is_near);
+  for (int k = 0; k < 72; ++k) {
+    const Vec3 center{0.5 * (k / 8 % 3 - 1), 0.5 * (k / 24 - 1), 0.25};
+    problem.points.push_back(center +
+                             0.0625 * Vec3{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0});
+  }
+  problem.owners.assign(problem.points.size(), Owner::mine);
+  problem.regions.assign(problem.points.size() - surfaces::cube({0, 0, 0}, 1, 5).points.size(), 0);
   const auto expected = cells_of(problem);
   EXPECT_EQ(cells_of(moved(problem, 0x1p-30, {0, 0, 0})), expected);
   EXPECT_EQ(cells_of(moved(problem, 0x1p40, {0, 0, 0})), expected);

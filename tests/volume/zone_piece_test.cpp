@@ -159,6 +159,7 @@ TEST_F(ZonePieces, share_the_vertices_on_faces_to_other_zones_and_between_region
         expected.insert(zone.token(static_cast<LocalIndex>(v)));
     }
     for (const LocalIndex v : zone.filling.owned.touched) expected.insert(zone.token(v));
+    for (const LocalIndex v : zone.filling.owned.touched) expected.insert(zone.token(v));
     std::set<SharedToken> found;
     for (const mesh::Piece& piece : zone.result.pieces) {
       std::map<std::array<double, 3>, SharedToken> tokens;
@@ -217,14 +218,17 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   ZoneContent content;
   content.zone = 5;
   content.problem.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-  content.problem.regions.assign(4, 2);
+  content.problem.regions.assign(3, 2);
+  content.dimension = {2};
+  content.entity = {7};
   content.problem.owners.assign(4, Owner::mine);
-  content.tokens = {100, 101, 102, 103};
+  content.tokens = {0, 101, 102, 103};
   ZoneFilling filling;
   filling.added = {{0.2, 0.2, 1}};
   filling.owned.cells = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   filling.owned.regions = {2, 2};
   filling.owned.crossings = {{0, 0}, {1, 0}};
+  filling.owned.touched = {0};
   const auto field = fields::uniform(0.5);
   parallel::StageClock clock;
   const LatticeFrame frame(field, fields::domain);
@@ -238,8 +242,10 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   EXPECT_EQ(piece.vertex_count(), 5);
   EXPECT_EQ(piece.point(4), filling.added[0]);
   EXPECT_EQ(piece.vertex_dimension[4], 3);
-  EXPECT_EQ(piece.shared_tokens,
-            (std::vector<SharedToken>{101, 102, 103}));  // the added one is nobody else's
+  EXPECT_EQ(piece.vertex_dimension[0], 2);
+  EXPECT_EQ(piece.vertex_entity[0], 7);
+  // The first is touched by others, three are on faces to them; the added one is nobody else's.
+  EXPECT_EQ(piece.shared_tokens, (std::vector<SharedToken>{0, 101, 102, 103}));
   ASSERT_EQ(result.faces.size(), 2u);
   EXPECT_EQ(result.faces[0].leaves[2], -1);
   EXPECT_GT(result.faces[0].vertices[2], SharedToken{1} << 60);

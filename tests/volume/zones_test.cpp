@@ -153,6 +153,9 @@ TEST(Zones, give_leaves_away) {
   EXPECT_FALSE(zones.is_whole(1));
   EXPECT_TRUE(zones.is_whole(2));
   EXPECT_TRUE(zones.is_whole(3));
+  zones.give(3, 0, 0);
+  EXPECT_TRUE(zones.is_whole(2));
+  EXPECT_FALSE(zones.is_whole(3));
 }
 
 TEST(Zones, merge_blocks_and_given_leaves) {
