@@ -1,11 +1,8 @@
 #include "volume/block_regions.hpp"
 
-#include "parallel/collective_error.hpp"
-
 #include <algorithm>
 #include <numeric>
-
-#include <fmt/format.h>
+#include <tuple>
 
 namespace aeroloom::volume {
 
@@ -57,23 +54,56 @@ void for_each_face(const LatticeTree& tree, const Visit& visit) {
   }
 }
 
-/// What was seen of a set of blocks at one place or several.
+/// What was seen of a set of blocks, from how many places, and the first of them.
 struct Witness {
   BlockIndex set;
   RegionId region;
-  friend auto operator<=>(const Witness&, const Witness&) = default;
+  std::int64_t contact;
+  std::int64_t places;
+  mesh::GlobalIndex triangle;
+  Vec3 place;
+
+  bool is_as(const Witness& other) const { return set == other.set && region == other.region; }
+  friend bool operator<(const Witness& a, const Witness& b) {
+    return std::tie(a.set, a.region, a.contact) < std::tie(b.set, b.region, b.contact);
+  }
 };
+
+/// One per set and region.
+std::vector<Witness> unite(std::vector<Witness> all) {
+  std::sort(all.begin(), all.end());
+  std::vector<Witness> united;
+  for (const Witness& seen : all) {
+    if (!united.empty() && united.back().is_as(seen))
+      united.back().places += seen.places;
+    else
+      united.push_back(seen);
+  }
+  return united;
+}
+
+/// The witnesses of the lowest set that is seen in several regions: what fewest places and what most say.
+std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witnesses) {
+  const auto first = std::adjacent_find(witnesses.begin(), witnesses.end(),
+                                        [](const Witness& a, const Witness& b) { return a.set == b.set; });
+  if (first == witnesses.end()) return std::nullopt;
+  const auto last =
+      std::find_if(first, witnesses.end(), [&](const Witness& w) { return w.set != first->set; });
+  const auto [fewest, most] = std::minmax_element(
+      first, last, [](const Witness& a, const Witness& b) { return a.places < b.places; });
+  return Contradiction{fewest->place, fewest->triangle, fewest->region, most->region};
+}
 
 }  // namespace
 
-std::vector<RegionId> find_block_regions(const parallel::Communicator& communicator,
-                                         const LatticeFrame& frame, const LatticeTree& tree,
-                                         const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                         const NearSurface& surface, parallel::StageClock& clock) {
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
+                                const LatticeTree& tree, const SurfaceTable& table,
+                                std::span<const BlockIndex> shares,
+                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
+                                parallel::StageClock& clock) {
   const BlockIndex count = tree.block_count();
   BlockSets sets(count);
   std::vector<Contact> contacts;
-  std::vector<Witness> mine;
   {
     const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
     for_each_face(tree, [&](BlockIndex b, BlockIndex n, Vec3 place) {
@@ -83,38 +113,29 @@ std::vector<RegionId> find_block_regions(const parallel::Communicator& communica
         contacts.push_back(table.is_met(n) ? Contact{b, n, place} : Contact{n, b, place});
     });
   }
+  std::vector<Witness> mine;
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
-    for (const Contact& contact : contacts) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Contact& contact = contacts[i];
       if (contact.met < first || contact.met >= last) continue;
       const Vec3 p = frame.to_space(contact.place);
-      const auto region = surface.region_at(p, surface.distance().nearest(p));
-      if (region) mine.push_back({sets.root(contact.free), *region});
+      const BoundaryDistance::Nearest nearest = surface.distance().nearest(p);
+      if (const auto region = surface.region_at(p, nearest))
+        mine.push_back({sets.root(contact.free), *region, static_cast<std::int64_t>(i), 1,
+                        triangles[nearest.triangle].number, p});
     }
-    std::sort(mine.begin(), mine.end());
-    mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+    mine = unite(std::move(mine));
   }
+  const std::vector<Witness> witnesses = unite(communicator.all_gather_items<Witness>(mine));
+  BlockRegions found{std::vector<RegionId>(count, mesh::no_region), find_contradiction(witnesses)};
   std::vector<RegionId> of_set(count, mesh::no_region);
-  std::vector<std::int8_t> known(count, 0);
-  for (const Witness& seen : communicator.all_gather_items<Witness>(mine)) {
-    if (known[seen.set] && of_set[seen.set] != seen.region) {
-      const Vec3 p = frame.to_space(GridBox::of(tree.cell(seen.set)).low);
-      throw parallel::CollectiveError(
-          parallel::FailureKind::input,
-          fmt::format(
-              "the surface has a gap: the space around ({:.6g}, {:.6g}, {:.6g}) lies in different regions "
-              "seen from different sides. Repair the geometry, or use smaller elements there",
-              p.x, p.y, p.z));
-    }
-    of_set[seen.set] = seen.region;
-    known[seen.set] = 1;
-  }
-  std::vector<RegionId> regions(count, mesh::no_region);
+  for (const Witness& seen : witnesses) of_set[seen.set] = seen.region;
   for (BlockIndex b = 0; b < count; ++b) {
-    if (!table.is_met(b)) regions[b] = of_set[sets.root(b)];
+    if (!table.is_met(b)) found.of_block[b] = of_set[sets.root(b)];
   }
-  return regions;
+  return found;
 }
 
 }  // namespace aeroloom::volume

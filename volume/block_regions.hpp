@@ -7,18 +7,33 @@
 #include "volume/near_surface.hpp"
 #include "volume/surface_share.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace aeroloom::volume {
 
-/// Per block: its region, mesh::no_region outside of all, and also where the surface meets it (there each
-/// point is asked for itself). Blocks that share a face are of one region; for each such set one place where
-/// it touches a block that the surface meets is looked at, by the rank that has that block. The same on every
-/// rank. Collective. Throws CollectiveError when the surface has a gap.
-std::vector<mesh::RegionId> find_block_regions(const parallel::Communicator& communicator,
-                                               const LatticeFrame& frame, const LatticeTree& tree,
-                                               const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                               const NearSurface& surface, parallel::StageClock& clock);
+/// Blocks that the surface does not separate and that are seen in different regions: the surface is not
+/// closed, or intersects itself. The place is one of those that fewest places agree with.
+struct Contradiction {
+  geometry::Vec3 place;
+  mesh::GlobalIndex triangle = 0;  ///< of the surface mesh, nearest to the place
+  mesh::RegionId seen = mesh::no_region, elsewhere = mesh::no_region;
+};
+
+struct BlockRegions {
+  /// Per block: mesh::no_region outside of all, and also where the surface meets it (there each point is
+  /// asked for itself).
+  std::vector<mesh::RegionId> of_block;
+  std::optional<Contradiction> contradiction;  ///< when there is one, the regions are not to be used
+};
+
+/// Blocks that share a face are of one region; all places where such a set touches a block that the surface
+/// meets are looked at, each by the rank that has that block. The same on every rank. Collective.
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
+                                const LatticeTree& tree, const SurfaceTable& table,
+                                std::span<const BlockIndex> shares,
+                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
+                                parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

@@ -1,5 +1,6 @@
 #include "parallel/collective_error.hpp"
 #include "volume/decomposition_parts.hpp"
+#include "volume/failure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -112,8 +113,11 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
                                               parts->frame->grid_box(box), clock);
   parts->report.blocks = parts->tree->block_count();
   share_surface(communicator, input, *parts, clock);
-  parts->regions = find_block_regions(communicator, *parts->frame, *parts->tree, parts->table, parts->shares,
-                                      *parts->surface, clock);
+  BlockRegions regions = find_block_regions(communicator, *parts->frame, *parts->tree, parts->table,
+                                            parts->shares, parts->triangles, *parts->surface, clock);
+  if (regions.contradiction)
+    refuse_surface(communicator, *regions.contradiction, parts->triangles, *parts->surface, input.surface);
+  parts->regions = std::move(regions.of_block);
   make_all_points(communicator, input, *parts, clock);
   divide(input, *parts, clock);
   plan_all(communicator, input, *parts, clock);

@@ -1,6 +1,7 @@
 #include "volume/failure.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -24,10 +25,7 @@ std::vector<std::int32_t> own_triangles(const ZoneProblem& problem) {
   return own;
 }
 
-std::string name_faces(const ZoneContent& content, const std::vector<std::int32_t>& triangles,
-                       const mesh::DistributedMesh& surface) {
-  std::vector<std::int32_t> faces;
-  for (const std::int32_t t : triangles) faces.push_back(content.face[t]);
+std::string name_faces(std::vector<std::int32_t> faces, const mesh::DistributedMesh& surface) {
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   std::string text = faces.empty() ? "" : "; CAD faces:";
@@ -35,6 +33,31 @@ std::string name_faces(const ZoneContent& content, const std::vector<std::int32_
     text += " '" + surface.faces[faces[i]] + "'";
   if (faces.size() > most_names) text += fmt::format(" and {} more", faces.size() - most_names);
   return text;
+}
+
+/// Triangles that share no vertices, all of them or those that are chosen.
+struct Soup {
+  std::vector<Vec3> points;
+  std::vector<LocalTriangle> triangles;
+
+  void add(const std::array<Vec3, 3>& corners) {
+    const auto v = static_cast<mesh::LocalIndex>(points.size());
+    triangles.push_back({v, v + 1, v + 2});
+    points.insert(points.end(), corners.begin(), corners.end());
+  }
+};
+
+/// By number, each once, on every rank.
+std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
+                                    std::span<const SurfaceTriangle> mine) {
+  std::vector<SurfaceTriangle> all = communicator.all_gather_items<SurfaceTriangle>(mine);
+  std::sort(all.begin(), all.end(),
+            [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
+  all.erase(
+      std::unique(all.begin(), all.end(),
+                  [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; }),
+      all.end());
+  return all;
 }
 
 }  // namespace
@@ -65,7 +88,9 @@ void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& sur
                             "\nUse smaller elements there, so that surfaces close to each other are "
                             "resolved, or repair the geometry"
                       : reason;
-  item.message += name_faces(content, triangles, surface);
+  std::vector<std::int32_t> faces;
+  for (const std::int32_t t : triangles) faces.push_back(content.face[t]);
+  item.message += name_faces(std::move(faces), surface);
   if (triangles.empty()) {
     triangles.resize(problem.triangles.size());
     std::iota(triangles.begin(), triangles.end(), 0);
@@ -131,6 +156,45 @@ void Evidence::give_up(const parallel::Communicator& communicator, ZoneIndex zon
   }
   text += "\nUse other sizes there, or another piece size (volume.piece_tets)";
   raise(lowest(communicator, mine), text);
+}
+
+void refuse_surface(const parallel::Communicator& communicator, const Contradiction& contradiction,
+                    std::span<const SurfaceTriangle> triangles, const NearSurface& near,
+                    const mesh::DistributedMesh& surface) {
+  std::vector<SurfaceTriangle> mine;
+  if (!near.empty()) {
+    const SurfaceDefect defect = find_intersections({near.points(), near.triangles()}, near.distance());
+    for (const std::int32_t t : defect.triangles) mine.push_back(triangles[t]);
+  }
+  std::vector<SurfaceTriangle> culprits = gather(communicator, mine);
+  const bool intersects = !culprits.empty();
+  if (!intersects) {
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(mine),
+                 [&](const SurfaceTriangle& t) { return t.number == contradiction.triangle; });
+    culprits = gather(communicator, mine);
+  }
+  Soup soup;
+  std::vector<std::int32_t> all, faces;
+  for (const SurfaceTriangle& t : culprits) {
+    all.push_back(static_cast<std::int32_t>(all.size()));
+    faces.push_back(t.face);
+    soup.add(t.points);
+  }
+  const auto name_region = [&](mesh::RegionId region) {
+    if (region == mesh::no_region) return std::string("outside");
+    return surface.regions.empty() ? std::string("inside") : "in region '" + surface.regions[region] + "'";
+  };
+  const Vec3 p = contradiction.place;
+  throw VolumeFailure(
+      fmt::format(
+          "{}: ({:.6g}, {:.6g}, {:.6g}) is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
+          intersects ? "the surface intersects itself" : "the surface has a gap", p.x, p.y, p.z,
+          name_region(contradiction.seen), name_region(contradiction.elsewhere),
+          describe_triangles({soup.points, soup.triangles}, all),
+          "Use smaller elements there, so that surfaces close to each other are resolved, or repair the "
+          "geometry",
+          name_faces(std::move(faces), surface)),
+      soup.points, soup.triangles);
 }
 
 }  // namespace aeroloom::volume

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/communicator.hpp"
+#include "volume/block_regions.hpp"
 #include "volume/surface_check.hpp"
 #include "volume/volume_mesher.hpp"
 #include "volume/zone_supply.hpp"
@@ -41,5 +42,12 @@ private:
 
   std::vector<Item> _items;
 };
+
+/// Throws VolumeFailure: names the triangles that intersect each other, where there are such, or else the
+/// gap. Each rank gives the triangles near its blocks, in both forms. Collective.
+[[noreturn]] void refuse_surface(const parallel::Communicator& communicator,
+                                 const Contradiction& contradiction,
+                                 std::span<const SurfaceTriangle> triangles, const NearSurface& near,
+                                 const mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::volume

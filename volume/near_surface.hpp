@@ -21,6 +21,9 @@ public:
   NearSurface& operator=(const NearSurface&) = delete;
 
   bool empty() const { return _triangles.empty(); }
+  std::span<const geometry::Vec3> points() const { return _points; }
+  /// In the order they were given.
+  std::span<const BoundaryDistance::Triangle> triangles() const { return _triangles; }
   /// Queries of distance; not to be used when empty.
   const BoundaryDistance& distance() const { return *_distance; }
 

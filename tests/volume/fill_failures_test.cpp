@@ -217,7 +217,26 @@ TEST_P(Crossing, voids_through_a_wall_are_named) {
   expect_named(surface, places, {"face 6", "face 7", "face 8"}, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(in_zones_of, Crossing, testing::Values(100'000, 2'000));
+INSTANTIATE_TEST_SUITE_P(in_zones_of, Crossing, testing::Values(100'000, 2'000, 1'000));
+
+TEST(VolumeFailures, name_the_faces_beside_a_gap) {
+  surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1.8, 9);
+  const auto is_in_gap = [&](std::size_t t) {
+    return std::all_of(surface.triangles[t].begin(), surface.triangles[t].end(), [&](auto v) {
+      const Vec3 p = surface.points[v];
+      return p.z == 1.8 && std::max(std::abs(p.x), std::abs(p.y)) < 1.2;
+    });
+  };
+  for (std::size_t t = surface.triangles.size(); t-- > 0;) {
+    if (!is_in_gap(t)) continue;
+    surface.triangles.erase(surface.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+    surface.face.erase(surface.face.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+  const Ending ending = failure_of(Communicator::world(), surface, fields::uniform(0.3), {});
+  for (const char* part : {"the surface has a gap", "outside seen from", "'face ", "repair the geometry"})
+    EXPECT_NE(ending.text.find(part), std::string::npos) << part << " in: " << ending.text;
+  EXPECT_EQ(ending.triangles.size(), 1U);
+}
 
 TEST(VolumeFailures, refuse_a_piece_too_large_on_every_rank) {
   const Communicator world = Communicator::world();

@@ -82,8 +82,9 @@ struct Surroundings {
   Surroundings(const Problem& problem, Lattice& lattice)
       : triangles(deliver(problem, lattice)),
         surface(triangles),
-        regions(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table,
-                                   lattice.shares, surface, lattice.clock)) {}
+        found(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table,
+                                 lattice.shares, triangles, surface, lattice.clock)),
+        regions(found.of_block) {}
 
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
     std::vector<double> reach;
@@ -95,7 +96,8 @@ struct Surroundings {
 
   std::vector<SurfaceTriangle> triangles;
   NearSurface surface;
-  std::vector<mesh::RegionId> regions;
+  BlockRegions found;
+  std::span<const mesh::RegionId> regions;
 };
 
 /// A leaf of the lattice, for searches by brute force.
