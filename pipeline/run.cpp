@@ -217,12 +217,10 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
                                    volume::Decomposition decomposition, const Case& input,
                                    RunRecord& record) {
   mesh::DistributedMesh filled = fill_volume(communicator, surface, std::move(decomposition), input, record);
-  inspect_volume(communicator, filled, &surface.mesh, record);
-  record.conformity = measure_conformity(communicator, filled, surface.field);
-  parallel::log_info(fmt::format(
-      "volume: {} tetrahedra, {} vertices; {} round(s), {} retries, {} places where zones disagreed",
-      record.counts.cells, record.counts.vertices, record.volume.rounds, record.volume.retries.size(),
-      record.volume.disagreements.size()));
+  parallel::log_info(
+      fmt::format("volume: {} tetrahedra; {} round(s), {} retries, {} places where zones disagreed",
+                  record.volume.tetrahedra, record.volume.rounds, record.volume.retries.size(),
+                  record.volume.disagreements.size()));
   return filled;
 }
 
@@ -268,6 +266,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
       adopt_boundary(communicator, sized.model, volume, surface, record);
     mesh::Numbering improved = inspect_volume(communicator, volume, &surface.mesh, record);
     measure_volume(communicator, input, volume, improved, record);
+    record.conformity = measure_conformity(communicator, volume, surface.field);
     return improved;
   });
   run_stage(record, "output", ExitCode::files, [&] {

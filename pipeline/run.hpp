@@ -52,7 +52,7 @@ struct RunRecord {
   surface::SurfaceReport surface;
   volume::DecompositionReport decomposition;
   volume::VolumeReport volume;
-  SizeConformity conformity;  ///< before improvement
+  SizeConformity conformity;
   improve::ImproveReport improve;
   improve::PinnedReport pinned;
   mesh::MeshCounts counts;

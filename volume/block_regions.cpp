@@ -117,11 +117,12 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
+    BoundaryDistance::Nearest nearest;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& contact = contacts[i];
       if (contact.met < first || contact.met >= last) continue;
       const Vec3 p = frame.to_space(contact.place);
-      const BoundaryDistance::Nearest nearest = surface.distance().nearest(p);
+      nearest = surface.distance().nearest(p, nearest.triangle);
       if (const auto region = surface.region_at(p, nearest))
         mine.push_back({sets.root(contact.free), *region, static_cast<std::int64_t>(i), 1,
                         triangles[nearest.triangle].number, p});

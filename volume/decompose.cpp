@@ -3,7 +3,6 @@
 #include "volume/failure.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace aeroloom::volume {
@@ -11,9 +10,6 @@ namespace aeroloom::volume {
 using parallel::ScopedCpu;
 
 namespace {
-
-/// A volume of less than this many wanted zones stays whole.
-constexpr double whole_below = 1.5;
 
 /// The box of the surface, the same on every rank.
 geometry::Box box_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface) {
@@ -53,8 +49,7 @@ void divide(const VolumeInput& input, Decomposition::Parts& parts, parallel::Sta
   const ScopedCpu repeated(clock, ScopedCpu::As::serial);
   const std::vector<double> loads = block_loads(parts.table, parts.counts);
   parts.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
-  const double zones = parts.report.expected_tetrahedra / static_cast<double>(input.options.piece_tets);
-  const auto count = zones < whole_below ? 1 : static_cast<ZoneIndex>(std::lround(zones));
+  const ZoneIndex count = wanted_zones(parts.report.expected_tetrahedra, input.options.piece_tets);
   parts.zones = std::make_unique<Zones>(bisect(*parts.tree, loads, count));
   parts.expected.assign(count, 0);
   for (BlockIndex b = 0; b < parts.tree->block_count(); ++b)

@@ -69,8 +69,8 @@ private:
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
     for (const std::vector<ZoneWant>& wants : plan.wants) {
       std::vector<ZoneContent> contents =
-          supply_zones(_communicator, {_parts.points, _parts.triangles, *_parts.of_blocks}, *_parts.frame,
-                       *_parts.tree, _finder, _parts.shares, wants, _clock);
+          supply_zones(_communicator, _parts.tables(), {_parts.points, _parts.triangles, *_parts.of_blocks},
+                       _finder, _parts.shares, plan.widths, wants, _clock);
       parallel::agree(_communicator, [&] {
         for (ZoneContent& content : contents) {
           fill_one(content);
@@ -350,6 +350,7 @@ private:
     std::vector<Row> rows;
     for (const auto& [zone, result] : _results) {
       for (const mesh::Piece& piece : result.pieces) rows.push_back({zone, piece.region});
+      _report.tetrahedra += result.tetrahedra;
       _report.steiner_points += result.steiner_points;
     }
     rows = _communicator.all_gather_items<Row>(rows);
@@ -370,6 +371,7 @@ private:
     mesh.faces = _input.surface.faces;
     mesh.regions = _input.surface.regions;
     mesh.sides = _input.surface.sides;
+    _report.tetrahedra = _communicator.sum(_report.tetrahedra);
     _report.steiner_points = _communicator.sum(_report.steiner_points);
     return mesh;
   }

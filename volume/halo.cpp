@@ -39,16 +39,6 @@ BlocksOfZones list_blocks(const LatticeTree& tree, const Zones& zones) {
   return result;
 }
 
-HaloTaker::HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-                     const Zones& zones)
-    : _frame(frame),
-      _tree(tree),
-      _table(table),
-      _zones(zones),
-      _leaves(tree.block_count(), 0),
-      _seen(tree.block_count(), 0),
-      _sizes(tree.block_count(), 0) {}
-
 double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
                            BlockIndex b) {
   double size = 0;
@@ -59,88 +49,84 @@ double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, c
   return size;
 }
 
-void NearBoxes::build() {
-  std::size_t nodes = 1;
-  while (nodes < 2 * _boxes.size()) nodes *= 2;
-  _nodes.assign(nodes, {});
-  if (!_boxes.empty()) build(0, 0, _boxes.size());
+ZoneSurroundings::ZoneSurroundings(const LatticeFrame& frame, const LatticeTree& tree,
+                                   const SurfaceTable& table, const Zones& zones)
+    : _frame(frame), _tree(tree), _table(table), _zones(zones), _sizes(tree.block_count(), 0) {}
+
+bool ZoneSurroundings::is_beside_others(BlockIndex b) const {
+  return _tree.any_block_in(GridBox::of(_tree.cell(b)).dilated(0.5),
+                            [&](BlockIndex n) { return !is_all_own(n); });
 }
 
-GridBox NearBoxes::build(std::size_t node, std::size_t first, std::size_t last) {
-  if (last - first == 1) return _nodes[node] = _boxes[first];
-  const std::size_t middle = first + (last - first) / 2;
-  const GridBox a = build(2 * node + 1, first, middle), b = build(2 * node + 2, middle, last);
-  return _nodes[node] = {
-             {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-             {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+void ZoneSurroundings::move_to(ZoneIndex zone, std::span<const BlockIndex> own_blocks) {
+  _zone = zone;
+  _border.clear();
+  _boxes.clear();
+  for (const BlockIndex b : own_blocks) {
+    if (!is_beside_others(b)) continue;
+    _border.push_back(b);
+    if (is_all_own(b)) {
+      _boxes.add(GridBox::of(_tree.cell(b)));
+      continue;
+    }
+    for (int child = 0; child < _tree.leaf_count(b); ++child) {
+      if (is_own(b, child)) _boxes.add(GridBox::of(_tree.leaf(b, child)));
+    }
+  }
+  _boxes.build();
 }
 
-bool NearBoxes::any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
-                          double reach) const {
-  if (_nodes[node].gap_to(box) > reach) return false;
-  if (last - first == 1) return true;
-  const std::size_t middle = first + (last - first) / 2;
-  return any_below(2 * node + 1, first, middle, box, reach) ||
-         any_below(2 * node + 2, middle, last, box, reach);
+double ZoneSurroundings::size_around(BlockIndex b) {
+  if (_sizes[b] == 0) _sizes[b] = static_cast<float>(largest_size_around(_frame, _tree, _table, b));
+  return _sizes[b];
 }
 
-/// Queues the blocks next to one. Whether there are any of other zones.
-bool HaloTaker::look_around(BlockIndex b) {
-  bool others = false;
+HaloTaker::HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                     const Zones& zones)
+    : _tree(tree),
+      _surroundings(frame, tree, table, zones),
+      _leaves(tree.block_count(), 0),
+      _seen(tree.block_count(), 0) {}
+
+/// Queues the blocks next to one.
+void HaloTaker::look_around(BlockIndex b) {
   _tree.for_each_block_in(GridBox::of(_tree.cell(b)).dilated(0.5), [&](BlockIndex n) {
-    others = others || !is_all_own(n);
     if (_seen[n]) return;
     _seen[n] = 1;
     _queue.push_back(n);
   });
-  return others;
 }
 
-/// Takes what the zone has itself, and lists what of it is beside others.
-void HaloTaker::list_border(std::span<const BlockIndex> own_blocks) {
-  _border.clear();
+/// Takes what the zone has itself.
+void HaloTaker::take_own(std::span<const BlockIndex> own_blocks) {
   for (const BlockIndex b : own_blocks) {
-    if (is_all_own(b)) {
-      if (!_seen[b]) _queue.push_back(b);
-      _seen[b] = 1;
-      _leaves[b] = _tree.all_leaves(b);
-      if (look_around(b)) _border.add(GridBox::of(_tree.cell(b)));
-      continue;
-    }
     for (int child = 0; child < _tree.leaf_count(b); ++child) {
-      if (!is_own(b, child)) continue;
-      _leaves[b] |= static_cast<std::uint8_t>(1U << child);
-      _border.add(GridBox::of(_tree.leaf(b, child)));
+      if (_surroundings.is_own(b, child)) _leaves[b] |= static_cast<std::uint8_t>(1U << child);
     }
-    look_around(b);
+    _seen[b] = 1;
+    _queue.push_back(b);
   }
-  _border.build();
-}
-
-double HaloTaker::size_around(BlockIndex b) {
-  if (_sizes[b] == 0) _sizes[b] = static_cast<float>(largest_size_around(_frame, _tree, _table, b));
-  return _sizes[b];
+  for (const BlockIndex b : _surroundings.border()) look_around(b);
 }
 
 /// Takes the leaves of a block that are near enough. Looks further where it is nearly so.
 void HaloTaker::judge(BlockIndex b, double width) {
   constexpr double nearly = 1.5;
   const GridBox box = GridBox::of(_tree.cell(b));
-  const double reach = _frame.grid_distance(width * size_around(b));
-  if (!_border.any_within(box, nearly * reach)) return;
+  if (!_surroundings.is_near(box, b, nearly * width)) return;
   look_around(b);
-  if (!_border.any_within(box, reach)) return;
+  if (!_surroundings.is_near(box, b, width)) return;
   for (int child = 0; child < _tree.leaf_count(b); ++child) {
-    if (_border.any_within(GridBox::of(_tree.leaf(b, child)), reach))
+    if (_surroundings.is_near(GridBox::of(_tree.leaf(b, child)), b, width))
       _leaves[b] |= static_cast<std::uint8_t>(1U << child);
   }
 }
 
 std::vector<TakenBlock> HaloTaker::take(ZoneIndex zone, std::span<const BlockIndex> own_blocks,
                                         double width) {
-  _zone = zone;
+  _surroundings.move_to(zone, own_blocks);
   _queue.clear();
-  list_border(own_blocks);
+  take_own(own_blocks);
   for (std::size_t i = 0; i < _queue.size(); ++i) {
     if (_leaves[_queue[i]] != _tree.all_leaves(_queue[i])) judge(_queue[i], width);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "volume/lattice_tree.hpp"
+#include "volume/near_boxes.hpp"
 #include "volume/surface_share.hpp"
 #include "volume/zones.hpp"
 
@@ -35,30 +36,40 @@ BlocksOfZones list_blocks(const LatticeTree& tree, const Zones& zones);
 double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
                            BlockIndex b);
 
-/// A tree over boxes of the grid that tells whether one is near.
-class NearBoxes {
+/// Tells what is near a zone: nearer to its leaves than `width` times the largest size found in the block of
+/// what is asked for or next to it; a size is the mean edge of the lattice or the longest edge of the
+/// surface. A halo in each point's own size would fail where sizes jump.
+class ZoneSurroundings {
 public:
-  void clear() { _boxes.clear(), _nodes.clear(); }
-  /// Boxes that are near each other should follow each other.
-  void add(const GridBox& box) { _boxes.push_back(box); }
-  void build();
-  /// Whether a box is at most `reach` away.
-  bool any_within(const GridBox& box, double reach) const {
-    return !_boxes.empty() && any_below(0, 0, _boxes.size(), box, reach);
+  ZoneSurroundings(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                   const Zones& zones);
+
+  /// Which zone it is from now on.
+  void move_to(ZoneIndex zone, std::span<const BlockIndex> own_blocks);
+  /// Its own blocks that have neighbours of other zones.
+  std::span<const BlockIndex> border() const { return _border; }
+  bool is_own(BlockIndex b, int child) const { return _zones.of(b, child) == _zone; }
+  bool is_all_own(BlockIndex b) const { return _zones.is_whole(b) && is_own(b, 0); }
+  /// Whether a box outside of the zone is near; b is the block it lies in, or its middle.
+  bool is_near(const GridBox& box, BlockIndex b, double width) {
+    return _boxes.any_within(box, _frame.grid_distance(width * size_around(b)));
   }
 
 private:
-  GridBox build(std::size_t node, std::size_t first, std::size_t last);
-  bool any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
-                 double reach) const;
+  double size_around(BlockIndex b);
+  bool is_beside_others(BlockIndex b) const;
 
-  std::vector<GridBox> _boxes;
-  std::vector<GridBox> _nodes;  // children of node n: 2 n + 1, 2 n + 2
+  const LatticeFrame& _frame;
+  const LatticeTree& _tree;
+  const SurfaceTable& _table;
+  const Zones& _zones;
+  ZoneIndex _zone = no_zone;
+  std::vector<BlockIndex> _border;
+  NearBoxes _boxes;           // those of the border
+  std::vector<float> _sizes;  // per block: largest size around, 0 where not asked for yet
 };
 
-/// Takes what zones know: their own leaves, and those nearer to them than `width` times the largest size
-/// found in the leaf's block or next to it; a size is the mean edge of the lattice or the longest edge of the
-/// surface. A halo in each point's own size would fail where sizes jump.
+/// Takes the leaves that zones know something of: their own, and those near them.
 class HaloTaker {
 public:
   HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
@@ -68,23 +79,15 @@ public:
   std::vector<TakenBlock> take(ZoneIndex zone, std::span<const BlockIndex> own_blocks, double width);
 
 private:
-  bool is_own(BlockIndex b, int child) const { return _zones.of(b, child) == _zone; }
-  bool is_all_own(BlockIndex b) const { return _zones.is_whole(b) && is_own(b, 0); }
-  double size_around(BlockIndex b);
-  bool look_around(BlockIndex b);
-  void list_border(std::span<const BlockIndex> own_blocks);
+  void look_around(BlockIndex b);
+  void take_own(std::span<const BlockIndex> own_blocks);
   void judge(BlockIndex b, double width);
 
-  const LatticeFrame& _frame;
   const LatticeTree& _tree;
-  const SurfaceTable& _table;
-  const Zones& _zones;
-  ZoneIndex _zone = no_zone;
+  ZoneSurroundings _surroundings;
   std::vector<std::uint8_t> _leaves;  // per block: those taken
   std::vector<std::uint8_t> _seen;    // per block
-  std::vector<float> _sizes;          // per block: largest size around, 0 where not asked for yet
   std::vector<BlockIndex> _queue;     // blocks that were seen
-  NearBoxes _border;                  // own blocks that have neighbours of other zones
 };
 
 }  // namespace aeroloom::volume

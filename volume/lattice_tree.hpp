@@ -40,6 +40,11 @@ public:
   /// Whether a cell has children.
   bool is_split(const GridCell& cell) const;
 
+  /// The lowest and the highest of the blocks that touch the box: those at its low and its high corner, since
+  /// Morton order ascends along every axis.
+  std::pair<BlockIndex, BlockIndex> range_of(const GridBox& box) const {
+    return {block_at(nearest_cell(box.low)), block_at(nearest_cell(box.high))};
+  }
   /// Calls visit(b) for all blocks that touch the box, ascending.
   template <class Visit>
   void for_each_block_in(const GridBox& box, const Visit& visit) const {
@@ -53,6 +58,13 @@ public:
   bool any_block_in(const GridBox& box, const Holds& holds) const;
 
 private:
+  /// The finest cell that holds a place in the grid; the nearest one for places outside.
+  static sizing::GridPoint nearest_cell(geometry::Vec3 place) {
+    const auto clamp = [](double t) {
+      return static_cast<std::uint32_t>(std::clamp(t, 0.0, sizing::grid_size - 1.0));
+    };
+    return {clamp(place.x), clamp(place.y), clamp(place.z)};
+  }
   template <class Holds>
   bool any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
                  const Holds& holds) const;
@@ -64,11 +76,8 @@ private:
 
 template <class Holds>
 bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds) const {
-  const auto clamp = [](double t) {
-    return static_cast<std::uint32_t>(std::clamp(t, 0.0, sizing::grid_size - 1.0));
-  };
-  const std::uint64_t low = sizing::morton_key({clamp(box.low.x), clamp(box.low.y), clamp(box.low.z)});
-  const std::uint64_t high = sizing::morton_key({clamp(box.high.x), clamp(box.high.y), clamp(box.high.z)});
+  const std::uint64_t low = sizing::morton_key(nearest_cell(box.low));
+  const std::uint64_t high = sizing::morton_key(nearest_cell(box.high));
   // The smallest cell that holds both corners.
   const int differing = low == high ? 0 : 64 - __builtin_clzll(low ^ high);
   const int shift = (differing + 2) / 3 * 3;

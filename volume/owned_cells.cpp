@@ -129,26 +129,29 @@ void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
 /// Points of the surface that cells of other zones may have too: those of other zones in cells that are kept,
 /// and those of the zone itself in cells that a lower zone may keep. Where sheets touch, no face need tell of
 /// it.
-std::vector<LocalIndex> list_touched(const ZoneProblem& problem, const TetgenMesh& mesh,
-                                     const std::vector<Owner>& owners,
-                                     const std::vector<std::int32_t>& kept) {
-  std::vector<std::uint8_t> touched(problem.surface_points(), 0);
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-    const LocalCell& cell = mesh.cells[i];
-    const bool lower =
-        std::any_of(cell.begin(), cell.end(), [&](LocalIndex v) { return owners[v] == Owner::lower; });
-    if (kept[i] < 0 && !lower) continue;
+class TouchedPoints {
+public:
+  TouchedPoints(std::size_t surface_points, const std::vector<Owner>& owners)
+      : _owners(owners), _touched(surface_points, 0) {}
+
+  void add(const LocalCell& cell, bool is_kept) {
     for (const LocalIndex v : cell) {
-      if (static_cast<std::size_t>(v) < touched.size() && (owners[v] == Owner::mine) == (kept[i] < 0))
-        touched[v] = 1;
+      if (static_cast<std::size_t>(v) < _touched.size() && (_owners[v] == Owner::mine) != is_kept)
+        _touched[v] = 1;
     }
   }
-  std::vector<LocalIndex> list;
-  for (std::size_t v = 0; v < touched.size(); ++v) {
-    if (touched[v]) list.push_back(static_cast<LocalIndex>(v));
+  std::vector<LocalIndex> list() const {
+    std::vector<LocalIndex> list;
+    for (std::size_t v = 0; v < _touched.size(); ++v) {
+      if (_touched[v]) list.push_back(static_cast<LocalIndex>(v));
+    }
+    return list;
   }
-  return list;
-}
+
+private:
+  const std::vector<Owner>& _owners;
+  std::vector<std::uint8_t> _touched;
+};
 
 /// Owners of all vertices, those that TetGen added included: the lowest zone in the star.
 std::vector<Owner> owners_of(const ZoneProblem& problem, const TetgenMesh& mesh, std::size_t points) {
@@ -180,8 +183,10 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
   require_triangles(problem, mesh);
   const std::vector<Owner> owners = owners_of(problem, mesh, points.size());
   RegionSearch search(problem, mesh);
+  TouchedPoints touched(problem.surface_points(), owners);
   OwnedCells result;
   std::vector<std::int32_t> kept(mesh.cells.size(), -1);
+  std::vector<std::int32_t> origin;  // of the kept ones
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
     const LocalCell& cell = mesh.cells[i];
     LocalIndex mine = -1;
@@ -190,6 +195,7 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
       lower = lower || owners[v] == Owner::lower;
       if (owners[v] == Owner::mine) mine = mine < 0 ? v : std::min(mine, v);
     }
+    if (lower) touched.add(cell, false);
     if (mine < 0 || lower) continue;
     const auto c = static_cast<std::int32_t>(i);
     RegionId region = mesh::no_region;
@@ -197,27 +203,29 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
     if (region == mesh::no_region) continue;
     if (!geometry::has_positive_volume(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]))
       throw std::runtime_error("a tetrahedron is flat or inverted");
+    touched.add(cell, true);
     kept[i] = static_cast<std::int32_t>(result.cells.size());
+    origin.push_back(c);
     result.cells.push_back(cell);
     result.regions.push_back(region);
   }
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-    if (kept[i] < 0) continue;
+  for (std::size_t k = 0; k < origin.size(); ++k) {
+    const auto& neighbours = mesh.neighbours[origin[k]];
     for (int face = 0; face < 4; ++face) {
-      const std::int32_t next = mesh.neighbours[i][face];
+      const std::int32_t next = neighbours[face];
       if (next == -1)
         throw std::runtime_error("the filling ends at a face that is no triangle of the surface");
       if (next >= 0) {
         if (kept[next] < 0)
-          result.crossings.push_back({kept[i], face});
-        else if (result.regions[kept[next]] != result.regions[kept[i]])
+          result.crossings.push_back({static_cast<std::int32_t>(k), face});
+        else if (result.regions[kept[next]] != result.regions[k])
           throw std::runtime_error("two regions touch without a triangle of the surface between them");
-      } else if (same_turn(face_of(mesh.cells[i], face), problem.triangles[-2 - next])) {
+      } else if (same_turn(face_of(result.cells[k], face), problem.triangles[-2 - next])) {
         result.triangles.push_back(-2 - next);
       }
     }
   }
-  result.touched = list_touched(problem, mesh, owners, kept);
+  result.touched = touched.list();
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "volume/surface_share.hpp"
 
 #include "mesh/delivery.hpp"
+#include "volume/near_boxes.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -97,17 +98,19 @@ private:
                                       parallel::StageClock& clock) {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     const BlockIndex first = shares[rank], last = shares[rank + 1];
-    std::vector<BlockIndex> wanted;
+    NearBoxes within_reach;
     for (BlockIndex b = first; b < last; ++b) {
-      tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach[b - first]), [&](BlockIndex n) {
-        if (table.is_met(n) && (n < first || n >= last)) wanted.push_back(n);
-      });
+      const GridBox box = GridBox::of(tree.cell(b)).dilated(reach[b - first]);
+      const auto [lowest, highest] = tree.range_of(box);
+      if (lowest < first || highest >= last) within_reach.add(box);
     }
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    std::vector<Want> mine;
+    within_reach.build();
     std::vector<Want> wants;
-    for (const BlockIndex b : wanted) wants.push_back({b, rank});
+    for (BlockIndex n = 0; n < tree.block_count(); ++n) {
+      const bool is_own = n >= first && n < last;
+      if (!is_own && table.is_met(n) && within_reach.any_within(GridBox::of(tree.cell(n)), 0))
+        wants.push_back({n, rank});
+    }
     return wants;
   }
 

@@ -96,8 +96,9 @@ void collect_cells(tetgenmesh& mesh, TetgenMesh& result) {
   }
 }
 
-/// The order of tetrahedralize(), without its pass recoverdelaunay(): hardly anything is left to do for it
-/// where all points are given at once, and it nearly doubles time and memory.
+/// The order of tetrahedralize(), without two of its passes: carveholes(), since the hull is kept and others
+/// tell inside from outside; recoverdelaunay(), for which hardly anything is left to do where all points are
+/// given at once, and which nearly doubles time and memory.
 void run_phases(tetgenmesh& mesh) {
   clock_t unused = 0;
   mesh.initializepools();
@@ -107,7 +108,6 @@ void run_phases(tetgenmesh& mesh) {
   if (mesh.in->numberoffacets == 0) return;
   mesh.meshsurface();
   mesh.recoverboundary(unused);
-  mesh.carveholes();
   if (mesh.subvertstack->objects > 0) mesh.suppresssteinerpoints();
 }
 

@@ -55,6 +55,7 @@ struct Disagreement {
 
 /// What the filling tells.
 struct VolumeReport {
+  std::int64_t tetrahedra = 0;
   std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
   std::vector<Retry> retries;
   std::vector<Disagreement> disagreements;

@@ -62,6 +62,7 @@ ZonePlan plan_zones(const parallel::Communicator& communicator, const BlockTable
     }
   }
   ZonePlan plan;
+  plan.widths.assign(widths.begin(), widths.end());
   plan.loads = communicator.all_gather_items<ZoneLoad>(mine);
   std::sort(plan.loads.begin(), plan.loads.end(),
             [](const ZoneLoad& a, const ZoneLoad& b) { return a.zone < b.zone; });

@@ -136,6 +136,42 @@ private:
   ZoneContent _content;
 };
 
+/// Leaves out what came with the leaves of zones and is not near enough.
+class Trimmer {
+public:
+  Trimmer(const BlockTables& blocks, const ZoneFinder& finder, std::span<const double> widths)
+      : _frame(blocks.frame),
+        _finder(finder),
+        _widths(widths),
+        _own_blocks(list_blocks(blocks.tree, blocks.zones)),
+        _surroundings(blocks.frame, blocks.tree, blocks.table, blocks.zones) {}
+
+  void trim(ZoneIndex zone, std::vector<PointOfZone>& points, std::vector<TriangleOfZone>& triangles) {
+    _surroundings.move_to(zone, _own_blocks.of(zone));
+    const double width = _widths[zone];
+    std::erase_if(points, [&](const PointOfZone& p) {
+      const ZoneFinder::Leaf leaf = ZoneFinder::leaf_of_number(p.number);
+      if (_finder.zone_of(leaf) == zone) return false;
+      const Vec3 place = _frame.to_grid(p.point);
+      return !_surroundings.is_near({place, place}, leaf.block, width);
+    });
+    std::erase_if(triangles, [&](const TriangleOfZone& t) {
+      const auto& p = t.triangle.points;
+      const auto is_own = [&](Vec3 q) { return _finder.zone_of(_finder.leaf_of_place(q)) == zone; };
+      if (std::any_of(p.begin(), p.end(), is_own)) return false;
+      const BlockIndex middle = _finder.leaf_of_place((1.0 / 3.0) * (p[0] + p[1] + p[2])).block;
+      return !_surroundings.is_near(grid_box(_frame, p), middle, width);
+    });
+  }
+
+private:
+  const LatticeFrame& _frame;
+  const ZoneFinder& _finder;
+  std::span<const double> _widths;
+  BlocksOfZones _own_blocks;
+  ZoneSurroundings _surroundings;
+};
+
 /// Groups items by zone, without changing their order within one.
 template <class Item>
 void sort_by_zone(std::vector<Item>& items) {
@@ -146,16 +182,16 @@ void sort_by_zone(std::vector<Item>& items) {
 
 }  // namespace
 
-std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockStore& store,
-                                      const LatticeFrame& frame, const LatticeTree& tree,
-                                      const ZoneFinder& finder, std::span<const BlockIndex> shares,
+std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockTables& blocks,
+                                      const BlockStore& store, const ZoneFinder& finder,
+                                      std::span<const BlockIndex> shares, std::span<const double> widths,
                                       const std::vector<ZoneWant>& wants, parallel::StageClock& clock) {
   const auto owner = [&](const ZoneWant& want) {
     return static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, want.block) -
                                        shares.begin() - 1);
   };
   std::vector<ZoneWant> asked = mesh::deliver(communicator, wants, owner);
-  Answer answer(store, frame, tree);
+  Answer answer(store, blocks.frame, blocks.tree);
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     sort_by_zone(asked);
@@ -174,16 +210,20 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
   std::sort(triangles.begin(), triangles.end(), [](const TriangleOfZone& a, const TriangleOfZone& b) {
     return a.zone != b.zone ? a.zone < b.zone : a.triangle.number < b.triangle.number;
   });
+  Trimmer trimmer(blocks, finder, widths);
   std::vector<ZoneContent> contents;
   auto p = points.begin();
   auto t = triangles.begin();
   while (p != points.end() || t != triangles.end()) {
     const ZoneIndex zone =
         std::min(p != points.end() ? p->zone : INT32_MAX, t != triangles.end() ? t->zone : INT32_MAX);
-    const auto last_p = std::find_if(p, points.end(), [&](const PointOfZone& q) { return q.zone != zone; });
-    const auto last_t =
-        std::find_if(t, triangles.end(), [&](const TriangleOfZone& q) { return q.zone != zone; });
-    contents.push_back(ContentBuilder(zone, finder).build({p, last_p}, {t, last_t}));
+    const auto is_of_another = [&](const auto& item) { return item.zone != zone; };
+    const auto last_p = std::find_if(p, points.end(), is_of_another);
+    const auto last_t = std::find_if(t, triangles.end(), is_of_another);
+    std::vector<PointOfZone> its_points(p, last_p);
+    std::vector<TriangleOfZone> its_triangles(t, last_t);
+    trimmer.trim(zone, its_points, its_triangles);
+    contents.push_back(ContentBuilder(zone, finder).build(its_points, its_triangles));
     p = last_p, t = last_t;
   }
   return contents;

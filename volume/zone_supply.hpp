@@ -26,6 +26,15 @@ struct ZoneContent {
   std::vector<std::int32_t> face, patch;  ///< per triangle
 };
 
+/// What everyone knows of the blocks.
+struct BlockTables {
+  const LatticeFrame& frame;
+  const LatticeTree& tree;
+  const SurfaceTable& table;
+  std::span<const std::uint8_t> points;  ///< of the lattice, per block
+  const Zones& zones;
+};
+
 /// A zone wants leaves of a block, to be sent to the rank that fills it.
 struct ZoneWant {
   ZoneIndex zone;
@@ -81,10 +90,12 @@ private:
   mesh::GlobalIndex _surface_vertices;
 };
 
-/// Brings together what zones want, each at the rank that its wants name. By zone. Collective.
-std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockStore& store,
-                                      const LatticeFrame& frame, const LatticeTree& tree,
-                                      const ZoneFinder& finder, std::span<const BlockIndex> shares,
+/// Brings together what zones want, each at the rank that its wants name: of the leaves that are wanted the
+/// points and triangles that are the zone's or near it, `widths` being those of the zones' halos. By zone.
+/// Collective.
+std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockTables& blocks,
+                                      const BlockStore& store, const ZoneFinder& finder,
+                                      std::span<const BlockIndex> shares, std::span<const double> widths,
                                       const std::vector<ZoneWant>& wants, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

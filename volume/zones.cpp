@@ -137,6 +137,14 @@ std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::
   return loads;
 }
 
+ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets) {
+  constexpr double whole_below = 1.5;
+  const double zones = expected_tetrahedra / static_cast<double>(piece_tets);
+  if (zones < whole_below) return 1;
+  const double unit = std::exp2(std::max(0, std::ilogb(zones) - 2));
+  return static_cast<ZoneIndex>(unit * std::round(zones / unit));
+}
+
 Zones bisect(const LatticeTree& tree, std::span<const double> loads, ZoneIndex count) {
   std::vector<ZoneIndex> zones(tree.block_count(), no_zone);
   if (count == 1) return {std::vector<ZoneIndex>(tree.block_count(), 0), 1};

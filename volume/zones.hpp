@@ -48,6 +48,10 @@ private:
 /// Expected tetrahedra of each block from its points and triangles.
 std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points);
 
+/// How many zones of about `piece_tets` tetrahedra: a volume of less than one and a half is one zone, and
+/// others are rounded to three leading binary digits, so that zones of equal load divide well among ranks.
+ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets);
+
 /// Zones of equal load by recursive bisection: always across the axis where the two halves have least in
 /// common, in expected tetrahedra of the blocks beside the cut. Blocks without load go with their neighbours
 /// along the curve. A function of its arguments.

@@ -47,8 +47,8 @@ protected:
     zones = new std::vector<Zone>;
     for (const std::vector<ZoneWant>& wants : parts.plan.wants) {
       for (ZoneContent& content :
-           supply_zones(*communicator, {parts.points, parts.triangles, *parts.of_blocks}, *parts.frame,
-                        *parts.tree, finder, parts.shares, wants, clock)) {
+           supply_zones(*communicator, parts.tables(), {parts.points, parts.triangles, *parts.of_blocks},
+                        finder, parts.shares, parts.plan.widths, wants, clock)) {
         ZoneFilling filling = fill_zone(content.problem, VolumeOptions::Sabotage::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(content, filling, finder);

@@ -40,8 +40,9 @@ struct Divided {
   }
 
   std::vector<ZoneContent> supply(const std::vector<ZoneWant>& wants) {
-    return supply_zones(problem.communicator, {parts.points, parts.triangles, *parts.of_blocks}, *parts.frame,
-                        *parts.tree, finder, parts.shares, wants, clock);
+    return supply_zones(problem.communicator, parts.tables(),
+                        {parts.points, parts.triangles, *parts.of_blocks}, finder, parts.shares, widths,
+                        wants, clock);
   }
   std::vector<ZoneContent> supply_all() {
     std::vector<ZoneContent> contents;
@@ -76,6 +77,18 @@ std::set<std::pair<BlockIndex, int>> leaves_known(const Divided& divided, ZoneIn
   return leaves;
 }
 
+/// Whether a box that lies in a block, or has its middle there, is as near to the zone as is asked for.
+bool is_near(const Divided& divided, ZoneIndex zone, const GridBox& box, BlockIndex b) {
+  const LatticeTree& tree = *divided.parts.tree;
+  const double reach = divided.parts.frame->grid_distance(
+      divided.problem.options.halo * largest_size_around(*divided.parts.frame, tree, divided.parts.table, b));
+  const std::vector<LeafOfBlock> leaves = all_leaves(tree);
+  return std::any_of(leaves.begin(), leaves.end(), [&](const LeafOfBlock& leaf) {
+    return divided.parts.zones->of(leaf.block, leaf.child) == zone &&
+           GridBox::of(leaf.cell).gap_to(box) <= reach;
+  });
+}
+
 TEST(PlanZones, is_the_same_on_every_rank_and_looks_at_each_zone_once) {
   const Communicator world = Communicator::world();
   const Divided divided(world), alone(Communicator::self());
@@ -87,7 +100,7 @@ TEST(PlanZones, is_the_same_on_every_rank_and_looks_at_each_zone_once) {
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_GT(a.points, 0);
-    EXPECT_EQ(a.work(), 5.75 * a.points + 2 * a.triangles);
+    EXPECT_EQ(a.work(), a.points + 1.2 * a.triangles);
   }
   const auto batches = static_cast<std::int64_t>(divided.plan.wants.size());
   EXPECT_EQ(world.minimum(batches), world.maximum(batches));
@@ -139,7 +152,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   EXPECT_GT(plan.loads[1].points, divided.plan.loads[5].points);
 }
 
-TEST(SupplyZones, brings_the_points_of_all_leaves_a_zone_knows) {
+TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
   const Communicator world = Communicator::world();
   Divided divided(world);
   struct Row {
@@ -163,7 +176,9 @@ TEST(SupplyZones, brings_the_points_of_all_leaves_a_zone_knows) {
     const std::size_t first = at;
     for (const Row& row : all) {
       const ZoneFinder::Leaf leaf = ZoneFinder::leaf_of_number(row.number);
-      if (!leaves.count({leaf.block, leaf.child})) continue;
+      const Vec3 place = divided.parts.frame->to_grid(row.point);
+      if (!is_near(divided, content.zone, {place, place}, leaf.block)) continue;
+      EXPECT_TRUE(leaves.count({leaf.block, leaf.child}));
       ASSERT_LT(at, content.tokens.size());
       EXPECT_EQ(content.tokens[at],
                 static_cast<mesh::SharedToken>(divided.problem.numbering.vertex_count + row.number));
@@ -173,13 +188,15 @@ TEST(SupplyZones, brings_the_points_of_all_leaves_a_zone_knows) {
     }
     EXPECT_EQ(at, content.tokens.size());
     EXPECT_EQ(content.problem.points.size(), content.tokens.size());
-    EXPECT_NEAR(divided.plan.loads[content.zone].points, static_cast<double>(at - first),
-                0.12 * static_cast<double>(at - first));
+    // Expected by leaves.
+    const auto known = static_cast<float>(at - first);
+    EXPECT_GT(divided.plan.loads[content.zone].points, 0.9F * known);
+    EXPECT_LT(divided.plan.loads[content.zone].points, 1.8F * known);
   }
   EXPECT_EQ(world.sum(zones), static_cast<std::int64_t>(divided.all.size()));
 }
 
-TEST(SupplyZones, brings_each_triangle_that_meets_a_leaf_once) {
+TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
   const Communicator world = Communicator::world();
   Divided divided(world);
   const LatticeFrame& frame = *divided.parts.frame;
@@ -192,15 +209,12 @@ TEST(SupplyZones, brings_each_triangle_that_meets_a_leaf_once) {
   std::sort(all.begin(), all.end(),
             [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
   for (const ZoneContent& content : divided.supply_all()) {
-    const auto leaves = leaves_known(divided, content.zone);
     std::size_t at = 0;
     std::set<mesh::GlobalIndex> vertices;
     for (const SurfaceTriangle& t : all) {
       const GridBox box = grid_box(frame, t.points);
-      const bool is_known = std::any_of(leaves.begin(), leaves.end(), [&](const auto& leaf) {
-        return GridBox::of(divided.parts.tree->leaf(leaf.first, leaf.second)).overlaps(box);
-      });
-      if (!is_known) continue;
+      const Vec3 middle = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
+      if (!is_near(divided, content.zone, box, divided.finder.leaf_of_place(middle).block)) continue;
       ASSERT_LT(at, content.problem.triangles.size());
       for (int k = 0; k < 3; ++k) {
         const auto v = content.problem.triangles[at][k];
