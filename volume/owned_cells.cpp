@@ -59,7 +59,7 @@ public:
         if (_mesh.cells[c][face] == v) continue;
         const std::int32_t next = _mesh.neighbours[c][face];
         if (next <= -2) return region_beside(c, face, -2 - next);
-        if (next < 0 || _visit[next] == _round) continue;
+        if (next < 0 || next == not_asked_for || _visit[next] == _round) continue;
         _visit[next] = _round;
         _open.push_back(next);
       }
@@ -109,8 +109,9 @@ void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
   std::vector<std::uint8_t> seen(problem.triangles.size(), 0);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     for (int face = 0; face < 4; ++face) {
-      const std::int32_t t = -2 - mesh.neighbours[c][face];
-      if (t < 0) continue;
+      const std::int32_t next = mesh.neighbours[c][face];
+      if (next > -2) continue;
+      const std::int32_t t = -2 - next;
       LocalTriangle a = face_of(mesh.cells[c], face), b = problem.triangles[t];
       std::sort(a.begin(), a.end());
       std::sort(b.begin(), b.end());
@@ -216,7 +217,7 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
       if (next == -1)
         throw std::runtime_error("the filling ends at a face that is no triangle of the surface");
       if (next >= 0) {
-        if (kept[next] < 0)
+        if (next == not_asked_for || kept[next] < 0)
           result.crossings.push_back({static_cast<std::int32_t>(k), face});
         else if (result.regions[kept[next]] != result.regions[k])
           throw std::runtime_error("two regions touch without a triangle of the surface between them");

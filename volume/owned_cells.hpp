@@ -50,9 +50,10 @@ struct OwnedCells {
 /// A tetrahedron with a lattice vertex lies in the region of that. At another the star of a vertex of the
 /// zone is searched, without crossing the surface, up to a triangle or a lattice vertex: no tetrahedron
 /// elsewhere in the halo counts, since some reach through triangles that the zone does not know. A point
-/// TetGen added belongs to the lowest zone in its star. `points` has what TetGen added behind the others.
-/// Throws std::runtime_error when a triangle at a vertex of the zone is missing, or a cell is flat, inverted,
-/// or open.
+/// TetGen added belongs to the lowest zone in its star. `points` has what TetGen added behind the others. The
+/// mesh has all cells, or those with a vertex of the zone where TetGen added no points. Throws
+/// std::runtime_error when a triangle at a vertex of the zone is missing, or a cell is flat, inverted, or
+/// open.
 OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh,
                         std::span<const geometry::Vec3> points);
 

@@ -67,18 +67,27 @@ std::vector<double> number_points(tetgenmesh& mesh, std::size_t given) {
   return added;
 }
 
-void collect_cells(tetgenmesh& mesh, TetgenMesh& result) {
-  const auto count = static_cast<std::size_t>(mesh.tetrahedrons->items - mesh.hullsize);
-  result.cells.reserve(count);
-  result.neighbours.reserve(count);
+/// `asked_for` is empty or has all points.
+void collect_cells(tetgenmesh& mesh, std::span<const std::uint8_t> asked_for, TetgenMesh& result) {
+  const auto most = static_cast<std::size_t>(mesh.tetrahedrons->items - mesh.hullsize);
+  std::vector<tetgenmesh::tetrahedron*> origin;
+  origin.reserve(most);
+  result.cells.reserve(most);
   mesh.tetrahedrons->traversalinit();
   for (auto* t = mesh.tetrahedrontraverse(); t != nullptr; t = mesh.tetrahedrontraverse()) {
-    mesh.setelemindex(t, static_cast<int>(result.cells.size()));
-    auto& cell = result.cells.emplace_back();
+    std::array<mesh::LocalIndex, 4> cell;
     for (int k = 0; k < 4; ++k) cell[k] = mesh.pointmark(reinterpret_cast<tetgenmesh::point>(t[4 + k]));
+    if (!asked_for.empty() &&
+        std::none_of(cell.begin(), cell.end(), [&](mesh::LocalIndex v) { return asked_for[v] != 0; })) {
+      mesh.setelemindex(t, not_asked_for);
+      continue;
+    }
+    mesh.setelemindex(t, static_cast<int>(result.cells.size()));
+    result.cells.push_back(cell);
+    origin.push_back(t);
   }
-  mesh.tetrahedrons->traversalinit();
-  for (auto* t = mesh.tetrahedrontraverse(); t != nullptr; t = mesh.tetrahedrontraverse()) {
+  result.neighbours.reserve(result.cells.size());
+  for (tetgenmesh::tetrahedron* t : origin) {
     auto& across = result.neighbours.emplace_back();
     for (int face = 0; face < 4; ++face) {
       tetgenmesh::triface side, other;
@@ -114,7 +123,8 @@ void run_phases(tetgenmesh& mesh) {
 }  // namespace
 
 TetgenMesh run_tetgen(std::span<const double> coordinates,
-                      std::span<const std::array<mesh::LocalIndex, 3>> triangles) {
+                      std::span<const std::array<mesh::LocalIndex, 3>> triangles,
+                      std::span<const std::uint8_t> asked_for) {
   Input input(coordinates, triangles);
   tetgenbehavior behaviour;
   char switches[] = "pYO0Q";
@@ -133,7 +143,7 @@ TetgenMesh run_tetgen(std::span<const double> coordinates,
   }
   TetgenMesh result;
   result.added = number_points(*mesh, coordinates.size() / 3);
-  collect_cells(*mesh, result);
+  collect_cells(*mesh, result.added.empty() ? asked_for : std::span<const std::uint8_t>{}, result);
   return result;
 }
 

@@ -122,7 +122,10 @@ Bytes fill_task(std::span<const std::byte> input) {
       const Vec3 q = frame.to_unit(p);
       unit.insert(unit.end(), {q.x, q.y, q.z});
     }
-    const TetgenMesh mesh = run_tetgen(unit, problem.triangles);
+    std::vector<std::uint8_t> mine;
+    mine.reserve(problem.owners.size());
+    for (const Owner owner : problem.owners) mine.push_back(owner == Owner::mine);
+    const TetgenMesh mesh = run_tetgen(unit, problem.triangles, mine);
     for (std::size_t s = 0; s < mesh.added.size(); s += 3)
       added.push_back(frame.from_unit({mesh.added[s], mesh.added[s + 1], mesh.added[s + 2]}));
     points.insert(points.end(), added.begin(), added.end());
