@@ -44,7 +44,7 @@ void run(const Communicator& communicator, const pipeline::Case& input) {
       "serial_seconds=%.3f tets_per_cpu_second=%.0f peak_bytes_per_tet=%.0f rounds=%d retries=%zu "
       "disagreements=%zu steiner=%lld mean_ratio=%.4f min_dihedral=%.3f hash=%s\n",
       communicator.size(), parts.zones, static_cast<long long>(parts.blocks),
-      static_cast<long long>(parts.lattice_points), parts.halo, parts.imbalance, tetrahedra, valid,
+      static_cast<long long>(parts.lattice_points), report.halo, parts.imbalance, tetrahedra, valid,
       points.wall_seconds, filling.wall_seconds, points.cpu_seconds_mean * communicator.size(),
       filling.cpu_seconds_mean * communicator.size(), filling.cpu_seconds_max,
       points.serial_seconds + filling.serial_seconds, tetrahedra / cpu,

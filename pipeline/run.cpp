@@ -170,10 +170,9 @@ volume::Decomposition decompose(const Communicator& communicator, const Finished
       volume::decompose(communicator, volume_input(surface, input), record.clock);
   record.decomposition = decomposition.report();
   const volume::DecompositionReport& report = record.decomposition;
-  parallel::log_info(fmt::format(
-      "decompose: {} zone(s) of {} blocks, {} lattice points; zones know {:.2f} times the points there are, "
-      "heaviest {:.2f} of the mean",
-      report.zones, report.blocks, report.lattice_points, report.halo, report.imbalance));
+  parallel::log_info(
+      fmt::format("decompose: {} zone(s) of {} blocks, {} lattice points; heaviest {:.2f} of the mean",
+                  report.zones, report.blocks, report.lattice_points, report.imbalance));
   return decomposition;
 }
 
@@ -217,10 +216,11 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
                                    volume::Decomposition decomposition, const Case& input,
                                    RunRecord& record) {
   mesh::DistributedMesh filled = fill_volume(communicator, surface, std::move(decomposition), input, record);
-  parallel::log_info(
-      fmt::format("volume: {} tetrahedra; {} round(s), {} retries, {} places where zones disagreed",
-                  record.volume.tetrahedra, record.volume.rounds, record.volume.retries.size(),
-                  record.volume.disagreements.size()));
+  parallel::log_info(fmt::format(
+      "volume: {} tetrahedra; zones knew {:.2f} times the points there are; {} round(s), {} retries, "
+      "{} places where zones disagreed",
+      record.volume.tetrahedra, record.volume.halo, record.volume.rounds, record.volume.retries.size(),
+      record.volume.disagreements.size()));
   return filled;
 }
 

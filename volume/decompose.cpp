@@ -64,13 +64,11 @@ void plan_all(const parallel::Communicator& communicator, const VolumeInput& inp
   std::iota(all.begin(), all.end(), 0);
   const std::vector<double> widths(all.size(), input.options.halo);
   parts.plan = plan_zones(communicator, parts.tables(), all, widths, clock);
-  double points = 0, work = 0, heaviest = 0;
+  double work = 0, heaviest = 0;
   for (const ZoneLoad& load : parts.plan.loads) {
-    points += load.points;
     work += load.work();
     heaviest = std::max(heaviest, load.work());
   }
-  parts.report.halo = points / std::max(1.0, static_cast<double>(parts.report.lattice_points));
   parts.report.imbalance = heaviest * static_cast<double>(all.size()) / std::max(1.0, work);
 }
 

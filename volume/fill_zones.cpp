@@ -54,6 +54,8 @@ public:
 
   mesh::DistributedMesh run() {
     fill(std::move(_parts.plan));
+    _report.halo = static_cast<double>(_communicator.sum(_known_points)) /
+                   static_cast<double>(std::max<std::int64_t>(1, _parts.report.lattice_points));
     for (_report.rounds = 1;; ++_report.rounds) {
       std::vector<ZoneIndex> pending = change_failed();
       if (pending.empty()) pending = settle_disputes();
@@ -89,6 +91,7 @@ private:
   void fill_one(ZoneContent& content) {
     const ScopedCpu task(_clock, ScopedCpu::As::task);
     require_size(content);
+    _known_points += static_cast<std::int64_t>(content.problem.regions.size());
     ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone));
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);
@@ -385,6 +388,7 @@ private:
   std::vector<int> _changes_of;  // per zone: of its points so far
   std::vector<std::uint8_t> _merged;
   int _rounds_of_giving = 0;
+  std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   std::vector<ZoneFailure> _failures;        // of this rank in this round
   Evidence _evidence;

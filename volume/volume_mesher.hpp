@@ -34,7 +34,6 @@ struct DecompositionReport {
   std::int64_t lattice_points = 0;
   double expected_tetrahedra = 0;  ///< from points and triangles
   std::int32_t zones = 0;
-  double halo = 1;       ///< points that zones know, all together, over points
   double imbalance = 1;  ///< heaviest zone over the mean, halo included
 };
 
@@ -56,6 +55,7 @@ struct Disagreement {
 /// What the filling tells.
 struct VolumeReport {
   std::int64_t tetrahedra = 0;
+  double halo = 1;                  ///< lattice points that zones know, all together, over those there are
   std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
   std::vector<Retry> retries;
   std::vector<Disagreement> disagreements;
