@@ -18,7 +18,8 @@ struct ZoneLoad {
   float triangles;
 
   /// Expected cost of filling, in that of a lattice point: a triangle brings half a point, and has to be
-  /// recovered. Measured on a DLR-F6 in nine zones: about 11 microseconds of CPU for either.
+  /// recovered. Measured on a DLR-F6 in nine zones: about 11 microseconds of CPU for a
+  /// point, 13 for a triangle.
   double work() const { return points + work_per_triangle * triangles; }
   static constexpr double work_per_triangle = 1.2;
 };

@@ -112,12 +112,11 @@ TEST(BlockRegions, contradict_each_other_where_the_surface_has_a_gap_on_every_ra
     const auto& contradiction = around.found.contradiction;
     ASSERT_TRUE(contradiction) << "the missing wall " << wall << " went unnoticed";
     EXPECT_NE(contradiction->seen, contradiction->elsewhere);
-    EXPECT_TRUE(std::any_of(around.triangles.begin(), around.triangles.end(),
-                            [&](const SurfaceTriangle& t) {
-                              return t.number == contradiction->triangle &&
-                                     distance(t.points[0], contradiction->place) < 0.8;
-                            }) ||
-                world.size() > 1);
+    const bool has_triangle =
+        std::any_of(around.triangles.begin(), around.triangles.end(), [&](const SurfaceTriangle& t) {
+          return t.number == contradiction->triangle && distance(t.points[0], contradiction->place) < 0.8;
+        });
+    EXPECT_GT(world.sum(std::int64_t{has_triangle}), 0);
     parallel::Packer said;
     said.value(contradiction->place);
     said.value(contradiction->triangle);
