@@ -18,8 +18,8 @@ struct CaseSurface {
 /// Collective.
 inline CaseSurface mesh_surface(const parallel::Communicator& communicator, const pipeline::Case& input) {
   parallel::StageClock clock;
-  geometry::DomainReport domain;
-  const geometry::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
+  cad::DomainReport domain;
+  const cad::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
   const pipeline::SizedDomain sized =
       pipeline::size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
   CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface, clock), {}};

@@ -1,6 +1,6 @@
 /// The front kernel alone: a disk and a square under uniform and graded sizes.
+#include "front/front.hpp"
 #include "mesh/quality.hpp"
-#include "surface/front.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,9 +12,9 @@
 
 namespace {
 
+using aeroloom::front::FrontInput;
+using aeroloom::front::FrontResult;
 using aeroloom::geometry::Vec2;
-using aeroloom::surface::FrontInput;
-using aeroloom::surface::FrontResult;
 using Size = std::function<double(Vec2)>;
 
 /// A closed curve given by a function on [0,1], discretised under the sizes.
@@ -64,7 +64,7 @@ void run(const char* name, const std::function<Vec2(double)>& curve, const Size&
   const FrontInput input = discretise(curve, size);
   const auto start = std::chrono::steady_clock::now();
   const FrontResult result =
-      aeroloom::surface::fill_front(input, [&](Vec2 p, std::int32_t&) { return size(p); });
+      aeroloom::front::fill_front(input, [&](Vec2 p, std::int32_t&) { return size(p); });
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   report(name, input, result, size, time.count());
 }

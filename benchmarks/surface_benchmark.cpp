@@ -87,7 +87,7 @@ struct Sharp {
 };
 
 Sharp measure_sharp(const Communicator& communicator, const surface::SurfaceMesh& surface) {
-  using Place = std::tuple<geometry::FaceId, double, double, double>;
+  using Place = std::tuple<cad::FaceId, double, double, double>;
   std::set<Place> listed;
   for (const surface::ListedCorner& c : surface.report.sharp_corners) {
     listed.insert({c.face, c.point.x, c.point.y, c.point.z});
@@ -147,9 +147,9 @@ Decomposition inspect_pieces(const Communicator& communicator, const mesh::Distr
 
 void run(const Communicator& communicator, const pipeline::Case& input, bool write) {
   parallel::StageClock clock;
-  geometry::DomainReport domain;
+  cad::DomainReport domain;
   clock.begin("geometry");
-  const geometry::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
+  const cad::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
   clock.end();
   clock.begin("sizing");
   const pipeline::SizedDomain sized =

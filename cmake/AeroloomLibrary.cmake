@@ -3,7 +3,14 @@
 function(aeroloom_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(aeroloom_${folder} STATIC ${ARG_SOURCES})
-  target_include_directories(aeroloom_${folder} PUBLIC ${CMAKE_SOURCE_DIR})
+  set_target_properties(aeroloom_${folder} PROPERTIES EXPORT_NAME ${folder})
+  target_include_directories(aeroloom_${folder} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/aeroloom>)
+  target_compile_features(aeroloom_${folder} PUBLIC cxx_std_20)
+  # One mesh on every machine: no contraction into fused multiply-add, no value-changing optimisation. Headers
+  # compute too, so the flags travel with the target.
+  target_compile_options(aeroloom_${folder} PUBLIC -ffp-contract=off -fno-fast-math)
   target_link_libraries(aeroloom_${folder} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 

@@ -1,8 +1,11 @@
 #include "improve/cavity_improver.hpp"
 
+#include "improve/improver.hpp"
+
 #include "improve/relaxation.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/tet_faces.hpp"
+#include "mesh/tokens.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -20,19 +23,19 @@ constexpr double cell_width = 8;
 }  // namespace
 
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                          mesh::CavityWishes& wishes) {
+                          cavities::CavityWishes& wishes) {
   const TetQuality measure(options.target_angle);
   std::int64_t count = 0;
   wishes.clear();
   for (const Piece& piece : mesh.pieces) {
-    std::vector<mesh::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), mesh::no_cavity);
+    std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       if (measure(p[0], p[1], p[2], p[3]) >= measure.target()) continue;
       ++count;
-      const mesh::CavityId id =
-          mesh::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mean_edge(p), cell_width, shift);
+      const cavities::CavityId id =
+          cavities::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mean_edge(p), cell_width, shift);
       for (int k = 0; k < 4; ++k) mine[v[k]] = std::max(mine[v[k]], id);
     }
   }
@@ -40,7 +43,7 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
 }
 
 std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                              mesh::CavityWishes& wishes) {
+                              cavities::CavityWishes& wishes) {
   const TetQuality measure(options.target_angle);
   std::int64_t count = 0;
   wishes.clear();
@@ -49,7 +52,7 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOp
   std::vector<std::int32_t> tets;
   std::vector<char> bad;
   for (const Piece& piece : mesh.pieces) {
-    std::vector<mesh::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), mesh::no_cavity);
+    std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
     std::vector<LocalIndex> place(piece.vertex_count(), -1);
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
       place[piece.shared_vertices[s]] = static_cast<LocalIndex>(s);
@@ -76,9 +79,9 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOp
       const LocalIndex v = piece.shared_vertices[s];
       if (tets[s] == 0 || piece.vertex_dimension[v] < 3) continue;
       const bool poor = ratios[s] < Relaxation::good_enough * tets[s] &&
-                        (shift == 0 || !mesh::is_placed_by_last_round(mesh, piece.shared_tokens[s]));
+                        (shift == 0 || !cavities::is_placed_by_last_round(mesh, piece.shared_tokens[s]));
       if (!poor && !bad[s]) continue;
-      mine[v] = mesh::cavity_at(piece.point(v), edges[s] / tets[s], cell_width, shift);
+      mine[v] = cavities::cavity_at(piece.point(v), edges[s] / tets[s], cell_width, shift);
       ++count;
     }
   }
@@ -87,10 +90,10 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOp
 
 // Other tetrahedra have their vertices in common with the walls: faces that are no triangles of the surface
 // mesh. Vertices on CAD curves may be known beyond.
-void CavityImprover::order_vertices(const mesh::Cavity& cavity) {
+void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   std::vector<mesh::TetFace> walls = mesh::boundary_faces(cavity.tets);
   std::vector<std::array<LocalIndex, 3>> free;
-  for (const mesh::CavityTriangle& triangle : cavity.triangles) {
+  for (const cavities::CavityTriangle& triangle : cavity.triangles) {
     if (_mesh.sides_of(triangle.face).is_inner()) continue;
     free.push_back(triangle.vertices);
     std::sort(free.back().begin(), free.back().end());
@@ -115,7 +118,7 @@ void CavityImprover::order_vertices(const mesh::Cavity& cavity) {
   for (std::size_t i = 0; i < _order.size(); ++i) _number[_order[i]] = static_cast<LocalIndex>(i);
 }
 
-void CavityImprover::build_piece(const mesh::Cavity& cavity) {
+void CavityImprover::build_piece(const cavities::Cavity& cavity) {
   _piece = {};
   for (const LocalIndex v : _order) {
     const Vec3 p = cavity.points[v];
@@ -126,21 +129,21 @@ void CavityImprover::build_piece(const mesh::Cavity& cavity) {
   for (const auto& tet : cavity.tets) {
     for (const LocalIndex v : tet) _piece.cells.push_back(_number[v]);
   }
-  for (const mesh::CavityTriangle& triangle : cavity.triangles) {
+  for (const cavities::CavityTriangle& triangle : cavity.triangles) {
     for (const LocalIndex v : triangle.vertices) _piece.boundary.push_back(_number[v]);
     _piece.triangle_face.push_back(triangle.face);
     _piece.triangle_patch.push_back(triangle.patch);
   }
   for (LocalIndex v = 0; v < _staying; ++v) {
     _piece.shared_vertices.push_back(v);
-    _piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(v));
+    _piece.shared_tokens.push_back(mesh::running_token(v));
   }
 }
 
 // Vertices inside are new ones in the refilling; those on the CAD are known by it as long as they stay where
 // they are.
-mesh::Refilling CavityImprover::build_refilling(const mesh::Cavity& cavity) const {
-  mesh::Refilling result;
+cavities::Refilling CavityImprover::build_refilling(const cavities::Cavity& cavity) const {
+  cavities::Refilling result;
   std::vector<LocalIndex> named(_piece.vertex_count());
   for (LocalIndex v = 0; v < _piece.vertex_count(); ++v) {
     const auto before = static_cast<std::size_t>(_numbered[v]);
@@ -158,7 +161,7 @@ mesh::Refilling CavityImprover::build_refilling(const mesh::Cavity& cavity) cons
     const LocalIndex* c = _piece.cell(t);
     result.tets.push_back({named[c[0]], named[c[1]], named[c[2]], named[c[3]]});
   }
-  std::vector<mesh::CavityTriangle>& triangles = result.triangles.emplace();
+  std::vector<cavities::CavityTriangle>& triangles = result.triangles.emplace();
   for (LocalIndex i = 0; i < _piece.boundary_count(); ++i) {
     const LocalIndex* c = _piece.boundary_triangle(i);
     triangles.push_back(
@@ -167,7 +170,7 @@ mesh::Refilling CavityImprover::build_refilling(const mesh::Cavity& cavity) cons
   return result;
 }
 
-bool CavityImprover::is_worse_than(const mesh::Cavity& cavity) const {
+bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
   double before = std::numeric_limits<double>::max(), after = before;
   for (const auto& t : cavity.tets) {
     before = std::min(
@@ -182,7 +185,8 @@ bool CavityImprover::is_worse_than(const mesh::Cavity& cavity) const {
   return after < before - 1e-12;
 }
 
-std::optional<mesh::Refilling> CavityImprover::improve(const mesh::Cavity& cavity, ImproveReport& report) {
+std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavity& cavity,
+                                                           ImproveReport& report) {
   order_vertices(cavity);
   build_piece(cavity);
   const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);

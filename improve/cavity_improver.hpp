@@ -1,9 +1,11 @@
 /// Improvement across pieces: what was frozen on the border of a piece is inside of a cavity.
 #pragma once
 
-#include "improve/improver.hpp"
+#include "cavities/rounds.hpp"
+#include "improve/improve_options.hpp"
+#include "improve/improve_report.hpp"
+#include "improve/mesh_source.hpp"
 #include "improve/tet_quality.hpp"
-#include "mesh/cavities.hpp"
 
 #include <optional>
 #include <vector>
@@ -11,15 +13,15 @@
 namespace aeroloom::improve {
 
 /// Wishes for the stars of all vertices of tetrahedra that miss the target, grouped by place; `shift` as in
-/// mesh::cavity_at. Returns their number on this rank.
+/// cavities::cavity_at. Returns their number on this rank.
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                          mesh::CavityWishes& wishes);
+                          cavities::CavityWishes& wishes);
 
 /// Wishes for the stars of shared vertices inside whose tetrahedra are worse shaped on average than those of
 /// a lattice, as relaxation.hpp sees it, or among which one misses the target. From the second shift on, of
 /// the former only those that the last round did not reach. Returns their number on this rank.
 std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                              mesh::CavityWishes& wishes);
+                              cavities::CavityWishes& wishes);
 
 /// Improves the tetrahedra of cavities. What other tetrahedra have in common with a cavity stays, and so do
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.
@@ -31,13 +33,13 @@ public:
       : _mesh(mesh), _options(options), _measure(target_angle), _source(source) {}
 
   /// Nothing where improvement changes nothing. Adds to the report.
-  std::optional<mesh::Refilling> improve(const mesh::Cavity& cavity, ImproveReport& report);
+  std::optional<cavities::Refilling> improve(const cavities::Cavity& cavity, ImproveReport& report);
 
 private:
-  void order_vertices(const mesh::Cavity& cavity);
-  void build_piece(const mesh::Cavity& cavity);
-  bool is_worse_than(const mesh::Cavity& cavity) const;
-  mesh::Refilling build_refilling(const mesh::Cavity& cavity) const;
+  void order_vertices(const cavities::Cavity& cavity);
+  void build_piece(const cavities::Cavity& cavity);
+  bool is_worse_than(const cavities::Cavity& cavity) const;
+  cavities::Refilling build_refilling(const cavities::Cavity& cavity) const;
 
   const mesh::DistributedMesh& _mesh;
   const ImproveOptions& _options;

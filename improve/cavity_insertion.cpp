@@ -88,7 +88,7 @@ bool CavityInsertion::keeps_fixed_vertices(const TetMesh& mesh) const {
   return true;
 }
 
-bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity) {
+bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, Replacement& cavity) {
   double after = -1;
   for (int round = 0; round < rounds; ++round) {
     collect_walls(mesh);
@@ -117,14 +117,14 @@ bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity) {
   return true;
 }
 
-bool CavityInsertion::propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Cavity& cavity) {
+bool CavityInsertion::propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Replacement& cavity) {
   mesh.collect_star(vertex, _tets);
   if (static_cast<int>(_tets.size()) >= most_tets) return false;
   _point = mesh.point(vertex);
   return propose(mesh, vertex, cavity);
 }
 
-bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, Cavity& cavity) {
+bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, Replacement& cavity) {
   _tets.assign(1, t);
   const Corners& c = mesh.corners(t);
   _point = 0.25 * (mesh.point(c[0]) + mesh.point(c[1]) + mesh.point(c[2]) + mesh.point(c[3]));

@@ -18,10 +18,10 @@ public:
 
   /// Proposes a cavity grown from all tetrahedra around a free vertex, which moves. Nothing in the mesh
   /// changes yet.
-  bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Cavity& cavity);
+  bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Replacement& cavity);
   /// Proposes a cavity grown from tetrahedron t around a new vertex, whose number in the cavity is
   /// mesh.vertex_count().
-  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, Cavity& cavity);
+  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, Replacement& cavity);
   /// Where the free point of the last proposal goes.
   Vec3 position() const { return _point; }
 
@@ -32,7 +32,7 @@ private:
     HalfFace side;
     double quality;  ///< of the cone to it
   };
-  bool propose(TetMesh& mesh, LocalIndex apex, Cavity& cavity);
+  bool propose(TetMesh& mesh, LocalIndex apex, Replacement& cavity);
   /// Begins with a tetrahedron on the boundary and its neighbours; false where it is not on the boundary.
   bool start_behind(const TetMesh& mesh, LocalIndex t);
   void collect_walls(const TetMesh& mesh);

@@ -41,7 +41,7 @@ bool ChangeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
                                  : length >= least * std::min(size, before.sum / before.count);
 }
 
-bool ChangeLimits::allow_sizes(const TetMesh& mesh, const Cavity& cavity) const {
+bool ChangeLimits::allow_sizes(const TetMesh& mesh, const Replacement& cavity) const {
   if (!_field) return true;
   Lengths before;
   for (const LocalIndex t : cavity.old_tets) {
@@ -74,7 +74,7 @@ bool ChangeLimits::allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std
   return for_neighbours([&](Vec3 other) { return allow_edge(before, p, other); });
 }
 
-bool ChangeLimits::allow(const TetMesh& mesh, const Cavity& cavity) const {
+bool ChangeLimits::allow(const TetMesh& mesh, const Replacement& cavity) const {
   if (!allow_sizes(mesh, cavity)) return false;
   double poorest = decent_ratio;
   for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));

@@ -18,13 +18,13 @@ public:
   explicit ChangeLimits(const sizing::SizeField* field = nullptr) : _field(field) {}
 
   /// Whether the new tetrahedra of a cavity keep to that.
-  bool allow(const TetMesh& mesh, const Cavity& cavity) const;
+  bool allow(const TetMesh& mesh, const Replacement& cavity) const;
   /// Whether the tetrahedra around a vertex do once it has moved from `origin`.
   bool allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
                   Vec3 origin) const;
 
 private:
-  bool allow_sizes(const TetMesh& mesh, const Cavity& cavity) const;
+  bool allow_sizes(const TetMesh& mesh, const Replacement& cavity) const;
   bool allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
                          Vec3 origin) const;
   struct Lengths {

@@ -73,7 +73,8 @@ bool EdgeContraction::keeps_boundary(TetMesh& mesh, LocalIndex from, LocalIndex 
   return true;
 }
 
-bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor, Cavity& cavity) {
+bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor,
+                              Replacement& cavity) {
   if (mesh.is_shared(from) || mesh.dimension(from) < on_face) return false;
   mesh.collect_star(from, _star);
   cavity.clear();

@@ -14,7 +14,7 @@ class EdgeContraction {
 public:
   /// Proposes to move `from` into its neighbour `to`. False when nothing beats both the tetrahedra around
   /// `from` as they are and `floor`, `from` must stay, or the boundary would change too much.
-  bool propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor, Cavity& cavity);
+  bool propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor, Replacement& cavity);
 
 private:
   bool may_vanish(const TetMesh& mesh, LocalIndex from, LocalIndex to);

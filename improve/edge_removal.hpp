@@ -13,10 +13,10 @@ public:
 
   /// Proposes the removal of edge i of tetrahedron t. False when nothing beats both the cavity as it is and
   /// `floor`.
-  bool propose(const TetMesh& mesh, LocalIndex t, int edge, double floor, Cavity& cavity);
+  bool propose(const TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity);
 
 private:
-  Shell _shell;
+  EdgeRing _edge_ring;
   RingFilling _filling;
 };
 

@@ -39,7 +39,7 @@ double FaceRemoval::grow(const TetMesh& mesh, const Sandwich& from, LocalIndex u
   return own;
 }
 
-bool FaceRemoval::propose(const TetMesh& mesh, LocalIndex t, int face, double floor, Cavity& cavity) {
+bool FaceRemoval::propose(const TetMesh& mesh, LocalIndex t, int face, double floor, Replacement& cavity) {
   const HalfFace other = mesh.mate(4 * t + face);
   if (other < 0) return false;
   _below = mesh.corners(t)[face];

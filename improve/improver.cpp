@@ -133,14 +133,14 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                     const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
                     parallel::StageClock& clock) {
   if (!options.enabled) return;
-  mesh::CavityWishes wishes;
+  cavities::CavityWishes wishes;
   const std::int32_t rounds_before = mesh.cavity_rounds;
   const auto refill = [&](CavityImprover& improver) {
-    const auto improve = [&](const mesh::Cavity& cavity) {
+    const auto improve = [&](const cavities::Cavity& cavity) {
       const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
       return improver.improve(cavity, total);
     };
-    refill_cavities(communicator, mesh, wishes, improve, clock);
+    cavities::refill_cavities(communicator, mesh, wishes, improve, clock);
   };
   ImproveOptions ambitious = options;
   ambitious.target_angle = std::min(border_ambition * options.target_angle, largest_target);

@@ -43,7 +43,7 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-Schedule::Schedule(TetMesh& mesh, const ChangeLimits& limits, geometry::PointLocator* locator)
+Schedule::Schedule(TetMesh& mesh, const ChangeLimits& limits, cad::PointLocator* locator)
     : _mesh(mesh),
       _limits(limits),
       _smoothing(limits),
@@ -212,7 +212,7 @@ bool Schedule::reconnect(LocalIndex t) {
   return true;
 }
 
-bool Schedule::apply(const Cavity& cavity) {
+bool Schedule::apply(const Replacement& cavity) {
   for (const Corners& c : cavity.new_tets) {
     if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
   }

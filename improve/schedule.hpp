@@ -23,7 +23,7 @@ namespace aeroloom::improve {
 class Schedule {
 public:
   /// With a locator, vertices of the boundary slide on its model.
-  Schedule(TetMesh& mesh, const ChangeLimits& limits, geometry::PointLocator* locator = nullptr);
+  Schedule(TetMesh& mesh, const ChangeLimits& limits, cad::PointLocator* locator = nullptr);
 
   /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
   void run(int sweeps);
@@ -54,7 +54,7 @@ private:
   bool move_cavity(LocalIndex t);
   bool insert_vertex(LocalIndex t);
   bool reconnect(LocalIndex t);
-  bool apply(const Cavity& cavity);
+  bool apply(const Replacement& cavity);
   /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
   void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
   bool worth_trying(LocalIndex t, Means means) const;
@@ -69,7 +69,7 @@ private:
   EdgeContraction _contraction;
   CavityInsertion _insertion;
   SmallPolyhedron _polyhedron;
-  Cavity _best, _trial;
+  Replacement _best, _trial;
   std::vector<LocalIndex> _placed, _star;
   std::vector<Task> _queue;             ///< a heap, worst on top
   std::vector<std::uint32_t> _version;  ///< of each slot: tasks of older versions are stale

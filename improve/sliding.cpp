@@ -45,19 +45,19 @@ private:
 
 class FaceLocus final : public Locus {
 public:
-  FaceLocus(const geometry::Model& model, geometry::FaceId face, Vec2 uv, GentleTriangles gentle)
+  FaceLocus(const cad::Model& model, cad::FaceId face, Vec2 uv, GentleTriangles gentle)
       : _model(model), _face(face), _uv(uv), _normal(model.face_frame(face, uv).normal), _gentle(gentle) {}
 
   Vec3 admissible(Vec3 direction) const override { return direction - dot(direction, _normal) * _normal; }
   bool settle(Vec3& p) override {
-    const geometry::Projection found = _model.project(_face, p, _uv);
+    const cad::Projection found = _model.project(_face, p, _uv);
     p = found.point;
     return found.converged && _gentle.allow(p);
   }
 
 private:
-  const geometry::Model& _model;
-  geometry::FaceId _face;
+  const cad::Model& _model;
+  cad::FaceId _face;
   Vec2 _uv;      ///< of where the vertex was
   Vec3 _normal;  ///< there
   GentleTriangles _gentle;
@@ -65,7 +65,7 @@ private:
 
 class EdgeLocus final : public Locus {
 public:
-  EdgeLocus(const geometry::Model& model, geometry::EdgeId edge, double parameter, GentleTriangles gentle)
+  EdgeLocus(const cad::Model& model, cad::EdgeId edge, double parameter, GentleTriangles gentle)
       : _model(model),
         _edge(edge),
         _parameter(parameter),
@@ -79,8 +79,8 @@ public:
   }
 
 private:
-  const geometry::Model& _model;
-  geometry::EdgeId _edge;
+  const cad::Model& _model;
+  cad::EdgeId _edge;
   double _parameter;  ///< of where the vertex was
   Vec3 _tangent;      ///< there
   GentleTriangles _gentle;
@@ -114,7 +114,7 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
   if (mesh.is_shared(vertex) || (dimension != on_face && dimension != on_edge)) return false;
   mesh.collect_star(vertex, star);
   if (!collect_triangles(mesh, vertex, star)) return false;
-  const geometry::Model& model = _locator.model();
+  const cad::Model& model = _locator.model();
   const std::int32_t entity = mesh.entity(vertex);
   const double tolerance = nearness * mean_distance(mesh, vertex);
   const GentleTriangles gentle(_triangles);

@@ -2,7 +2,7 @@
 /// gets better.
 #pragma once
 
-#include "geometry/point_locator.hpp"
+#include "cad/model/point_locator.hpp"
 #include "improve/boundary_change.hpp"
 #include "improve/smoothing.hpp"
 
@@ -14,8 +14,7 @@ namespace aeroloom::improve {
 /// (boundary_change.hpp), and the vertex stays on the CAD.
 class Sliding {
 public:
-  Sliding(geometry::PointLocator& locator, const ChangeLimits& limits)
-      : _locator(locator), _smoothing(limits) {}
+  Sliding(cad::PointLocator& locator, const ChangeLimits& limits) : _locator(locator), _smoothing(limits) {}
 
   /// Moves a vertex inside a CAD face or curve where that lifts the worst quality around it noticeably; false
   /// for all others. `star` receives its tetrahedra.
@@ -25,7 +24,7 @@ private:
   bool collect_triangles(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star);
   double mean_distance(const TetMesh& mesh, LocalIndex vertex) const;
 
-  geometry::PointLocator& _locator;
+  cad::PointLocator& _locator;
   Smoothing _smoothing;
   std::vector<TrianglePoints> _triangles;  ///< at the vertex, which comes first
 };

@@ -176,7 +176,7 @@ void SmallPolyhedron::search(const TetMesh& mesh, double worst) {
   }
 }
 
-bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, Cavity& cavity) {
+bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, Replacement& cavity) {
   grow(mesh, t);
   if (_tets.size() < 2 || !open_front(mesh)) return false;
   double before = std::numeric_limits<double>::max();

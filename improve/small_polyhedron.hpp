@@ -20,7 +20,7 @@ public:
   /// Grows a polyhedron around a tetrahedron, neighbours that add no vertex first, and proposes to fill it
   /// anew. Its faces stay; a vertex inside may vanish if it is free. False when nothing beats both the
   /// polyhedron as it is and `floor`.
-  bool propose(const TetMesh& mesh, LocalIndex t, double floor, Cavity& cavity);
+  bool propose(const TetMesh& mesh, LocalIndex t, double floor, Replacement& cavity);
 
 private:
   using Local = std::int8_t;  ///< number of a vertex in the polyhedron

@@ -195,17 +195,17 @@ bool TetMesh::collect_fan(LocalIndex t, int edge, int most, Fan& fan) const {
   }
 }
 
-bool TetMesh::collect_shell(LocalIndex t, int edge, int most, Shell& shell) const {
-  shell.start = _cells[t][tetrahedron_edges[edge][0]];
-  shell.end = _cells[t][tetrahedron_edges[edge][1]];
+bool TetMesh::collect_edge_ring(LocalIndex t, int edge, int most, EdgeRing& edge_ring) const {
+  edge_ring.start = _cells[t][tetrahedron_edges[edge][0]];
+  edge_ring.end = _cells[t][tetrahedron_edges[edge][1]];
   LocalIndex from = _cells[t][others[edge][0]], to = _cells[t][others[edge][1]];
-  shell.tets.clear();
-  shell.ring.clear();
+  edge_ring.tets.clear();
+  edge_ring.ring.clear();
   LocalIndex current = t;
   do {
-    if (static_cast<int>(shell.tets.size()) == most) return false;
-    shell.tets.push_back(current);
-    shell.ring.push_back(from);
+    if (static_cast<int>(edge_ring.tets.size()) == most) return false;
+    edge_ring.tets.push_back(current);
+    edge_ring.ring.push_back(from);
     const HalfFace next = _mates[4 * current + local_vertex(current, from)];
     if (next < 0) return false;
     from = to;
@@ -215,7 +215,7 @@ bool TetMesh::collect_shell(LocalIndex t, int edge, int most, Shell& shell) cons
   return true;
 }
 
-void TetMesh::take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed) {
+void TetMesh::take_slots(const Replacement& cavity, std::vector<LocalIndex>& placed) {
   placed.clear();
   for (std::size_t i = 0; i < cavity.new_tets.size(); ++i) {
     LocalIndex slot = slot_count();
@@ -247,7 +247,7 @@ void TetMesh::open_boundary(const FaceRecord& record, LocalIndex triangle) {
 }
 
 // Pairs stay, single faces are the new boundary.
-void TetMesh::match_boundary(const Cavity& cavity) {
+void TetMesh::match_boundary(const Replacement& cavity) {
   std::size_t kept = 0, used = 0;
   for (std::size_t i = 0; i < _faces.size(); ++i) {
     if (i + 1 < _faces.size() && _faces[i].key == _faces[i + 1].key) {
@@ -280,7 +280,7 @@ void TetMesh::match_cavity_faces() {
   }
 }
 
-void TetMesh::replace(const Cavity& cavity, std::vector<LocalIndex>& placed) {
+void TetMesh::replace(const Replacement& cavity, std::vector<LocalIndex>& placed) {
   next_mark();
   for (const LocalIndex t : cavity.old_tets) _tet_mark[t] = _mark;
   _faces.clear();

@@ -33,7 +33,7 @@ inline LocalIndex triangle_of(HalfFace h) {
 
 /// Tetrahedra around an interior edge: (start, end, ring[i], ring[i+1]) is tets[i], of positive volume; the
 /// ring is closed.
-struct Shell {
+struct EdgeRing {
   LocalIndex start = 0, end = 0;
   std::vector<LocalIndex> tets;
   std::vector<LocalIndex> ring;
@@ -50,7 +50,7 @@ struct Fan {
 
 /// A proposed change: the tetrahedra that go, those that come, and the worst quality of both. Triangles of
 /// the boundary may go with them; what is open then becomes the new boundary, of at most as many triangles.
-struct Cavity {
+struct Replacement {
   std::vector<LocalIndex> old_tets;
   std::vector<Corners> new_tets;
   std::vector<LocalIndex> old_triangles;
@@ -97,7 +97,7 @@ public:
   void collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets);
   /// The tetrahedra around edge i (mesh::tetrahedron_edges) of a tetrahedron. False when the edge lies on a
   /// face without neighbour, or has more than `most` tetrahedra.
-  bool collect_shell(LocalIndex t, int edge, int most, Shell& shell) const;
+  bool collect_edge_ring(LocalIndex t, int edge, int most, EdgeRing& edge_ring) const;
   /// The tetrahedra around such an edge between two boundary triangles; false where it is none, or has more
   /// than `most` tetrahedra.
   bool collect_fan(LocalIndex t, int edge, int most, Fan& fan) const;
@@ -121,7 +121,7 @@ public:
   /// Puts the new tetrahedra in the place of the old ones; both must fill the same space with positive
   /// volumes, up to the triangles of the boundary that change. Vertices that only old ones use are swallowed.
   /// `placed` receives the slots of the new ones.
-  void replace(const Cavity& cavity, std::vector<LocalIndex>& placed);
+  void replace(const Replacement& cavity, std::vector<LocalIndex>& placed);
   /// Moves a vertex; `star` is all its tetrahedra.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star);
   /// A new vertex inside the region that `like` lies in; to be used by the next replaced cavity.
@@ -145,11 +145,11 @@ private:
   void match_all_faces();
   void match_triangles();
   void open_boundary(const FaceRecord& record, LocalIndex triangle);
-  void match_boundary(const Cavity& cavity);
+  void match_boundary(const Replacement& cavity);
   void remove_dead_triangles();
   void fix_vertices();
   void match_cavity_faces();
-  void take_slots(const Cavity& cavity, std::vector<LocalIndex>& placed);
+  void take_slots(const Replacement& cavity, std::vector<LocalIndex>& placed);
   void order_cells();
   void remove_unused_vertices();
   std::array<LocalIndex, 3> face_key(HalfFace h) const;

@@ -30,7 +30,7 @@ private:
   Vec3 _center;
   double _squared_radius = 0;  ///< of the sphere
   double _least_edge = 0;      ///< nothing may be nearer to the centre
-  Cavity _cavity;
+  Replacement _cavity;
   std::vector<Wall> _walls;
   /// Per slot: in which cavity it was last found inside or outside, and whether a larger sphere around its
   /// place was tried already.

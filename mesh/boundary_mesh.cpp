@@ -1,5 +1,8 @@
 #include "mesh/boundary_mesh.hpp"
 
+#include "geometry/runs.hpp"
+#include "mesh/tokens.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -46,7 +49,7 @@ public:
       skin.vertex_dimension.push_back(_volume.vertex_dimension[v]);
       skin.vertex_entity.push_back(_volume.vertex_entity[v]);
       skin.shared_vertices.push_back(static_cast<LocalIndex>(i));
-      skin.shared_tokens.push_back(static_cast<SharedToken>(_names[v]));
+      skin.shared_tokens.push_back(running_token(_names[v]));
       _local[v] = -1;
     }
     return skin;
@@ -74,12 +77,14 @@ DistributedMesh boundary_mesh(const parallel::Communicator& communicator, const 
     const Piece& piece = volume.pieces[i];
     const std::vector<LocalIndex> order = triangles_by_face(piece);
     SkinPiece skin(piece, numbering.vertices[i]);
-    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-      while (end < order.size() && piece.triangle_face[order[end]] == piece.triangle_face[order[begin]])
-        ++end;
-      surface.pieces.push_back(skin.build(0, std::span(order).subspan(begin, end - begin)));
-      owners.push_back(piece.id);
-    }
+    const auto same_face = [&](LocalIndex a, LocalIndex b) {
+      return piece.triangle_face[a] == piece.triangle_face[b];
+    };
+    geometry::for_each_run(
+        std::span<const LocalIndex>(order), same_face, [&](std::size_t begin, std::size_t end) {
+          surface.pieces.push_back(skin.build(0, std::span(order).subspan(begin, end - begin)));
+          owners.push_back(piece.id);
+        });
   }
   // Ids run by tetrahedral piece, then by face.
   std::vector<PieceId> all = communicator.all_gather_items<PieceId>(owners);

@@ -26,7 +26,7 @@ struct DistributedMesh {
   std::vector<std::string> faces;    ///< CAD face names by face id, the same on every rank
   std::vector<FaceSides> sides;      ///< by face id, the same on every rank; empty: all faces bound region 0
   std::vector<std::string> regions;  ///< names by region id, the same on every rank; empty: one, unnamed
-  std::int32_t cavity_rounds = 0;    ///< that changed the pieces so far (mesh/cavities.hpp), on every rank
+  std::int32_t cavity_rounds = 0;    ///< that changed the pieces so far (cavities/rounds.hpp), on every rank
 
   RegionId region_count() const { return regions.empty() ? 1 : static_cast<RegionId>(regions.size()); }
   FaceSides sides_of(std::int32_t face) const {

@@ -14,7 +14,7 @@ namespace aeroloom::mesh {
 using LocalIndex = std::int32_t;   ///< of a vertex or cell within a piece
 using GlobalIndex = std::int64_t;  ///< of a vertex or cell of the whole mesh
 using PieceId = std::int32_t;      ///< fixed by the decomposition, whatever the rank count
-using RegionId = std::int32_t;     ///< of a CAD region, as in geometry::Model
+using RegionId = std::int32_t;     ///< of a CAD region, as in cad::Model
 inline constexpr RegionId no_region = -1;
 /// The name of a vertex that several pieces share, known by construction before any numbering. Equal tokens
 /// are one vertex.

@@ -1,5 +1,6 @@
 #include "mesh/sharing.hpp"
 
+#include "geometry/runs.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/mixing.hpp"
 
@@ -26,10 +27,10 @@ std::int64_t forget_unshared(const parallel::Communicator& communicator, Distrib
     return std::tie(a.token, a.piece) < std::tie(b.token, b.piece);
   });
   std::vector<Share> alone;
-  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    while (j < met.size() && met[j].token == met[i].token) ++j;
-    if (j == i + 1) alone.push_back(met[i]);
-  }
+  const auto same = [](const Share& a, const Share& b) { return a.token == b.token; };
+  geometry::for_each_run(std::span<const Share>(met), same, [&](std::size_t first, std::size_t last) {
+    if (last == first + 1) alone.push_back(met[first]);
+  });
   std::vector<Share> arrived = deliver(communicator, alone, [](const Share& s) { return s.rank; });
   const auto less = [](const Share& a, const Share& b) {
     return std::tie(a.piece, a.token) < std::tie(b.piece, b.token);

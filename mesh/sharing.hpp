@@ -9,8 +9,8 @@
 namespace aeroloom::mesh {
 
 /// Strikes vertices off the lists of shared ones that no other piece knows any more. Refilled cavities
-/// (cavities.hpp) leave many of them. Numbering and hash stay as they are. Returns their number in the whole
-/// mesh. Collective.
+/// (cavities/rounds.hpp) leave many of them. Numbering and hash stay as they are. Returns their number in the
+/// whole mesh. Collective.
 std::int64_t forget_unshared(const parallel::Communicator& communicator, DistributedMesh& mesh);
 
 }  // namespace aeroloom::mesh

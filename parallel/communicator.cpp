@@ -179,8 +179,8 @@ Communicator Communicator::self() {
 }
 
 const CommunicatorHandle& Communicator::usable_handle() const {
-  if (_handle->communicator == MPI_COMM_NULL) {
-    throw std::logic_error("a communicator was used after the end of its parallel::Environment");
+  if (!session::is_library_running()) {
+    throw std::logic_error("a communicator was used after the end of MPI");
   }
   return *_handle;
 }

@@ -34,8 +34,10 @@ class Communicator {
 public:
   /// All ranks of the program. Throws std::logic_error without a living Environment.
   static Communicator world();
-  /// This rank alone. Throws std::logic_error without a living Environment.
+  /// This rank alone. Throws std::logic_error unless MPI runs. For the host's own groups see host.hpp.
   static Communicator self();
+  /// Internal to parallel/.
+  explicit Communicator(std::shared_ptr<CommunicatorHandle> handle) : _handle(std::move(handle)) {}
 
   Rank rank() const;
   int size() const;
@@ -75,7 +77,6 @@ public:
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 
 private:
-  explicit Communicator(std::shared_ptr<CommunicatorHandle> handle) : _handle(std::move(handle)) {}
   const CommunicatorHandle& usable_handle() const;
   std::shared_ptr<CommunicatorHandle> _handle;
 };

@@ -2,9 +2,12 @@
 
 #include "parallel/contained_server.hpp"
 #include "parallel/file_descriptor.hpp"
+#include "parallel/log.hpp"
 #include "parallel/session.hpp"
+#include "parallel/timers.hpp"
 
 #include <cstring>
+#include <new>
 #include <stdexcept>
 
 #include <poll.h>
@@ -108,6 +111,32 @@ Bytes read_output(const FileDescriptor& memory) {
   return output;
 }
 
+/// Runs a task in this process.
+ContainedResult run_uncontained(const RegisteredTask& task, std::span<const std::byte> input) {
+  static bool warned = false;
+  if (!warned) {
+    log_warning("no server of contained runs was started before MPI: what crashes in '" + task.name +
+                "' ends the program, and limits of time and memory do not hold (parallel::ContainedServer)");
+  }
+  warned = true;
+  ContainedResult result;
+  const double start = cpu_seconds();
+  try {
+    result.output = task.run(input);
+  } catch (const std::bad_alloc&) {
+    result.status = ContainedStatus::out_of_memory;
+  } catch (const std::exception& error) {
+    result.status = ContainedStatus::threw;
+    result.message = error.what();
+  } catch (...) {
+    result.status = ContainedStatus::threw;
+    result.message = "an exception of unknown type";
+  }
+  result.cpu_seconds = cpu_seconds() - start;
+  result.peak_resident_bytes = resident_bytes();
+  return result;
+}
+
 }  // namespace
 
 void register_contained_task(const std::string& name, ContainedTask task) {
@@ -117,8 +146,7 @@ void register_contained_task(const std::string& name, ContainedTask task) {
     throw std::logic_error("two contained tasks are registered as '" + name + "'");
   }
   if (registry().sealed) {
-    throw std::logic_error("contained task '" + name +
-                           "' is registered after the start of parallel::Environment");
+    throw std::logic_error("contained task '" + name + "' is registered after the start of the server");
   }
   registry().tasks.push_back({name, task});
 }
@@ -127,7 +155,12 @@ const std::vector<RegisteredTask>& contained_tasks() {
   return registry().tasks;
 }
 
-void start_contained_server() {
+bool is_containment_ready() {
+  return server().socket.is_open();
+}
+
+ContainedServer::ContainedServer() {
+  if (is_containment_ready()) throw std::logic_error("a second server of contained runs is started");
   registry().sealed = true;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -147,20 +180,18 @@ void start_contained_server() {
   server().socket = std::move(mine);
 }
 
-void stop_contained_server() {
-  if (!server().socket.is_open()) return;
+ContainedServer::~ContainedServer() {
   server().socket.close();
   while (waitpid(server().process, nullptr, 0) < 0 && errno == EINTR) {
   }
   server().process = -1;
+  registry().sealed = false;
 }
 
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
                               const ContainedLimits& limits) {
   const ContainedRequest request{position_of_task(name), limits};
-  if (!server().socket.is_open()) {
-    throw std::logic_error("contained task '" + name + "' is run without a living parallel::Environment");
-  }
+  if (!is_containment_ready()) return run_uncontained(registry().tasks[request.task], input);
   FileDescriptor input_memory = shared_memory("input"), output_memory = shared_memory("output");
   if (!write_all(input_memory.number(), input)) throw std::bad_alloc();
   send_request(server().socket.number(), request, input_memory, output_memory);

@@ -18,9 +18,24 @@ namespace aeroloom::parallel {
 /// A task that runs in the child: bytes in, bytes out. It may throw (the message comes back), abort or hang.
 using ContainedTask = Bytes (*)(std::span<const std::byte> input);
 
-/// Makes `task` known under `name`. Call before Environment is constructed (or at static initialisation);
-/// later calls throw std::logic_error. Registering a name twice with another task throws too.
+/// Makes `task` known under `name`. Call before the server is started (or at static initialisation);
+/// afterwards a new name throws std::logic_error. Registering a name twice with another task throws too.
 void register_contained_task(const std::string& name, ContainedTask task);
+
+/// The worker server of this process. Environment starts one; a program that runs MPI itself constructs it
+/// before it starts MPI, after every task is registered, or does without: tasks then run in the rank itself.
+/// At most one at a time; a second one throws std::logic_error.
+class ContainedServer {
+public:
+  ContainedServer();
+  /// Ends the server and waits for it.
+  ~ContainedServer();
+  ContainedServer(const ContainedServer&) = delete;
+  ContainedServer& operator=(const ContainedServer&) = delete;
+};
+
+/// Whether tasks run in children: a server is there.
+bool is_containment_ready();
 
 /// Limits of one run; functions of the input, never of the clock or the machine.
 struct ContainedLimits {
@@ -40,8 +55,10 @@ struct ContainedResult {
   std::int64_t peak_resident_bytes = 0;
 };
 
-/// Runs the task in a child of this rank's server and waits for it. Not collective. Throws
-/// std::logic_error when the name is unknown and std::runtime_error when the server itself is gone.
+/// Runs the task in a child of this rank's server and waits for it. Without a server the task runs here: what
+/// it throws is caught, but limits do not hold, and what aborts ends the program; the first such run warns.
+/// Not collective. Throws std::logic_error when the name is unknown and std::runtime_error when the server
+/// itself is gone.
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
                               const ContainedLimits& limits);
 

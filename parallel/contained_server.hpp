@@ -9,11 +9,6 @@
 
 namespace aeroloom::parallel {
 
-/// Forks the server. Seals the list of tasks, which the server inherits.
-void start_contained_server();
-/// Ends the server and waits for it. Nothing when there is none.
-void stop_contained_server();
-
 /// A task as registered; server and rank refer to it by its position.
 struct RegisteredTask {
   std::string name;

@@ -1,6 +1,6 @@
 #include "parallel/environment.hpp"
 
-#include "parallel/contained_server.hpp"
+#include "parallel/contained.hpp"
 #include "parallel/session.hpp"
 
 #include <cstdio>
@@ -38,7 +38,8 @@ constexpr int exit_bug = 70;
 }  // namespace
 
 Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
-  start_contained_server();
+  if (!session::is_library_running() && !is_containment_ready())
+    _server = std::make_unique<ContainedServer>();
   session::start(argc, argv);
   std::set_terminate(report_and_abort);
 }
@@ -50,13 +51,12 @@ Environment::~Environment() {
     abort_all_ranks(exit_bug);
   }
   session::finish();
-  stop_contained_server();
 }
 
 void abort_all_ranks(int exit_code) {
   std::fflush(stdout);
   std::fflush(stderr);
-  if (session::is_running()) MPI_Abort(session::world()->communicator, exit_code);
+  if (session::is_library_running()) MPI_Abort(MPI_COMM_WORLD, exit_code);
   _exit(exit_code);
 }
 

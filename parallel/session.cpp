@@ -7,33 +7,20 @@ namespace aeroloom::parallel::session {
 
 namespace {
 
-struct Groups {
-  std::shared_ptr<CommunicatorHandle> world, self;
+struct Session {
+  std::shared_ptr<CommunicatorHandle> world;
+  bool started_library = false;
 };
 
-Groups& groups() {
-  static Groups instance;
+Session& current() {
+  static Session instance;
   return instance;
 }
 
-/// A group of our own with the members of `original`: messages of other libraries cannot mix with ours.
-std::shared_ptr<CommunicatorHandle> duplicate(MPI_Comm original) {
-  auto handle = std::make_shared<CommunicatorHandle>();
-  check(MPI_Comm_dup(original, &handle->communicator), "duplicating a communicator");
-  check(MPI_Comm_set_errhandler(handle->communicator, MPI_ERRORS_RETURN), "setting the error handler");
-  check(MPI_Comm_rank(handle->communicator, &handle->rank), "asking for the rank");
-  check(MPI_Comm_size(handle->communicator, &handle->size), "asking for the number of ranks");
-  return handle;
-}
-
-void release(std::shared_ptr<CommunicatorHandle>& handle) {
-  MPI_Comm_free(&handle->communicator);
-  handle.reset();
-}
-
-const std::shared_ptr<CommunicatorHandle>& require(const std::shared_ptr<CommunicatorHandle>& handle) {
-  if (!handle) throw std::logic_error("a communicator was asked for without a living parallel::Environment");
-  return handle;
+/// Frees the group, unless the library has ended before.
+void release(CommunicatorHandle* handle) {
+  if (is_library_running()) MPI_Comm_free(&handle->communicator);
+  delete handle;
 }
 
 }  // namespace
@@ -47,37 +34,58 @@ void check(int code, const char* operation) {
                            std::string(text, static_cast<std::size_t>(length)));
 }
 
+bool is_library_running() {
+  int started = 0, ended = 0;
+  MPI_Initialized(&started);
+  MPI_Finalized(&ended);
+  return started != 0 && ended == 0;
+}
+
+std::shared_ptr<CommunicatorHandle> duplicate(MPI_Comm original) {
+  std::shared_ptr<CommunicatorHandle> handle(new CommunicatorHandle, release);
+  check(MPI_Comm_dup(original, &handle->communicator), "duplicating a communicator");
+  check(MPI_Comm_set_errhandler(handle->communicator, MPI_ERRORS_RETURN), "setting the error handler");
+  check(MPI_Comm_rank(handle->communicator, &handle->rank), "asking for the rank");
+  check(MPI_Comm_size(handle->communicator, &handle->size), "asking for the number of ranks");
+  return handle;
+}
+
 void start(int& argc, char**& argv) {
   if (is_running()) throw std::logic_error("parallel::Environment is constructed a second time");
-  int provided = MPI_THREAD_SINGLE;
-  check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "starting");
-  groups().world = duplicate(MPI_COMM_WORLD);
-  groups().self = duplicate(MPI_COMM_SELF);
+  if (!is_library_running()) {
+    int provided = MPI_THREAD_SINGLE;
+    check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "starting");
+    current().started_library = true;
+  }
+  current().world = duplicate(MPI_COMM_WORLD);
 }
 
 void finish() {
-  release(groups().self);
-  release(groups().world);
-  MPI_Finalize();
+  current().world.reset();
+  if (current().started_library) MPI_Finalize();
+  current().started_library = false;
 }
 
 bool is_running() {
-  return groups().world != nullptr;
+  return current().world != nullptr;
 }
 
 std::shared_ptr<CommunicatorHandle> world() {
-  return require(groups().world);
+  if (!is_running())
+    throw std::logic_error("the group of all ranks was asked for without a living parallel::Environment");
+  return current().world;
 }
 
 std::shared_ptr<CommunicatorHandle> self() {
-  return require(groups().self);
+  if (!is_library_running()) throw std::logic_error("a communicator was asked for before MPI runs, or after");
+  return duplicate(MPI_COMM_SELF);
 }
 
 void make_progress() {
-  if (!is_running()) return;
+  if (!is_library_running()) return;
   int arrived = 0;
-  check(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, groups().world->communicator, &arrived, MPI_STATUS_IGNORE),
-        "probing");
+  MPI_Comm group = is_running() ? current().world->communicator : MPI_COMM_SELF;
+  check(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, group, &arrived, MPI_STATUS_IGNORE), "probing");
 }
 
 }  // namespace aeroloom::parallel::session

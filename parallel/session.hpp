@@ -1,5 +1,4 @@
-/// The message passing library between its start and its end. Internal to parallel/: the only header that
-/// includes mpi.h.
+/// The message passing library between its start and its end. Internal to parallel/.
 #pragma once
 
 #include <memory>
@@ -21,14 +20,22 @@ namespace session {
 /// Throws std::runtime_error with the library's own text unless `code` is success.
 void check(int code, const char* operation);
 
-/// Starts the library and makes the groups of all ranks and of this rank alone.
+/// Starts the library, unless the host program has, and makes the group of all ranks. Collective.
 void start(int& argc, char**& argv);
-/// Ends the library. Collective.
+/// Ends what start() began. Collective.
 void finish();
+/// Whether start() has been called, and finish() not yet.
 bool is_running();
+/// Whether the library runs, whoever started it.
+bool is_library_running();
 
-/// Throw std::logic_error unless the library is running.
+/// A group of our own with the members of `original`: messages of other libraries cannot mix with ours. Freed
+/// with the last reference. Collective.
+std::shared_ptr<CommunicatorHandle> duplicate(MPI_Comm original);
+
+/// Throws std::logic_error unless start() has been called.
 std::shared_ptr<CommunicatorHandle> world();
+/// Throws std::logic_error unless the library runs.
 std::shared_ptr<CommunicatorHandle> self();
 
 /// Lets the library work on messages under way, without waiting. Nothing when it is not running.

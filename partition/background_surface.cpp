@@ -6,10 +6,10 @@
 namespace aeroloom::partition {
 namespace {
 
-double corner_angle(const BackgroundSurface& surface, HalfEdge corner) {
+double corner_angle(const BackgroundSurface& surface, geometry::HalfEdge corner) {
   const geometry::Vec3 at = surface.points[surface.start(corner)];
   const geometry::Vec3 u = surface.points[surface.end(corner)] - at;
-  const geometry::Vec3 v = surface.points[surface.start(previous_half_edge(corner))] - at;
+  const geometry::Vec3 v = surface.points[surface.start(geometry::previous_half_edge(corner))] - at;
   return std::atan2(norm(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
 }
 
@@ -17,27 +17,27 @@ double corner_angle(const BackgroundSurface& surface, HalfEdge corner) {
 
 VertexFans gather_fans(const BackgroundSurface& surface) {
   VertexFans fans;
-  const auto count = static_cast<HalfEdge>(surface.twins.size());
+  const auto count = static_cast<geometry::HalfEdge>(surface.twins.size());
   std::vector<char> done(count, 0);
-  const auto gather = [&](HalfEdge start) {
+  const auto gather = [&](geometry::HalfEdge start) {
     fans.first.push_back(static_cast<std::int32_t>(fans.corners.size()));
-    HalfEdge corner = start;
+    geometry::HalfEdge corner = start;
     do {
       done[corner] = 1;
       fans.corners.push_back(corner);
-      corner = surface.twins[previous_half_edge(corner)];
+      corner = surface.twins[geometry::previous_half_edge(corner)];
     } while (corner >= 0 && corner != start);
     fans.closed.push_back(corner >= 0);
   };
-  for (HalfEdge h = 0; h < count; ++h) {
+  for (geometry::HalfEdge h = 0; h < count; ++h) {
     if (surface.twins[h] < 0) gather(h);
   }
-  for (HalfEdge h = 0; h < count; ++h) {
+  for (geometry::HalfEdge h = 0; h < count; ++h) {
     if (!done[h]) gather(h);
   }
   fans.first.push_back(static_cast<std::int32_t>(fans.corners.size()));
   fans.angles.reserve(fans.corners.size());
-  for (const HalfEdge corner : fans.corners) fans.angles.push_back(corner_angle(surface, corner));
+  for (const geometry::HalfEdge corner : fans.corners) fans.angles.push_back(corner_angle(surface, corner));
   return fans;
 }
 

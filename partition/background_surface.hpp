@@ -1,6 +1,7 @@
 /// A background triangulation as its decomposition sees it.
 #pragma once
 
+#include "geometry/half_edges.hpp"
 #include "geometry/vec.hpp"
 
 #include <array>
@@ -9,43 +10,33 @@
 
 namespace aeroloom::partition {
 
-/// Half-edge 3 t + i runs from corner i of triangle t to its next corner; corner 3 t + i is that it starts
-/// from.
-using HalfEdge = std::int32_t;
-
-inline HalfEdge next_half_edge(HalfEdge h) {
-  return h % 3 == 2 ? h - 2 : h + 1;
-}
-inline HalfEdge previous_half_edge(HalfEdge h) {
-  return h % 3 == 0 ? h + 2 : h - 1;
-}
-
 /// An oriented triangulation, coarse next to the mesh to come. Edges with a triangle on one side alone are
 /// feature curves: they bound pieces whatever the decomposition.
 struct BackgroundSurface {
   std::vector<geometry::Vec3> points;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<HalfEdge> twins;  ///< per half-edge: the opposite one, -1 on a feature curve
-  std::vector<double> loads;    ///< per triangle: predicted triangles of the fine mesh
+  std::vector<geometry::HalfEdge> twins;  ///< per half-edge: the opposite one, -1 on a feature curve
+  std::vector<double> loads;              ///< per triangle: predicted triangles of the fine mesh
 
-  std::int32_t start(HalfEdge h) const { return triangles[h / 3][h % 3]; }
-  std::int32_t end(HalfEdge h) const { return start(next_half_edge(h)); }
+  std::int32_t start(geometry::HalfEdge h) const { return triangles[h / 3][h % 3]; }
+  std::int32_t end(geometry::HalfEdge h) const { return start(geometry::next_half_edge(h)); }
 };
 
 /// The triangles around a vertex in counter-clockwise order. A vertex where feature curves touch may have
 /// several fans.
 struct VertexFans {
-  std::vector<HalfEdge> corners;    ///< half-edges that start at the vertex, fan by fan
-  std::vector<std::int32_t> first;  ///< (fans + 1) into corners
-  std::vector<char> closed;         ///< per fan: 1 around an interior vertex
-  std::vector<double> angles;       ///< per corner, degrees
+  std::vector<geometry::HalfEdge> corners;  ///< half-edges that start at the vertex, fan by fan
+  std::vector<std::int32_t> first;          ///< (fans + 1) into corners
+  std::vector<char> closed;                 ///< per fan: 1 around an interior vertex
+  std::vector<double> angles;               ///< per corner, degrees
 
   std::int32_t count() const { return static_cast<std::int32_t>(closed.size()); }
   std::int32_t size(std::int32_t fan) const { return first[fan + 1] - first[fan]; }
   /// Edges leave the vertex between corners: edge i of a fan lies before its corner i; an open fan ends with
   /// one more. This is its half-edge in one of the triangles beside it.
-  HalfEdge edge(std::int32_t fan, std::int32_t i) const {
-    return i < size(fan) ? corners[first[fan] + i] : previous_half_edge(corners[first[fan + 1] - 1]);
+  geometry::HalfEdge edge(std::int32_t fan, std::int32_t i) const {
+    return i < size(fan) ? corners[first[fan] + i]
+                         : geometry::previous_half_edge(corners[first[fan + 1] - 1]);
   }
   std::int32_t edge_count(std::int32_t fan) const { return size(fan) + (closed[fan] ? 0 : 1); }
 };

@@ -32,8 +32,8 @@ WeightedGraph cluster_graph(const BackgroundSurface& surface, const Clusters& cl
     double weight;
   };
   std::vector<Arc> arcs;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
-    const HalfEdge twin = surface.twins[h];
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
+    const geometry::HalfEdge twin = surface.twins[h];
     if (twin < 0) continue;
     const std::int32_t from = clusters.of_triangle[h / 3], to = clusters.of_triangle[twin / 3];
     if (from == to) continue;

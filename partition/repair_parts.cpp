@@ -6,11 +6,12 @@
 namespace aeroloom::partition {
 namespace {
 
-bool is_feature(const BackgroundSurface& surface, HalfEdge h) {
+bool is_feature(const BackgroundSurface& surface, geometry::HalfEdge h) {
   return surface.twins[h] < 0;
 }
 
-bool is_border(const BackgroundSurface& surface, const std::vector<std::int32_t>& part, HalfEdge h) {
+bool is_border(const BackgroundSurface& surface, const std::vector<std::int32_t>& part,
+               geometry::HalfEdge h) {
   return is_feature(surface, h) || part[h / 3] != part[surface.twins[h] / 3];
 }
 
@@ -70,7 +71,7 @@ private:
     double best = before * (1 - 1e-9);
     std::int32_t target = -1;
     for (const std::int32_t edge : {wedge.from, wedge.to}) {
-      const HalfEdge h = _fans.edge(wedge.fan, edge);
+      const geometry::HalfEdge h = _fans.edge(wedge.fan, edge);
       if (_surface.twins[h] < 0) continue;
       // The part on the far side of the edge.
       const std::int32_t other = _part[h / 3] == mine ? _part[_surface.twins[h] / 3] : _part[h / 3];
@@ -143,7 +144,7 @@ void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& 
       stack.pop_back();
       loads[number] += surface.loads[t];
       for (int i = 0; i < 3; ++i) {
-        const HalfEdge twin = surface.twins[3 * t + i];
+        const geometry::HalfEdge twin = surface.twins[3 * t + i];
         if (twin < 0 || component[twin / 3] >= 0 || part[twin / 3] != part[t]) continue;
         component[twin / 3] = number;
         stack.push_back(twin / 3);
@@ -161,8 +162,8 @@ void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& 
   for (bool changed = true; changed;) {
     changed = false;
     std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part beyond: length
-    for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
-      const HalfEdge twin = surface.twins[h];
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
+      const geometry::HalfEdge twin = surface.twins[h];
       if (twin < 0 || settled[component[h / 3]] || !settled[component[twin / 3]]) continue;
       border[{component[h / 3], part_of[component[twin / 3]]}] +=
           distance(surface.points[surface.start(h)], surface.points[surface.end(h)]);

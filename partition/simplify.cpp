@@ -1,5 +1,7 @@
 #include "partition/simplify.hpp"
 
+#include "geometry/disjoint_sets.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -11,23 +13,17 @@ namespace {
 /// Triangles united to clusters, with their loads.
 class ClusterForest {
 public:
-  explicit ClusterForest(const std::vector<double>& loads) : _parent(loads.size()), _loads(loads) {
-    std::iota(_parent.begin(), _parent.end(), 0);
-  }
-  std::int32_t root(std::int32_t t) {
-    while (_parent[t] != t) t = _parent[t] = _parent[_parent[t]];
-    return t;
-  }
+  explicit ClusterForest(const std::vector<double>& loads) : _sets(loads.size()), _loads(loads) {}
+  std::int32_t root(std::int32_t t) { return _sets.root(t); }
   double load(std::int32_t root) const { return _loads[root]; }
-  /// The lower root stays, so that numbers do not depend on the order of unions.
+  /// Of two roots.
   void unite(std::int32_t a, std::int32_t b) {
-    if (a > b) std::swap(a, b);
-    _parent[b] = a;
-    _loads[a] += _loads[b];
+    _sets.unite(a, b);
+    _loads[std::min(a, b)] += _loads[std::max(a, b)];
   }
 
 private:
-  std::vector<std::int32_t> _parent;
+  geometry::DisjointSets<std::int32_t> _sets;
   std::vector<double> _loads;
 };
 
@@ -66,8 +62,8 @@ Clusters number_clusters(const BackgroundSurface& surface, ClusterForest& forest
       clusters.of_triangle[t] = clusters.of_triangle[root];
     }
   }
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(surface.twins.size()); ++h) {
-    const HalfEdge twin = surface.twins[h];
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
+    const geometry::HalfEdge twin = surface.twins[h];
     if (twin > h && clusters.of_triangle[h / 3] == clusters.of_triangle[twin / 3]) ++clusters.forbidden_edges;
   }
   return clusters;
@@ -89,12 +85,12 @@ Clusters simplify(const BackgroundSurface& surface, const VertexFans& fans, cons
       bool feature = true;
       std::int32_t left = -1, right = -1;
       double load = 0;
-      HalfEdge half_edge = -1;
+      geometry::HalfEdge half_edge = -1;
     };
     const auto arc_of = [&](std::int32_t edge) {
       Arc arc;
       arc.half_edge = fans.edge(wedge.fan, edge);
-      const HalfEdge twin = surface.twins[arc.half_edge];
+      const geometry::HalfEdge twin = surface.twins[arc.half_edge];
       if (twin < 0) return arc;
       arc.feature = false;
       arc.left = forest.root(arc.half_edge / 3);

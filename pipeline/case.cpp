@@ -19,13 +19,13 @@ enum class Builtin { none, transport };
 struct Draft {
   Case result;
   Builtin builtin = Builtin::none;
-  geometry::TransportDimensions dimensions;
+  cad::TransportDimensions dimensions;
   bool dimensions_given = false;
-  geometry::FarFieldOptions far_field;
+  cad::FarFieldOptions far_field;
   bool far_field_given = false;
 };
 
-void declare_lifting_surface(KeyTable& keys, geometry::LiftingSurface& surface) {
+void declare_lifting_surface(KeyTable& keys, cad::LiftingSurface& surface) {
   keys.number("root_chord", surface.root_chord, Range::above(0, "m"));
   keys.number("taper", surface.taper, Range::above(0, 1));
   keys.number("half_span", surface.half_span, Range::above(0, "m"));
@@ -40,7 +40,7 @@ void declare_lifting_surface(KeyTable& keys, geometry::LiftingSurface& surface) 
   keys.number("trailing_edge", surface.trailing_edge, Range::above(0, 0.1, "of the chord"));
 }
 
-void declare_dimensions(KeyTable& keys, geometry::TransportDimensions& dimensions) {
+void declare_dimensions(KeyTable& keys, cad::TransportDimensions& dimensions) {
   keys.number("fuselage_length", dimensions.fuselage_length, Range::above(0, "m"));
   keys.number("fuselage_diameter", dimensions.fuselage_diameter, Range::above(0, "m"));
   keys.number("nose_length", dimensions.nose_length, Range::above(0, "m"));
@@ -52,8 +52,8 @@ void declare_dimensions(KeyTable& keys, geometry::TransportDimensions& dimension
 }
 
 void declare_geometry(KeyTable& root, Draft& draft) {
-  using geometry::DomainKind;
-  using geometry::FarFieldShape;
+  using cad::DomainKind;
+  using cad::FarFieldShape;
   KeyTable& keys = root.section("geometry");
   keys.text("file", draft.result.domain.file);
   keys.choice<Builtin>("builtin", draft.builtin, {{"transport", Builtin::transport}});
@@ -63,7 +63,7 @@ void declare_geometry(KeyTable& root, Draft& draft) {
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
   keys.choice<NarrowFaces>("narrow_faces", draft.result.narrow_faces,
                            {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}});
-  using Sabotage = geometry::DomainOptions::Sabotage;
+  using Sabotage = cad::DomainOptions::Sabotage;
   keys.choice<Sabotage>("inject", draft.result.domain.sabotage,
                         {{"none", Sabotage::none},
                          {"throws", Sabotage::throws},
@@ -77,8 +77,8 @@ void declare_geometry(KeyTable& root, Draft& draft) {
                                    {"hemisphere", FarFieldShape::hemisphere},
                                    {"cylinder", FarFieldShape::cylinder}});
   far_field.number("extent", draft.far_field.extent, Range::above(0, "reference lengths"));
-  using geometry::Axis;
-  using geometry::Symmetry;
+  using cad::Axis;
+  using cad::Symmetry;
   far_field.choice<Axis>("axis", draft.far_field.axis, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}});
   far_field.choice<Symmetry>("symmetry", draft.far_field.symmetry,
                              {{"auto", Symmetry::automatic},
@@ -168,7 +168,7 @@ void check_geometry(const KeyTable& keys, const Draft& draft, const std::string&
   if (draft.dimensions_given && !built_in) {
     throw CaseError(at("dimensions") + "'geometry.dimensions' belongs to 'geometry.builtin', not to a file");
   }
-  if (draft.result.domain.kind != geometry::DomainKind::fluid) return;
+  if (draft.result.domain.kind != cad::DomainKind::fluid) return;
   if (built_in)
     throw CaseError(at("domain") + "the built-in geometry is a body, 'geometry.domain' cannot be fluid");
   if (draft.far_field_given) {

@@ -1,13 +1,13 @@
 /// A case: everything a run depends on, as plain options of the stages. Keys: docs/configuration.md.
 #pragma once
 
-#include "geometry/domain.hpp"
-#include "improve/improver.hpp"
+#include "cad/domain/domain.hpp"
+#include "improve/improve_options.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
 #include "pipeline/quality_gate.hpp"
-#include "surface/surface_mesher.hpp"
-#include "volume/volume_mesher.hpp"
+#include "surface/surface_options.hpp"
+#include "volume/volume_options.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -37,7 +37,7 @@ struct OutputOptions {
 };
 
 struct Case {
-  geometry::DomainOptions domain;
+  cad::DomainOptions domain;
   NarrowFaces narrow_faces = NarrowFaces::join;
   SizingRequest sizing;
   surface::SurfaceOptions surface;

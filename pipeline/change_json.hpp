@@ -1,7 +1,7 @@
 /// Points and changes of the geometry as the project's JSON files have them.
 #pragma once
 
-#include "geometry/change.hpp"
+#include "cad/repair/change.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,9 +11,9 @@ inline nlohmann::ordered_json to_json(geometry::Vec3 p) {
   return nlohmann::ordered_json::array({p.x, p.y, p.z});
 }
 
-inline nlohmann::ordered_json to_json(const geometry::Changes& changes) {
+inline nlohmann::ordered_json to_json(const cad::Changes& changes) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const geometry::Change& change : changes) {
+  for (const cad::Change& change : changes) {
     json.push_back({{"what", change.what},
                     {"where", change.where ? to_json(*change.where) : nlohmann::ordered_json()},
                     {"how_much", change.how_much}});

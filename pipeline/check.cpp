@@ -25,7 +25,7 @@ constexpr int pieces_per_rank = 4;
 constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
 constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 450;
 
-Forecast forecast_run(const parallel::Communicator& communicator, const geometry::Model& model,
+Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
                       const Case& input) {
   parallel::StageClock clock;
   Forecast forecast;
@@ -46,7 +46,7 @@ std::string place(geometry::Vec3 p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
-std::string describe_reading(const Case& input, const geometry::Diagnosis& found) {
+std::string describe_reading(const Case& input, const cad::Diagnosis& found) {
   const geometry::Vec3 size = found.bounds.size();
   return fmt::format(
       "read: {}, {}, unit {}\n"
@@ -59,15 +59,15 @@ std::string describe_reading(const Case& input, const geometry::Diagnosis& found
 }
 
 std::string describe_findings(const CheckRecord& record) {
-  const geometry::EntityCounts& counts = record.diagnosis.counts;
+  const cad::EntityCounts& counts = record.diagnosis.counts;
   std::string text = fmt::format("found: {} open edges, {} short edges, {} sliver faces as read\n",
                                  counts.open_edges, counts.short_edges, counts.sliver_faces);
-  for (const geometry::Change& finding : record.diagnosis.findings) {
-    text += "      " + geometry::describe(finding) + "\n";
+  for (const cad::Change& finding : record.diagnosis.findings) {
+    text += "      " + cad::describe(finding) + "\n";
   }
   if (!record.diagnosis.domain) return text;
   text += fmt::format("      {} pairs of faces intersect or nearly touch\n", record.contact_count);
-  const geometry::Model& model = record.diagnosis.domain->model;
+  const cad::Model& model = record.diagnosis.domain->model;
   for (const FaceContact& contact : record.contacts) {
     text += fmt::format("      faces '{}' and '{}' meet near {}\n", model.face(contact.first).name,
                         model.face(contact.second).name, place(contact.where));
@@ -80,9 +80,9 @@ struct PatchSum {
   double area = 0;
 };
 
-std::vector<PatchSum> sum_patches(const geometry::Model& model) {
+std::vector<PatchSum> sum_patches(const cad::Model& model) {
   std::vector<PatchSum> sums(model.patches().size());
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     PatchSum& sum = sums[model.face(f).patch];
     ++sum.faces;
     sum.area += model.face_area(f);
@@ -90,10 +90,10 @@ std::vector<PatchSum> sum_patches(const geometry::Model& model) {
   return sums;
 }
 
-std::string describe_domain(const geometry::Domain& domain) {
+std::string describe_domain(const cad::Domain& domain) {
   std::string text;
-  for (const geometry::Change& change : domain.report.changes) {
-    text += "healed: " + geometry::describe(change) + "\n";
+  for (const cad::Change& change : domain.report.changes) {
+    text += "healed: " + cad::describe(change) + "\n";
   }
   text += fmt::format("domain: {}; {} region(s)\n", domain.report.reason, domain.model.region_count());
   const std::vector<PatchSum> sums = sum_patches(domain.model);
@@ -106,8 +106,8 @@ std::string describe_domain(const geometry::Domain& domain) {
 
 std::string describe_forecast(const Forecast& forecast, int ranks) {
   std::string text;
-  for (const geometry::Change& change : forecast.joined) {
-    text += "would be joined: " + geometry::describe(change) + "\n";
+  for (const cad::Change& change : forecast.joined) {
+    text += "would be joined: " + cad::describe(change) + "\n";
   }
   return text + fmt::format(
                     "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
@@ -120,7 +120,7 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
                     forecast.piece_tets);
 }
 
-Json read_json(const Case& input, const geometry::Diagnosis& found) {
+Json read_json(const Case& input, const cad::Diagnosis& found) {
   Json json = {{"file", input.domain.file}, {"format", found.format}, {"unit", found.unit_name}};
   json["bounds"] = {to_json(found.bounds.low), to_json(found.bounds.high)};
   json["solids"] = found.counts.solids;
@@ -133,12 +133,12 @@ Json read_json(const Case& input, const geometry::Diagnosis& found) {
   return json;
 }
 
-Json domain_json(const geometry::Domain& domain) {
-  Json json = {{"kind", domain.report.kind == geometry::DomainKind::fluid ? "fluid" : "body"},
+Json domain_json(const cad::Domain& domain) {
+  Json json = {{"kind", domain.report.kind == cad::DomainKind::fluid ? "fluid" : "body"},
                {"reason", domain.report.reason},
                {"changes", to_json(domain.report.changes)}};
   json["regions"] = Json::array();
-  for (geometry::RegionId r = 0; r < domain.model.region_count(); ++r) {
+  for (cad::RegionId r = 0; r < domain.model.region_count(); ++r) {
     json["regions"].push_back(domain.model.region_name(r));
   }
   json["patches"] = Json::array();
@@ -165,7 +165,7 @@ Json record_json(const Case& input, const CheckRecord& record) {
   json["contact_count"] = record.contact_count;
   json["contacts"] = Json::array();
   for (const FaceContact& contact : record.contacts) {
-    const geometry::Model& model = record.diagnosis.domain->model;
+    const cad::Model& model = record.diagnosis.domain->model;
     json["contacts"].push_back({{"faces", {model.face(contact.first).name, model.face(contact.second).name}},
                                 {"where", to_json(contact.where)}});
   }
@@ -188,7 +188,7 @@ void write_record(const Case& input, const CheckRecord& record) {
 }
 
 void print_record(const Case& input, const CheckRecord& record, int ranks) {
-  const geometry::Diagnosis& found = record.diagnosis;
+  const cad::Diagnosis& found = record.diagnosis;
   std::string text = describe_reading(input, found) + describe_findings(record);
   if (found.domain) {
     text += describe_domain(*found.domain) + describe_forecast(record.forecast, ranks);
@@ -212,7 +212,7 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (meshable) {
-    const geometry::Model model = share_model(communicator, std::move(bytes), clock);
+    const cad::Model model = share_model(communicator, std::move(bytes), clock);
     record.forecast = forecast_run(communicator, model, input);
     parallel::agree(communicator, [&] {
       if (communicator.is_root())

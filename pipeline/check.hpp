@@ -1,7 +1,7 @@
 /// The command check: what a run would meet, before it meshes anything.
 #pragma once
 
-#include "geometry/diagnosis.hpp"
+#include "cad/repair/diagnosis.hpp"
 #include "parallel/communicator.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
@@ -16,14 +16,14 @@ namespace aeroloom::pipeline {
 /// Two faces whose coarse facets meet although the faces share no edge and no vertex: they intersect, or are
 /// closer to each other than the facets follow them.
 struct FaceContact {
-  geometry::FaceId first, second;
+  cad::FaceId first, second;
   geometry::Vec3 where;
 };
 
 /// What a run would cost, from the prediction and the constants in docs/usage.md.
 struct Forecast {
   sizing::SizingOptions sizes;
-  geometry::Changes joined;  ///< narrow faces that would vanish in their neighbours
+  cad::Changes joined;  ///< narrow faces that would vanish in their neighbours
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together
@@ -31,15 +31,14 @@ struct Forecast {
 };
 
 struct CheckRecord {
-  geometry::Diagnosis diagnosis;
+  cad::Diagnosis diagnosis;
   std::vector<FaceContact> contacts;  ///< at most 20
   std::int64_t contact_count = 0;
   Forecast forecast;
 };
 
 /// Contacts among the faces of a model that are not far field, at most `most` of them listed. Not collective.
-std::vector<FaceContact> find_face_contacts(const geometry::Model& model, std::size_t most,
-                                            std::int64_t& count);
+std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t most, std::int64_t& count);
 
 /// Diagnoses the geometry, prints what was found on rank 0 and writes check.json to the output directory.
 /// Returns ok when a volume can be meshed, cad when not. Collective; throws CollectiveError when the file

@@ -115,7 +115,7 @@ int check(const Communicator& communicator, const Case& input) {
 
 int export_cad(const Communicator& communicator, const Case& input, const std::string& file) {
   parallel::agree(communicator, [&] {
-    if (communicator.is_root()) geometry::export_step(input.domain, file);
+    if (communicator.is_root()) cad::export_step(input.domain, file);
   });
   print(communicator, fmt::format("wrote {}\n", file));
   return 0;

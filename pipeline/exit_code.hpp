@@ -1,6 +1,8 @@
 /// How the program ends.
 #pragma once
 
+#include "pipeline/option_keys.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -19,11 +21,11 @@ enum class ExitCode {
   bug = 70,
 };
 
-/// A stage failed: the same message and code on every rank.
+/// A stage failed: the same message and code on every rank. Options are named by their keys.
 class StageFailure : public std::runtime_error {
 public:
   StageFailure(std::string stage, ExitCode code, const std::string& message)
-      : std::runtime_error(message), _stage(std::move(stage)), _code(code) {}
+      : std::runtime_error(with_keys(message)), _stage(std::move(stage)), _code(code) {}
   const std::string& stage() const { return _stage; }
   ExitCode code() const { return _code; }
 

@@ -1,5 +1,5 @@
+#include "geometry/box_tree.hpp"
 #include "pipeline/check.hpp"
-#include "surface/box_tree.hpp"
 #include "surface/triangle_contact.hpp"
 
 #include <algorithm>
@@ -14,15 +14,15 @@ constexpr double facet_angle = 0.35;       // radians
 
 struct Facet {
   geometry::Vec3 corners[3];
-  geometry::FaceId face;
+  cad::FaceId face;
 };
 
-std::vector<Facet> collect_facets(const geometry::Model& model) {
+std::vector<Facet> collect_facets(const cad::Model& model) {
   std::vector<Facet> facets;
   const double deflection = deflection_share * model.body_bounds().diagonal();
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (model.is_far_field(f)) continue;
-    const geometry::Facets of_face = model.facets(f, deflection, facet_angle);
+    const cad::Facets of_face = model.facets(f, deflection, facet_angle);
     for (const auto& t : of_face.triangles) {
       facets.push_back({{of_face.points[t[0]], of_face.points[t[1]], of_face.points[t[2]]}, f});
     }
@@ -31,11 +31,11 @@ std::vector<Facet> collect_facets(const geometry::Model& model) {
 }
 
 /// The vertices around each face, ascending.
-std::vector<std::vector<geometry::VertexId>> vertices_of_faces(const geometry::Model& model) {
-  std::vector<std::vector<geometry::VertexId>> vertices(model.face_count());
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+std::vector<std::vector<cad::VertexId>> vertices_of_faces(const cad::Model& model) {
+  std::vector<std::vector<cad::VertexId>> vertices(model.face_count());
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     for (const auto& loop : model.face(f).loops) {
-      for (const geometry::EdgeUse& use : loop) {
+      for (const cad::EdgeUse& use : loop) {
         vertices[f].push_back(model.edge(use.edge).first);
         vertices[f].push_back(model.edge(use.edge).last);
       }
@@ -45,8 +45,8 @@ std::vector<std::vector<geometry::VertexId>> vertices_of_faces(const geometry::M
   return vertices;
 }
 
-bool share_vertex(const std::vector<geometry::VertexId>& a, const std::vector<geometry::VertexId>& b) {
-  std::vector<geometry::VertexId> common;
+bool share_vertex(const std::vector<cad::VertexId>& a, const std::vector<cad::VertexId>& b) {
+  std::vector<cad::VertexId> common;
   std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
   return !common.empty();
 }
@@ -62,8 +62,7 @@ surface::NamedTriangle named(const Facet& facet, std::int64_t index) {
 
 }  // namespace
 
-std::vector<FaceContact> find_face_contacts(const geometry::Model& model, std::size_t most,
-                                            std::int64_t& count) {
+std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t most, std::int64_t& count) {
   const std::vector<Facet> facets = collect_facets(model);
   const auto vertices = vertices_of_faces(model);
   std::vector<geometry::Box> boxes;
@@ -71,11 +70,11 @@ std::vector<FaceContact> find_face_contacts(const geometry::Model& model, std::s
     geometry::Box& box = boxes.emplace_back();
     for (const geometry::Vec3 corner : facet.corners) box.add(corner);
   }
-  const surface::BoxTree tree(boxes, 8);
-  std::set<std::pair<geometry::FaceId, geometry::FaceId>> met;
+  const geometry::BoxTree tree(boxes, 8);
+  std::set<std::pair<cad::FaceId, cad::FaceId>> met;
   std::vector<FaceContact> contacts;
   for (std::size_t i = 0; i < facets.size(); ++i) {
-    tree.for_each_overlap(boxes[i], [&](std::int32_t other) {
+    geometry::for_each_overlap(tree, boxes, boxes[i], [&](std::int32_t other) {
       const Facet &a = facets[i], &b = facets[other];
       if (a.face >= b.face || met.contains({a.face, b.face})) return;
       if (share_vertex(vertices[a.face], vertices[b.face])) return;

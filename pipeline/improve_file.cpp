@@ -1,9 +1,9 @@
 #include "pipeline/improve_file.hpp"
 
+#include "foreign/foreign_mesh.hpp"
 #include "io/vtk_writer.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "pipeline/finished_volume.hpp"
-#include "pipeline/foreign_mesh.hpp"
 #include "pipeline/stage.hpp"
 
 namespace aeroloom::pipeline {
@@ -14,7 +14,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   Case fixed = input;
   fixed.improve.boundary_may_change = false;
   mesh::DistributedMesh volume = run_stage(record, "input", ExitCode::files, [&] {
-    return load_foreign_mesh(communicator, file, input.volume.piece_tets);
+    return foreign::load_foreign_mesh(communicator, file, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {

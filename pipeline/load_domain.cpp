@@ -1,6 +1,6 @@
 #include "pipeline/load_domain.hpp"
 
-#include "geometry/step_trace.hpp"
+#include "cad/model/step_trace.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/contained.hpp"
 
@@ -15,8 +15,8 @@
 namespace aeroloom::pipeline {
 namespace {
 
-using geometry::Change;
-using geometry::DomainOptions;
+using cad::Change;
+using cad::DomainOptions;
 using parallel::Bytes;
 using parallel::Packer;
 using parallel::Unpacker;
@@ -36,9 +36,9 @@ enum class Outcome : std::uint8_t { done, cad_error, file_error };
 void pack_options(const DomainOptions& options, Packer& packer) {
   packer.text(options.file);
   packer.value(std::uint8_t{options.transport.has_value()});
-  packer.value(options.transport.value_or(geometry::TransportDimensions{}));
+  packer.value(options.transport.value_or(cad::TransportDimensions{}));
   packer.value(options.kind);
-  const geometry::FarFieldOptions far_field = options.far_field.value_or(geometry::FarFieldOptions{});
+  const cad::FarFieldOptions far_field = options.far_field.value_or(cad::FarFieldOptions{});
   packer.value(std::uint8_t{options.far_field.has_value()});
   packer.value(far_field.shape);
   packer.value(far_field.extent);
@@ -54,15 +54,15 @@ DomainOptions unpack_options(Unpacker& unpacker) {
   DomainOptions options;
   options.file = unpacker.text();
   const bool built_in = unpacker.value<std::uint8_t>() != 0;
-  const auto transport = unpacker.value<geometry::TransportDimensions>();
+  const auto transport = unpacker.value<cad::TransportDimensions>();
   if (built_in) options.transport = transport;
-  options.kind = unpacker.value<geometry::DomainKind>();
+  options.kind = unpacker.value<cad::DomainKind>();
   const bool surrounded = unpacker.value<std::uint8_t>() != 0;
-  geometry::FarFieldOptions far_field;
-  far_field.shape = unpacker.value<geometry::FarFieldShape>();
+  cad::FarFieldOptions far_field;
+  far_field.shape = unpacker.value<cad::FarFieldShape>();
   far_field.extent = unpacker.value<double>();
-  far_field.axis = unpacker.value<geometry::Axis>();
-  far_field.symmetry = unpacker.value<geometry::Symmetry>();
+  far_field.axis = unpacker.value<cad::Axis>();
+  far_field.symmetry = unpacker.value<cad::Symmetry>();
   const bool placed = unpacker.value<std::uint8_t>() != 0;
   const auto position = unpacker.value<double>();
   if (placed) far_field.symmetry_position = position;
@@ -89,18 +89,18 @@ Change unpack_change(Unpacker& unpacker) {
   return change;
 }
 
-void pack_changes(const geometry::Changes& changes, Packer& packer) {
+void pack_changes(const cad::Changes& changes, Packer& packer) {
   packer.value(static_cast<std::uint64_t>(changes.size()));
   for (const Change& change : changes) pack_change(change, packer);
 }
 
-geometry::Changes unpack_changes(Unpacker& unpacker) {
-  geometry::Changes changes(unpacker.value<std::uint64_t>());
+cad::Changes unpack_changes(Unpacker& unpacker) {
+  cad::Changes changes(unpacker.value<std::uint64_t>());
   for (Change& change : changes) change = unpack_change(unpacker);
   return changes;
 }
 
-void pack_domain(const geometry::Domain& domain, Packer& packer) {
+void pack_domain(const cad::Domain& domain, Packer& packer) {
   packer.value(domain.report.kind);
   packer.text(domain.report.reason);
   packer.value(domain.report.reference_length);
@@ -108,16 +108,16 @@ void pack_domain(const geometry::Domain& domain, Packer& packer) {
   packer.array(domain.model.serialise());
 }
 
-geometry::Domain unpack_domain(Unpacker& unpacker) {
-  geometry::DomainReport report;
-  report.kind = unpacker.value<geometry::DomainKind>();
+cad::Domain unpack_domain(Unpacker& unpacker) {
+  cad::DomainReport report;
+  report.kind = unpacker.value<cad::DomainKind>();
   report.reason = unpacker.text();
   report.reference_length = unpacker.value<double>();
   report.changes = unpack_changes(unpacker);
-  return {geometry::Model::from_bytes(unpacker.array<std::byte>()), std::move(report)};
+  return {cad::Model::from_bytes(unpacker.array<std::byte>()), std::move(report)};
 }
 
-void pack_diagnosis(const geometry::Diagnosis& diagnosis, Packer& packer) {
+void pack_diagnosis(const cad::Diagnosis& diagnosis, Packer& packer) {
   packer.text(diagnosis.format);
   packer.text(diagnosis.unit_name);
   packer.value(diagnosis.bounds);
@@ -128,12 +128,12 @@ void pack_diagnosis(const geometry::Diagnosis& diagnosis, Packer& packer) {
   if (diagnosis.domain) pack_domain(*diagnosis.domain, packer);
 }
 
-geometry::Diagnosis unpack_diagnosis(Unpacker& unpacker) {
-  geometry::Diagnosis diagnosis;
+cad::Diagnosis unpack_diagnosis(Unpacker& unpacker) {
+  cad::Diagnosis diagnosis;
   diagnosis.format = unpacker.text();
   diagnosis.unit_name = unpacker.text();
   diagnosis.bounds = unpacker.value<geometry::Box>();
-  diagnosis.counts = unpacker.value<geometry::EntityCounts>();
+  diagnosis.counts = unpacker.value<cad::EntityCounts>();
   diagnosis.findings = unpack_changes(unpacker);
   diagnosis.failure = unpacker.text();
   if (unpacker.value<std::uint8_t>() != 0) diagnosis.domain = unpack_domain(unpacker);
@@ -159,7 +159,7 @@ template <class Work>
 Bytes answer(std::span<const std::byte> input, Work work) {
   Unpacker unpacker(input);
   const DomainOptions options = unpack_options(unpacker);
-  geometry::listen_to_steps(
+  cad::listen_to_steps(
       [](const std::string& step) { fmt::print(stderr, "\n{}", step), std::fflush(stderr); });
   Packer packer;
   const auto fail = [&](Outcome outcome, const char* text) {
@@ -171,7 +171,7 @@ Bytes answer(std::span<const std::byte> input, Work work) {
     commit_sabotage(options.sabotage);
     packer.value(Outcome::done);
     work(options, packer);
-  } catch (const geometry::CadError& error) {
+  } catch (const cad::CadError& error) {
     fail(Outcome::cad_error, error.what());
   } catch (const std::ios_base::failure& error) {
     fail(Outcome::file_error, error.what());
@@ -181,13 +181,13 @@ Bytes answer(std::span<const std::byte> input, Work work) {
 
 Bytes prepare_task(std::span<const std::byte> input) {
   return answer(input, [](const DomainOptions& options, Packer& packer) {
-    pack_domain(geometry::prepare_domain(options), packer);
+    pack_domain(cad::prepare_domain(options), packer);
   });
 }
 
 Bytes diagnose_task(std::span<const std::byte> input) {
   return answer(input, [](const DomainOptions& options, Packer& packer) {
-    pack_diagnosis(geometry::diagnose(options), packer);
+    pack_diagnosis(cad::diagnose(options), packer);
   });
 }
 
@@ -213,7 +213,7 @@ parallel::ContainedLimits limits_for(const DomainOptions& options) {
   if (result.status == parallel::ContainedStatus::out_of_time)
     what = fmt::format("took more than {:.0f} s", limits.cpu_seconds);
   if (result.status == parallel::ContainedStatus::out_of_memory) what = "ran out of memory";
-  throw geometry::CadError(
+  throw cad::CadError(
       fmt::format("{}: the CAD library {} while preparing this geometry ({}). Remedy: repair the file in the "
                   "CAD program, or "
                   "export it anew, in another format or part by part",
@@ -233,7 +233,7 @@ auto run_task(const char* task, const DomainOptions& options, parallel::StageClo
   if (result.status != parallel::ContainedStatus::ok) throw_crash(options, result, limits);
   Unpacker unpacker(result.output);
   const auto outcome = unpacker.value<Outcome>();
-  if (outcome == Outcome::cad_error) throw geometry::CadError(unpacker.text());
+  if (outcome == Outcome::cad_error) throw cad::CadError(unpacker.text());
   if (outcome == Outcome::file_error) {
     std::string text = unpacker.text();
     const std::string suffix = ": " + std::make_error_code(std::io_errc::stream).message();
@@ -250,20 +250,20 @@ void register_geometry_tasks() {
   parallel::register_contained_task(diagnose_task_name, diagnose_task);
 }
 
-geometry::Domain prepare_contained(const DomainOptions& options, parallel::StageClock& clock) {
+cad::Domain prepare_contained(const DomainOptions& options, parallel::StageClock& clock) {
   return run_task(prepare_task_name, options, clock, unpack_domain);
 }
 
-geometry::Diagnosis diagnose_contained(const DomainOptions& options, parallel::StageClock& clock) {
+cad::Diagnosis diagnose_contained(const DomainOptions& options, parallel::StageClock& clock) {
   return run_task(diagnose_task_name, options, clock, unpack_diagnosis);
 }
 
-geometry::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
-                            parallel::StageClock& clock, geometry::DomainReport& report) {
+cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
+                       parallel::StageClock& clock, cad::DomainReport& report) {
   Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    geometry::Domain domain = prepare_contained(options, clock);
+    cad::Domain domain = prepare_contained(options, clock);
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
     report = std::move(domain.report);
     bytes = domain.model.serialise();
@@ -271,13 +271,13 @@ geometry::Model load_domain(const parallel::Communicator& communicator, const Do
   return share_model(communicator, std::move(bytes), clock);
 }
 
-geometry::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
-                            parallel::StageClock& clock) {
+cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
+                       parallel::StageClock& clock) {
   communicator.broadcast(bytes);
-  std::optional<geometry::Model> model;
+  std::optional<cad::Model> model;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
-    model = geometry::Model::from_bytes(bytes);
+    model = cad::Model::from_bytes(bytes);
   });
   return *model;
 }

@@ -2,8 +2,8 @@
 /// on a damaged file without taking a rank down.
 #pragma once
 
-#include "geometry/diagnosis.hpp"
-#include "geometry/domain.hpp"
+#include "cad/domain/domain.hpp"
+#include "cad/repair/diagnosis.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 
@@ -12,22 +12,21 @@ namespace aeroloom::pipeline {
 /// Makes the contained tasks known; call before parallel::Environment is constructed.
 void register_geometry_tasks();
 
-/// Prepares the domain in a child of this rank. Not collective. Throws what geometry::prepare_domain throws;
-/// geometry::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
-geometry::Domain prepare_contained(const geometry::DomainOptions& options, parallel::StageClock& clock);
+/// Prepares the domain in a child of this rank. Not collective. Throws what cad::prepare_domain throws;
+/// cad::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
+cad::Domain prepare_contained(const cad::DomainOptions& options, parallel::StageClock& clock);
 
 /// Looks at the geometry in a child of this rank; as above, but a domain that cannot be made is part of the
 /// diagnosis. Not collective.
-geometry::Diagnosis diagnose_contained(const geometry::DomainOptions& options, parallel::StageClock& clock);
+cad::Diagnosis diagnose_contained(const cad::DomainOptions& options, parallel::StageClock& clock);
 
 /// Rank 0 prepares the domain, every rank numbers its entities from the same bytes. `report` is filled on
 /// rank 0 alone. Collective; throws CollectiveError.
-geometry::Model load_domain(const parallel::Communicator& communicator,
-                            const geometry::DomainOptions& options, parallel::StageClock& clock,
-                            geometry::DomainReport& report);
+cad::Model load_domain(const parallel::Communicator& communicator, const cad::DomainOptions& options,
+                       parallel::StageClock& clock, cad::DomainReport& report);
 
 /// The model that rank 0 has as bytes, on every rank. Collective; throws CollectiveError.
-geometry::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
-                            parallel::StageClock& clock);
+cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
+                       parallel::StageClock& clock);
 
 }  // namespace aeroloom::pipeline

@@ -20,9 +20,9 @@ Json geometry_json(const RunRecord& record) {
   json["regions"] = record.regions;
   json["faces"] = record.faces;
   json["edges"] = record.edges;
-  json["domain"] = record.domain.kind == geometry::DomainKind::fluid  ? "fluid"
-                   : record.domain.kind == geometry::DomainKind::body ? "body"
-                                                                      : "auto";
+  json["domain"] = record.domain.kind == cad::DomainKind::fluid  ? "fluid"
+                   : record.domain.kind == cad::DomainKind::body ? "body"
+                                                                 : "auto";
   json["domain_reason"] = record.domain.reason;
   json["reference_length"] = record.domain.reference_length;
   json["changes"] = to_json(record.domain.changes);

@@ -20,7 +20,7 @@ namespace {
 
 using parallel::Communicator;
 
-void describe_domain(const geometry::Model& model, RunRecord& record) {
+void describe_domain(const cad::Model& model, RunRecord& record) {
   record.unit = model.unit_name();
   record.unit_in_metres = model.unit_in_metres();
   record.bounds = model.bounds();
@@ -33,24 +33,23 @@ void describe_domain(const geometry::Model& model, RunRecord& record) {
                   record.regions, record.faces, record.edges, size.x, size.y, size.z,
                   record.unit.empty() ? "(no unit declared)" : record.unit));
   if (!record.domain.reason.empty()) parallel::log_info("geometry: " + record.domain.reason);
-  for (const geometry::Change& change : record.domain.changes) {
-    parallel::log_info("geometry: " + geometry::describe(change));
+  for (const cad::Change& change : record.domain.changes) {
+    parallel::log_info("geometry: " + cad::describe(change));
   }
 }
 
 /// Sizes, and the model they are for.
-SizedDomain build_sizes(const Communicator& communicator, const geometry::Model& model, const Case& input,
+SizedDomain build_sizes(const Communicator& communicator, const cad::Model& model, const Case& input,
                         NarrowFaces narrow_faces, RunRecord& record) {
   SizedDomain sized = size_domain(communicator, model, input.sizing, narrow_faces, record.clock);
   record.sizes = sized.sizes;
   record.size_field_leaves = sized.field.leaf_count();
   record.face_names.clear();
-  for (geometry::FaceId f = 0; f < sized.model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < sized.model.face_count(); ++f) {
     record.face_names.push_back(sized.model.face(f).name);
   }
   record.joined_faces = sized.joined;
-  for (const geometry::Change& change : sized.joined)
-    parallel::log_info("sizing: " + geometry::describe(change));
+  for (const cad::Change& change : sized.joined) parallel::log_info("sizing: " + cad::describe(change));
   parallel::log_info(
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
@@ -59,11 +58,11 @@ SizedDomain build_sizes(const Communicator& communicator, const geometry::Model&
 }
 
 /// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
-std::vector<PatchRow> table_of_patches(const Communicator& communicator, const geometry::Model& model,
+std::vector<PatchRow> table_of_patches(const Communicator& communicator, const cad::Model& model,
                                        const mesh::DistributedMesh& surface) {
   struct PieceRow {
     mesh::PieceId piece;
-    geometry::FaceId face;
+    cad::FaceId face;
     double area;
     std::int64_t triangles;
   };
@@ -84,7 +83,7 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const g
   std::vector<char> counted(model.face_count(), 0);
   for (const PieceRow& row : rows) {
     PatchRow& patch = patches[model.face(row.face).patch];
-    patch.inner = patch.inner || model.face(row.face).back != geometry::no_entity;
+    patch.inner = patch.inner || model.face(row.face).back != cad::no_entity;
     patch.area += row.area;
     patch.triangles += row.triangles;
     if (!counted[row.face]) patch.cad_area += model.face_area(row.face);
@@ -124,7 +123,7 @@ NumberedMesh number_part(const Communicator& communicator, const mesh::Distribut
   return part;
 }
 
-FinishedSurface build_surface(const Communicator& communicator, const geometry::Model& model,
+FinishedSurface build_surface(const Communicator& communicator, const cad::Model& model,
                               const sizing::SizeField& field, const Case& input, RunRecord& record) {
   surface::SurfaceMesh surface =
       surface::mesh_surface(communicator, model, field, input.surface, record.clock);
@@ -145,8 +144,8 @@ FinishedSurface build_surface(const Communicator& communicator, const geometry::
 
 /// The surface of the sized domain. Where joined faces cannot be meshed, that of the model as it was, and
 /// `sized` becomes its.
-FinishedSurface build_surface(const Communicator& communicator, const geometry::Model& model,
-                              const Case& input, SizedDomain& sized, RunRecord& record) {
+FinishedSurface build_surface(const Communicator& communicator, const cad::Model& model, const Case& input,
+                              SizedDomain& sized, RunRecord& record) {
   if (sized.joined.empty()) return build_surface(communicator, sized.model, sized.field, input, record);
   try {
     return build_surface(communicator, sized.model, sized.field, input, record);
@@ -177,7 +176,7 @@ volume::Decomposition decompose(const Communicator& communicator, const Finished
 }
 
 /// The surface follows a volume whose boundary was improved.
-void adopt_boundary(const Communicator& communicator, const geometry::Model& model,
+void adopt_boundary(const Communicator& communicator, const cad::Model& model,
                     const mesh::DistributedMesh& volume, FinishedSurface& surface, RunRecord& record) {
   const mesh::Numbering volume_numbering = mesh::number_mesh(communicator, volume);
   surface.mesh = mesh::boundary_mesh(communicator, volume, volume_numbering);
@@ -243,8 +242,8 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   const double start = parallel::wall_seconds();
   const std::string& directory = input.output.directory;
 
-  const geometry::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
-    geometry::Model model = load_domain(communicator, input.domain, record.clock, record.domain);
+  const cad::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
+    cad::Model model = load_domain(communicator, input.domain, record.clock, record.domain);
     describe_domain(model, record);
     return model;
   });
@@ -260,7 +259,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     return build_volume(communicator, surface, std::move(decomposition), input, record);
   });
   const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
-    geometry::PointLocator locator(sized.model);
+    cad::PointLocator locator(sized.model);
     improve_volume(communicator, input, {&locator, &surface.field}, volume, record);
     if (record.improve.changed_triangles > 0)
       adopt_boundary(communicator, sized.model, volume, surface, record);

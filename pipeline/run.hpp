@@ -1,7 +1,7 @@
 /// One run: from a case to a mesh on disk.
 #pragma once
 
-#include "geometry/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "improve/improver.hpp"
 #include "improve/pinned.hpp"
 #include "mesh/quality.hpp"
@@ -40,13 +40,13 @@ struct RegionRow {
 /// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
 /// rank except `domain`, which rank 0 alone holds.
 struct RunRecord {
-  geometry::DomainReport domain;
+  cad::DomainReport domain;
   std::string unit;
   double unit_in_metres = 0;
   geometry::Box bounds;
   std::int32_t regions = 0, faces = 0, edges = 0;
   std::vector<std::string> face_names;  ///< by face id
-  geometry::Changes joined_faces;       ///< narrow faces that vanished in their neighbours
+  cad::Changes joined_faces;            ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;

@@ -1,6 +1,6 @@
 #include "pipeline/size_domain.hpp"
 
-#include "geometry/joined_faces.hpp"
+#include "cad/model/joined_faces.hpp"
 #include "parallel/collective_error.hpp"
 #include "sizing/narrow_faces.hpp"
 
@@ -16,17 +16,17 @@ namespace {
 constexpr double join_tolerance = 0.05;
 
 /// The model without faces narrower than `width`, where neighbours can take them in.
-std::optional<geometry::Model> join_narrow_faces(const parallel::Communicator& communicator,
-                                                 const geometry::Model& model, double width,
-                                                 parallel::StageClock& clock, geometry::Changes& changes) {
+std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
+                                            const cad::Model& model, double width,
+                                            parallel::StageClock& clock, cad::Changes& changes) {
   const double tolerance = join_tolerance * width;
   std::vector<sizing::NarrowFace> narrow =
       sizing::find_narrow_faces(communicator, model, width, tolerance, clock);
   if (narrow.empty()) return std::nullopt;
-  std::optional<geometry::Model> joined;
+  std::optional<cad::Model> joined;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
-    joined = geometry::join_faces(model, sizing::group_narrow_faces(model, narrow, tolerance));
+    joined = cad::join_faces(model, sizing::group_narrow_faces(model, narrow, tolerance));
   });
   for (const sizing::NarrowFace& each : narrow) {
     changes.push_back(
@@ -40,7 +40,7 @@ std::optional<geometry::Model> join_narrow_faces(const parallel::Communicator& c
 
 }  // namespace
 
-sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, const geometry::Model& model,
+sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                                     const SizingRequest& request, parallel::StageClock& clock) {
   sizing::SizingOptions sizes;
   if (!request.minimum || !request.maximum) {
@@ -63,11 +63,11 @@ sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, 
   return sizes;
 }
 
-SizedDomain size_domain(const parallel::Communicator& communicator, const geometry::Model& model,
+SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
   sizing::SizingOptions sizes = resolve_sizes(communicator, model, request, clock);
-  geometry::Changes changes;
-  std::optional<geometry::Model> joined;
+  cad::Changes changes;
+  std::optional<cad::Model> joined;
   if (narrow_faces == NarrowFaces::join) {
     joined = join_narrow_faces(communicator, model, sizes.minimum, clock, changes);
   }

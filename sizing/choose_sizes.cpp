@@ -77,7 +77,7 @@ Choice search(const ModelSampler& sampler, double target_tetrahedra, const Prese
 
 }  // namespace
 
-SizingOptions choose_sizes(const parallel::Communicator& communicator, const geometry::Model& model,
+SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock) {
   if (!(target_tetrahedra >= 1)) {
     throw std::invalid_argument(

@@ -15,11 +15,11 @@ constexpr double step = 1.15;
 constexpr int most_steps = 50;
 
 /// A part of the shorter edge, so that there is something behind the corner.
-double nearest_reach(const geometry::Model& model, const geometry::FaceCorner& corner) {
+double nearest_reach(const cad::Model& model, const cad::FaceCorner& corner) {
   constexpr double part = 0.25;
   double shortest = std::numeric_limits<double>::max();
-  for (const geometry::EdgeId id : {corner.arriving.edge, corner.leaving.edge}) {
-    const geometry::Edge& edge = model.edge(id);
+  for (const cad::EdgeId id : {corner.arriving.edge, corner.leaving.edge}) {
+    const cad::Edge& edge = model.edge(id);
     const geometry::Vec3 middle = model.edge_point(id, 0.5 * (edge.first_parameter + edge.last_parameter));
     shortest = std::min(shortest, 2 * distance(middle, model.vertex(corner.vertex)));
   }
@@ -28,21 +28,21 @@ double nearest_reach(const geometry::Model& model, const geometry::FaceCorner& c
 
 }  // namespace
 
-bool may_be_sharp(const geometry::Model& model, const geometry::FaceCorner& corner) {
+bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner) {
   const double farthest = nearest_reach(model, corner);
   for (const double part : {1.0, 0.1, 0.01}) {
-    const auto opening = geometry::open_corner(model, corner, part * farthest);
+    const auto opening = cad::open_corner(model, corner, part * farthest);
     if (opening && opening->degrees < sharp) return true;
   }
   return false;
 }
 
-std::vector<SizeSource> corner_sources(const geometry::Model& model, const geometry::FaceCorner& corner,
-                                       double reach, const SizingOptions& options) {
+std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceCorner& corner, double reach,
+                                       const SizingOptions& options) {
   std::vector<SizeSource> sources;
   reach = std::min(reach, nearest_reach(model, corner));
   for (int k = 0; k < most_steps; ++k, reach *= step) {
-    const auto opening = geometry::open_corner(model, corner, reach);
+    const auto opening = cad::open_corner(model, corner, reach);
     if (!opening || (k == 0 && opening->degrees >= sharp)) break;
     const double size = std::max(opening->width, smallest_feature_size(options));
     if (size >= options.maximum || opening->degrees > 2 * sharp) break;

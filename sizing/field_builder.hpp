@@ -29,7 +29,7 @@ public:
 private:
   /// The octree of the present split cells with, per node, the size and the node whose seed it obeys.
   struct Sizes {
-    SplitCells::Leaves leaves;
+    SplitCubes::Leaves leaves;
     LeafTable table;
     OctreeNodes nodes;
     std::vector<double> size;
@@ -52,7 +52,7 @@ private:
   const SizeField* _previous = nullptr;
   RootCube _root;
   double _slope;
-  SplitCells _cells;
+  SplitCubes _cells;
   std::vector<SizeSource> _sources;
 };
 

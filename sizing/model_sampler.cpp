@@ -11,11 +11,11 @@
 namespace aeroloom::sizing {
 namespace {
 
-using geometry::FaceId;
+using cad::FaceId;
 using parallel::ScopedCpu;
 
 /// Areas of all faces, each measured by one rank.
-std::vector<double> measure_faces(const parallel::Communicator& communicator, const geometry::Model& model) {
+std::vector<double> measure_faces(const parallel::Communicator& communicator, const cad::Model& model) {
   std::vector<double> mine, areas(model.face_count());
   parallel::agree(communicator, [&] {
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
@@ -43,7 +43,7 @@ std::vector<double> predict_sampling_loads(const std::vector<bool>& far_field,
   return loads;
 }
 
-bool only_far_field(const geometry::Edge& edge, const std::vector<bool>& far_field) {
+bool only_far_field(const cad::Edge& edge, const std::vector<bool>& far_field) {
   return std::all_of(edge.faces.begin(), edge.faces.end(), [&](FaceId f) { return far_field[f]; });
 }
 
@@ -68,7 +68,7 @@ std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOp
 
 }  // namespace
 
-ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
+ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
                            parallel::StageClock& clock, double layers)
     : _communicator(communicator),
       _model(model),
@@ -85,7 +85,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geo
     std::sort(_faces.begin(), _faces.end());
     for (const FaceId f : _faces) {
       _facets.push_back(sampling_facets(model, f, _far_field[f]));
-      for (const geometry::FaceCorner& corner : geometry::corners_of(model, f)) {
+      for (const cad::FaceCorner& corner : cad::corners_of(model, f)) {
         if (may_be_sharp(model, corner)) _corners.push_back(corner);
       }
     }
@@ -96,7 +96,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const geo
 void ModelSampler::gather_triangles() {
   std::vector<FaceTriangle> mine;
   for (std::size_t i = 0; i < _faces.size(); ++i) {
-    if (_model.face(_faces[i]).back != geometry::no_entity && !_far_field[_faces[i]]) continue;
+    if (_model.face(_faces[i]).back != cad::no_entity && !_far_field[_faces[i]]) continue;
     const auto& points = _facets[i].points;
     for (const auto& t : _facets[i].triangles)
       mine.push_back({_faces[i], {points[t[0]], points[t[1]], points[t[2]]}});
@@ -107,7 +107,7 @@ void ModelSampler::gather_triangles() {
     if (!_far_field[t.face]) {
       for (const geometry::Vec3 p : t.corners) _body_box.add(p);
     }
-    if (_model.face(t.face).back == geometry::no_entity) _boundary.push_back(t.corners);
+    if (_model.face(t.face).back == cad::no_entity) _boundary.push_back(t.corners);
   }
   if (_body_box.empty()) _body_box = _model.bounds();
   std::vector<Triangle> walls;
@@ -143,7 +143,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options) const
   for (std::size_t i = 0; i < _faces.size(); ++i) {
     keep(thin_sources(_root, face_sources(_model, _faces[i], _facets[i], _far_field[_faces[i]], options)));
   }
-  for (geometry::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
+  for (cad::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
     keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), options));
   }
   if (options.proximity > 0) keep(gap_sources(_gaps, options));
@@ -154,7 +154,7 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
                                                      const SizingOptions& options) const {
   const double slope = std::log(options.growth);
   std::vector<SizeSource> mine;
-  for (const geometry::FaceCorner& corner : _corners) {
+  for (const cad::FaceCorner& corner : _corners) {
     const geometry::Vec3 point = _model.vertex(corner.vertex);
     double size = options.maximum;
     for (const SizeSource& s : sources) size = std::min(size, s.size + slope * distance(s.point, point));
@@ -182,7 +182,7 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
   return FieldBuilder(_model.bounds(), options).build(all);
 }
 
-SizeField build_size_field(const parallel::Communicator& communicator, const geometry::Model& model,
+SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock) {
   check_options(options);
   return ModelSampler(communicator, model, clock, options.proximity).build_field(options);

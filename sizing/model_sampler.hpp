@@ -18,7 +18,7 @@ class ModelSampler {
 public:
   /// `layers`: elements across a gap that the fields to come may ask for, at most. Collective. Throws
   /// parallel::CollectiveError where the CAD library fails on a face.
-  ModelSampler(const parallel::Communicator& communicator, const geometry::Model& model,
+  ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
                parallel::StageClock& clock, double layers);
 
   /// The field under these options. Collective.
@@ -31,7 +31,7 @@ public:
 
 private:
   void gather_triangles();
-  void measure_gaps(std::vector<Triangle> walls, std::vector<geometry::FaceId> faces);
+  void measure_gaps(std::vector<Triangle> walls, std::vector<cad::FaceId> faces);
   std::vector<SizeSource> sample(const SizingOptions& options) const;
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources,
                                          const SizingOptions& options) const;
@@ -39,17 +39,17 @@ private:
   double count_tetrahedra(const SizeField& field) const;
 
   parallel::Communicator _communicator;
-  const geometry::Model& _model;
+  const cad::Model& _model;
   parallel::StageClock& _clock;
   double _layers;
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;
-  std::vector<geometry::FaceId> _faces;        // of this rank, ascending
-  std::vector<geometry::Facets> _facets;       // of those
-  std::vector<geometry::FaceCorner> _corners;  // of those, where may_be_sharp
-  std::vector<Triangle> _boundary;  // facets of all faces that bound the domain, in the order of faces
-  std::vector<Gap> _gaps;           // seen from the faces of this rank
+  std::vector<cad::FaceId> _faces;        // of this rank, ascending
+  std::vector<cad::Facets> _facets;       // of those
+  std::vector<cad::FaceCorner> _corners;  // of those, where may_be_sharp
+  std::vector<Triangle> _boundary;        // facets of all faces that bound the domain, in the order of faces
+  std::vector<Gap> _gaps;                 // seen from the faces of this rank
   geometry::Box _body_box;
 };
 

@@ -51,8 +51,7 @@ struct FaceSample {
 /// for.
 class FaceSampler {
 public:
-  FaceSampler(const geometry::Model& model, geometry::FaceId face, bool far_field,
-              const SizingOptions& options)
+  FaceSampler(const cad::Model& model, cad::FaceId face, bool far_field, const SizingOptions& options)
       : _model(model),
         _face(face),
         _options(options),
@@ -62,7 +61,7 @@ public:
                      ? options.maximum
                      : std::min(options.maximum, options.surface_maximum)) {}
 
-  std::vector<SizeSource> run(const geometry::Facets& facets) {
+  std::vector<SizeSource> run(const cad::Facets& facets) {
     if (_planar && _largest >= _options.maximum) return {};
     std::vector<FaceSample> nodes;
     nodes.reserve(facets.points.size());
@@ -109,8 +108,8 @@ private:
     cover({middle, b, c}, depth + 1);
   }
 
-  const geometry::Model& _model;
-  geometry::FaceId _face;
+  const cad::Model& _model;
+  cad::FaceId _face;
   const SizingOptions& _options;
   bool _planar;
   double _angle, _largest;
@@ -126,8 +125,7 @@ struct EdgeSample {
 /// Samples one edge by bisection, adds up its length on the way.
 class EdgeSampler {
 public:
-  EdgeSampler(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
-              const SizingOptions& options)
+  EdgeSampler(const cad::Model& model, cad::EdgeId edge, bool far_field, const SizingOptions& options)
       : _model(model), _edge(edge), _options(options), _angle(radians_per_element(far_field, options)) {}
 
   std::vector<SizeSource> run() {
@@ -166,21 +164,21 @@ private:
   }
 
   void ask_for_own_length() {
-    const geometry::Edge& edge = _model.edge(_edge);
+    const cad::Edge& edge = _model.edge(_edge);
     if (_length >= _options.maximum) return;
     const double size = std::max(_length, smallest_feature_size(_options));
     _sources.push_back({_model.edge_point(_edge, 0.5 * (edge.first_parameter + edge.last_parameter)), size});
   }
 
-  const geometry::Model& _model;
-  geometry::EdgeId _edge;
+  const cad::Model& _model;
+  cad::EdgeId _edge;
   const SizingOptions& _options;
   double _angle, _length = 0;
   std::vector<SizeSource> _sources;
 };
 
 /// Whether the face lies in one side of the box.
-bool lies_on_side(const geometry::Facets& facets, const geometry::Box& box) {
+bool lies_on_side(const cad::Facets& facets, const geometry::Box& box) {
   geometry::Box own;
   for (const Vec3 p : facets.points) own.add(p);
   const double tolerance = 1e-6 * box.diagonal();
@@ -193,36 +191,35 @@ bool lies_on_side(const geometry::Facets& facets, const geometry::Box& box) {
 
 }  // namespace
 
-std::vector<bool> find_far_field(const geometry::Model& model) {
+std::vector<bool> find_far_field(const cad::Model& model) {
   std::vector<bool> far(model.face_count(), false);
   bool flagged = false;
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     far[f] = model.is_far_field(f);
     flagged = flagged || far[f];
   }
   if (flagged) return far;
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     far[f] = model.is_planar(f) && lies_on_side(sampling_facets(model, f, true), model.bounds());
   }
   return far;
 }
 
-geometry::Facets sampling_facets(const geometry::Model& model, geometry::FaceId face, bool far_field) {
+cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field) {
   const double deflection = far_field ? far_facet_deflection * model.bounds().diagonal()
                                       : facet_deflection * model.body_bounds().diagonal();
   return model.facets(face, deflection, facet_angle);
 }
 
-std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face,
-                                     const geometry::Facets& facets, bool far_field,
-                                     const SizingOptions& options) {
+std::vector<SizeSource> face_sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
+                                     bool far_field, const SizingOptions& options) {
   std::vector<SizeSource> sources = FaceSampler(model, face, far_field, options).run(facets);
   const std::vector<SizeSource> strips = strip_sources(model, facets, options);
   sources.insert(sources.end(), strips.begin(), strips.end());
   return sources;
 }
 
-std::vector<SizeSource> edge_sources(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
+std::vector<SizeSource> edge_sources(const cad::Model& model, cad::EdgeId edge, bool far_field,
                                      const SizingOptions& options) {
   const auto& faces = model.edge(edge).faces;
   const bool vanishes = model.is_seam(edge) && model.sheet_count(faces.front()) > 1;

@@ -1,7 +1,7 @@
 /// What a model asks for: sources on its faces and edges.
 #pragma once
 
-#include "geometry/face_corners.hpp"
+#include "cad/model/face_corners.hpp"
 #include "sizing/sources.hpp"
 
 #include <vector>
@@ -13,34 +13,33 @@ inline constexpr double far_field_angle = 20;
 
 /// Whether each face bounds the far field: as the model says or, in a model that flags none, a planar face on
 /// the box around everything (the side of a wind tunnel).
-std::vector<bool> find_far_field(const geometry::Model& model);
+std::vector<bool> find_far_field(const cad::Model& model);
 
 /// The triangulation of a face that samples and predictions start from.
-geometry::Facets sampling_facets(const geometry::Model& model, geometry::FaceId face, bool far_field);
+cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field);
 
 /// Sources that cover the face about as densely as the sizes they ask for: curvature, surface_maximum off the
 /// far field, and the width where opposite edges come close. Nowhere the maximum or more. Throws CadError.
-std::vector<SizeSource> face_sources(const geometry::Model& model, geometry::FaceId face,
-                                     const geometry::Facets& facets, bool far_field,
-                                     const SizingOptions& options);
+std::vector<SizeSource> face_sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
+                                     bool far_field, const SizingOptions& options);
 
 /// The part of face_sources that comes from narrow strips: between two edges of the face that share no
 /// vertex, elements are at most as large as the distance; down to smallest_feature_size().
-std::vector<SizeSource> strip_sources(const geometry::Model& model, const geometry::Facets& facets,
+std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,
                                       const SizingOptions& options);
 
 /// Whether elements of some size see the corner below 30 degrees.
-bool may_be_sharp(const geometry::Model& model, const geometry::FaceCorner& corner);
+bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner);
 
 /// Sources behind sharp corners of faces. One triangle fills such a corner, about as large as `reach`, the
 /// size at the corner without these sources; behind it elements fit between the two edges, down to
 /// smallest_feature_size().
-std::vector<SizeSource> corner_sources(const geometry::Model& model, const geometry::FaceCorner& corner,
-                                       double reach, const SizingOptions& options);
+std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceCorner& corner, double reach,
+                                       const SizingOptions& options);
 
 /// Sources along the edge: its curvature, and its own length at its middle, so that no edge is shorter than
 /// the elements around it; the latter down to smallest_feature_size().
-std::vector<SizeSource> edge_sources(const geometry::Model& model, geometry::EdgeId edge, bool far_field,
+std::vector<SizeSource> edge_sources(const cad::Model& model, cad::EdgeId edge, bool far_field,
                                      const SizingOptions& options);
 
 }  // namespace aeroloom::sizing

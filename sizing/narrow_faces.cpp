@@ -1,6 +1,6 @@
 #include "sizing/narrow_faces.hpp"
 
-#include "geometry/face_width.hpp"
+#include "cad/model/face_width.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -12,29 +12,29 @@
 namespace aeroloom::sizing {
 namespace {
 
-using geometry::EdgeUse;
-using geometry::FaceId;
-using geometry::Model;
-using geometry::no_entity;
+using cad::EdgeUse;
+using cad::FaceId;
+using cad::Model;
+using cad::no_entity;
 using geometry::Vec3;
 
 constexpr double largest_turn = 20;  // degrees
 
 /// An exact plane stays one: it joins its like alone.
 bool may_join(const Model& model, FaceId a, FaceId b) {
-  const geometry::Face &first = model.face(a), &second = model.face(b);
+  const cad::Face &first = model.face(a), &second = model.face(b);
   return !model.is_far_field(b) && model.is_exact_plane(a) == model.is_exact_plane(b) &&
          first.patch == second.patch && first.front == second.front && first.back == second.back;
 }
 
 /// The face on the other side of an edge; no_entity where it is not used by exactly two faces, once each.
-FaceId beyond(const Model& model, FaceId face, geometry::EdgeId id) {
-  const geometry::Edge& edge = model.edge(id);
+FaceId beyond(const Model& model, FaceId face, cad::EdgeId id) {
+  const cad::Edge& edge = model.edge(id);
   if (edge.degenerate || edge.faces.size() != 2) return no_entity;
   return edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
 }
 
-std::optional<EdgeUse> use_of(const Model& model, FaceId face, geometry::EdgeId edge) {
+std::optional<EdgeUse> use_of(const Model& model, FaceId face, cad::EdgeId edge) {
   std::optional<EdgeUse> found;
   for (const auto& loop : model.face(face).loops) {
     for (const EdgeUse& use : loop) {
@@ -47,11 +47,11 @@ std::optional<EdgeUse> use_of(const Model& model, FaceId face, geometry::EdgeId 
 }
 
 /// Degrees the surface turns across the edge, at most; 180 where that is not known.
-double turn_across(const Model& model, FaceId a, FaceId b, geometry::EdgeId id) {
+double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
   constexpr int samples = 16;
   const auto first = use_of(model, a, id), second = use_of(model, b, id);
   if (!first || !second) return 180;
-  const geometry::Edge& edge = model.edge(id);
+  const cad::Edge& edge = model.edge(id);
   double largest = 0;
   for (int i = 0; i < samples; ++i) {
     const double t =
@@ -78,7 +78,7 @@ std::optional<NarrowFace> examine(const Model& model, FaceId face, double width,
   if (model.is_far_field(face)) return std::nullopt;
   NarrowFace found;
   found.face = face;
-  found.width = geometry::mean_width(model, face);
+  found.width = cad::mean_width(model, face);
   if (!(found.width < width)) return std::nullopt;
   std::map<FaceId, Border> borders;
   for (const auto& loop : model.face(face).loops) {
@@ -86,8 +86,8 @@ std::optional<NarrowFace> examine(const Model& model, FaceId face, double width,
       const FaceId other = beyond(model, face, use.edge);
       if (other == no_entity || !may_join(model, face, other)) continue;
       Border& border = borders[other];
-      const geometry::Edge& edge = model.edge(use.edge);
-      border.length += geometry::rough_length(model, use.edge);
+      const cad::Edge& edge = model.edge(use.edge);
+      border.length += cad::rough_length(model, use.edge);
       border.degrees = std::max(border.degrees, turn_across(model, face, other, use.edge));
       border.place = model.edge_point(use.edge, 0.5 * (edge.first_parameter + edge.last_parameter));
     }

@@ -1,7 +1,7 @@
 /// Faces narrower than elements are meant to be, and which of their neighbours can take them in.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 
@@ -11,7 +11,7 @@ namespace aeroloom::sizing {
 
 /// A face that one of its neighbours takes in.
 struct NarrowFace {
-  geometry::FaceId face = geometry::no_entity, into = geometry::no_entity;
+  cad::FaceId face = cad::no_entity, into = cad::no_entity;
   double width = 0;      ///< 2 area / perimeter
   double degrees = 0;    ///< largest turn of the surface across the edges that vanish
   double deviation = 0;  ///< width * sin(turn): how far the mesh may leave the surface there
@@ -23,13 +23,11 @@ struct NarrowFace {
 /// deviation is at most `tolerance`. Of several neighbours the one with the longest common border; a blunt
 /// trailing edge has none. Not on the far field; an exact plane joins its like alone. By face, the same on
 /// every rank. Collective.
-std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator,
-                                          const geometry::Model& model, double width, double tolerance,
-                                          parallel::StageClock& clock);
+std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const cad::Model& model,
+                                          double width, double tolerance, parallel::StageClock& clock);
 
-/// Groups for geometry::join_faces: of those found, all that can vanish together.
-std::vector<std::vector<geometry::FaceId>> group_narrow_faces(const geometry::Model& model,
-                                                              std::vector<NarrowFace>& narrow,
-                                                              double tolerance);
+/// Groups for cad::join_faces: of those found, all that can vanish together.
+std::vector<std::vector<cad::FaceId>> group_narrow_faces(const cad::Model& model,
+                                                         std::vector<NarrowFace>& narrow, double tolerance);
 
 }  // namespace aeroloom::sizing

@@ -22,7 +22,7 @@ bool is_corner(GridPoint p, std::uint32_t edge) {
 
 /// Finds the leaves in the eight octants around a corner of `leaf`, -1 outside, until an earlier leaf turns
 /// up that has the node as a corner too: then returns that octant, else -1.
-int find_leaves_around(GridPoint p, std::int32_t leaf, const SplitCells::Leaves& leaves,
+int find_leaves_around(GridPoint p, std::int32_t leaf, const SplitCubes::Leaves& leaves,
                        const LeafTable& table, std::array<std::int32_t, 8>& around) {
   for (int octant = 0; octant < 8; ++octant) {
     const GridPoint cell{p.x - (octant & 1 ? 0 : 1), p.y - (octant & 2 ? 0 : 1), p.z - (octant & 4 ? 0 : 1)};
@@ -35,7 +35,7 @@ int find_leaves_around(GridPoint p, std::int32_t leaf, const SplitCells::Leaves&
 }
 
 /// Appends the masters of a node that lies on an edge or face of the given leaf.
-void hang(std::int32_t node, GridPoint p, std::int32_t leaf, const SplitCells::Leaves& leaves,
+void hang(std::int32_t node, GridPoint p, std::int32_t leaf, const SplitCubes::Leaves& leaves,
           OctreeNodes& nodes) {
   const std::uint32_t edge = grid_size >> leaves.levels[leaf], inside = edge - 1;
   const GridPoint low = grid_point(leaves.keys[leaf]);
@@ -54,7 +54,7 @@ void hang(std::int32_t node, GridPoint p, std::int32_t leaf, const SplitCells::L
 
 }  // namespace
 
-void SplitCells::balance() {
+void SplitCubes::balance() {
   for (int level = finest_level - 1; level > 0; --level) {
     sort_unique(_cells[level]);
     // A split cell needs neighbours of its own level: their parents, itself included, must be split.
@@ -73,7 +73,7 @@ void SplitCells::balance() {
   sort_unique(_cells[0]);
 }
 
-SplitCells::Leaves SplitCells::leaves() const {
+SplitCubes::Leaves SplitCubes::leaves() const {
   Leaves result;
   std::array<std::size_t, finest_level> next{};
   // Cells are met in Morton order, so on each level the split ones are met in the order of their list.
@@ -90,7 +90,7 @@ SplitCells::Leaves SplitCells::leaves() const {
   return result;
 }
 
-LeafTable::LeafTable(const SplitCells::Leaves& leaves) : _entries(64, 0) {
+LeafTable::LeafTable(const SplitCubes::Leaves& leaves) : _entries(64, 0) {
   for (std::size_t leaf = 0; leaf < leaves.keys.size(); ++leaf) {
     const std::uint64_t key = leaves.keys[leaf];
     const int level = leaves.levels[leaf];
@@ -112,7 +112,7 @@ LeafTable::LeafTable(const SplitCells::Leaves& leaves) : _entries(64, 0) {
   }
 }
 
-OctreeNodes collect_nodes(const SplitCells::Leaves& leaves, const LeafTable& table) {
+OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table) {
   OctreeNodes nodes;
   nodes.corners.resize(8 * leaves.keys.size());
   for (std::size_t leaf = 0; leaf < leaves.keys.size(); ++leaf) {

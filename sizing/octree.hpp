@@ -12,7 +12,7 @@ namespace aeroloom::sizing {
 
 /// An octree as the sets of its split cells, one ascending list of level keys per level (a level key has
 /// three bits per level). Splitting a cell splits its ancestors once balance() has run.
-class SplitCells {
+class SplitCubes {
 public:
   /// Splits the cell of `level` that holds the finest cell `key`.
   void split(std::uint64_t key, int level) { _cells[level].push_back(key >> 3 * (finest_level - level)); }
@@ -35,7 +35,7 @@ private:
 class LeafTable {
 public:
   LeafTable() = default;
-  explicit LeafTable(const SplitCells::Leaves& leaves);
+  explicit LeafTable(const SplitCubes::Leaves& leaves);
 
   /// Index of the leaf that holds the finest cell with this key.
   std::int32_t find(std::uint64_t key) const {
@@ -67,6 +67,6 @@ struct OctreeNodes {
   std::vector<Hanging> hanging;           ///< ascending node
   std::vector<std::int32_t> leaf_around;  ///< (nodes,8) leaf in each octant, -1 outside the root cube
 };
-OctreeNodes collect_nodes(const SplitCells::Leaves& leaves, const LeafTable& table);
+OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table);
 
 }  // namespace aeroloom::sizing

@@ -126,7 +126,7 @@ private:
 
 double ModelSampler::count_triangles(const SizeField& field) const {
   struct FaceCount {
-    geometry::FaceId face;
+    cad::FaceId face;
     double count;
   };
   std::vector<FaceCount> mine;
@@ -177,7 +177,7 @@ PredictedCounts ModelSampler::predict(const SizeField& field) const {
   return {count_triangles(field), count_tetrahedra(field)};
 }
 
-PredictedCounts predict_counts(const parallel::Communicator& communicator, const geometry::Model& model,
+PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,
                                const SizeField& field, parallel::StageClock& clock) {
   return ModelSampler(communicator, model, clock, 0).predict(field);
 }

@@ -28,7 +28,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
 
 class GapFinder {
 public:
-  GapFinder(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls, double widest,
+  GapFinder(const cad::Model& model, const cad::Facets& facets, const Walls& walls, double widest,
             double finest, double layers)
       : _model(model),
         _facets(facets),
@@ -65,12 +65,14 @@ private:
     cover({middle, b, c}, depth + 1);
   }
 
-  /// Distance along the ray to the nearest wall that faces the normal; infinity where there is none in reach.
+  /// Distance along the ray to the nearest wall that faces the normal, the lower one where two are as near;
+  /// infinity where there is none in reach.
   double look(Vec3 from, Vec3 direction, Vec3 normal) const {
     double nearest = std::numeric_limits<double>::infinity();
     std::int32_t wall = -1;
     _walls.tree.for_each_crossing(from, direction, _widest, [&](std::int32_t triangle, double away) {
-      if (away >= nearest || dot(unit_normal(_walls.triangles[triangle]), normal) > facing) return;
+      const bool is_nearer = away < nearest || (away == nearest && triangle < wall);
+      if (!is_nearer || dot(unit_normal(_walls.triangles[triangle]), normal) > facing) return;
       nearest = away, wall = triangle;
     });
     if (wall < 0 || in_wedge(from, _walls.faces[wall], nearest))
@@ -79,9 +81,9 @@ private:
   }
 
   /// Whether the face meets the opposite one (or itself) in an edge so near that gap and edge form a wedge.
-  bool in_wedge(Vec3 point, geometry::FaceId opposite, double gap) const {
-    for (const geometry::Facets::BoundaryLine& line : _facets.boundary) {
-      const std::vector<geometry::FaceId>& users = _model.edge(line.use.edge).faces;
+  bool in_wedge(Vec3 point, cad::FaceId opposite, double gap) const {
+    for (const cad::Facets::BoundaryLine& line : _facets.boundary) {
+      const std::vector<cad::FaceId>& users = _model.edge(line.use.edge).faces;
       if (!std::binary_search(users.begin(), users.end(), opposite)) continue;
       for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
         const Vec3 a = _facets.points[line.nodes[i]], b = _facets.points[line.nodes[i + 1]];
@@ -91,8 +93,8 @@ private:
     return false;
   }
 
-  const geometry::Model& _model;
-  const geometry::Facets& _facets;
+  const cad::Model& _model;
+  const cad::Facets& _facets;
   const Walls& _walls;
   double _widest, _finest, _edge_per_gap;
   std::vector<Gap> _gaps;
@@ -100,10 +102,10 @@ private:
 
 }  // namespace
 
-Walls::Walls(std::vector<Triangle> triangles_of_walls, std::vector<geometry::FaceId> faces_of_walls)
+Walls::Walls(std::vector<Triangle> triangles_of_walls, std::vector<cad::FaceId> faces_of_walls)
     : tree(triangles_of_walls), triangles(std::move(triangles_of_walls)), faces(std::move(faces_of_walls)) {}
 
-std::vector<Gap> find_gaps(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls,
+std::vector<Gap> find_gaps(const cad::Model& model, const cad::Facets& facets, const Walls& walls,
                            double widest, double finest, double layers) {
   return GapFinder(model, facets, walls, widest, finest, layers).run();
 }

@@ -1,7 +1,7 @@
 /// Distances to opposite walls: how thin a body or a gap is.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "sizing/triangle_tree.hpp"
 
 #include <span>
@@ -19,9 +19,9 @@ struct Gap {
 struct Walls {
   TriangleTree tree;
   std::vector<Triangle> triangles;
-  std::vector<geometry::FaceId> faces;
+  std::vector<cad::FaceId> faces;
 
-  Walls(std::vector<Triangle> triangles_of_walls, std::vector<geometry::FaceId> faces_of_walls);
+  Walls(std::vector<Triangle> triangles_of_walls, std::vector<cad::FaceId> faces_of_walls);
 };
 
 /// Gaps seen from one face, given by its facets: rays along its facets' normals, to both sides, to the
@@ -29,7 +29,7 @@ struct Walls {
 /// or `finest`. Gaps wider than `widest` are left out, and so are wedges, where the opposite wall meets the
 /// face in an edge nearer than eight times the gap: sizes would fall to nothing there. A function of the
 /// model and the arguments alone.
-std::vector<Gap> find_gaps(const geometry::Model& model, const geometry::Facets& facets, const Walls& walls,
+std::vector<Gap> find_gaps(const cad::Model& model, const cad::Facets& facets, const Walls& walls,
                            double widest, double finest, double layers);
 
 }  // namespace aeroloom::sizing

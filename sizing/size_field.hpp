@@ -1,7 +1,7 @@
 /// The size field h(x): one function for curves, surfaces and volume.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/octree.hpp"
@@ -93,12 +93,12 @@ private:
 /// The field of a model: curvature of faces and edges, far field, bounds, growth. Faces are sampled by the
 /// ranks in parallel, sources are gathered and thinned, the octree is built identically everywhere.
 /// Collective. Throws std::invalid_argument for impossible options.
-SizeField build_size_field(const parallel::Communicator& communicator, const geometry::Model& model,
+SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock);
 
 /// Sizes for the impatient: a field that gives about `target` tetrahedra, with bounds taken from the model.
 /// Collective.
-SizingOptions choose_sizes(const parallel::Communicator& communicator, const geometry::Model& model,
+SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock);
 
 /// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface and 6 sqrt(2)/h^3
@@ -107,7 +107,7 @@ struct PredictedCounts {
   double triangles = 0, tetrahedra = 0;
 };
 /// Collective.
-PredictedCounts predict_counts(const parallel::Communicator& communicator, const geometry::Model& model,
+PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,
                                const SizeField& field, parallel::StageClock& clock);
 
 }  // namespace aeroloom::sizing

@@ -8,7 +8,7 @@
 namespace aeroloom::sizing {
 namespace {
 
-using geometry::Facets;
+using cad::Facets;
 using geometry::Vec3;
 
 constexpr int deepest_bisection = 40;
@@ -27,7 +27,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
 /// The boundary lines of one face, which of them lie opposite each other, and how far apart.
 class Strips {
 public:
-  Strips(const geometry::Model& model, const Facets& facets, const SizingOptions& options)
+  Strips(const cad::Model& model, const Facets& facets, const SizingOptions& options)
       : _model(model), _facets(facets), _options(options) {}
 
   std::vector<SizeSource> run() {
@@ -172,7 +172,7 @@ private:
     if (width < _options.maximum) _sources.push_back({point, size_of(width)});
   }
 
-  const geometry::Model& _model;
+  const cad::Model& _model;
   const Facets& _facets;
   const SizingOptions& _options;
   std::vector<SizeSource> _sources;
@@ -180,7 +180,7 @@ private:
 
 }  // namespace
 
-std::vector<SizeSource> strip_sources(const geometry::Model& model, const Facets& facets,
+std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& facets,
                                       const SizingOptions& options) {
   return Strips(model, facets, options).run();
 }

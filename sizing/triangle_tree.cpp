@@ -13,10 +13,6 @@ using geometry::Vec3;
 
 constexpr std::int32_t triangles_per_leaf = 4;
 
-Vec3 centroid(const Triangle& t) {
-  return (t[0] + t[1] + t[2]) / 3.0;
-}
-
 Box box_of(const Triangle& t) {
   Box box;
   for (const Vec3 p : t) box.add(p);
@@ -83,94 +79,45 @@ double squared_distance(Vec3 p, const Triangle& t) {
 
 }  // namespace
 
-TriangleTree::TriangleTree(std::vector<Triangle> triangles) : _original(triangles.size()) {
-  std::iota(_original.begin(), _original.end(), 0);
-  _nodes.push_back({});
-  split(triangles, 0, 0, static_cast<std::int32_t>(triangles.size()));
-  for (const std::int32_t i : _original) _triangles.push_back(triangles[i]);
-}
-
-void TriangleTree::split(const std::vector<Triangle>& source, std::int32_t node, std::int32_t first,
-                         std::int32_t last) {
-  Box box, centers;
-  for (std::int32_t i = first; i < last; ++i) {
-    box.add(box_of(source[_original[i]]));
-    centers.add(centroid(source[_original[i]]));
-  }
-  if (last - first <= triangles_per_leaf) {
-    _nodes[node] = {box, first, last - first};
-    return;
-  }
-  const Vec3 size = centers.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const std::int32_t middle = (first + last) / 2;
-  std::nth_element(
-      _original.begin() + first, _original.begin() + middle, _original.begin() + last,
-      [&](std::int32_t a, std::int32_t b) { return centroid(source[a])[axis] < centroid(source[b])[axis]; });
-  const auto child = static_cast<std::int32_t>(_nodes.size());
-  _nodes[node] = {box, child, 0};
-  _nodes.resize(_nodes.size() + 2);
-  split(source, child, first, middle);
-  split(source, child + 1, middle, last);
+TriangleTree::TriangleTree(std::vector<Triangle> triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const Triangle& t : triangles) boxes.push_back(box_of(t));
+  _tree = geometry::BoxTree(boxes, triangles_per_leaf);
+  _triangles.reserve(triangles.size());
+  for (const std::int32_t t : _tree.order()) _triangles.push_back(triangles[t]);
 }
 
 void TriangleTree::find_overlapping(Vec3 low, double edge, std::vector<std::int32_t>& found) const {
   found.clear();
   const Vec3 center = low + 0.5 * edge * Vec3{1, 1, 1};
-  std::array<std::int32_t, 128> stack{};
-  for (int depth = 1; depth > 0;) {
-    const Node& node = _nodes[stack[--depth]];
-    if (!boxes_overlap_inside(node.box, low, edge)) continue;
-    if (node.count == 0 && !_triangles.empty()) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      if (boxes_overlap_inside(box_of(_triangles[i]), low, edge) &&
-          plane_cuts(_triangles[i], center, 0.5 * edge)) {
-        found.push_back(i);
-      }
-    }
-  }
+  _tree.search([&](const Box& box) { return boxes_overlap_inside(box, low, edge); },
+               [&](std::int32_t t) {
+                 if (boxes_overlap_inside(box_of(_triangles[t]), low, edge) &&
+                     plane_cuts(_triangles[t], center, 0.5 * edge)) {
+                   found.push_back(t);
+                 }
+               });
 }
 
 bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {
   const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
-  std::array<std::int32_t, 128> stack{};
   bool odd = false;
-  for (int depth = 1; depth > 0;) {
-    const Node& node = _nodes[stack[--depth]];
-    if (!ray_meets(node.box, point, inverse)) continue;
-    if (node.count == 0 && !_triangles.empty()) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      if (ray_crossing(_triangles[i], point, direction)) odd = !odd;
-    }
-  }
+  _tree.search([&](const Box& box) { return ray_meets(box, point, inverse); },
+               [&](std::int32_t t) {
+                 if (ray_crossing(_triangles[t], point, direction)) odd = !odd;
+               });
   return odd;
 }
 
 void TriangleTree::find_crossings(Vec3 point, Vec3 direction, double reach,
                                   std::vector<Crossing>& found) const {
   const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
-  std::array<std::int32_t, 128> stack{};
-  for (int depth = 1; depth > 0;) {
-    const Node& node = _nodes[stack[--depth]];
-    if (!ray_meets(node.box, point, inverse, reach)) continue;
-    if (node.count == 0 && !_triangles.empty()) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const std::optional<double> away = ray_crossing(_triangles[i], point, direction);
-      if (away && *away <= reach) found.push_back({i, *away});
-    }
-  }
+  _tree.search([&](const Box& box) { return ray_meets(box, point, inverse, reach); },
+               [&](std::int32_t t) {
+                 const std::optional<double> away = ray_crossing(_triangles[t], point, direction);
+                 if (away && *away <= reach) found.push_back({t, *away});
+               });
 }
 
 bool TriangleTree::contains(Vec3 point) const {

@@ -1,6 +1,7 @@
-/// A tree of boxes over triangles: what overlaps a cube, and on which side of a closed surface a point lies.
+/// Triangles in a tree of boxes: what overlaps a cube, and on which side of a closed surface a point lies.
 #pragma once
 
+#include "geometry/box_tree.hpp"
 #include "geometry/vec.hpp"
 
 #include <array>
@@ -24,31 +25,25 @@ public:
   /// Whether the point lies on the inner side of the nearest of these triangles.
   bool is_behind(geometry::Vec3 point, std::span<const std::int32_t> triangles) const;
   /// Calls visit(triangle, distance) for the triangles that a ray crosses within `reach`, in no particular
-  /// order; triangles by their index in what the tree was made of. The direction is a unit vector.
+  /// order. The direction is a unit vector.
   template <class Visit>
   void for_each_crossing(geometry::Vec3 point, geometry::Vec3 direction, double reach, Visit&& visit) const {
     std::vector<Crossing> crossings;
     find_crossings(point, direction, reach, crossings);
-    for (const Crossing& crossing : crossings) visit(_original[crossing.triangle], crossing.distance);
+    for (const Crossing& crossing : crossings) visit(_tree.order()[crossing.triangle], crossing.distance);
   }
 
 private:
-  struct Node {
-    geometry::Box box;
-    std::int32_t first, count;  ///< triangles of a leaf; count 0: children at first and first + 1
-  };
   struct Crossing {
     std::int32_t triangle;
     double distance;
   };
-  void split(const std::vector<Triangle>& source, std::int32_t node, std::int32_t first, std::int32_t last);
   void find_crossings(geometry::Vec3 point, geometry::Vec3 direction, double reach,
                       std::vector<Crossing>& found) const;
   bool odd_crossings(geometry::Vec3 point, geometry::Vec3 direction) const;
 
-  std::vector<Triangle> _triangles;
-  std::vector<std::int32_t> _original;  // index of each in what the tree was made of
-  std::vector<Node> _nodes;
+  std::vector<Triangle> _triangles;  // in the order of the tree
+  geometry::BoxTree _tree;
 };
 
 }  // namespace aeroloom::sizing

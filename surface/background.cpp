@@ -4,6 +4,7 @@
 #include "surface/parameters.hpp"
 #include "surface/support_mesher.hpp"
 #include "surface/support_topology.hpp"
+#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Model;
+using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
@@ -38,7 +39,7 @@ public:
       : _model(model), _mesh(mesh), _collapsed(mesh.points.size()) {
     if (model.is_planar(mesh.face)) return;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-      const geometry::SurfaceFrame frame = model.face_frame(mesh.face, mesh.uv[v]);
+      const cad::SurfaceFrame frame = model.face_frame(mesh.face, mesh.uv[v]);
       const double u = norm(frame.du), v_length = norm(frame.dv);
       constexpr double vanishing = 1e-6;  // one derivative next to the other
       _collapsed[v] = {u <= vanishing * v_length, v_length <= vanishing * u};
@@ -114,9 +115,9 @@ public:
 
   /// Divides the edges on loops at the fine vertices.
   void insert_loop_vertices() {
-    const auto twins = match_half_edges(_support.triangles);
+    const auto twins = geometry::match_half_edges(_support.triangles);
     std::vector<EdgePoint> divisions;
-    for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
       if (twins[h] < 0) divide_loop_edge(h, divisions);
     }
     carry_over(divide_edges(_support, std::move(divisions)), _part);
@@ -126,9 +127,9 @@ public:
   void follow_surface() {
     if (_model.is_planar(_support.face)) return;
     for (int round = 0; round < dividing_rounds; ++round) {
-      const auto twins = match_half_edges(_support.triangles);
+      const auto twins = geometry::match_half_edges(_support.triangles);
       std::vector<EdgePoint> divisions;
-      for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+      for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
         if (twins[h] < h) continue;
         if (!turns(h) && !turns(twins[h])) continue;
         const Vec3 a = _support.points[start_of(_support, h)], b = _support.points[end_of(_support, h)];
@@ -146,7 +147,7 @@ public:
   }
 
   Support finish() {
-    _support.loop_edges = trace_loop_edges(_support, match_half_edges(_support.triangles));
+    _support.loop_edges = trace_loop_edges(_support, geometry::match_half_edges(_support.triangles));
     return std::move(_support);
   }
 
@@ -157,7 +158,7 @@ private:
     return static_cast<std::int32_t>(_support.points.size()) - 1;
   }
 
-  void divide_loop_edge(SupportHalfEdge h, std::vector<EdgePoint>& divisions) {
+  void divide_loop_edge(geometry::HalfEdge h, std::vector<EdgePoint>& divisions) {
     const std::int32_t from = _support.mesh_vertex[start_of(_support, h)];
     const std::int32_t to = _support.mesh_vertex[end_of(_support, h)];
     const CoarseSegment* segment = _loops.find(from, to);
@@ -182,7 +183,7 @@ private:
 
   Vec2 near(Vec2 uv, Vec2 others) const { return unwrap(_model, _support.face, uv, others); }
 
-  bool turns(SupportHalfEdge h) const {
+  bool turns(geometry::HalfEdge h) const {
     const auto normal = [&](Vec2 uv) {
       return _model.face_frame(_support.face, _model.wrap(_support.face, uv)).normal;
     };

@@ -5,7 +5,7 @@
 #include "surface/coarse_loops.hpp"
 #include "surface/piece_seed.hpp"
 #include "surface/remesh.hpp"
-#include "surface/surface_mesher.hpp"
+#include "surface/surface_options.hpp"
 
 #include <optional>
 #include <vector>
@@ -21,14 +21,14 @@ struct Background {
 
 /// Meshes the piece under `coarse` sizes, `factor` times the fine ones; an edge turns by at most 30 degrees.
 /// Nothing where it has no such mesh: its loops cross, or no chart holds it, when they are as coarse as that.
-/// Not collective. Throws geometry::CadError.
-std::optional<Background> mesh_background(const geometry::Model& model, const PieceSeed& seed,
+/// Not collective. Throws cad::CadError.
+std::optional<Background> mesh_background(const cad::Model& model, const PieceSeed& seed,
                                           const sizing::SizeField& coarse, double factor,
                                           const SurfaceOptions& options);
 
 /// The background as a support: parameters at triangle corners, the fine vertices on its loops (numbered as
 /// those of the seed), and facets that follow the surface. `part` per triangle is kept up.
-Support support_of(const geometry::Model& model, const PieceSeed& seed, const Background& background,
+Support support_of(const cad::Model& model, const PieceSeed& seed, const Background& background,
                    std::vector<std::int32_t>& part);
 
 }  // namespace aeroloom::surface

@@ -15,7 +15,7 @@ using geometry::Vec3;
 
 class BoundaryThinner {
 public:
-  BoundaryThinner(const geometry::Model& model, Support& support)
+  BoundaryThinner(const cad::Model& model, Support& support)
       : _model(model), _support(support), _around(support.points.size()) {
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(support.triangles.size()); ++t) {
       for (const std::int32_t p : support.triangles[t]) _around[p].push_back(t);
@@ -95,7 +95,7 @@ private:
     return p[0] == point ? 0 : p[1] == point ? 1 : p[2] == point ? 2 : -1;
   }
 
-  const geometry::Model& _model;
+  const cad::Model& _model;
   Support& _support;
   std::vector<std::vector<std::int32_t>> _around;  // triangles per point
   std::vector<char> _alive;                        // per triangle
@@ -103,12 +103,12 @@ private:
 
 }  // namespace
 
-void drop_boundary_vertices(const geometry::Model& model, const std::vector<char>& keep, Support& support) {
-  const auto loops = trace_boundary(support, match_half_edges(support.triangles));
+void drop_boundary_vertices(const cad::Model& model, const std::vector<char>& keep, Support& support) {
+  const auto loops = trace_boundary(support, geometry::match_half_edges(support.triangles));
   std::vector<std::vector<std::int32_t>> points;
   for (const auto& loop : loops) {
     auto& line = points.emplace_back();
-    for (const SupportHalfEdge h : loop) line.push_back(start_of(support, h));
+    for (const geometry::HalfEdge h : loop) line.push_back(start_of(support, h));
   }
   BoundaryThinner thinner(model, support);
   for (auto& line : points) {
@@ -127,7 +127,7 @@ void drop_boundary_vertices(const geometry::Model& model, const std::vector<char
   for (std::int32_t& v : support.mesh_vertex) v = v >= 0 && keep[v] != 0 ? v : -1;
   thinner.compact();
   flip_to_delaunay(support);
-  support.loop_edges = trace_loop_edges(support, match_half_edges(support.triangles));
+  support.loop_edges = trace_loop_edges(support, geometry::match_half_edges(support.triangles));
 }
 
 }  // namespace aeroloom::surface

@@ -5,7 +5,7 @@
 #include "surface/plane_cut.hpp"
 #include "surface/support_flips.hpp"
 #include "surface/support_topology.hpp"
-#include "surface/surface_mesher.hpp"
+#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -24,9 +24,9 @@ constexpr double acceptable_fold = 1e-4, bearable_fold = 1e-3;
 /// The same for parts that lie over others: chords of curves that meet at a sharp angle cross near their
 /// meeting point.
 constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
-/// A flat patch may exceed the limits of stretch and scale so often before it is split.
+/// A flat domain may exceed the limits of stretch and scale so often before it is split.
 constexpr double endurable_excess = 2;
-/// A patch below this area, in squares of the size, is not split any further.
+/// A domain below this area, in squares of the size, is not split any further.
 constexpr double few_elements = 4;
 constexpr int rigid_steps = 15;
 constexpr int deepest_split = 14;
@@ -77,7 +77,7 @@ Candidate choose_map(const Support& support, const ChartLimits& limits, double s
   return best;
 }
 
-struct Patch {
+struct ChartDomain {
   Support support;
   int depth;
   std::optional<Candidate> best = {};  ///< of the maps tried
@@ -85,21 +85,21 @@ struct Patch {
 
 class ChartMaker {
 public:
-  ChartMaker(const geometry::Model& model, const sizing::SizeField& field, const ChartLimits& limits,
+  ChartMaker(const cad::Model& model, const sizing::SizeField& field, const ChartLimits& limits,
              FaceVertices& vertices)
       : _model(model), _field(field), _limits(limits), _vertices(vertices) {}
 
   std::vector<Chart> run(const Support& whole) {
     _joined = joined_vertices(whole);
-    const std::vector<SupportHalfEdge> twins = match_half_edges(whole.triangles);
+    const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(whole.triangles);
     std::vector<std::int32_t> component;
     const std::vector<std::int32_t> alike(whole.triangles.size(), 0);
     const std::int32_t count = label_components(twins, alike, component);
     push(separate_parts(whole, twins, component, count), 0);
     while (!_waiting.empty()) {
-      Patch patch = std::move(_waiting.back());
+      ChartDomain domain = std::move(_waiting.back());
       _waiting.pop_back();
-      if (!map_whole(patch)) split(std::move(patch));
+      if (!map_whole(domain)) split(std::move(domain));
     }
     return std::move(_charts);
   }
@@ -115,43 +115,43 @@ private:
     _charts.push_back(std::move(chart));
   }
 
-  /// Maps the patch to one chart if it fits the limits, or is not worth being split any further.
-  bool map_whole(Patch& patch) {
-    const Support& support = patch.support;
+  /// Maps the domain to one chart if it fits the limits, or is not worth being split any further.
+  bool map_whole(ChartDomain& domain) {
+    const Support& support = domain.support;
     if (_model.is_planar(support.face)) {
       PlaneMap map = project_to_mean_plane(support);
-      accept(std::move(patch.support), std::move(map));
+      accept(std::move(domain.support), std::move(map));
       return true;
     }
-    if (!is_planar_domain(support, match_half_edges(support.triangles))) return false;
+    if (!is_planar_domain(support, geometry::match_half_edges(support.triangles))) return false;
     const double spread = normal_spread(support);
-    patch.best = choose_map(support, _limits, spread);
-    const MapQuality& quality = patch.best->quality;
+    domain.best = choose_map(support, _limits, spread);
+    const MapQuality& quality = domain.best->quality;
     const bool flat = spread <= _limits.spread * degree && excess(quality, _limits) <= endurable_excess;
-    const bool is_final = flat || patch.depth >= deepest_split || is_small(patch);
+    const bool is_final = flat || domain.depth >= deepest_split || is_small(domain);
     if (!is_acceptable(quality, _limits) && !(is_final && is_bearable(quality))) return false;
-    accept(std::move(patch.support), std::move(patch.best->map));
+    accept(std::move(domain.support), std::move(domain.best->map));
     return true;
   }
 
   /// Whether a part of a face has room for a few elements only.
-  bool is_small(const Patch& patch) const {
-    const double size = _field(patch.support.points.front());
-    return patch.depth > 0 && support_area(patch.support) < few_elements * size * size;
+  bool is_small(const ChartDomain& domain) const {
+    const double size = _field(domain.support.points.front());
+    return domain.depth > 0 && support_area(domain.support) < few_elements * size * size;
   }
 
-  void split(Patch patch) {
-    if (patch.depth >= deepest_split) fail(patch.support);
-    for (const CutPlane& plane : propose_planes(patch.support)) {
-      std::optional<CutSupport> cut = cut_by_plane(patch.support, plane);
+  void split(ChartDomain domain) {
+    if (domain.depth >= deepest_split) fail(domain.support);
+    for (const CutPlane& plane : propose_planes(domain.support)) {
+      std::optional<CutSupport> cut = cut_by_plane(domain.support, plane);
       if (!cut) continue;
       std::vector<Support> parts = separate_at_cut(_model, _field, std::move(*cut), _vertices, _joined);
       for (Support& part : parts) flip_to_delaunay(part);
-      push(std::move(parts), patch.depth + 1);
+      push(std::move(parts), domain.depth + 1);
       return;
     }
-    if (!patch.best || !is_bearable(patch.best->quality)) fail(patch.support);
-    accept(std::move(patch.support), std::move(patch.best->map));
+    if (!domain.best || !is_bearable(domain.best->quality)) fail(domain.support);
+    accept(std::move(domain.support), std::move(domain.best->map));
   }
 
   [[noreturn]] void fail(const Support& support) const {
@@ -164,18 +164,18 @@ private:
         _field(at)));
   }
 
-  const geometry::Model& _model;
+  const cad::Model& _model;
   const sizing::SizeField& _field;
   ChartLimits _limits;
   FaceVertices& _vertices;
   JoinedVertices _joined;
-  std::vector<Patch> _waiting;
+  std::vector<ChartDomain> _waiting;
   std::vector<Chart> _charts;
 };
 
 }  // namespace
 
-std::vector<Chart> make_charts(const geometry::Model& model, const sizing::SizeField& field, Support support,
+std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field, Support support,
                                const ChartLimits& limits, FaceVertices& vertices) {
   return ChartMaker(model, field, limits, vertices).run(support);
 }

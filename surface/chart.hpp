@@ -4,9 +4,9 @@
 /// Phys. 234, 2013, doi:10.1016/j.jcp.2012.09.012).
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
+#include "geometry/plane_grid.hpp"
 #include "sizing/size_field.hpp"
-#include "surface/plane_grid.hpp"
 #include "surface/support.hpp"
 
 #include <vector>
@@ -52,7 +52,7 @@ private:
   const Chart& _chart;
   std::vector<std::int32_t> _twins;  // opposite half-edges, -1 outside
   std::vector<double> _areas;        // twice the triangles' areas in the plane; not positive where folded
-  PlaneGrid _grid;
+  geometry::PlaneGrid _grid;
 };
 
 struct ChartLimits {
@@ -65,7 +65,7 @@ struct ChartLimits {
 /// support is cut by a plane and both sides are tried again. Cuts are discretised once under the field, their
 /// vertices lie on the CAD surface, are appended to `vertices`, and join mesh vertices of the loops where
 /// they end. Deterministic. Throws SurfaceError when splitting does not end.
-std::vector<Chart> make_charts(const geometry::Model& model, const sizing::SizeField& field, Support support,
+std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field, Support support,
                                const ChartLimits& limits, FaceVertices& vertices);
 
 }  // namespace aeroloom::surface

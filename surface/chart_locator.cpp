@@ -25,7 +25,7 @@ double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
 
 ChartLocator::ChartLocator(const Chart& chart)
     : _chart(chart),
-      _twins(match_half_edges(chart.support.triangles)),
+      _twins(geometry::match_half_edges(chart.support.triangles)),
       _grid(chart.plane, chart.support.triangles) {
   for (const auto& [a, b, c] : chart.support.triangles) {
     _areas.push_back(cross(chart.plane[b] - chart.plane[a], chart.plane[c] - chart.plane[a]));
@@ -46,7 +46,8 @@ std::int32_t ChartLocator::walk(Vec2 point, std::int32_t from) const {
     const auto w = weights(t, point);
     const auto least = std::min_element(w.begin(), w.end()) - w.begin();
     if (w[least] >= -inside_tolerance) return t;
-    const SupportHalfEdge across = _twins[next_half_edge(static_cast<SupportHalfEdge>(3 * t + least))];
+    const geometry::HalfEdge across =
+        _twins[geometry::next_half_edge(static_cast<geometry::HalfEdge>(3 * t + least))];
     if (across < 0) return -1;
     t = across / 3;
   }

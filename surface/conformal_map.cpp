@@ -61,12 +61,12 @@ Matrix assemble(int size, std::vector<Entry>& entries) {
 }
 
 /// Twice the conformal energy of (u, v): Dirichlet's minus the area enclosed by the image of the boundary.
-Matrix conformal_energy(const Support& support, const std::vector<SupportHalfEdge>& boundary) {
+Matrix conformal_energy(const Support& support, const std::vector<geometry::HalfEdge>& boundary) {
   const int n = static_cast<int>(support.points.size());
   std::vector<Entry> entries;
   add_laplacian(support, 0, entries);
   add_laplacian(support, n, entries);
-  for (const SupportHalfEdge h : boundary) {
+  for (const geometry::HalfEdge h : boundary) {
     const int i = start_of(support, h), j = end_of(support, h);
     entries.emplace_back(i, n + j, -0.5);
     entries.emplace_back(n + j, i, -0.5);
@@ -124,14 +124,14 @@ PlaneMap project_to_mean_plane(const Support& support) {
 }
 
 std::optional<PlaneMap> map_conformally(const Support& support, const PlaneMap& start) {
-  const std::vector<SupportHalfEdge> twins = match_half_edges(support.triangles);
-  std::vector<SupportHalfEdge> boundary;
-  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
+  std::vector<geometry::HalfEdge> boundary;
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (twins[h] < 0) boundary.push_back(h);
   }
   const int n = static_cast<int>(support.points.size());
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(n);
-  for (const SupportHalfEdge h : boundary) {
+  for (const geometry::HalfEdge h : boundary) {
     const double half =
         0.5 * distance(support.points[start_of(support, h)], support.points[end_of(support, h)]);
     weight[start_of(support, h)] += half;

@@ -7,11 +7,11 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::EdgeId;
-using geometry::Model;
+using cad::EdgeId;
+using cad::Model;
 
 int least_of_edge(const Model& model, const EdgeMeasure& measure) {
-  const geometry::Edge& edge = model.edge(measure.edge);
+  const cad::Edge& edge = model.edge(measure.edge);
   if (edge.first != edge.last) return 1;
   constexpr double three_quarters = 4.7;  // of a full turn: a triangle is a poor circle, but fits a teardrop
   return measure.turning > three_quarters ? 4 : 3;
@@ -21,13 +21,13 @@ int least_of_edge(const Model& model, const EdgeMeasure& measure) {
 void separate_parallel_edges(const Model& model, const std::vector<EdgeMeasure>& measures,
                              std::vector<int>& segments) {
   struct Joint {
-    geometry::VertexId low, high;
+    cad::VertexId low, high;
     double excess;  // of length over chord
     EdgeId edge;
   };
   std::vector<Joint> joints;
   for (const EdgeMeasure& measure : measures) {
-    const geometry::Edge& edge = model.edge(measure.edge);
+    const cad::Edge& edge = model.edge(measure.edge);
     joints.push_back({std::min(edge.first, edge.last), std::max(edge.first, edge.last),
                       measure.length - measure.chord, measure.edge});
   }
@@ -45,16 +45,16 @@ void separate_parallel_edges(const Model& model, const std::vector<EdgeMeasure>&
 
 /// Adds segments to the longest edge of every loop that would have fewer than three.
 void close_loops(const Model& model, const std::vector<double>& lengths, std::vector<int>& segments) {
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     for (const auto& loop : model.face(f).loops) {
       int total = 0;
-      EdgeId longest = geometry::no_entity;
+      EdgeId longest = cad::no_entity;
       for (const auto& use : loop) {
         total += segments[use.edge];
         if (segments[use.edge] == 0) continue;
-        if (longest == geometry::no_entity || lengths[use.edge] > lengths[longest]) longest = use.edge;
+        if (longest == cad::no_entity || lengths[use.edge] > lengths[longest]) longest = use.edge;
       }
-      if (longest != geometry::no_entity && total < 3) segments[longest] += 3 - total;
+      if (longest != cad::no_entity && total < 3) segments[longest] += 3 - total;
     }
   }
 }

@@ -1,7 +1,7 @@
 /// How many segments each CAD edge gets.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace aeroloom::surface {
 
 /// What decides on the segments of a constraining edge.
 struct EdgeMeasure {
-  geometry::EdgeId edge;
+  cad::EdgeId edge;
   double metric_length;  ///< integral of ds/h
   double length;         ///< about
   double chord;          ///< distance of its ends
@@ -19,6 +19,6 @@ struct EdgeMeasure {
 /// Segments per edge of the model, 0 where it carries no vertices: the metric length rounded, but no fewer
 /// than a conforming triangulation needs. Of edges that join the same two vertices at most one is a single
 /// segment, a closed edge has three or more, and so has every loop of a face.
-std::vector<int> count_segments(const geometry::Model& model, std::vector<EdgeMeasure> measures);
+std::vector<int> count_segments(const cad::Model& model, std::vector<EdgeMeasure> measures);
 
 }  // namespace aeroloom::surface

@@ -1,6 +1,6 @@
 #include "surface/curves.hpp"
 
-#include "geometry/face_corners.hpp"
+#include "cad/model/face_corners.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/schedule.hpp"
 #include "surface/curve_metric.hpp"
@@ -16,9 +16,9 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Edge;
-using geometry::EdgeId;
-using geometry::Model;
+using cad::Edge;
+using cad::EdgeId;
+using cad::Model;
 using geometry::Vec3;
 
 /// An interior vertex as it travels between ranks.
@@ -41,8 +41,8 @@ struct Stretch {
 Stretch between_legs(const Model& model, EdgeId id, const std::array<double, 2>& legs) {
   const Edge& edge = model.edge(id);
   Stretch stretch{edge.first_parameter, edge.last_parameter};
-  if (legs[0] > 0) stretch.from = geometry::parameter_at(model, {id, true}, legs[0]).value_or(stretch.from);
-  if (legs[1] > 0) stretch.to = geometry::parameter_at(model, {id, false}, legs[1]).value_or(stretch.to);
+  if (legs[0] > 0) stretch.from = cad::parameter_at(model, {id, true}, legs[0]).value_or(stretch.from);
+  if (legs[1] > 0) stretch.to = cad::parameter_at(model, {id, false}, legs[1]).value_or(stretch.to);
   if (!(stretch.from < stretch.to)) return {edge.first_parameter, edge.last_parameter};
   stretch.legs = (stretch.has_leg_at_first(edge) ? 1 : 0) + (stretch.has_leg_at_last(edge) ? 1 : 0);
   return stretch;
@@ -129,7 +129,7 @@ CurveMesh assemble(const Model& model, std::vector<PlacedVertex> placed) {
     return a.edge != b.edge ? a.edge < b.edge : a.rank_on_edge < b.rank_on_edge;
   });
   CurveMesh mesh;
-  for (geometry::VertexId v = 0; v < model.vertex_count(); ++v) mesh.points.push_back(model.vertex(v));
+  for (cad::VertexId v = 0; v < model.vertex_count(); ++v) mesh.points.push_back(model.vertex(v));
   mesh.first_interior.assign(model.edge_count() + 1, model.vertex_count());
   for (const PlacedVertex& vertex : placed) {
     mesh.points.push_back(vertex.point);
@@ -163,49 +163,22 @@ std::vector<double> CurveMesh::chain_parameters(const Model& model, EdgeId id) c
 }
 
 EdgeId CurveMesh::edge_of(const Model& model, CurveVertex v) const {
-  if (v < model.vertex_count()) return geometry::no_entity;
+  if (v < model.vertex_count()) return cad::no_entity;
   return static_cast<EdgeId>(std::upper_bound(first_interior.begin(), first_interior.end(), v) -
                              first_interior.begin()) -
          1;
 }
 
-namespace {
-
-// CAD vertices are named by their number, vertices on edges and cuts by entity and index on it.
-constexpr int entity_shift = 32;
-constexpr mesh::SharedToken cut_bit = mesh::SharedToken{1} << 63;
-constexpr int group_bits = 16, index_bits = 24;
-
-}  // namespace
-
 mesh::SharedToken CurveMesh::token(const Model& model, CurveVertex v) const {
-  if (v < model.vertex_count()) return static_cast<mesh::SharedToken>(v);
+  if (v < model.vertex_count()) return mesh::vertex_token(v);
   const EdgeId edge = edge_of(model, v);
-  return (static_cast<mesh::SharedToken>(edge) + 1) << entity_shift |
-         static_cast<mesh::SharedToken>(v - first_interior[edge]);
+  return mesh::curve_token(edge, v - first_interior[edge]);
 }
 
 CurveVertex CurveMesh::vertex_of(mesh::SharedToken token) const {
-  const EdgeId edge = edge_of_token(token);
-  const auto index = static_cast<CurveVertex>(token & 0xffffffffu);
-  return edge == geometry::no_entity ? index : first_interior[edge] + index;
-}
-
-EdgeId edge_of_token(mesh::SharedToken token) {
-  if (is_cut_token(token)) return geometry::no_entity;
-  return static_cast<EdgeId>(token >> entity_shift) - 1;
-}
-
-mesh::SharedToken cut_token(geometry::FaceId face, std::int32_t group, std::int32_t index) {
-  if (face >= 1 << 23 || group >= 1 << group_bits || index >= 1 << index_bits) {
-    throw std::length_error("a face is cut into more pieces than vertices on cuts can be named for");
-  }
-  const auto wide = [](std::int32_t value) { return static_cast<mesh::SharedToken>(value); };
-  return cut_bit | wide(face) << (group_bits + index_bits) | wide(group) << index_bits | wide(index);
-}
-
-bool is_cut_token(mesh::SharedToken token) {
-  return (token & cut_bit) != 0;
+  const EdgeId edge = mesh::edge_of_token(token);
+  const CurveVertex index = mesh::index_of_token(token);
+  return edge == cad::no_entity ? index : first_interior[edge] + index;
 }
 
 bool is_constraining(const Model& model, EdgeId id) {

@@ -85,7 +85,7 @@ std::vector<CutAngle> measure_cut_angles(const std::vector<PieceSeed>& seeds, co
   }
   std::vector<CutAngle> angles;
   for (const Found& one : found) {
-    if (!is_cut_token(one.vertex) || corners_at[one.vertex] > 2) angles.push_back(one.angle);
+    if (!mesh::is_cut_token(one.vertex) || corners_at[one.vertex] > 2) angles.push_back(one.angle);
   }
   return angles;
 }

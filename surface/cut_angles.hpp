@@ -2,7 +2,7 @@
 #pragma once
 
 #include "surface/piece_seed.hpp"
-#include "surface/surface_mesher.hpp"
+#include "surface/surface_report.hpp"
 
 #include <array>
 #include <set>

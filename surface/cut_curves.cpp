@@ -18,14 +18,14 @@ constexpr double snap_part = 0.03;
 
 /// One stretch of a cut between mesh vertices or meetings of cuts, or a closed one: half-edges with the
 /// higher part on their left.
-using Chain = std::vector<SupportHalfEdge>;
+using Chain = std::vector<geometry::HalfEdge>;
 
-std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<SupportHalfEdge>& twins) {
+std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<geometry::HalfEdge>& twins) {
   const Support& support = cut.support;
   std::vector<std::int32_t> cuts_at(support.points.size(), 0);
-  std::vector<SupportHalfEdge> next(support.points.size(), -1);
-  std::vector<SupportHalfEdge> all;
-  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+  std::vector<geometry::HalfEdge> next(support.points.size(), -1);
+  std::vector<geometry::HalfEdge> all;
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (twins[h] < 0 || cut.part[h / 3] <= cut.part[twins[h] / 3]) continue;
     all.push_back(h);
     ++cuts_at[start_of(support, h)];
@@ -35,19 +35,19 @@ std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<Support
   const auto is_end = [&](std::int32_t p) { return support.mesh_vertex[p] >= 0 || cuts_at[p] != 2; };
   std::vector<char> done(twins.size(), 0);
   std::vector<Chain> chains;
-  const auto follow = [&](SupportHalfEdge start) {
+  const auto follow = [&](geometry::HalfEdge start) {
     Chain chain;
-    for (SupportHalfEdge h = start; !done[h]; h = next[end_of(support, h)]) {
+    for (geometry::HalfEdge h = start; !done[h]; h = next[end_of(support, h)]) {
       chain.push_back(h);
       done[h] = 1;
       if (is_end(end_of(support, h))) break;
     }
     chains.push_back(std::move(chain));
   };
-  for (const SupportHalfEdge h : all) {
+  for (const geometry::HalfEdge h : all) {
     if (is_end(start_of(support, h))) follow(h);
   }
-  for (const SupportHalfEdge h : all) {
+  for (const geometry::HalfEdge h : all) {
     if (!done[h]) follow(h);
   }
   return chains;
@@ -55,7 +55,7 @@ std::vector<Chain> trace_chains(const CutSupport& cut, const std::vector<Support
 
 class CutDiscretiser {
 public:
-  CutDiscretiser(const geometry::Model& model, const sizing::SizeField& field, CutSupport& cut,
+  CutDiscretiser(const cad::Model& model, const sizing::SizeField& field, CutSupport& cut,
                  FaceVertices& vertices, JoinedVertices& joined)
       : _model(model),
         _field(field),
@@ -63,7 +63,7 @@ public:
         _support(cut.support),
         _vertices(vertices),
         _joined(joined),
-        _twins(match_half_edges(cut.support.triangles)) {}
+        _twins(geometry::match_half_edges(cut.support.triangles)) {}
 
   void run() {
     for (const Chain& chain : trace_chains(_cut, _twins)) discretise(chain);
@@ -81,7 +81,7 @@ private:
     if (_support.mesh_vertex[first] < 0) promote(first, start_uv(_support, chain.front()));
     if (_support.mesh_vertex[last] < 0) promote(last, end_uv(_support, chain.back()));
     std::vector<double> arc{0};
-    for (const SupportHalfEdge h : chain) arc.push_back(arc.back() + distance(start(h), end(h)));
+    for (const geometry::HalfEdge h : chain) arc.push_back(arc.back() + distance(start(h), end(h)));
     const MetricLength length(
         [&](double s) {
           const std::size_t k = locate(arc, s);
@@ -100,8 +100,8 @@ private:
     join(before, _support.mesh_vertex[last]);
   }
 
-  Vec3 start(SupportHalfEdge h) const { return _support.points[start_of(_support, h)]; }
-  Vec3 end(SupportHalfEdge h) const { return _support.points[end_of(_support, h)]; }
+  Vec3 start(geometry::HalfEdge h) const { return _support.points[start_of(_support, h)]; }
+  Vec3 end(geometry::HalfEdge h) const { return _support.points[end_of(_support, h)]; }
 
   static std::size_t locate(const std::vector<double>& arc, double s) {
     return static_cast<std::size_t>(std::upper_bound(arc.begin() + 1, arc.end() - 1, s) - arc.begin()) - 1;
@@ -126,7 +126,7 @@ private:
   void join(std::int32_t a, std::int32_t b) { _joined.insert({std::min(a, b), std::max(a, b)}); }
 
   /// The support point for a vertex on the half-edge: one of its ends where that is near, else a new one.
-  std::int32_t place(SupportHalfEdge h, double part, double spacing) {
+  std::int32_t place(geometry::HalfEdge h, double part, double spacing) {
     const double length = distance(start(h), end(h));
     if (part * length < snap_part * spacing && _support.mesh_vertex[start_of(_support, h)] < 0) {
       promote(start_of(_support, h), start_uv(_support, h));
@@ -136,7 +136,7 @@ private:
       promote(end_of(_support, h), end_uv(_support, h));
       return end_of(_support, h);
     }
-    const SupportHalfEdge twin = _twins[h];
+    const geometry::HalfEdge twin = _twins[h];
     const auto point = static_cast<std::int32_t>(_support.points.size());
     const Vec2 uv = (1 - part) * start_uv(_support, h) + part * end_uv(_support, h);
     _divisions.push_back({h, part, point, uv});
@@ -152,7 +152,7 @@ private:
   void promote(std::int32_t point, Vec2 guess) {
     const Vec3 facet = _support.points[point];
     guess = _model.wrap(_support.face, guess);
-    geometry::Projection on = _model.project(_support.face, facet, guess);
+    cad::Projection on = _model.project(_support.face, facet, guess);
     const Vec3 interpolated = _model.face_point(_support.face, guess);
     if (!(distance(on.point, facet) <= distance(interpolated, facet))) on = {guess, interpolated, true};
     _support.points[point] = on.point;
@@ -161,13 +161,13 @@ private:
     _vertices.uv.push_back(on.uv);
   }
 
-  const geometry::Model& _model;
+  const cad::Model& _model;
   const sizing::SizeField& _field;
   CutSupport& _cut;
   Support& _support;
   FaceVertices& _vertices;
   JoinedVertices& _joined;
-  std::vector<SupportHalfEdge> _twins;
+  std::vector<geometry::HalfEdge> _twins;
   std::vector<EdgePoint> _divisions;
 };
 
@@ -182,10 +182,10 @@ JoinedVertices joined_vertices(const Support& support) {
   return joined;
 }
 
-std::vector<Support> separate_at_cut(const geometry::Model& model, const sizing::SizeField& field,
-                                     CutSupport cut, FaceVertices& vertices, JoinedVertices& joined) {
+std::vector<Support> separate_at_cut(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
+                                     FaceVertices& vertices, JoinedVertices& joined) {
   CutDiscretiser(model, field, cut, vertices, joined).run();
-  const std::vector<SupportHalfEdge> twins = match_half_edges(cut.support.triangles);
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(cut.support.triangles);
   std::vector<std::int32_t> component;
   const std::int32_t count = label_components(twins, cut.part, component);
   return separate_parts(cut.support, twins, component, count);

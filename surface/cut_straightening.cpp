@@ -27,9 +27,10 @@ void FaceRemesher::gather_borders(std::int32_t vertex, const std::vector<std::in
     const std::size_t before = i > 0 ? i - 1 : count - 1;
     const bool first_of_open = i == 0 && !closed;
     if (first_of_open || part[_fan[before]] != part[_fan[i]]) {
-      _borders.push_back(_links.triangles[_fan[i]].vertices[next_corner(k)]);
+      _borders.push_back(_links.triangles[_fan[i]].vertices[geometry::next_corner(k)]);
     }
-    if (i + 1 == count && !closed) _borders.push_back(_links.triangles[_fan[i]].vertices[previous_corner(k)]);
+    if (i + 1 == count && !closed)
+      _borders.push_back(_links.triangles[_fan[i]].vertices[geometry::previous_corner(k)]);
   }
 }
 
@@ -58,7 +59,7 @@ bool FaceRemesher::straighten_vertex(std::int32_t vertex, const std::vector<std:
   const Vec3 move = 0.7 * (offset - dot(offset, _normals[vertex]) * _normals[vertex]);
   Place place;
   if (!project(before_move.point + move, vertex, norm(move) + 0.5 * _sizes[vertex], place)) return true;
-  PatchShape before, after;
+  TriangleShapes before, after;
   for (const std::int32_t t : _fan) {
     before.add(shape(t));
     after.add(shape_with(t, vertex, place));
@@ -84,7 +85,7 @@ void FaceRemesher::straighten(const std::vector<std::int32_t>& part, double smal
   }
 }
 
-void straighten_cuts(const geometry::Model& model, const sizing::SizeField& field,
+void straighten_cuts(const cad::Model& model, const sizing::SizeField& field,
                      const std::vector<std::int32_t>& part, double smallest_angle, FaceMesh& mesh) {
   FaceRemesher remesher(model, field, mesh);
   for (int sweep = 0; sweep < sweeps; ++sweep) remesher.straighten(part, smallest_angle);

@@ -1,6 +1,6 @@
 #include "surface/face_mesher.hpp"
 
-#include "geometry/face_width.hpp"
+#include "cad/model/face_width.hpp"
 #include "surface/support_mesher.hpp"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace {
 using geometry::Vec3;
 
 /// CAD vertices, edges and the face itself, told apart by the names of vertices.
-void classify_border_vertex(geometry::FaceId face, mesh::SharedToken token, mesh::Piece& piece) {
-  const geometry::EdgeId edge = edge_of_token(token);
-  const bool on_cut = is_cut_token(token), on_edge = edge != geometry::no_entity;
+void classify_border_vertex(cad::FaceId face, mesh::SharedToken token, mesh::Piece& piece) {
+  const cad::EdgeId edge = mesh::edge_of_token(token);
+  const bool on_cut = mesh::is_cut_token(token), on_edge = edge != cad::no_entity;
   piece.vertex_dimension.push_back(on_cut ? 2 : on_edge ? 1 : 0);
   piece.vertex_entity.push_back(on_cut ? face : on_edge ? edge : static_cast<std::int32_t>(token));
 }
 
-mesh::Piece piece_of(const geometry::Model& model, const FaceVertices& vertices, const FaceMesh& mesh) {
+mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, const FaceMesh& mesh) {
   mesh::Piece piece;
   piece.kind = mesh::CellKind::triangle;
   piece.coordinates.reserve(3 * mesh.points.size());
@@ -39,18 +39,17 @@ mesh::Piece piece_of(const geometry::Model& model, const FaceVertices& vertices,
 
 }  // namespace
 
-geometry::Facets support_facets(const geometry::Model& model, geometry::FaceId face,
-                                const SurfaceOptions& options) {
+cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options) {
   // Facets may leave the surface by a small part of the model, and of the face's own width: a curved strip
   // must not fold over itself.
   constexpr double part_of_model = 1e-3, part_of_width = 0.03, least_part_of_model = 1e-6;
   const double scale = model.is_far_field(face) ? model.bounds().diagonal() : model.body_bounds().diagonal();
-  const double deflection = std::clamp(part_of_width * geometry::mean_width(model, face),
+  const double deflection = std::clamp(part_of_width * cad::mean_width(model, face),
                                        least_part_of_model * scale, part_of_model * scale);
   return model.facets(face, deflection, options.support_angle * std::numbers::pi / 180);
 }
 
-PieceSeed seed_of_face(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
+PieceSeed seed_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
                        const sizing::SizeField& field, const SurfaceOptions& options) {
   PieceSeed seed;
   seed.support = build_support(model, face, curves, support_facets(model, face, options), seed.vertices);
@@ -58,7 +57,7 @@ PieceSeed seed_of_face(const geometry::Model& model, geometry::FaceId face, cons
   return seed;
 }
 
-mesh::Piece mesh_piece(const geometry::Model& model, const PieceSeed& seed, const sizing::SizeField& field,
+mesh::Piece mesh_piece(const cad::Model& model, const PieceSeed& seed, const sizing::SizeField& field,
                        const SurfaceOptions& options) {
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .remeshing = {.sweeps = options.smoothing_sweeps}};

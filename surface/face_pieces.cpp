@@ -33,7 +33,8 @@ double count_parts(const PieceSeed& seed, const SurfaceOptions& options) {
 
 /// The background as the decomposition sees it.
 partition::BackgroundSurface surface_of(const FaceMesh& mesh, const sizing::SizeField& field) {
-  partition::BackgroundSurface surface{mesh.points, mesh.triangles, match_half_edges(mesh.triangles), {}};
+  partition::BackgroundSurface surface{
+      mesh.points, mesh.triangles, geometry::match_half_edges(mesh.triangles), {}};
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
     double density = 0;
@@ -79,10 +80,9 @@ PieceSeed seed_of_part(Support part, const FaceVertices& known, const std::vecto
 }
 
 /// Cuts a seed along the parts of its background.
-SeedPieces cut_seed(const geometry::Model& model, const PieceSeed& seed, Background background,
-                    std::int32_t group, double parts, const sizing::SizeField& field,
-                    const SurfaceOptions& options) {
-  const geometry::FaceId face = seed.support.face;
+SeedPieces cut_seed(const cad::Model& model, const PieceSeed& seed, Background background, std::int32_t group,
+                    double parts, const sizing::SizeField& field, const SurfaceOptions& options) {
+  const cad::FaceId face = seed.support.face;
   std::vector<std::int32_t> part = divide(background.mesh, parts, field, options);
   if (options.cut_angle > 0) straighten_cuts(model, field, part, options.cut_angle, background.mesh);
   CutSupport cut{support_of(model, seed, background, part), {}};
@@ -93,7 +93,7 @@ SeedPieces cut_seed(const geometry::Model& model, const PieceSeed& seed, Backgro
   std::vector<Support> supports = separate_at_cut(model, field, std::move(cut), vertices, joined);
   std::vector<mesh::SharedToken> tokens = vertices.tokens;
   for (std::size_t v = tokens.size(); v < vertices.points.size(); ++v) {
-    tokens.push_back(cut_token(face, group, static_cast<std::int32_t>(v)));
+    tokens.push_back(mesh::cut_token(face, group, static_cast<std::int32_t>(v)));
   }
   SeedPieces pieces;
   for (Support& support : supports) {
@@ -116,7 +116,7 @@ bool is_heavy(double load, const SurfaceOptions& options) {
          load >= 1.5 * static_cast<double>(options.piece_triangles);
 }
 
-SeedPieces divide_seed(const geometry::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
+SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
                        const SurfaceOptions& options) {
   const double parts = count_parts(seed, options);
   const double factor = std::sqrt(seed.load / parts / triangles_per_piece);

@@ -6,7 +6,9 @@
 #pragma once
 
 #include "surface/piece_seed.hpp"
-#include "surface/surface_mesher.hpp"
+#include "surface/surface_error.hpp"
+#include "surface/surface_options.hpp"
+#include "surface/surface_report.hpp"
 
 #include <vector>
 
@@ -35,8 +37,8 @@ bool is_heavy(double load, const SurfaceOptions& options);
 /// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,
 /// and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other divisions
 /// of the same face. Where no background mesh can be had, the seed stays whole. A function of the arguments
-/// alone. Not collective. Throws SurfaceError or geometry::CadError.
-SeedPieces divide_seed(const geometry::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
+/// alone. Not collective. Throws SurfaceError or cad::CadError.
+SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
                        const SurfaceOptions& options);
 
 }  // namespace aeroloom::surface

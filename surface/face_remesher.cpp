@@ -16,12 +16,12 @@ constexpr double good_mean_ratio = 0.65;
 
 }  // namespace
 
-bool is_acceptable(const PatchShape& before, const PatchShape& after) {
+bool is_acceptable(const TriangleShapes& before, const TriangleShapes& after) {
   return after.facing >= std::min(before.facing, least_facing) &&
          after.mean_ratio >= std::min(before.mean_ratio, good_mean_ratio);
 }
 
-FaceRemesher::FaceRemesher(const geometry::Model& model, const sizing::SizeField& field, FaceMesh& mesh)
+FaceRemesher::FaceRemesher(const cad::Model& model, const sizing::SizeField& field, FaceMesh& mesh)
     : _model(model), _field(field), _mesh(mesh) {
   const auto count = static_cast<std::int32_t>(mesh.points.size());
   _links.build(mesh.triangles, count);
@@ -29,8 +29,9 @@ FaceRemesher::FaceRemesher(const geometry::Model& model, const sizing::SizeField
   std::fill_n(_movable.begin(), std::min(mesh.fixed, count), 0);
   for (const auto& triangle : _links.triangles) {
     for (int i = 0; i < 3; ++i) {
-      if (triangle.links[i] != no_half_edge) continue;
-      _movable[triangle.vertices[next_corner(i)]] = _movable[triangle.vertices[previous_corner(i)]] = 0;
+      if (triangle.links[i] != geometry::no_linked_edge) continue;
+      _movable[triangle.vertices[geometry::next_corner(i)]] =
+          _movable[triangle.vertices[geometry::previous_corner(i)]] = 0;
     }
   }
   _active.assign(count, 1);
@@ -81,7 +82,7 @@ bool FaceRemesher::project(Vec3 point, std::int32_t guess, double reach, Place& 
   return true;
 }
 
-PatchShape FaceRemesher::shape(const std::array<Place, 3>& corners) const {
+TriangleShapes FaceRemesher::shape(const std::array<Place, 3>& corners) const {
   const Vec3 u = corners[1].point - corners[0].point, v = corners[2].point - corners[0].point, w = v - u;
   const Vec3 area = cross(u, v), normal = corners[0].normal + corners[1].normal + corners[2].normal;
   const double area2 = dot(area, area), squares = dot(u, u) + dot(v, v) + dot(w, w);
@@ -91,23 +92,24 @@ PatchShape FaceRemesher::shape(const std::array<Place, 3>& corners) const {
   return {mean_ratio, scale > 0 ? product * std::abs(product) / scale : 0, 1 / mean_ratio};
 }
 
-PatchShape FaceRemesher::shape(std::int32_t a, std::int32_t b, std::int32_t c) const {
+TriangleShapes FaceRemesher::shape(std::int32_t a, std::int32_t b, std::int32_t c) const {
   return shape({place_of(a), place_of(b), place_of(c)});
 }
 
-PatchShape FaceRemesher::shape(std::int32_t triangle) const {
+TriangleShapes FaceRemesher::shape(std::int32_t triangle) const {
   const auto& v = _links.triangles[triangle].vertices;
   return shape(v[0], v[1], v[2]);
 }
 
-PatchShape FaceRemesher::shape_with(std::int32_t triangle, std::int32_t vertex, const Place& moved) const {
+TriangleShapes FaceRemesher::shape_with(std::int32_t triangle, std::int32_t vertex,
+                                        const Place& moved) const {
   const auto& v = _links.triangles[triangle].vertices;
   std::array<Place, 3> corners;
   for (int i = 0; i < 3; ++i) corners[i] = v[i] == vertex ? moved : place_of(v[i]);
   return shape(corners);
 }
 
-double FaceRemesher::edge_length(HalfEdge edge) const {
+double FaceRemesher::edge_length(geometry::LinkedEdge edge) const {
   return distance(_mesh.points[_links.origin(edge)], _mesh.points[_links.target(edge)]);
 }
 

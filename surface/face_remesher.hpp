@@ -1,8 +1,8 @@
 /// The local operations of remesh_interior on one face, each over all places that still change.
 #pragma once
 
+#include "geometry/triangle_links.hpp"
 #include "surface/remesh.hpp"
-#include "surface/triangle_links.hpp"
 
 #include <array>
 #include <cstdint>
@@ -12,13 +12,13 @@
 namespace aeroloom::surface {
 
 /// The worst of a set of triangles, in two respects.
-struct PatchShape {
+struct TriangleShapes {
   double mean_ratio = 1;  ///< smallest
   /// Smallest squared cosine, with its sign, between a triangle's normal and those of the surface at its
   /// vertices.
   double facing = 1;
   double energy = 0;  ///< sum of inverse mean ratios
-  void add(const PatchShape& other) {
+  void add(const TriangleShapes& other) {
     mean_ratio = std::min(mean_ratio, other.mean_ratio);
     facing = std::min(facing, other.facing);
     energy += other.energy;
@@ -28,7 +28,7 @@ struct PatchShape {
 /// A triangulation of the face under change.
 class FaceRemesher {
 public:
-  FaceRemesher(const geometry::Model& model, const sizing::SizeField& field, FaceMesh& mesh);
+  FaceRemesher(const cad::Model& model, const sizing::SizeField& field, FaceMesh& mesh);
 
   void contract_short_edges();
   void divide_long_edges();
@@ -54,7 +54,7 @@ private:
   /// An edge of the ring around a vertex to come, which will be on its left, and what is on its right.
   struct StarEdge {
     std::int32_t origin, target;
-    HalfEdge outside;
+    geometry::LinkedEdge outside;
   };
 
   void measure_vertices();
@@ -64,30 +64,31 @@ private:
   /// The nearest place on the CAD surface; false when that is further off than `reach`.
   bool project(geometry::Vec3 point, std::int32_t guess, double reach, Place& place) const;
 
-  PatchShape shape(const std::array<Place, 3>& corners) const;
-  PatchShape shape(std::int32_t triangle) const;
-  PatchShape shape(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  TriangleShapes shape(const std::array<Place, 3>& corners) const;
+  TriangleShapes shape(std::int32_t triangle) const;
+  TriangleShapes shape(std::int32_t a, std::int32_t b, std::int32_t c) const;
   /// The triangle with its corner at `vertex` moved.
-  PatchShape shape_with(std::int32_t triangle, std::int32_t vertex, const Place& moved) const;
+  TriangleShapes shape_with(std::int32_t triangle, std::int32_t vertex, const Place& moved) const;
 
   bool is_free(std::int32_t vertex) const { return _movable[vertex] != 0; }
   bool is_live(std::int32_t triangle) const { return _links.triangles[triangle].vertices[0] >= 0; }
-  bool is_edge_active(HalfEdge edge) const {
+  bool is_edge_active(geometry::LinkedEdge edge) const {
     return _active[_links.origin(edge)] || _active[_links.target(edge)];
   }
-  double edge_length(HalfEdge edge) const;
-  double edge_size(HalfEdge edge) const {
+  double edge_length(geometry::LinkedEdge edge) const;
+  double edge_size(geometry::LinkedEdge edge) const {
     return 0.5 * (_sizes[_links.origin(edge)] + _sizes[_links.target(edge)]);
   }
   void note_change(std::int32_t vertex);
 
-  bool is_contraction_wanted(HalfEdge edge) const;
-  bool contract(HalfEdge edge);
-  bool try_contraction(HalfEdge edge, const Place& place);
-  bool keeps_topology(HalfEdge edge);
-  void divide(HalfEdge edge);
-  void plan_star(HalfEdge edge, const Place& middle, PatchShape& before, PatchShape& after);
-  bool flip_if_better(HalfEdge edge);
+  bool is_contraction_wanted(geometry::LinkedEdge edge) const;
+  bool contract(geometry::LinkedEdge edge);
+  bool try_contraction(geometry::LinkedEdge edge, const Place& place);
+  bool keeps_topology(geometry::LinkedEdge edge);
+  void divide(geometry::LinkedEdge edge);
+  void plan_star(geometry::LinkedEdge edge, const Place& middle, TriangleShapes& before,
+                 TriangleShapes& after);
+  bool flip_if_better(geometry::LinkedEdge edge);
   double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;
   geometry::Vec3 ideal_place(std::int32_t vertex) const;
   void smooth_vertex(std::int32_t vertex);
@@ -98,17 +99,17 @@ private:
   double smallest_border_angle(std::int32_t vertex, const std::vector<std::int32_t>& part);
   bool straighten_vertex(std::int32_t vertex, const std::vector<std::int32_t>& part, double smallest_angle);
 
-  const geometry::Model& _model;
+  const cad::Model& _model;
   const sizing::SizeField& _field;
   FaceMesh& _mesh;
-  TriangleLinks _links;
+  geometry::TriangleLinks _links;
   std::vector<geometry::Vec3> _normals;      // per vertex, of the surface
   std::vector<double> _sizes;                // per vertex
   std::vector<std::uint8_t> _movable;        // per vertex
   std::vector<std::uint8_t> _active, _next;  // per vertex: looked at in this sweep, in the next
   std::vector<std::int32_t> _fan, _other_fan, _borders;
   std::vector<double> _fan_sines;
-  std::vector<HalfEdge> _stack;
+  std::vector<geometry::LinkedEdge> _stack;
   std::vector<StarEdge> _star, _replaced;
 };
 
@@ -117,6 +118,6 @@ private:
 inline constexpr double least_facing = 0.5;
 
 /// Whether a change is allowed: nothing folds, and nothing gets worse than it was, unless it is still good.
-bool is_acceptable(const PatchShape& before, const PatchShape& after);
+bool is_acceptable(const TriangleShapes& before, const TriangleShapes& after);
 
 }  // namespace aeroloom::surface

@@ -11,28 +11,31 @@ constexpr double poor_mean_ratio = 0.55;
 
 }  // namespace
 
-bool FaceRemesher::is_contraction_wanted(HalfEdge edge) const {
+bool FaceRemesher::is_contraction_wanted(geometry::LinkedEdge edge) const {
   const double length = edge_length(edge);
   if (length < shortest_edge * edge_size(edge)) return true;
-  const HalfEdge next = half_edge(triangle_of(edge), next_corner(corner_of(edge)));
-  const HalfEdge previous = half_edge(triangle_of(edge), previous_corner(corner_of(edge)));
+  const geometry::LinkedEdge next =
+      geometry::linked_edge(geometry::triangle_of(edge), geometry::next_corner(geometry::corner_of(edge)));
+  const geometry::LinkedEdge previous = geometry::linked_edge(
+      geometry::triangle_of(edge), geometry::previous_corner(geometry::corner_of(edge)));
   return length < edge_length(next) && length < edge_length(previous) &&
-         shape(triangle_of(edge)).mean_ratio < poor_mean_ratio;
+         shape(geometry::triangle_of(edge)).mean_ratio < poor_mean_ratio;
 }
 
 void FaceRemesher::contract_short_edges() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
     for (int i = 0; i < 3 && is_live(t); ++i) {
-      const HalfEdge edge = half_edge(t, i);
-      if (_links.mate(edge) != no_half_edge && is_edge_active(edge) && is_contraction_wanted(edge))
+      const geometry::LinkedEdge edge = geometry::linked_edge(t, i);
+      if (_links.mate(edge) != geometry::no_linked_edge && is_edge_active(edge) &&
+          is_contraction_wanted(edge))
         contract(edge);
     }
   }
 }
 
 /// Tries the middle, then either end.
-bool FaceRemesher::contract(HalfEdge edge) {
-  const HalfEdge other = _links.mate(edge);
+bool FaceRemesher::contract(geometry::LinkedEdge edge) {
+  const geometry::LinkedEdge other = _links.mate(edge);
   const std::int32_t a = _links.origin(edge), b = _links.target(edge);
   if (is_free(a) && is_free(b)) {
     Place middle;
@@ -47,12 +50,12 @@ bool FaceRemesher::contract(HalfEdge edge) {
 }
 
 /// Contracts the edge's origin into its target, both coming to lie at `place`, if that is acceptable.
-bool FaceRemesher::try_contraction(HalfEdge edge, const Place& place) {
+bool FaceRemesher::try_contraction(geometry::LinkedEdge edge, const Place& place) {
   const std::int32_t gone = _links.origin(edge), kept = _links.target(edge);
-  const std::int32_t t = triangle_of(edge), u = triangle_of(_links.mate(edge));
+  const std::int32_t t = geometry::triangle_of(edge), u = geometry::triangle_of(_links.mate(edge));
   if (!keeps_topology(edge)) return false;
   _links.gather_fan(kept, _other_fan);
-  PatchShape before, after;
+  TriangleShapes before, after;
   const auto add = [&](const std::vector<std::int32_t>& fan, std::int32_t vertex) {
     bool short_enough = true;
     for (const std::int32_t s : fan) {
@@ -77,18 +80,20 @@ bool FaceRemesher::try_contraction(HalfEdge edge, const Place& place) {
 
 /// Whether the surface stays a manifold: the ends have no common neighbours but the two apexes. Leaves the
 /// origin's fan in `_fan`.
-bool FaceRemesher::keeps_topology(HalfEdge edge) {
+bool FaceRemesher::keeps_topology(geometry::LinkedEdge edge) {
   const std::int32_t gone = _links.origin(edge), kept = _links.target(edge);
   const std::int32_t c = _links.apex(edge), d = _links.apex(_links.mate(edge));
   if (!_links.gather_fan(gone, _fan) || _fan.size() < 3 || c == d) return false;
-  const HalfEdge beyond = _links.triangles[triangle_of(edge)].links[next_corner(corner_of(edge))];
-  const bool tetrahedron = _fan.size() == 3 && beyond != no_half_edge && _links.apex(beyond) == d;
+  const geometry::LinkedEdge beyond =
+      _links.triangles[geometry::triangle_of(edge)].links[geometry::next_corner(geometry::corner_of(edge))];
+  const bool tetrahedron = _fan.size() == 3 && beyond != geometry::no_linked_edge && _links.apex(beyond) == d;
   if (tetrahedron) return false;
   for (const std::int32_t t : _fan) {
     const int k = _links.corner(t, gone);
-    const std::int32_t w = _links.triangles[t].vertices[next_corner(k)];
+    const std::int32_t w = _links.triangles[t].vertices[geometry::next_corner(k)];
     if (w == kept || w == c || w == d) continue;
-    if (_links.find(w, kept) != no_half_edge || _links.find(kept, w) != no_half_edge) return false;
+    if (_links.find(w, kept) != geometry::no_linked_edge || _links.find(kept, w) != geometry::no_linked_edge)
+      return false;
   }
   return true;
 }
@@ -96,8 +101,8 @@ bool FaceRemesher::keeps_topology(HalfEdge edge) {
 void FaceRemesher::divide_long_edges() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
     for (int i = 0; i < 3 && is_live(t); ++i) {
-      const HalfEdge edge = half_edge(t, i);
-      if (_links.mate(edge) == no_half_edge || !is_edge_active(edge)) continue;
+      const geometry::LinkedEdge edge = geometry::linked_edge(t, i);
+      if (_links.mate(edge) == geometry::no_linked_edge || !is_edge_active(edge)) continue;
       if (edge_length(edge) > longest_edge * edge_size(edge)) divide(edge);
     }
   }
@@ -106,12 +111,12 @@ void FaceRemesher::divide_long_edges() {
 /// Puts a vertex on the surface next to the middle of the edge, and joins it to what lies around if that is
 /// better than the edge's own two triangles divided. The guess is one end's parameters, not the mean of both:
 /// they may lie on different sides of a seam.
-void FaceRemesher::divide(HalfEdge edge) {
+void FaceRemesher::divide(geometry::LinkedEdge edge) {
   const std::int32_t b = _links.origin(edge), c = _links.target(edge);
   Place middle;
   if (!project(0.5 * (_mesh.points[b] + _mesh.points[c]), b, 0.5 * edge_length(edge), middle)) return;
-  PatchShape before = shape(triangle_of(edge)), after;
-  before.add(shape(triangle_of(_links.mate(edge))));
+  TriangleShapes before = shape(geometry::triangle_of(edge)), after;
+  before.add(shape(geometry::triangle_of(_links.mate(edge))));
   plan_star(edge, middle, before, after);
   if (!is_acceptable(before, after)) return;
   const std::int32_t vertex = _links.divide(edge);
@@ -129,13 +134,15 @@ void FaceRemesher::divide(HalfEdge edge) {
 
 /// Starts from the four triangles of the divided edge and takes in those beyond as long as that makes better
 /// ones.
-void FaceRemesher::plan_star(HalfEdge edge, const Place& middle, PatchShape& before, PatchShape& after) {
+void FaceRemesher::plan_star(geometry::LinkedEdge edge, const Place& middle, TriangleShapes& before,
+                             TriangleShapes& after) {
   _replaced.clear();
   _star.clear();
-  for (const HalfEdge side : {edge, _links.mate(edge)}) {
-    const std::int32_t t = triangle_of(side);
-    for (const int i : {next_corner(corner_of(side)), previous_corner(corner_of(side))}) {
-      const HalfEdge e = half_edge(t, i);
+  for (const geometry::LinkedEdge side : {edge, _links.mate(edge)}) {
+    const std::int32_t t = geometry::triangle_of(side);
+    for (const int i : {geometry::next_corner(geometry::corner_of(side)),
+                        geometry::previous_corner(geometry::corner_of(side))}) {
+      const geometry::LinkedEdge e = geometry::linked_edge(t, i);
       _star.push_back({_links.origin(e), _links.target(e), _links.mate(e)});
     }
   }
@@ -147,13 +154,13 @@ void FaceRemesher::plan_star(HalfEdge edge, const Place& middle, PatchShape& bef
   };
   for (std::size_t k = 0; k < _star.size() && _star.size() < 10;) {
     const StarEdge e = _star[k];
-    const std::int32_t w = e.outside == no_half_edge ? -1 : _links.apex(e.outside);
+    const std::int32_t w = e.outside == geometry::no_linked_edge ? -1 : _links.apex(e.outside);
     if (w < 0 || is_in_star(w)) {
       ++k;
       continue;
     }
-    const PatchShape beyond = shape(triangle_of(e.outside));
-    PatchShape old = beyond, joined = triangle(e.origin, w);
+    const TriangleShapes beyond = shape(geometry::triangle_of(e.outside));
+    TriangleShapes old = beyond, joined = triangle(e.origin, w);
     old.add(triangle(e.origin, e.target));
     joined.add(triangle(w, e.target));
     if (!(joined.mean_ratio > old.mean_ratio && is_acceptable(old, joined))) {
@@ -162,11 +169,11 @@ void FaceRemesher::plan_star(HalfEdge edge, const Place& middle, PatchShape& bef
     }
     before.add(beyond);
     // From beyond, the edge runs from its target to its origin, then to w.
-    const std::int32_t t = triangle_of(e.outside);
-    const int j = corner_of(e.outside);
+    const std::int32_t t = geometry::triangle_of(e.outside);
+    const int j = geometry::corner_of(e.outside);
     _replaced.push_back(e);
-    _star[k] = {e.origin, w, _links.triangles[t].links[next_corner(j)]};
-    _star.push_back({w, e.target, _links.triangles[t].links[previous_corner(j)]});
+    _star[k] = {e.origin, w, _links.triangles[t].links[geometry::next_corner(j)]};
+    _star.push_back({w, e.target, _links.triangles[t].links[geometry::previous_corner(j)]});
   }
   for (const StarEdge& e : _star) after.add(triangle(e.origin, e.target));
 }

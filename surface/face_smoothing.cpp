@@ -21,7 +21,8 @@ Vec3 FaceRemesher::ideal_place(std::int32_t vertex) const {
   for (const std::int32_t t : _fan) {
     const int k = _links.corner(t, vertex);
     const auto& v = _links.triangles[t].vertices;
-    const Vec3 from = _mesh.points[v[next_corner(k)]], to = _mesh.points[v[previous_corner(k)]];
+    const Vec3 from = _mesh.points[v[geometry::next_corner(k)]],
+               to = _mesh.points[v[geometry::previous_corner(k)]];
     sum += 0.5 * (from + to) + height * cross(_normals[vertex], to - from);
   }
   return sum / static_cast<double>(_fan.size());
@@ -35,7 +36,7 @@ void FaceRemesher::smooth_vertex(std::int32_t vertex) {
   if (!(length > smallest_move * _sizes[vertex])) return;
   Place place;
   if (!project(here + move, vertex, std::max(length, 0.25 * _sizes[vertex]), place)) return;
-  PatchShape before, after;
+  TriangleShapes before, after;
   for (const std::int32_t t : _fan) {
     before.add(shape(t));
     after.add(shape_with(t, vertex, place));

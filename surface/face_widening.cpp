@@ -43,7 +43,7 @@ std::optional<double> FaceRemesher::judge_fan(const std::vector<double>& before)
 bool FaceRemesher::widen_vertex(std::int32_t vertex) {
   if (!_links.gather_fan(vertex, _fan)) return false;
   double shortest = std::numeric_limits<double>::max(), best = 1;
-  PatchShape before;
+  TriangleShapes before;
   std::vector<double>& sines = _fan_sines;
   sines.clear();
   for (const std::int32_t t : _fan) {
@@ -67,7 +67,7 @@ bool FaceRemesher::widen_vertex(std::int32_t vertex) {
       Place place;
       put(vertex, start);
       if (!project(start.point + step * shortest * direction, vertex, step * shortest, place)) continue;
-      PatchShape after;
+      TriangleShapes after;
       for (const std::int32_t t : _fan) after.add(shape_with(t, vertex, place));
       if (after.facing < std::min(before.facing, least_facing)) continue;
       put(vertex, place);

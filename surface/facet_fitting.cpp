@@ -1,6 +1,6 @@
+#include "front/boundary_triangulation.hpp"
 #include "geometry/predicates.hpp"
 #include "surface/open_facets.hpp"
-#include "surface/region.hpp"
 #include "surface/support_flips.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::SurfaceFrame;
+using cad::SurfaceFrame;
 using geometry::Vec2;
 using geometry::Vec3;
 
@@ -62,8 +62,9 @@ void OpenFacets::flip(const std::vector<SurfaceFrame>& frames) {
 
 bool OpenFacets::is_folded() const {
   const int orientation = parameter_orientation();
-  return std::any_of(_support.corner_uv.begin(), _support.corner_uv.end(),
-                     [&](const auto& uv) { return geometry::orient2d(uv[0], uv[1], uv[2]) == -orientation; });
+  return std::any_of(_support.corner_uv.begin(), _support.corner_uv.end(), [&](const auto& uv) {
+    return geometry::orient2d(uv[0], uv[1], uv[2]) == -orientation;
+  });
 }
 
 void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {
@@ -75,7 +76,7 @@ void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {
   }
   if (!(mean.uu > 0 && mean.vv > 0)) return;
   const double height = std::sqrt(mean.vv / mean.uu) * parameter_orientation();
-  FrontInput region;
+  front::FrontInput region;
   std::vector<std::int32_t> number(_uv.size(), -1), point_of;
   const auto add = [&](std::int32_t point) {
     if (number[point] < 0) {
@@ -96,27 +97,27 @@ void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {
     for (const std::int32_t point : triangle) add(point);
   }
   try {
-    const Delaunay plane = triangulate_region(region);
+    const front::Delaunay plane = front::triangulate_region(region);
     _support.triangles.clear();
     _support.corner_uv.clear();
-    for (const LinkedTriangle& triangle : plane.mesh.triangles) {
-      if (state_of(triangle) == TriangleState::outside) continue;
+    for (const geometry::LinkedTriangle& triangle : plane.mesh.triangles) {
+      if (front::state_of(triangle) == front::TriangleState::outside) continue;
       const auto& [a, b, c] = triangle.vertices;
       _support.triangles.push_back({point_of[a], point_of[b], point_of[c]});
       _support.corner_uv.push_back({_uv[point_of[a]], _uv[point_of[b]], _uv[point_of[c]]});
     }
-  } catch (const FrontError& e) {
+  } catch (const front::FrontError& e) {
     // The loops touch in the parameter plane: the facets stay as they are, and the charts judge them.
   }
 }
 
-std::vector<char> OpenFacets::find_turning_edges(const std::vector<SupportHalfEdge>& twins,
+std::vector<char> OpenFacets::find_turning_edges(const std::vector<geometry::HalfEdge>& twins,
                                                  const std::vector<SurfaceFrame>& frames) const {
   std::vector<char> marked(twins.size(), 0);
-  const auto mark = [&](SupportHalfEdge h) {
+  const auto mark = [&](geometry::HalfEdge h) {
     if (twins[h] >= 0) marked[std::min(h, twins[h])] = 1;
   };
-  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     const Vec3 first = frames[start_of(_support, h)].normal, second = frames[end_of(_support, h)].normal;
     // Normals are zero at singular points.
     if (norm(first) > 0 && norm(second) > 0 && dot(first, second) < turning_cosine) mark(h);
@@ -126,11 +127,11 @@ std::vector<char> OpenFacets::find_turning_edges(const std::vector<SupportHalfEd
     const Vec3 expected = frames[a].normal + frames[b].normal + frames[c].normal;
     const Vec3 found = area_vector(_support, static_cast<std::int32_t>(t));
     if (dot(expected, found) >= leaning_cosine * norm(expected) * norm(found)) continue;
-    SupportHalfEdge longest = static_cast<SupportHalfEdge>(3 * t);
-    const auto length = [&](SupportHalfEdge h) {
+    geometry::HalfEdge longest = static_cast<geometry::HalfEdge>(3 * t);
+    const auto length = [&](geometry::HalfEdge h) {
       return distance(_support.points[start_of(_support, h)], _support.points[end_of(_support, h)]);
     };
-    for (const SupportHalfEdge h : {longest + 1, longest + 2}) {
+    for (const geometry::HalfEdge h : {longest + 1, longest + 2}) {
       if (length(h) > length(longest)) longest = h;
     }
     mark(longest);
@@ -139,10 +140,10 @@ std::vector<char> OpenFacets::find_turning_edges(const std::vector<SupportHalfEd
 }
 
 bool OpenFacets::divide_turning_edges(const std::vector<SurfaceFrame>& frames) {
-  const std::vector<SupportHalfEdge> twins = match_half_edges(_support.triangles);
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(_support.triangles);
   const std::vector<char> marked = find_turning_edges(twins, frames);
   std::vector<EdgePoint> divisions;
-  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (!marked[h]) continue;
     const auto index = static_cast<std::int32_t>(_support.points.size());
     const Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));

@@ -1,7 +1,7 @@
 #include "surface/intersection.hpp"
 
+#include "geometry/box_tree.hpp"
 #include "parallel/collective_error.hpp"
-#include "surface/box_tree.hpp"
 #include "surface/triangle_contact.hpp"
 
 #include <algorithm>
@@ -16,27 +16,27 @@ using geometry::Box;
 using geometry::Vec3;
 using mesh::LocalIndex;
 
-constexpr int block_triangles = 256;
+constexpr int batch_triangles = 256;
 
-/// A spatially compact part of a piece; the table of all blocks is known to every rank, by piece, then by
+/// A spatially compact part of a piece; the table of all batches is known to every rank, by piece, then by
 /// order in the piece.
-struct Block {
+struct Batch {
   Box box;
   mesh::PieceId piece;
   std::int32_t order;
   parallel::Rank rank;
 };
 
-struct BlockTriangle {
+struct BatchTriangle {
   NamedTriangle corners;
   Box box;
   LocalIndex cell;
 };
 
-using Triangles = std::vector<BlockTriangle>;
+using Triangles = std::vector<BatchTriangle>;
 
-/// Two blocks, lower first, tested on one rank.
-struct BlockPair {
+/// Two batches, lower first, tested on one rank.
+struct BatchPair {
   std::int32_t lower, upper;
 };
 
@@ -64,63 +64,63 @@ Triangles name_triangles(const mesh::Piece& piece) {
   return triangles;
 }
 
-/// The blocks of this rank's pieces and their triangles.
-void cut_into_blocks(const mesh::DistributedMesh& surface, parallel::Rank rank, std::vector<Block>& blocks,
-                     std::vector<Triangles>& contents) {
+/// The batches of this rank's pieces and their triangles.
+void cut_into_batches(const mesh::DistributedMesh& surface, parallel::Rank rank, std::vector<Batch>& batches,
+                      std::vector<Triangles>& contents) {
   if (surface.kind != mesh::CellKind::triangle)
     throw std::logic_error("find_intersections: the mesh is no surface");
   for (const mesh::Piece& piece : surface.pieces) {
     const Triangles triangles = name_triangles(piece);
     std::vector<Box> boxes;
     boxes.reserve(triangles.size());
-    for (const BlockTriangle& t : triangles) boxes.push_back(t.box);
-    const BoxTree tree(std::move(boxes), block_triangles);
+    for (const BatchTriangle& t : triangles) boxes.push_back(t.box);
+    const geometry::BoxTree tree(boxes, batch_triangles);
     std::int32_t order = 0;
     for (const auto leaf : tree.leaves()) {
-      Block& block = blocks.emplace_back(Block{{}, piece.id, order++, rank});
+      Batch& batch = batches.emplace_back(Batch{{}, piece.id, order++, rank});
       Triangles& content = contents.emplace_back();
       for (const std::int32_t t : leaf) {
         content.push_back(triangles[t]);
-        block.box.add(triangles[t].box);
+        batch.box.add(triangles[t].box);
       }
     }
   }
 }
 
 /// The rank that tests a pair: either owner, in turn.
-parallel::Rank tester(const std::vector<Block>& table, BlockPair pair) {
+parallel::Rank tester(const std::vector<Batch>& table, BatchPair pair) {
   return table[(pair.lower + pair.upper) % 2 == 0 ? pair.lower : pair.upper].rank;
 }
 
-/// Pairs of overlapping blocks in which this rank has a part, ascending.
-std::vector<BlockPair> find_block_pairs(const std::vector<Block>& table, parallel::Rank rank) {
+/// Pairs of overlapping batches in which this rank has a part, ascending.
+std::vector<BatchPair> find_batch_pairs(const std::vector<Batch>& table, parallel::Rank rank) {
   std::vector<Box> boxes;
-  for (const Block& block : table) boxes.push_back(block.box);
-  const BoxTree tree(boxes, 4);
-  std::vector<BlockPair> pairs;
+  for (const Batch& batch : table) boxes.push_back(batch.box);
+  const geometry::BoxTree tree(boxes, 4);
+  std::vector<BatchPair> pairs;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(table.size()); ++i) {
     if (table[i].rank != rank) continue;
-    tree.for_each_overlap(boxes[i], [&](std::int32_t j) {
+    geometry::for_each_overlap(tree, boxes, boxes[i], [&](std::int32_t j) {
       if (table[j].rank != rank || i <= j) pairs.push_back({std::min(i, j), std::max(i, j)});
     });
   }
   std::sort(pairs.begin(), pairs.end(),
-            [](BlockPair a, BlockPair b) { return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper); });
+            [](BatchPair a, BatchPair b) { return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper); });
   return pairs;
 }
 
-/// All blocks this rank needs for the pairs it tests, by number in the table: its own and those of others.
-std::map<std::int32_t, Triangles> fetch_blocks(const parallel::Communicator& communicator,
-                                               const std::vector<Block>& table,
-                                               const std::vector<BlockPair>& pairs,
-                                               std::vector<Triangles> contents) {
+/// All batches this rank needs for the pairs it tests, by number in the table: its own and those of others.
+std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& communicator,
+                                                const std::vector<Batch>& table,
+                                                const std::vector<BatchPair>& pairs,
+                                                std::vector<Triangles> contents) {
   std::map<std::int32_t, Triangles> at_hand;
   std::size_t mine = 0;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(table.size()); ++i) {
     if (table[i].rank == communicator.rank()) at_hand[i] = std::move(contents[mine++]);
   }
-  std::vector<std::pair<parallel::Rank, std::int32_t>> wanted;  // by a rank, of the blocks here
-  for (const BlockPair pair : pairs) {
+  std::vector<std::pair<parallel::Rank, std::int32_t>> wanted;  // by a rank, of the batches here
+  for (const BatchPair pair : pairs) {
     const parallel::Rank rank = tester(table, pair);
     if (rank == communicator.rank()) continue;
     wanted.emplace_back(rank, table[pair.lower].rank == communicator.rank() ? pair.lower : pair.upper);
@@ -141,7 +141,7 @@ std::map<std::int32_t, Triangles> fetch_blocks(const parallel::Communicator& com
     parallel::Unpacker unpacker(parcel.content);
     while (!unpacker.at_end()) {
       const auto number = unpacker.value<std::int32_t>();
-      at_hand[number] = unpacker.array<BlockTriangle>();
+      at_hand[number] = unpacker.array<BatchTriangle>();
     }
   }
   return at_hand;
@@ -152,8 +152,8 @@ double shortest_edge(const NamedTriangle& t) {
                    distance(t.points[2], t.points[0])});
 }
 
-TriangleHit make_hit(mesh::PieceId piece_a, const BlockTriangle& a, mesh::PieceId piece_b,
-                     const BlockTriangle& b) {
+TriangleHit make_hit(mesh::PieceId piece_a, const BatchTriangle& a, mesh::PieceId piece_b,
+                     const BatchTriangle& b) {
   const auto& [p, q, r] = a.corners.points;
   if (std::tie(piece_b, b.cell) < std::tie(piece_a, a.cell)) return make_hit(piece_b, b, piece_a, a);
   return {piece_a, piece_b,           a.cell,
@@ -162,23 +162,23 @@ TriangleHit make_hit(mesh::PieceId piece_a, const BlockTriangle& a, mesh::PieceI
 
 /// The triangles that reach into a box, by their low end along an axis.
 void select_triangles(const Triangles& triangles, const Box& box, int axis,
-                      std::vector<const BlockTriangle*>& selected) {
+                      std::vector<const BatchTriangle*>& selected) {
   selected.clear();
-  for (const BlockTriangle& t : triangles) {
+  for (const BatchTriangle& t : triangles) {
     if (t.box.overlaps(box)) selected.push_back(&t);
   }
-  std::sort(selected.begin(), selected.end(), [axis](const BlockTriangle* a, const BlockTriangle* b) {
+  std::sort(selected.begin(), selected.end(), [axis](const BatchTriangle* a, const BatchTriangle* b) {
     const double left = a->box.low[axis], right = b->box.low[axis];
     return left != right ? left < right : a->cell < b->cell;
   });
 }
 
-/// Tests the triangles of two blocks (or of one with itself) against each other.
-class BlockTest {
+/// Tests the triangles of two batches (or of one with itself) against each other.
+class BatchTest {
 public:
-  explicit BlockTest(const std::vector<Block>& table) : _table(table) {}
+  explicit BatchTest(const std::vector<Batch>& table) : _table(table) {}
 
-  void run(BlockPair pair, const Triangles& lower, const Triangles& upper, std::vector<TriangleHit>& hits) {
+  void run(BatchPair pair, const Triangles& lower, const Triangles& upper, std::vector<TriangleHit>& hits) {
     const Box &a = _table[pair.lower].box, &b = _table[pair.upper].box;
     const Box common{
         {std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y), std::max(a.low.z, b.low.z)},
@@ -196,18 +196,18 @@ public:
   }
 
 private:
-  using Selection = std::vector<const BlockTriangle*>;
+  using Selection = std::vector<const BatchTriangle*>;
 
   // Meets each triangle with those of `others` that begin within its extent: behind it in its own list (part
   // 0), not before it (part 1), strictly behind it (part 2), so that the parts 1 and 2 of two lists find each
   // pair once.
-  void sweep(const Selection& list, int part, const Selection& others, BlockPair pair, int axis,
+  void sweep(const Selection& list, int part, const Selection& others, BatchPair pair, int axis,
              std::vector<TriangleHit>& hits) const {
     std::size_t first = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const BlockTriangle& t = *list[i];
+      const BatchTriangle& t = *list[i];
       const double low = t.box.low[axis], high = t.box.high[axis];
-      const auto is_before = [&](const BlockTriangle& o) {
+      const auto is_before = [&](const BatchTriangle& o) {
         return part == 2 ? o.box.low[axis] <= low : o.box.low[axis] < low;
       };
       if (part == 0) {
@@ -216,14 +216,14 @@ private:
         while (first < others.size() && is_before(*others[first])) ++first;
       }
       for (std::size_t j = first; j < others.size() && others[j]->box.low[axis] <= high; ++j) {
-        const BlockTriangle& o = *others[j];
+        const BatchTriangle& o = *others[j];
         if (!t.box.overlaps(o.box) || !meet_wrongly(t.corners, o.corners)) continue;
         hits.push_back(make_hit(_table[pair.lower].piece, t, _table[pair.upper].piece, o));
       }
     }
   }
 
-  const std::vector<Block>& _table;
+  const std::vector<Batch>& _table;
   Selection _lower, _upper;
 };
 
@@ -233,27 +233,27 @@ std::vector<TriangleHit> find_intersections(const parallel::Communicator& commun
                                             const mesh::DistributedMesh& surface,
                                             parallel::StageClock& clock) {
   using parallel::ScopedCpu;
-  std::vector<Block> blocks;
+  std::vector<Batch> batches;
   std::vector<Triangles> contents;
   parallel::agree(communicator, [&] {
     const ScopedCpu cpu(clock, ScopedCpu::As::task);
-    cut_into_blocks(surface, communicator.rank(), blocks, contents);
+    cut_into_batches(surface, communicator.rank(), batches, contents);
   });
-  std::vector<Block> table = communicator.all_gather_items(std::span<const Block>(blocks));
-  std::sort(table.begin(), table.end(), [](const Block& a, const Block& b) {
+  std::vector<Batch> table = communicator.all_gather_items(std::span<const Batch>(batches));
+  std::sort(table.begin(), table.end(), [](const Batch& a, const Batch& b) {
     return std::tie(a.piece, a.order) < std::tie(b.piece, b.order);
   });
-  const std::vector<BlockPair> pairs = [&] {
+  const std::vector<BatchPair> pairs = [&] {
     const ScopedCpu cpu(clock, ScopedCpu::As::serial);
-    return find_block_pairs(table, communicator.rank());
+    return find_batch_pairs(table, communicator.rank());
   }();
-  const auto at_hand = fetch_blocks(communicator, table, pairs, std::move(contents));
+  const auto at_hand = fetch_batches(communicator, table, pairs, std::move(contents));
 
   std::vector<TriangleHit> hits;
   {
     const ScopedCpu cpu(clock, ScopedCpu::As::task);
-    BlockTest test(table);
-    for (const BlockPair pair : pairs) {
+    BatchTest test(table);
+    for (const BatchPair pair : pairs) {
       if (tester(table, pair) == communicator.rank())
         test.run(pair, at_hand.at(pair.lower), at_hand.at(pair.upper), hits);
     }

@@ -1,6 +1,7 @@
+#include "geometry/plane_grid.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/runs.hpp"
 #include "surface/conformal_map.hpp"
-#include "surface/plane_grid.hpp"
 #include "surface/support_topology.hpp"
 
 #include <algorithm>
@@ -82,20 +83,18 @@ public:
       }
     }
     std::sort(entries.begin(), entries.end());
-    for (std::size_t begin = 0; begin < entries.size();) {
-      std::size_t end = begin;
-      while (end < entries.size() && entries[end].column == entries[begin].column &&
-             entries[end].row == entries[begin].row) {
-        ++end;
-      }
-      for (std::size_t i = begin; i < end; ++i) {
-        for (std::size_t j = i + 1; j < end; ++j) {
-          if (cross_each_other(_edges[entries[i].edge], _edges[entries[j].edge])) return true;
-        }
-      }
-      begin = end;
-    }
-    return false;
+    bool crossing = false;
+    const auto same_cell = [](const auto& a, const auto& b) {
+      return a.column == b.column && a.row == b.row;
+    };
+    geometry::for_each_run(
+        std::span<const Entry>(entries), same_cell, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end && !crossing; ++i) {
+            for (std::size_t j = i + 1; j < end && !crossing; ++j)
+              crossing = cross_each_other(_edges[entries[i].edge], _edges[entries[j].edge]);
+          }
+        });
+    return crossing;
   }
 
 private:
@@ -119,9 +118,9 @@ private:
 bool may_overlap(const Support& support, const PlaneMap& map) {
   std::vector<std::array<std::int32_t, 2>> edges;
   int outer = 0;
-  for (const auto& loop : trace_boundary(support, match_half_edges(support.triangles))) {
+  for (const auto& loop : trace_boundary(support, geometry::match_half_edges(support.triangles))) {
     double area = 0;
-    for (const SupportHalfEdge h : loop) {
+    for (const geometry::HalfEdge h : loop) {
       edges.push_back({start_of(support, h), end_of(support, h)});
       area += cross(map[edges.back()[0]] - map[0], map[edges.back()[1]] - map[0]);
     }
@@ -133,7 +132,7 @@ bool may_overlap(const Support& support, const PlaneMap& map) {
 /// The share of triangles (by area in space) whose centre lies in another triangle as well. Near sharp
 /// corners chords of curves may cross where the curves do not: that is little.
 double overlap_share(const Support& support, const PlaneMap& map) {
-  const PlaneGrid grid(map, support.triangles);
+  const geometry::PlaneGrid grid(map, support.triangles);
   const auto is_inside = [&](Vec2 p, std::int32_t triangle) {
     const auto& [a, b, c] = support.triangles[triangle];
     // Cells of the grid hold many triangles where the support is fine: boxes sort most of them out.

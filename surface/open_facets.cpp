@@ -1,6 +1,7 @@
 #include "surface/open_facets.hpp"
 
-#include "surface/surface_mesher.hpp"
+#include "geometry/disjoint_sets.hpp"
+#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,8 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::EdgeUse;
-using geometry::Model;
+using cad::EdgeUse;
+using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
@@ -25,21 +26,7 @@ constexpr double same_parameter_part = 1e-7;
 /// Points closer than this part of the face's extent are one, unless both are mesh vertices.
 constexpr double no_distance = 1e-10;
 
-class Joining {
-public:
-  explicit Joining(std::size_t count) : _parent(count) { std::iota(_parent.begin(), _parent.end(), 0); }
-  std::int32_t root(std::int32_t i) {
-    while (_parent[i] != i) i = _parent[i] = _parent[_parent[i]];
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    a = root(a), b = root(b);
-    _parent[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::int32_t> _parent;
-};
+using Joining = geometry::DisjointSets<std::int32_t>;
 
 /// Two triangles with the same corners in opposite order enclose nothing: they are left where a narrow part
 /// collapsed.
@@ -76,7 +63,7 @@ void drop_opposite_pairs(Support& support) {
   support.corner_uv.resize(kept);
 }
 
-[[noreturn]] void fail(const Model& model, geometry::FaceId face, const EdgeUse& use, Vec3 at) {
+[[noreturn]] void fail(const Model& model, cad::FaceId face, const EdgeUse& use, Vec3 at) {
   throw SurfaceError(fmt::format(
       "face {} (patch {}): its triangulation does not follow edge {} near ({:.6g}, {:.6g}, {:.6g}); repair "
       "this face in "
@@ -89,26 +76,26 @@ void drop_opposite_pairs(Support& support) {
 /// Finds half-edges by their ends.
 class OpenFacets::SideTable {
 public:
-  explicit SideTable(const Support& support) : _twins(match_half_edges(support.triangles)) {
-    for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(_twins.size()); ++h) {
+  explicit SideTable(const Support& support) : _twins(geometry::match_half_edges(support.triangles)) {
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h) {
       _rows.push_back({{start_of(support, h), end_of(support, h)}, h});
     }
     std::sort(_rows.begin(), _rows.end());
   }
-  SupportHalfEdge find(std::int32_t from, std::int32_t to) const {
+  geometry::HalfEdge find(std::int32_t from, std::int32_t to) const {
     const Row key{{from, to}, -1};
     const auto row = std::lower_bound(_rows.begin(), _rows.end(), key);
     return row != _rows.end() && row->first == key.first ? row->second : -1;
   }
-  SupportHalfEdge twin(SupportHalfEdge h) const { return _twins[h]; }
+  geometry::HalfEdge twin(geometry::HalfEdge h) const { return _twins[h]; }
 
 private:
-  using Row = std::pair<std::array<std::int32_t, 2>, SupportHalfEdge>;
-  std::vector<SupportHalfEdge> _twins;
+  using Row = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
+  std::vector<geometry::HalfEdge> _twins;
   std::vector<Row> _rows;
 };
 
-OpenFacets::OpenFacets(const Model& model, geometry::FaceId face, const geometry::Facets& facets)
+OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& facets)
     : _model(model), _uv(facets.uv) {
   _support.face = face;
   _support.points = facets.points;
@@ -130,7 +117,7 @@ OpenFacets::OpenFacets(const Model& model, geometry::FaceId face, const geometry
 
 void OpenFacets::settle_line_ends() {
   struct End {
-    geometry::VertexId vertex;
+    cad::VertexId vertex;
     std::int32_t point;
   };
   std::vector<End> ends;
@@ -139,7 +126,7 @@ void OpenFacets::settle_line_ends() {
     ends.push_back({_model.edge(line.use.edge).first, line.nodes.front().point});
     ends.push_back({_model.edge(line.use.edge).last, line.nodes.back().point});
   }
-  const auto settle = [&](const Line& line, geometry::VertexId vertex, Node& node) {
+  const auto settle = [&](const Line& line, cad::VertexId vertex, Node& node) {
     const Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
     for (const End& end : ends) {
       if (end.vertex != vertex) continue;
@@ -219,7 +206,7 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
     }
     const auto index = static_cast<std::int32_t>(_support.points.size());
     const double fraction = std::clamp((t - old[k].parameter) / part, 0.0, 1.0);
-    SupportHalfEdge h = table.find(old[k].point, old[k + 1].point);
+    geometry::HalfEdge h = table.find(old[k].point, old[k + 1].point);
     const bool along = h >= 0;
     if (!along) h = table.find(old[k + 1].point, old[k].point);
     if (h < 0) fail(_model, _support.face, line.use, point);
@@ -242,14 +229,14 @@ void OpenFacets::divide(std::vector<EdgePoint> divisions) {
 
 std::vector<std::int32_t> OpenFacets::join_points() const {
   Joining joining(_support.points.size());
-  std::map<geometry::VertexId, std::int32_t> at_vertex;
-  const auto join_vertex = [&](geometry::VertexId vertex, std::int32_t point) {
-    joining.join(at_vertex.emplace(vertex, point).first->second, point);
+  std::map<cad::VertexId, std::int32_t> at_vertex;
+  const auto join_vertex = [&](cad::VertexId vertex, std::int32_t point) {
+    joining.unite(at_vertex.emplace(vertex, point).first->second, point);
   };
   for (std::size_t l = 0; l < _lines.size(); ++l) {
     const Line& line = _lines[l];
     if (line.nodes.empty()) continue;
-    const geometry::Edge& edge = _model.edge(line.use.edge);
+    const cad::Edge& edge = _model.edge(line.use.edge);
     join_vertex(edge.first, line.nodes.front().point);
     join_vertex(edge.last, line.nodes.back().point);
     for (std::size_t i = 0; edge.degenerate && i < line.nodes.size(); ++i)
@@ -258,7 +245,7 @@ std::vector<std::int32_t> OpenFacets::join_points() const {
     for (std::size_t m = 0; m < l; ++m) {
       if (_lines[m].use.edge != line.use.edge || _lines[m].nodes.size() != line.nodes.size()) continue;
       for (std::size_t i = 0; i < line.nodes.size(); ++i)
-        joining.join(_lines[m].nodes[i].point, line.nodes[i].point);
+        joining.unite(_lines[m].nodes[i].point, line.nodes[i].point);
     }
   }
   std::vector<char> is_mesh_vertex(_support.points.size(), 0);
@@ -272,7 +259,7 @@ std::vector<std::int32_t> OpenFacets::join_points() const {
       const std::int32_t a = joining.root(triangle[i]), b = joining.root(triangle[(i + 1) % 3]);
       if (a == b || distance(_support.points[a], _support.points[b]) > no_distance * box.diagonal()) continue;
       if (is_mesh_vertex[a] && is_mesh_vertex[b]) continue;
-      joining.join(a, b);
+      joining.unite(a, b);
       is_mesh_vertex[std::min(a, b)] |= is_mesh_vertex[std::max(a, b)];
     }
   }
@@ -323,7 +310,7 @@ Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
   }
   drop_opposite_pairs(joined);
   const std::vector<std::int32_t> all_one(joined.triangles.size(), 0);
-  return separate_parts(joined, match_half_edges(joined.triangles), all_one, 1).front();
+  return separate_parts(joined, geometry::match_half_edges(joined.triangles), all_one, 1).front();
 }
 
 }  // namespace aeroloom::surface

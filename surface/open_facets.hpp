@@ -12,7 +12,7 @@ namespace aeroloom::surface {
 /// A triangulated face as the CAD library leaves it: cut open along seams and at poles.
 class OpenFacets {
 public:
-  OpenFacets(const geometry::Model& model, geometry::FaceId face, const geometry::Facets& facets);
+  OpenFacets(const cad::Model& model, cad::FaceId face, const cad::Facets& facets);
 
   /// Makes every curve vertex a node of the lines along its edge: nodes at (nearly) the same parameter move
   /// there, the others divide a side of a triangle. Throws SurfaceError where a line is no side of the
@@ -34,7 +34,7 @@ private:
     CurveVertex vertex;  // -1: none
   };
   struct Line {
-    geometry::EdgeUse use;
+    cad::EdgeUse use;
     bool constraining;
     std::vector<Node> nodes;
   };
@@ -57,16 +57,16 @@ private:
   std::vector<std::int32_t> join_points() const;
   /// 1 where the loops run counter-clockwise in the parameter plane, else -1.
   int parameter_orientation() const;
-  void flip(const std::vector<geometry::SurfaceFrame>& frames);
+  void flip(const std::vector<cad::SurfaceFrame>& frames);
   bool is_folded() const;
-  void triangulate_again(const std::vector<geometry::SurfaceFrame>& frames);
+  void triangulate_again(const std::vector<cad::SurfaceFrame>& frames);
   /// Per half-edge, whether its edge is to be divided; marked on the lower half-edge of the two.
-  std::vector<char> find_turning_edges(const std::vector<SupportHalfEdge>& twins,
-                                       const std::vector<geometry::SurfaceFrame>& frames) const;
-  bool divide_turning_edges(const std::vector<geometry::SurfaceFrame>& frames);
+  std::vector<char> find_turning_edges(const std::vector<geometry::HalfEdge>& twins,
+                                       const std::vector<cad::SurfaceFrame>& frames) const;
+  bool divide_turning_edges(const std::vector<cad::SurfaceFrame>& frames);
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 
-  const geometry::Model& _model;
+  const cad::Model& _model;
   Support _support;
   std::vector<geometry::Vec2> _uv;  // per point
   std::vector<Line> _lines;

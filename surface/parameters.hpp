@@ -1,7 +1,7 @@
 /// Parameters of one point of a face that stand for it in different places of the parameter plane.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ inline double unwrap(double parameter, double reference, double period) {
 }
 
 /// The parameters of the same point nearest to `reference`; those where they belong to another sheet.
-inline geometry::Vec2 unwrap(const geometry::Model& model, geometry::FaceId face, geometry::Vec2 uv,
+inline geometry::Vec2 unwrap(const cad::Model& model, cad::FaceId face, geometry::Vec2 uv,
                              geometry::Vec2 reference) {
   if (model.sheet(face, uv) != model.sheet(face, reference)) return reference;
   const geometry::Vec2 periods = model.parameter_periods(face, reference);

@@ -5,6 +5,7 @@
 #include "parallel/schedule.hpp"
 #include "surface/face_mesher.hpp"
 #include "surface/support_mesher.hpp"
+#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::FaceId;
+using cad::FaceId;
 using parallel::ScopedCpu;
 using sizing::SizeField;
 
@@ -32,7 +33,7 @@ std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece&
 
 }  // namespace
 
-PiecePool::PiecePool(const parallel::Communicator& communicator, const geometry::Model& model,
+PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
                      const SurfaceOptions& options, parallel::StageClock& clock)
     : _communicator(communicator),
       _model(model),
@@ -44,7 +45,7 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const geometry:
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
   for (const auto& loop : _model.face(face).loops) {
-    for (const geometry::EdgeUse& use : loop) {
+    for (const cad::EdgeUse& use : loop) {
       counts.push_back(curves.first_interior[use.edge + 1] - curves.first_interior[use.edge]);
     }
   }
@@ -56,7 +57,7 @@ bool PiecePool::is_unchanged(const CurveMesh& curves, const SizeField& field, Fa
   if (edge_vertices(curves, face) != meshed.edge_vertices) return false;
   const mesh::Piece& piece = meshed.piece;
   for (std::size_t i = 0; i < piece.shared_tokens.size(); ++i) {
-    if (is_cut_token(piece.shared_tokens[i])) continue;
+    if (mesh::is_cut_token(piece.shared_tokens[i])) continue;
     const CurveVertex v = curves.vertex_of(piece.shared_tokens[i]);
     if (!(curves.points[v] == piece.point(piece.shared_vertices[i]))) return false;
   }
@@ -284,13 +285,13 @@ mesh::DistributedMesh PiecePool::assemble() const {
   surface.patches = _model.patches();
   std::vector<mesh::PieceId> first{0};
   for (FaceId f = 0; f < _model.face_count(); ++f) {
-    const geometry::Face& face = _model.face(f);
+    const cad::Face& face = _model.face(f);
     surface.faces.push_back(face.name);
     surface.sides.push_back({face.front, face.back});
     first.push_back(first.back() + _parts[f]);
   }
   surface.piece_count = first.back();
-  for (geometry::RegionId r = 0; r < _model.region_count(); ++r) {
+  for (cad::RegionId r = 0; r < _model.region_count(); ++r) {
     surface.regions.push_back(_model.region_name(r));
   }
   for (const auto& [key, meshed] : _meshed) {

@@ -2,9 +2,11 @@
 /// long as nothing around them changes.
 #pragma once
 
+#include "mesh/distributed_mesh.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_pieces.hpp"
-#include "surface/surface_mesher.hpp"
+#include "surface/surface_options.hpp"
+#include "surface/surface_report.hpp"
 
 #include <array>
 #include <map>
@@ -17,22 +19,22 @@ namespace aeroloom::surface {
 /// What has to change before meshing can succeed.
 struct Conflicts {
   std::vector<sizing::SizeSource> remedies;  ///< where sizes have to fall
-  std::vector<geometry::FaceId> undivided;   ///< faces that had better stay whole
+  std::vector<cad::FaceId> undivided;        ///< faces that had better stay whole
   std::string complaint;                     ///< about the first one; empty: none
 };
 
 class PiecePool {
 public:
-  PiecePool(const parallel::Communicator& communicator, const geometry::Model& model,
+  PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
             const SurfaceOptions& options, parallel::StageClock& clock);
 
   /// Meshes every face whose curves or sizes are not those of the round before. Collective. Conflicts are
   /// those of this rank.
   Conflicts mesh(const CurveMesh& curves, const sizing::SizeField& field);
   /// Whether a face is cut into pieces; known on every rank.
-  bool is_divided(geometry::FaceId face) const { return _parts[face] > 1; }
+  bool is_divided(cad::FaceId face) const { return _parts[face] > 1; }
   /// From the next round on, these faces are one piece each. The same on every rank.
-  void leave_whole(const std::vector<geometry::FaceId>& faces);
+  void leave_whole(const std::vector<cad::FaceId>& faces);
   /// The pieces as a mesh; all faces must be meshed.
   mesh::DistributedMesh assemble() const;
   /// The angles where cuts end, by face; the same on every rank. Collective.
@@ -59,13 +61,13 @@ private:
     double facets;  // of the support
   };
 
-  bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, geometry::FaceId face,
+  bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, cad::FaceId face,
                     const Meshed& meshed) const;
-  std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, geometry::FaceId face) const;
-  std::vector<geometry::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
-  Seeds divide(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
+  std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, cad::FaceId face) const;
+  std::vector<cad::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
+  Seeds divide(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                const sizing::SizeField& field);
-  Seeds make_face_seeds(const std::vector<geometry::FaceId>& faces, const CurveMesh& curves,
+  Seeds make_face_seeds(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                         const sizing::SizeField& field);
   Seeds divide_heavy(Seeds seeds, int level, CoarseSizes& sizes);
   bool is_to_divide(const Row& row, int level) const;
@@ -76,7 +78,7 @@ private:
                        const sizing::SizeField& field);
 
   const parallel::Communicator& _communicator;
-  const geometry::Model& _model;
+  const cad::Model& _model;
   const SurfaceOptions& _options;
   parallel::StageClock& _clock;
   bool _started = false;

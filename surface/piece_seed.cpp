@@ -20,7 +20,7 @@ double predict_triangles(const Support& support, const sizing::SizeField& field)
     }
     vertices += 2 / std::numbers::sqrt3 * area * density;
   }
-  const auto twins = match_half_edges(support.triangles);
+  const auto twins = geometry::match_half_edges(support.triangles);
   const auto edges =
       (static_cast<double>(twins.size()) + static_cast<double>(std::count(twins.begin(), twins.end(), -1))) /
       2;
@@ -50,7 +50,7 @@ PieceSeed unpack_seed(std::span<const std::byte> bytes) {
   parallel::Unpacker unpacker(bytes);
   PieceSeed seed;
   seed.load = unpacker.value<double>();
-  seed.support.face = unpacker.value<geometry::FaceId>();
+  seed.support.face = unpacker.value<cad::FaceId>();
   seed.support.points = unpacker.array<geometry::Vec3>();
   seed.support.triangles = unpacker.array<std::array<std::int32_t, 3>>();
   seed.support.corner_uv = unpacker.array<std::array<geometry::Vec2, 3>>();

@@ -29,7 +29,7 @@ struct Bend {
 /// mesh vertices alone.
 class CutLevels {
 public:
-  CutLevels(const Support& support, const CutPlane& plane, const std::vector<SupportHalfEdge>& twins)
+  CutLevels(const Support& support, const CutPlane& plane, const std::vector<geometry::HalfEdge>& twins)
       : _support(support),
         _twins(twins),
         _levels(support.points.size()),
@@ -45,7 +45,7 @@ public:
     }
     for (const auto& loop : trace_boundary(support, twins)) {
       _loops.emplace_back();
-      for (const SupportHalfEdge h : loop) {
+      for (const geometry::HalfEdge h : loop) {
         _loops.back().push_back(start_of(support, h));
         _on_boundary[start_of(support, h)] = 1;
       }
@@ -147,7 +147,7 @@ private:
   /// Moves interior points onto the cut that it passes closely.
   void snap_interior() {
     std::vector<char> snap(_levels.size(), 0);
-    for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(_twins.size()); ++h) {
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h) {
       const std::int32_t a = start_of(_support, h), b = end_of(_support, h);
       if (_levels[a] * _levels[b] >= 0 || _on_boundary[a]) continue;
       if (std::abs(_levels[a]) < least_part * std::abs(_levels[a] - _levels[b])) snap[a] = 1;
@@ -158,18 +158,18 @@ private:
   }
 
   const Support& _support;
-  const std::vector<SupportHalfEdge>& _twins;
+  const std::vector<geometry::HalfEdge>& _twins;
   std::vector<double> _levels;
   std::vector<char> _on_boundary, _on_cut;
   std::vector<std::vector<std::int32_t>> _loops;  // points
 };
 
 /// Divides every edge whose ends lie on different sides; the new points have level 0.
-void divide_at_zero(Support& support, const std::vector<SupportHalfEdge>& twins,
+void divide_at_zero(Support& support, const std::vector<geometry::HalfEdge>& twins,
                     std::vector<double>& levels) {
   std::vector<EdgePoint> divisions;
-  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
-    const SupportHalfEdge twin = twins[h];
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
+    const geometry::HalfEdge twin = twins[h];
     if (twin >= 0 && twin < h) continue;
     const std::int32_t a = start_of(support, h), b = end_of(support, h);
     if (levels[a] * levels[b] >= 0) continue;
@@ -188,7 +188,7 @@ void divide_at_zero(Support& support, const std::vector<SupportHalfEdge>& twins,
 
 /// Gives parts that are too small to their neighbours. Returns the number of parts left.
 std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t>& side) {
-  const std::vector<SupportHalfEdge> twins = match_half_edges(support.triangles);
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
   const double least = least_share * support_area(support);
   for (std::size_t round = 0; round < 64; ++round) {
     std::vector<std::int32_t> component;
@@ -210,7 +210,7 @@ std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t
 }  // namespace
 
 std::optional<CutSupport> cut_by_plane(const Support& support, const CutPlane& plane) {
-  const std::vector<SupportHalfEdge> twins = match_half_edges(support.triangles);
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
   std::vector<double> levels = CutLevels(support, plane, twins).values();
   CutSupport cut{support, {}};
   divide_at_zero(cut.support, twins, levels);

@@ -4,7 +4,7 @@
 
 namespace aeroloom::surface {
 
-void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, const Remeshing& options,
+void remesh_interior(const cad::Model& model, const sizing::SizeField& field, const Remeshing& options,
                      FaceMesh& mesh) {
   FaceRemesher remesher(model, field, mesh);
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {

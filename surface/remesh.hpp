@@ -2,7 +2,7 @@
 /// long edges.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "sizing/size_field.hpp"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace aeroloom::surface {
 
 /// The mesh of a face under work.
 struct FaceMesh {
-  geometry::FaceId face = geometry::no_entity;
+  cad::FaceId face = cad::no_entity;
   std::vector<geometry::Vec3> points;
   std::vector<geometry::Vec2> uv;                      ///< parameters of each point on the CAD surface
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
@@ -31,13 +31,13 @@ struct Remeshing {
 /// worst mean ratio around it, unless that stays above 0.65. Edges used by one triangle stay, and so do
 /// vertices on them and the first `fixed` ones. After the first sweep only places that changed are looked at
 /// again. Deterministic.
-void remesh_interior(const geometry::Model& model, const sizing::SizeField& field, const Remeshing& options,
+void remesh_interior(const cad::Model& model, const sizing::SizeField& field, const Remeshing& options,
                      FaceMesh& mesh);
 
 /// Moves free vertices so that the borders between the triangles of different parts get straight and meet at
 /// even angles, and smooths the others, as long as triangles stay well shaped. Connections stay. `part` per
 /// triangle. Angles below `smallest_angle` (degrees) between borders do not get smaller.
-void straighten_cuts(const geometry::Model& model, const sizing::SizeField& field,
+void straighten_cuts(const cad::Model& model, const sizing::SizeField& field,
                      const std::vector<std::int32_t>& part, double smallest_angle, FaceMesh& mesh);
 
 }  // namespace aeroloom::surface

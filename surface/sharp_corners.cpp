@@ -10,9 +10,9 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::EdgeEnd;
-using geometry::FaceCorner;
-using geometry::Model;
+using cad::EdgeEnd;
+using cad::FaceCorner;
+using cad::Model;
 using geometry::Vec3;
 
 constexpr double sharp = 30;  // degrees
@@ -26,7 +26,7 @@ constexpr double straight = 10;
 
 /// Whether the edge stays close to its chord up to the parameter.
 bool is_straight(const Model& model, EdgeEnd end, double parameter, Vec3 point) {
-  const geometry::Edge& edge = model.edge(end.edge);
+  const cad::Edge& edge = model.edge(end.edge);
   const double from = end.first ? edge.first_parameter : edge.last_parameter;
   const Vec3 chord = point - model.edge_point(end.edge, from);
   const double cosine = std::cos(straight * std::numbers::pi / 180);
@@ -44,7 +44,7 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
                      {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)}};
   double reach = field(model.vertex(corner.vertex));
   for (int k = 0; k < most_steps; ++k, reach *= step) {
-    const auto opening = geometry::open_corner(model, corner, reach);
+    const auto opening = cad::open_corner(model, corner, reach);
     if (!opening || opening->degrees >= sharp) break;
     if (k == 0) result.degrees = opening->degrees;
     bool both_straight = true;
@@ -69,8 +69,8 @@ std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& commun
   std::vector<SharpCorner> corners;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
-    for (geometry::FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
-      for (const FaceCorner& corner : geometry::corners_of(model, f)) {
+    for (cad::FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
+      for (const FaceCorner& corner : cad::corners_of(model, f)) {
         if (const auto found = examine(model, field, corner)) corners.push_back(*found);
       }
     }

@@ -1,8 +1,8 @@
 /// How curves begin at sharp corners of CAD faces.
 #pragma once
 
-#include "geometry/face_corners.hpp"
-#include "geometry/model.hpp"
+#include "cad/model/face_corners.hpp"
+#include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
@@ -14,9 +14,9 @@ namespace aeroloom::surface {
 
 /// Where two edges of a face meet below 30 degrees, as elements see it: from the distance of the local size.
 struct SharpCorner {
-  geometry::FaceId face = geometry::no_entity;
-  geometry::VertexId vertex = geometry::no_entity;
-  std::array<geometry::EdgeEnd, 2> ends;
+  cad::FaceId face = cad::no_entity;
+  cad::VertexId vertex = cad::no_entity;
+  std::array<cad::EdgeEnd, 2> ends;
   double degrees = 0;
   /// Length of the first segment on both edges, so that one triangle fills the corner and elements fit
   /// between the edges behind it; 0 where the edges bend too much or are too short for one.
@@ -25,13 +25,13 @@ struct SharpCorner {
 
 /// All of them by face, the same on every rank. Collective.
 std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator,
-                                            const geometry::Model& model, const sizing::SizeField& field,
+                                            const cad::Model& model, const sizing::SizeField& field,
                                             parallel::StageClock& clock);
 
 /// Per edge and end (at its first and last parameter): how far from the CAD vertex the first vertex on the
 /// curve is; 0 where the size field alone decides. Corners at one vertex take the longest leg together: they
 /// may share an edge.
-std::vector<std::array<double, 2>> legs_of_edges(const geometry::Model& model,
+std::vector<std::array<double, 2>> legs_of_edges(const cad::Model& model,
                                                  const std::vector<SharpCorner>& corners);
 
 }  // namespace aeroloom::surface

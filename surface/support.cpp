@@ -3,7 +3,7 @@
 #include "surface/open_facets.hpp"
 #include "surface/support_flips.hpp"
 #include "surface/support_topology.hpp"
-#include "surface/surface_mesher.hpp"
+#include "surface/surface_error.hpp"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ namespace {
 using VertexPair = std::array<std::int32_t, 2>;
 
 /// The boundary edges of the mesh as the loops of the CAD face have them.
-std::vector<VertexPair> expected_loop_edges(const geometry::Model& model, geometry::FaceId face,
+std::vector<VertexPair> expected_loop_edges(const cad::Model& model, cad::FaceId face,
                                             const CurveMesh& curves, const FaceVertices& vertices) {
   std::vector<VertexPair> edges;
   const auto number = [&](CurveVertex v) { return vertices.find(curves.token(model, v)); };
@@ -33,7 +33,7 @@ std::vector<VertexPair> expected_loop_edges(const geometry::Model& model, geomet
 }
 
 /// Throws where the boundary of the support is not that of the face.
-void check_loop_edges(const geometry::Model& model, const CurveMesh& curves, const Support& support,
+void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const Support& support,
                       const FaceVertices& vertices) {
   std::vector<VertexPair> expected = expected_loop_edges(model, support.face, curves, vertices);
   std::vector<VertexPair> found;
@@ -54,15 +54,15 @@ void check_loop_edges(const geometry::Model& model, const CurveMesh& curves, con
 
 }  // namespace
 
-Support build_support(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
-                      const geometry::Facets& facets, FaceVertices& vertices) {
+Support build_support(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                      const cad::Facets& facets, FaceVertices& vertices) {
   OpenFacets open(model, face, facets);
   open.insert_curve_vertices(curves);
   open.match_seams();
   open.fit_to_surface();
   Support support = open.close(curves, vertices);
   flip_to_delaunay(support);
-  support.loop_edges = trace_loop_edges(support, match_half_edges(support.triangles));
+  support.loop_edges = trace_loop_edges(support, geometry::match_half_edges(support.triangles));
   check_loop_edges(model, curves, support, vertices);
   return support;
 }

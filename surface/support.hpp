@@ -1,7 +1,7 @@
 /// The support of a surface piece: a triangulation that carries charts and leads back to the CAD surface.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "geometry/vec.hpp"
 #include "surface/curves.hpp"
 
@@ -15,7 +15,7 @@ namespace aeroloom::surface {
 /// A triangulated patch of one CAD face. Seams are closed and poles are single points, by topology: what
 /// repeats in the parameter plane occurs once here, and parameters belong to triangle corners.
 struct Support {
-  geometry::FaceId face = geometry::no_entity;
+  cad::FaceId face = cad::no_entity;
   std::vector<geometry::Vec3> points;
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
   std::vector<std::array<geometry::Vec2, 3>> corner_uv;  ///< per triangle corner
@@ -45,7 +45,7 @@ struct FaceVertices {
 /// curve vertices, and reconnects and refines it in the parameter plane until it follows the surface, however
 /// coarse the facets are next to the sizes. `vertices` receives the curve vertices of the face, ascending.
 /// Throws SurfaceError where the facets do not fit the loops of the face.
-Support build_support(const geometry::Model& model, geometry::FaceId face, const CurveMesh& curves,
-                      const geometry::Facets& facets, FaceVertices& vertices);
+Support build_support(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                      const cad::Facets& facets, FaceVertices& vertices);
 
 }  // namespace aeroloom::surface

@@ -19,12 +19,12 @@ constexpr double angle_tolerance = 1e-9;
 
 /// Two triangles (a,b,c) and (b,a,d) on either side of the half-edges ab and ba.
 struct Diamond {
-  SupportHalfEdge ab, ba;
+  geometry::HalfEdge ab, ba;
 
-  SupportHalfEdge bc() const { return next_half_edge(ab); }
-  SupportHalfEdge ca() const { return previous_half_edge(ab); }
-  SupportHalfEdge ad() const { return next_half_edge(ba); }
-  SupportHalfEdge db() const { return previous_half_edge(ba); }
+  geometry::HalfEdge bc() const { return geometry::next_half_edge(ab); }
+  geometry::HalfEdge ca() const { return geometry::previous_half_edge(ab); }
+  geometry::HalfEdge ad() const { return geometry::next_half_edge(ba); }
+  geometry::HalfEdge db() const { return geometry::previous_half_edge(ba); }
 };
 
 /// Whether the angles at c and d, opposite the edge ab, sum to more than 180 degrees.
@@ -39,24 +39,24 @@ template <class Wants>
 class Flipper {
 public:
   Flipper(Support& support, Wants wants)
-      : _support(support), _wants(wants), _twins(match_half_edges(support.triangles)) {}
+      : _support(support), _wants(wants), _twins(geometry::match_half_edges(support.triangles)) {}
 
   void run() {
-    const SupportHalfEdge count = static_cast<SupportHalfEdge>(_twins.size());
-    std::vector<SupportHalfEdge> queue;
+    const geometry::HalfEdge count = static_cast<geometry::HalfEdge>(_twins.size());
+    std::vector<geometry::HalfEdge> queue;
     std::vector<char> queued(count, 0);
-    for (SupportHalfEdge h = count - 1; h >= 0; --h) {
+    for (geometry::HalfEdge h = count - 1; h >= 0; --h) {
       if (_twins[h] > h) queue.push_back(h), queued[h] = 1;
     }
     // Angles of neighbours change a little with every flip on a curved support, so termination is enforced.
     for (std::int64_t left = 8 * static_cast<std::int64_t>(count); !queue.empty() && left > 0; --left) {
-      const SupportHalfEdge h = queue.back();
+      const geometry::HalfEdge h = queue.back();
       queue.pop_back();
       queued[h] = 0;
       if (_twins[h] < 0 || !may_flip({h, _twins[h]})) continue;
       const Diamond diamond{h, _twins[h]};
       flip(diamond);
-      for (const SupportHalfEdge around : {diamond.bc(), diamond.ca(), diamond.ad(), diamond.db()}) {
+      for (const geometry::HalfEdge around : {diamond.bc(), diamond.ca(), diamond.ad(), diamond.db()}) {
         if (!queued[around]) queue.push_back(around), queued[around] = 1;
       }
     }
@@ -69,18 +69,18 @@ private:
   }
 
   /// Whether the point at the start of half-edge `from` has an edge to `to`.
-  bool are_joined(SupportHalfEdge from, std::int32_t to) const {
-    const auto meets = [&](SupportHalfEdge h) {
-      return end_of(_support, h) == to || end_of(_support, next_half_edge(h)) == to;
+  bool are_joined(geometry::HalfEdge from, std::int32_t to) const {
+    const auto meets = [&](geometry::HalfEdge h) {
+      return end_of(_support, h) == to || end_of(_support, geometry::next_half_edge(h)) == to;
     };
-    SupportHalfEdge h = from;
+    geometry::HalfEdge h = from;
     do {
       if (meets(h)) return true;
-      h = _twins[previous_half_edge(h)];
+      h = _twins[geometry::previous_half_edge(h)];
     } while (h >= 0 && h != from);
     if (h == from) return false;
     for (h = _twins[from]; h >= 0; h = _twins[h]) {
-      h = next_half_edge(h);
+      h = geometry::next_half_edge(h);
       if (meets(h)) return true;
     }
     return false;
@@ -90,31 +90,31 @@ private:
   /// ba, ad, db become cd, db, bc.
   void flip(const Diamond& diamond) {
     const auto [ab, ba] = diamond;
-    const SupportHalfEdge bc = diamond.bc(), ca = diamond.ca(), ad = diamond.ad(), db = diamond.db();
+    const geometry::HalfEdge bc = diamond.bc(), ca = diamond.ca(), ad = diamond.ad(), db = diamond.db();
     const std::int32_t a = start_of(_support, ab), b = start_of(_support, ba);
     const std::int32_t c = start_of(_support, ca), d = start_of(_support, db);
     const Vec2 a_uv = start_uv(_support, ab), b_uv = start_uv(_support, ba);
     const Vec2 c_uv = start_uv(_support, ca), d_uv = start_uv(_support, db);
-    const SupportHalfEdge beyond_bc = _twins[bc], beyond_ca = _twins[ca], beyond_ad = _twins[ad],
-                          beyond_db = _twins[db];
+    const geometry::HalfEdge beyond_bc = _twins[bc], beyond_ca = _twins[ca], beyond_ad = _twins[ad],
+                             beyond_db = _twins[db];
     set(ab, d, d_uv), set(bc, c, c_uv), set(ca, a, a_uv);
     set(ba, c, c_uv), set(ad, d, d_uv), set(db, b, b_uv);
     link(bc, beyond_ca), link(ca, beyond_ad), link(ad, beyond_db), link(db, beyond_bc);
   }
 
-  void set(SupportHalfEdge h, std::int32_t point, Vec2 uv) {
+  void set(geometry::HalfEdge h, std::int32_t point, Vec2 uv) {
     _support.triangles[h / 3][h % 3] = point;
     _support.corner_uv[h / 3][h % 3] = uv;
   }
 
-  void link(SupportHalfEdge h, SupportHalfEdge twin) {
+  void link(geometry::HalfEdge h, geometry::HalfEdge twin) {
     _twins[h] = twin;
     if (twin >= 0) _twins[twin] = h;
   }
 
   Support& _support;
   Wants _wants;
-  std::vector<SupportHalfEdge> _twins;
+  std::vector<geometry::HalfEdge> _twins;
 };
 
 /// The rule of flip_to_delaunay().
@@ -128,7 +128,7 @@ public:
   }
 
 private:
-  Vec3 point(SupportHalfEdge h) const { return _support.points[start_of(_support, h)]; }
+  Vec3 point(geometry::HalfEdge h) const { return _support.points[start_of(_support, h)]; }
 
   static bool keeps_space(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Vec3 old_first = cross(b - a, c - a), old_second = cross(a - b, d - b);

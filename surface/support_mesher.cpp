@@ -1,7 +1,7 @@
 #include "surface/support_mesher.hpp"
 
+#include "front/front.hpp"
 #include "surface/chart.hpp"
-#include "surface/front.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using geometry::Vec3;
 
 /// The loops of a chart as the front wants them, and where its vertices are known from.
 struct ChartBoundary {
-  FrontInput input;
+  front::FrontInput input;
   std::vector<std::int32_t> face_vertex;  // per boundary point: vertex of the face's mesh
 };
 
@@ -85,10 +85,10 @@ ChartBoundary boundary_of(const Chart& chart) {
 }
 
 /// Where loops cross, both curves are too coarse for the gap between them: half their length is asked for.
-FaceConflict conflict_of(const geometry::Model& model, geometry::FaceId face, const FrontError& error,
+FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front::FrontError& error,
                          const ChartBoundary& boundary, const FaceVertices& vertices) {
   std::vector<sizing::SizeSource> remedy;
-  for (const CrossingEdges& crossing : error.crossings()) {
+  for (const front::CrossingEdges& crossing : error.crossings()) {
     for (const std::int32_t e : {crossing.first, crossing.second}) {
       const Vec3 a = vertices.points[boundary.face_vertex[boundary.input.edges[e][0]]];
       const Vec3 b = vertices.points[boundary.face_vertex[boundary.input.edges[e][1]]];
@@ -106,7 +106,7 @@ FaceConflict conflict_of(const geometry::Model& model, geometry::FaceId face, co
 
 /// Per point of the chart's support, the length over which the surface turns by an angle; infinite where it
 /// is flat.
-std::vector<double> turning_lengths(const geometry::Model& model, const Support& support, double angle) {
+std::vector<double> turning_lengths(const cad::Model& model, const Support& support, double angle) {
   std::vector<double> lengths(support.points.size(), -1);
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -124,7 +124,7 @@ std::vector<double> turning_lengths(const geometry::Model& model, const Support&
 /// Edge lengths asked for in a chart.
 class ChartSizes {
 public:
-  ChartSizes(const geometry::Model& model, const sizing::SizeField& field, const Chart& chart,
+  ChartSizes(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
              const ChartLocator& locator, const SupportMeshing& options)
       : _field(field), _chart(chart), _locator(locator), _least_part(options.least_part) {
     if (options.largest_turn > 0 && !model.is_planar(chart.support.face)) {
@@ -155,17 +155,17 @@ private:
 
 /// Appends the triangles of one chart to the mesh of the piece. Points the front placed return to the CAD
 /// surface.
-void fill_chart(const geometry::Model& model, const sizing::SizeField& field, const Chart& chart,
+void fill_chart(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
                 const FaceVertices& vertices, const SupportMeshing& options, FaceMesh& mesh) {
-  const geometry::FaceId face = chart.support.face;
+  const cad::FaceId face = chart.support.face;
   const ChartBoundary boundary = boundary_of(chart);
   const ChartLocator locator(chart);
   const ChartSizes sizes(model, field, chart, locator, options);
-  FrontResult filled;
+  front::FrontResult filled;
   try {
-    filled =
-        fill_front(boundary.input, [&sizes](Vec2 point, std::int32_t& hint) { return sizes(point, hint); });
-  } catch (const FrontError& error) {
+    filled = front::fill_front(boundary.input,
+                               [&sizes](Vec2 point, std::int32_t& hint) { return sizes(point, hint); });
+  } catch (const front::FrontError& error) {
     throw conflict_of(model, face, error, boundary, vertices);
   }
   std::vector<std::int32_t> number = boundary.face_vertex;
@@ -174,7 +174,7 @@ void fill_chart(const geometry::Model& model, const sizing::SizeField& field, co
   for (std::size_t i = number.size(); i < filled.points.size(); ++i) {
     const ChartPoint at = locator.locate(filled.points[i], hint);
     const Vec2 guess = model.wrap(face, at.uv);
-    const geometry::Projection on_surface = model.project(face, at.point, guess);
+    const cad::Projection on_surface = model.project(face, at.point, guess);
     number.push_back(static_cast<std::int32_t>(mesh.points.size()));
     mesh.uv.push_back(on_surface.converged ? on_surface.uv : guess);
     mesh.points.push_back(on_surface.converged ? on_surface.point : model.face_point(face, guess));
@@ -184,7 +184,7 @@ void fill_chart(const geometry::Model& model, const sizing::SizeField& field, co
 
 }  // namespace
 
-FaceMesh mesh_support(const geometry::Model& model, const sizing::SizeField& field, Support support,
+FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, Support support,
                       FaceVertices vertices, const SupportMeshing& options) {
   FaceMesh mesh;
   mesh.face = support.face;

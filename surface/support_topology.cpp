@@ -1,5 +1,7 @@
 #include "surface/support_topology.hpp"
 
+#include "geometry/disjoint_sets.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -10,16 +12,6 @@ namespace {
 
 using geometry::Vec2;
 using geometry::Vec3;
-
-std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-void unite(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b) {
-  a = find_root(parent, a), b = find_root(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
 
 /// One triangle being divided: corners, and the points still to insert on each of its edges.
 struct Division {
@@ -54,51 +46,18 @@ void emit(const Division& division, Support& out) {
 
 }  // namespace
 
-std::vector<SupportHalfEdge> match_half_edges(const std::vector<std::array<std::int32_t, 3>>& triangles) {
-  struct Side {
-    std::int32_t low, high;
-    bool backward;
-    SupportHalfEdge half_edge;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), a > b, static_cast<SupportHalfEdge>(3 * t + i)});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.backward, a.half_edge) <
-           std::tie(b.low, b.high, b.backward, b.half_edge);
-  });
-  std::vector<SupportHalfEdge> twins(3 * triangles.size(), -1);
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin, middle = begin;
-    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high)
-      ++end;
-    while (middle < end && !sides[middle].backward) ++middle;
-    for (std::size_t i = begin, j = middle; i < middle && j < end; ++i, ++j) {
-      twins[sides[i].half_edge] = sides[j].half_edge;
-      twins[sides[j].half_edge] = sides[i].half_edge;
-    }
-    begin = end;
-  }
-  return twins;
-}
-
-std::vector<std::vector<SupportHalfEdge>> trace_boundary(const Support& support,
-                                                         const std::vector<SupportHalfEdge>& twins) {
-  std::vector<SupportHalfEdge> outgoing(support.points.size(), -1);
-  const SupportHalfEdge count = static_cast<SupportHalfEdge>(twins.size());
-  for (SupportHalfEdge h = 0; h < count; ++h) {
+std::vector<std::vector<geometry::HalfEdge>> trace_boundary(const Support& support,
+                                                            const std::vector<geometry::HalfEdge>& twins) {
+  std::vector<geometry::HalfEdge> outgoing(support.points.size(), -1);
+  const geometry::HalfEdge count = static_cast<geometry::HalfEdge>(twins.size());
+  for (geometry::HalfEdge h = 0; h < count; ++h) {
     if (twins[h] < 0) outgoing[start_of(support, h)] = h;
   }
-  std::vector<std::vector<SupportHalfEdge>> loops;
-  for (SupportHalfEdge h = 0; h < count; ++h) {
+  std::vector<std::vector<geometry::HalfEdge>> loops;
+  for (geometry::HalfEdge h = 0; h < count; ++h) {
     if (twins[h] >= 0 || outgoing[start_of(support, h)] != h) continue;
-    std::vector<SupportHalfEdge> loop;
-    for (SupportHalfEdge at = h; at >= 0;) {
+    std::vector<geometry::HalfEdge> loop;
+    for (geometry::HalfEdge at = h; at >= 0;) {
       loop.push_back(at);
       outgoing[start_of(support, at)] = -1;
       at = outgoing[end_of(support, at)];
@@ -109,11 +68,11 @@ std::vector<std::vector<SupportHalfEdge>> trace_boundary(const Support& support,
 }
 
 std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support,
-                                                          const std::vector<SupportHalfEdge>& twins) {
+                                                          const std::vector<geometry::HalfEdge>& twins) {
   std::vector<std::array<std::int32_t, 2>> edges;
   for (const auto& loop : trace_boundary(support, twins)) {
     std::int32_t first = -1, last = -1;
-    for (const SupportHalfEdge h : loop) {
+    for (const geometry::HalfEdge h : loop) {
       const std::int32_t point = start_of(support, h);
       if (support.mesh_vertex[point] < 0) continue;
       if (first < 0) first = point;
@@ -125,24 +84,23 @@ std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support
   return edges;
 }
 
-std::vector<Support> separate_parts(const Support& support, const std::vector<SupportHalfEdge>& twins,
+std::vector<Support> separate_parts(const Support& support, const std::vector<geometry::HalfEdge>& twins,
                                     const std::vector<std::int32_t>& part, std::int32_t parts) {
   // Corners joined across edges inside a part are one point of it.
-  std::vector<std::int32_t> fan(3 * support.triangles.size());
-  std::iota(fan.begin(), fan.end(), 0);
-  for (SupportHalfEdge h = 0; h < static_cast<SupportHalfEdge>(twins.size()); ++h) {
+  geometry::DisjointSets<std::int32_t> fans(3 * support.triangles.size());
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (twins[h] < h || part[h / 3] != part[twins[h] / 3]) continue;
-    unite(fan, h, next_half_edge(twins[h]));
-    unite(fan, next_half_edge(h), twins[h]);
+    fans.unite(h, geometry::next_half_edge(twins[h]));
+    fans.unite(geometry::next_half_edge(h), twins[h]);
   }
   std::vector<Support> result(parts);
-  std::vector<std::int32_t> number(fan.size(), -1);
+  std::vector<std::int32_t> number(3 * support.triangles.size(), -1);
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
     if (part[t] < 0) continue;
     Support& out = result[part[t]];
     std::array<std::int32_t, 3> triangle;
     for (int i = 0; i < 3; ++i) {
-      const std::int32_t root = find_root(fan, static_cast<std::int32_t>(3 * t + i));
+      const std::int32_t root = fans.root(static_cast<std::int32_t>(3 * t + i));
       if (number[root] < 0) {
         number[root] = static_cast<std::int32_t>(out.points.size());
         out.points.push_back(support.points[support.triangles[t][i]]);
@@ -155,12 +113,12 @@ std::vector<Support> separate_parts(const Support& support, const std::vector<Su
   }
   for (Support& out : result) {
     out.face = support.face;
-    out.loop_edges = trace_loop_edges(out, match_half_edges(out.triangles));
+    out.loop_edges = trace_loop_edges(out, geometry::match_half_edges(out.triangles));
   }
   return result;
 }
 
-std::int32_t label_components(const std::vector<SupportHalfEdge>& twins,
+std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
                               const std::vector<std::int32_t>& label, std::vector<std::int32_t>& component) {
   component.assign(label.size(), -1);
   std::int32_t count = 0;
@@ -173,7 +131,7 @@ std::int32_t label_components(const std::vector<SupportHalfEdge>& twins,
       const std::int32_t t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        const SupportHalfEdge twin = twins[3 * t + i];
+        const geometry::HalfEdge twin = twins[3 * t + i];
         if (twin < 0 || component[twin / 3] >= 0 || label[twin / 3] != label[t]) continue;
         component[twin / 3] = count;
         stack.push_back(twin / 3);
@@ -184,7 +142,7 @@ std::int32_t label_components(const std::vector<SupportHalfEdge>& twins,
   return count;
 }
 
-bool is_planar_domain(const Support& support, const std::vector<SupportHalfEdge>& twins) {
+bool is_planar_domain(const Support& support, const std::vector<geometry::HalfEdge>& twins) {
   const auto boundary_edges = std::count(twins.begin(), twins.end(), -1);
   const auto edges = (static_cast<std::int64_t>(twins.size()) + boundary_edges) / 2;
   const auto euler = static_cast<std::int64_t>(support.points.size()) - edges +
@@ -204,7 +162,7 @@ std::vector<std::int32_t> divide_edges(Support& support, std::vector<EdgePoint> 
     Division division{support.triangles[t], support.corner_uv[t], {}};
     for (int i = 0; i < 3; ++i) {
       const std::size_t begin = at;
-      while (at < points.size() && points[at].half_edge == static_cast<SupportHalfEdge>(3 * t + i)) ++at;
+      while (at < points.size() && points[at].half_edge == static_cast<geometry::HalfEdge>(3 * t + i)) ++at;
       division.inserts[i] = std::span<const EdgePoint>(points).subspan(begin, at - begin);
     }
     emit(division, divided);

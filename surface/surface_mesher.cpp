@@ -5,6 +5,7 @@
 #include "surface/curves.hpp"
 #include "surface/intersection.hpp"
 #include "surface/piece_pool.hpp"
+#include "surface/surface_error.hpp"
 
 #include <fmt/format.h>
 
@@ -15,11 +16,11 @@ using sizing::SizeField;
 using sizing::SizeSource;
 
 /// The CAD face of each piece of the whole mesh, on every rank. Collective.
-std::vector<geometry::FaceId> faces_of_pieces(const parallel::Communicator& communicator,
-                                              const mesh::DistributedMesh& surface) {
+std::vector<cad::FaceId> faces_of_pieces(const parallel::Communicator& communicator,
+                                         const mesh::DistributedMesh& surface) {
   std::vector<std::array<std::int32_t, 2>> mine;
   for (const mesh::Piece& piece : surface.pieces) mine.push_back({piece.id, piece.common_face()});
-  std::vector<geometry::FaceId> faces(surface.piece_count, geometry::no_entity);
+  std::vector<cad::FaceId> faces(surface.piece_count, cad::no_entity);
   for (const auto& [piece, face] : communicator.all_gather_items<std::array<std::int32_t, 2>>(mine)) {
     faces[piece] = face;
   }
@@ -28,15 +29,15 @@ std::vector<geometry::FaceId> faces_of_pieces(const parallel::Communicator& comm
 
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
 /// pieces make intersect is left whole. Collective, the same on every rank.
-Conflicts find_conflicts(const parallel::Communicator& communicator, const geometry::Model& model,
+Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::Model& model,
                          const SizeField& field, const mesh::DistributedMesh& surface, const PiecePool& pool,
                          parallel::StageClock& clock) {
   Conflicts conflicts;
   const std::vector<TriangleHit> hits = find_intersections(communicator, surface, clock);
   if (hits.empty()) return conflicts;
-  const std::vector<geometry::FaceId> faces = faces_of_pieces(communicator, surface);
+  const std::vector<cad::FaceId> faces = faces_of_pieces(communicator, surface);
   for (const TriangleHit& hit : hits) {
-    const geometry::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
+    const cad::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
     if (first == second && pool.is_divided(first)) {
       conflicts.undivided.push_back(first);
     } else {
@@ -55,7 +56,7 @@ Conflicts find_conflicts(const parallel::Communicator& communicator, const geome
 Conflicts share(const parallel::Communicator& communicator, const Conflicts& mine) {
   Conflicts all;
   all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
-  all.undivided = communicator.all_gather_items<geometry::FaceId>(mine.undivided);
+  all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
   const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
   for (const parallel::Bytes& text : texts) {
     if (all.complaint.empty()) all.complaint.assign(reinterpret_cast<const char*>(text.data()), text.size());
@@ -64,14 +65,14 @@ Conflicts share(const parallel::Communicator& communicator, const Conflicts& min
 }
 
 [[noreturn]] void give_up(const Conflicts& conflicts, const SurfaceOptions& options) {
-  throw SurfaceError(
-      fmt::format("surface: {} after {} rounds of local refinement. Remedy: smaller sizing.minimum or "
-                  "curvature_angle, or repair the "
-                  "geometry there (overlapping or self-intersecting faces cannot be meshed)",
-                  conflicts.complaint, options.mending_rounds));
+  throw SurfaceError(fmt::format(
+      "surface: {} after {} rounds of local refinement. Remedy: smaller SizingOptions::minimum or "
+      "SizingOptions::curvature_angle, or repair the geometry there (overlapping or self-intersecting faces "
+      "cannot be meshed)",
+      conflicts.complaint, options.mending_rounds));
 }
 
-std::vector<ListedCorner> list_corners(const geometry::Model& model, const CurveMesh& curves) {
+std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh& curves) {
   std::vector<ListedCorner> corners;
   for (const SharpCorner& corner : curves.sharp_corners) {
     corners.push_back({corner.face, model.vertex(corner.vertex), corner.degrees});
@@ -81,7 +82,7 @@ std::vector<ListedCorner> list_corners(const geometry::Model& model, const Curve
 
 }  // namespace
 
-SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const geometry::Model& model,
+SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
                          const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock) {
   SurfaceMesh result{{}, {}, field};
   PiecePool pool(communicator, model, options, clock);

@@ -1,5 +1,7 @@
 #include "volume/agreement.hpp"
 
+#include "geometry/disjoint_sets.hpp"
+#include "geometry/runs.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/mixing.hpp"
 
@@ -46,14 +48,14 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     std::sort(met.begin(), met.end(), before);
-    for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-      while (j < met.size() && met[j].vertices == met[i].vertices) ++j;
+    const auto same = [](const WireFace& a, const WireFace& b) { return a.vertices == b.vertices; };
+    geometry::for_each_run(std::span<const WireFace>(met), same, [&](std::size_t i, std::size_t j) {
       const bool fit = j - i == 2 && met[i].zone != met[i + 1].zone && met[i].region == met[i + 1].region &&
                        met[i].odd() != met[i + 1].odd();
       if (!fit)
         alone.insert(alone.end(), met.begin() + static_cast<std::ptrdiff_t>(i),
                      met.begin() + static_cast<std::ptrdiff_t>(j));
-    }
+    });
   }
   std::vector<ZoneFace> mine;
   for (const WireFace& face : mesh::deliver(communicator, alone, [](const WireFace& f) { return f.rank; }))
@@ -79,21 +81,14 @@ std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {
   std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
     return a.vertex != b.vertex ? a.vertex < b.vertex : a.face < b.face;
   });
-  std::vector<std::int32_t> parent(unmatched.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
+  geometry::DisjointSets<std::int32_t> sets(unmatched.size());
   for (std::size_t i = 1; i < uses.size(); ++i) {
-    if (uses[i].vertex != uses[i - 1].vertex) continue;
-    const std::int32_t a = root(uses[i - 1].face), b = root(uses[i].face);
-    parent[std::max(a, b)] = std::min(a, b);
+    if (uses[i].vertex == uses[i - 1].vertex) sets.unite(uses[i - 1].face, uses[i].face);
   }
   std::vector<std::int32_t> number(unmatched.size(), -1);
   std::vector<DisputedPlace> places;
   for (std::size_t f = 0; f < unmatched.size(); ++f) {
-    std::int32_t& n = number[root(static_cast<std::int32_t>(f))];
+    std::int32_t& n = number[sets.root(static_cast<std::int32_t>(f))];
     if (n < 0) {
       n = static_cast<std::int32_t>(places.size());
       places.emplace_back();

@@ -3,7 +3,6 @@
 
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
-#include "volume/volume_mesher.hpp"
 #include "volume/zone_piece.hpp"
 
 #include <span>

@@ -43,7 +43,7 @@ constexpr Touching hanging[] = {{1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}},
 
 /// The largest size in a block, at most.
 double largest_size(const LatticeSource& source, BlockIndex b) {
-  const GridCell cell = source.tree.cell(b);
+  const GridCube cell = source.tree.cube(b);
   const double half = 0.5 * cell.edge();
   const Vec3 center = source.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
   const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.frame.edge(cell.level);
@@ -73,7 +73,7 @@ public:
 private:
   bool is_near(BlockIndex b) {
     if (_surface.empty()) return false;
-    const GridCell cell = _source.tree.cell(b);
+    const GridCube cell = _source.tree.cube(b);
     const double half = 0.5 * cell.edge();
     const Vec3 center = _source.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
     const double range = 1.1 * 0.5 * std::numbers::sqrt3 * _source.frame.edge(cell.level) +
@@ -85,7 +85,7 @@ private:
   }
 
   void make_leaf(int child) {
-    const GridCell leaf = _source.tree.leaf(_block, child);
+    const GridCube leaf = _source.tree.leaf(_block, child);
     offer(leaf, child, 0);
     for (const Touching& touching : hanging) {
       const auto is_split = [&](const int(&offset)[3]) { return is_neighbour_split(leaf, offset); };
@@ -95,7 +95,7 @@ private:
     offer(leaf, child, 7);
   }
 
-  bool is_neighbour_split(const GridCell& leaf, const int (&offset)[3]) const {
+  bool is_neighbour_split(const GridCube& leaf, const int (&offset)[3]) const {
     const std::uint32_t edge = leaf.edge();
     if ((offset[0] < 0 && leaf.low.x == 0) || (offset[1] < 0 && leaf.low.y == 0) ||
         (offset[2] < 0 && leaf.low.z == 0))
@@ -106,7 +106,7 @@ private:
          leaf.level});
   }
 
-  void offer(const GridCell& leaf, int child, int slot) {
+  void offer(const GridCube& leaf, int child, int slot) {
     const double half = 0.5 * leaf.edge();
     const int(&place)[3] = slot_places[slot];
     const Vec3 grid = GridBox::of(leaf).low + Vec3{half * place[0], half * place[1], half * place[2]};
@@ -119,7 +119,7 @@ private:
     _result.regions.push_back(region);
   }
 
-  Vec3 perturbation(const GridCell& leaf, int slot) const {
+  Vec3 perturbation(const GridCube& leaf, int slot) const {
     std::uint64_t state = mesh::mix_in(_source.changes[_block].variant, static_cast<std::uint64_t>(slot));
     state = mesh::mix_in(state, static_cast<std::uint64_t>(leaf.level));
     state = mesh::mix_in(state, sizing::morton_key(leaf.low));
@@ -194,7 +194,7 @@ double reach_of_block(const LatticeSource& source, BlockIndex b) {
   const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
   const double clear = largest_edge * farthest * largest_size(source, b);
   if (!source.table.is_met(b)) return source.frame.grid_distance(clear);
-  const double diagonal = std::numbers::sqrt3 * source.tree.cell(b).edge();
+  const double diagonal = std::numbers::sqrt3 * source.tree.cube(b).edge();
   return std::max(source.frame.grid_distance(clear),
                   1.1 * diagonal + source.frame.grid_distance(source.table.longest_edge[b]));
 }

@@ -1,5 +1,7 @@
 #include "volume/block_regions.hpp"
 
+#include "geometry/disjoint_sets.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -12,21 +14,7 @@ using mesh::RegionId;
 namespace {
 
 /// Sets of blocks that are joined over faces.
-class BlockSets {
-public:
-  explicit BlockSets(BlockIndex count) : _parent(count) { std::iota(_parent.begin(), _parent.end(), 0); }
-  BlockIndex root(BlockIndex b) {
-    while (_parent[b] != b) b = _parent[b] = _parent[_parent[b]];
-    return b;
-  }
-  void join(BlockIndex a, BlockIndex b) {
-    a = root(a), b = root(b);
-    _parent[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<BlockIndex> _parent;
-};
+using BlockSets = geometry::DisjointSets<BlockIndex>;
 
 /// A face between a block that the surface does not meet and one that it does.
 struct Contact {
@@ -38,7 +26,7 @@ struct Contact {
 template <class Visit>
 void for_each_face(const LatticeTree& tree, const Visit& visit) {
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    const GridCell cell = tree.cell(b);
+    const GridCube cell = tree.cube(b);
     const std::uint32_t edge = cell.edge();
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2;
@@ -49,7 +37,7 @@ void for_each_face(const LatticeTree& tree, const Visit& visit) {
       place[axis] += high ? 0.5 * edge : -0.5 * edge;
       low[axis] = high ? low[axis] + edge : low[axis] - 1;
       const BlockIndex n = tree.block_at({low[0], low[1], low[2]});
-      if (tree.cell(n).level <= cell.level) visit(b, n, place);
+      if (tree.cube(n).level <= cell.level) visit(b, n, place);
     }
   }
 }
@@ -108,7 +96,7 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
     const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
     for_each_face(tree, [&](BlockIndex b, BlockIndex n, Vec3 place) {
       if (!table.is_met(b) && !table.is_met(n))
-        sets.join(b, n);
+        sets.unite(b, n);
       else if (table.is_met(b) != table.is_met(n))
         contacts.push_back(table.is_met(n) ? Contact{b, n, place} : Contact{n, b, place});
     });

@@ -1,6 +1,7 @@
 /// Distance to a triangulated boundary.
 #pragma once
 
+#include "geometry/box_tree.hpp"
 #include "geometry/vec.hpp"
 #include "mesh/piece.hpp"
 
@@ -12,7 +13,7 @@
 
 namespace aeroloom::volume {
 
-/// A tree of boxes over triangles, at least one. Refers to the arrays it was built from.
+/// Triangles in a tree of boxes, at least one. Refers to the arrays it was built from.
 /// Queries do not allocate. Immutable.
 class BoundaryDistance {
 public:
@@ -42,24 +43,17 @@ public:
 
   /// Mean edge length of a triangle.
   double mean_edge(std::int32_t triangle) const { return _mean_edges[triangle]; }
-  const geometry::Box& box() const { return _nodes.front().box; }
+  const geometry::Box& box() const { return _tree.nodes().front().box; }
 
   /// Calls `visit(a, b)`, a < b, for all pairs of triangles whose boxes overlap.
   void for_each_overlapping_pair(const std::function<void(std::int32_t, std::int32_t)>& visit) const;
 
 private:
-  struct Node {
-    geometry::Box box;
-    std::int32_t first = 0, count = 0;  ///< slots of a leaf; count 0: inner node
-    std::int32_t right = 0;             ///< second child of an inner node; the first one follows the node
-  };
   /// Corners of the triangles in the order of the leaves (slots).
   struct Corners {
     geometry::Vec3 a, b, c;
   };
 
-  std::int32_t build(std::int32_t first, std::int32_t last);
-  void summarise(std::int32_t first, std::int32_t last);
   static double squared_distance(geometry::Vec3 p, const Corners& triangle, bool& in_face);
   static double squared_distance(geometry::Vec3 p, const geometry::Box& box);
   geometry::Vec3 corner(std::int32_t triangle, int k) const { return _points[_triangles[triangle][k]]; }
@@ -67,33 +61,24 @@ private:
   std::span<const geometry::Vec3> _points;
   std::span<const Triangle> _triangles;
   std::vector<double> _mean_edges;
-  std::vector<std::int32_t> _order;  ///< triangle of each slot
-  std::vector<std::int32_t> _slot;   ///< slot of each triangle
+  geometry::BoxTree _tree;
+  std::vector<std::int32_t> _slot;  ///< place of each triangle in the tree's order
   std::vector<Corners> _corners;
-  std::vector<Node> _nodes;
 };
 
 template <class Limit>
 bool BoundaryDistance::any_nearer(geometry::Vec3 p, double largest_limit, const Limit& limit) const {
-  std::int32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::int32_t index = stack[--depth];
-    const Node& node = _nodes[index];
-    if (squared_distance(p, node.box) >= largest_limit * largest_limit) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const double allowed = limit(_order[i]);
-      bool in_face = false;
-      if (squared_distance(p, _corners[i], in_face) < allowed * allowed) return true;
-    }
-  }
-  return false;
+  bool found = false;
+  const auto enters = [&](const geometry::Box& box) {
+    return !found && squared_distance(p, box) < largest_limit * largest_limit;
+  };
+  _tree.search(enters, [&](std::int32_t slot) {
+    if (found) return;
+    const double allowed = limit(_tree.order()[slot]);
+    bool in_face = false;
+    found = squared_distance(p, _corners[slot], in_face) < allowed * allowed;
+  });
+  return found;
 }
 
 inline double BoundaryDistance::squared_distance(geometry::Vec3 p, const geometry::Box& box) {

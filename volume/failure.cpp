@@ -154,7 +154,7 @@ void Evidence::give_up(const parallel::Communicator& communicator, ZoneIndex zon
   for (const Retry& retry : tried) {
     if (retry.zone == zone) text += "\n  " + retry.change;
   }
-  text += "\nUse other sizes there, or another piece size (volume.piece_tets)";
+  text += "\nUse other sizes there, or another piece size (VolumeOptions::piece_tets)";
   raise(lowest(communicator, mine), text);
 }
 

@@ -4,7 +4,8 @@
 #include "parallel/communicator.hpp"
 #include "volume/block_regions.hpp"
 #include "volume/surface_check.hpp"
-#include "volume/volume_mesher.hpp"
+#include "volume/volume_failure.hpp"
+#include "volume/volume_report.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <string>

@@ -113,8 +113,8 @@ private:
     const std::int64_t predicted = predict_tetrahedra(content.problem);
     if (predicted <= _input.options.largest_piece) return;
     throw std::runtime_error(fmt::format(
-        "a zone would get {} tetrahedra, more than {} (VolumeOptions::largest_piece). Ask for smaller pieces "
-        "(volume.piece_tets) or larger elements (sizing.minimum).",
+        "a zone would get {} tetrahedra, more than {}. Ask for smaller pieces (VolumeOptions::piece_tets) "
+        "or larger elements (SizingOptions::minimum).",
         predicted, _input.options.largest_piece));
   }
 
@@ -193,7 +193,7 @@ private:
   ZoneIndex widest_neighbour(ZoneIndex zone, std::span<const BlockIndex> own) const {
     std::vector<std::int32_t> beside(_parts.zones->count(), 0);
     for (const BlockIndex b : own) {
-      _parts.tree->for_each_block_in(GridBox::of(_parts.tree->cell(b)).dilated(0.5), [&](BlockIndex n) {
+      _parts.tree->for_each_block_in(GridBox::of(_parts.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
         const ZoneIndex z = _parts.zones->of(n, 0);
         if (z != zone && (_parts.counts[n] > 0 || _parts.table.is_met(n))) ++beside[z];
       });
@@ -221,7 +221,7 @@ private:
       if (!touched[b]) continue;
       const double reach =
           _parts.frame->grid_distance(width * largest_size_around(*_parts.frame, tree, _parts.table, b));
-      tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach), [&](BlockIndex n) {
+      tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(reach), [&](BlockIndex n) {
         for (int child = 0; child < tree.leaf_count(n); ++child) {
           const ZoneIndex z = _parts.zones->of(n, child);
           if (pending.empty() || pending.back() != z) pending.push_back(z);
@@ -293,7 +293,7 @@ private:
         parallel::FailureKind::input,
         fmt::format("the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) do not fit together, in any way that was "
                     "tried. Use "
-                    "other sizes there, or another piece size (volume.piece_tets)",
+                    "other sizes there, or another piece size (VolumeOptions::piece_tets)",
                     where.x, where.y, where.z));
   }
 
@@ -308,7 +308,7 @@ private:
   void for_each_leaf_around(const DisputedPlace& place, int rings, const Visit& visit) const {
     const LatticeTree& tree = *_parts.tree;
     for (const std::int64_t leaf : place.leaves) {
-      const GridCell cell = tree.leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
+      const GridCube cell = tree.leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
       if (rings == 0) {
         visit(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
         continue;
@@ -399,6 +399,7 @@ private:
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report) {
+  register_volume_tasks();  // where the host program has not
   return ZoneFiller(communicator, input, decomposition.parts(), clock, report).run();
 }
 

@@ -42,7 +42,7 @@ BlocksOfZones list_blocks(const LatticeTree& tree, const Zones& zones) {
 double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
                            BlockIndex b) {
   double size = 0;
-  tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(0.5), [&](BlockIndex n) {
+  tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
     size =
         std::max({size, mean_edge_of_cell * frame.edge(tree.leaf_level(n)), double{table.longest_edge[n]}});
   });
@@ -54,7 +54,7 @@ ZoneSurroundings::ZoneSurroundings(const LatticeFrame& frame, const LatticeTree&
     : _frame(frame), _tree(tree), _table(table), _zones(zones), _sizes(tree.block_count(), 0) {}
 
 bool ZoneSurroundings::is_beside_others(BlockIndex b) const {
-  return _tree.any_block_in(GridBox::of(_tree.cell(b)).dilated(0.5),
+  return _tree.any_block_in(GridBox::of(_tree.cube(b)).dilated(0.5),
                             [&](BlockIndex n) { return !is_all_own(n); });
 }
 
@@ -66,7 +66,7 @@ void ZoneSurroundings::move_to(ZoneIndex zone, std::span<const BlockIndex> own_b
     if (!is_beside_others(b)) continue;
     _border.push_back(b);
     if (is_all_own(b)) {
-      _boxes.add(GridBox::of(_tree.cell(b)));
+      _boxes.add(GridBox::of(_tree.cube(b)));
       continue;
     }
     for (int child = 0; child < _tree.leaf_count(b); ++child) {
@@ -90,7 +90,7 @@ HaloTaker::HaloTaker(const LatticeFrame& frame, const LatticeTree& tree, const S
 
 /// Queues the blocks next to one.
 void HaloTaker::look_around(BlockIndex b) {
-  _tree.for_each_block_in(GridBox::of(_tree.cell(b)).dilated(0.5), [&](BlockIndex n) {
+  _tree.for_each_block_in(GridBox::of(_tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
     if (_seen[n]) return;
     _seen[n] = 1;
     _queue.push_back(n);
@@ -112,7 +112,7 @@ void HaloTaker::take_own(std::span<const BlockIndex> own_blocks) {
 /// Takes the leaves of a block that are near enough. Looks further where it is nearly so.
 void HaloTaker::judge(BlockIndex b, double width) {
   constexpr double nearly = 1.5;
-  const GridBox box = GridBox::of(_tree.cell(b));
+  const GridBox box = GridBox::of(_tree.cube(b));
   if (!_surroundings.is_near(box, b, nearly * width)) return;
   look_around(b);
   if (!_surroundings.is_near(box, b, width)) return;

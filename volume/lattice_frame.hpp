@@ -17,7 +17,7 @@ namespace aeroloom::volume {
 inline constexpr double mean_edge_of_cell = (6.0 + 8.0 * 0.5 * std::numbers::sqrt3) / 14.0;
 
 /// An octree cell: its low corner on the finest grid, and its level.
-struct GridCell {
+struct GridCube {
   sizing::GridPoint low;
   int level = 0;
 
@@ -28,7 +28,7 @@ struct GridCell {
 struct GridBox {
   geometry::Vec3 low, high;
 
-  static GridBox of(const GridCell& cell) {
+  static GridBox of(const GridCube& cell) {
     const double edge = cell.edge();
     const geometry::Vec3 low{double(cell.low.x), double(cell.low.y), double(cell.low.z)};
     return {low, low + geometry::Vec3{edge, edge, edge}};

@@ -6,7 +6,7 @@ namespace aeroloom::volume {
 
 using geometry::Vec3;
 using sizing::finest_level;
-using sizing::SplitCells;
+using sizing::SplitCubes;
 
 namespace {
 
@@ -25,7 +25,7 @@ public:
 
   /// A split cell's centre sees a small size. In fields so steep that it may miss one in a corner, children
   /// are looked at where that is possible.
-  Verdict judge(const GridCell& cell) const {
+  Verdict judge(const GridCube& cell) const {
     if (cell.level >= finest_level || !GridBox::of(cell).overlaps(_box)) return Verdict::keep;
     const double edge = _frame.edge(cell.level), half = 0.5 * cell.edge();
     const double size = _field(_frame.to_space(GridBox::of(cell).low + Vec3{half, half, half}));
@@ -37,21 +37,21 @@ public:
     return may_miss ? Verdict::look_below : Verdict::keep;
   }
 
-  void search(const GridCell& cell, std::vector<std::uint64_t>& found) const {
+  void search(const GridCube& cell, std::vector<std::uint64_t>& found) const {
     const Verdict verdict = judge(cell);
     if (verdict == Verdict::keep) return;
     if (verdict == Verdict::split) found.push_back(name(cell));
     for (int child = 0; child < 8; ++child) search(child_of(cell, child), found);
   }
 
-  static GridCell child_of(const GridCell& cell, int child) {
+  static GridCube child_of(const GridCube& cell, int child) {
     const std::uint32_t half = cell.edge() >> 1;
     return {{cell.low.x + (child & 1 ? half : 0), cell.low.y + (child & 2 ? half : 0),
              cell.low.z + (child & 4 ? half : 0)},
             cell.level + 1};
   }
   /// Level and place of a cell in one word: a bit above its level key.
-  static std::uint64_t name(const GridCell& cell) {
+  static std::uint64_t name(const GridCube& cell) {
     return 1ULL << 3 * cell.level | sizing::morton_key(cell.low) >> 3 * (finest_level - cell.level);
   }
 
@@ -66,12 +66,12 @@ private:
 std::vector<std::uint64_t> find_splits(const parallel::Communicator& communicator, const SplitSearch& search,
                                        parallel::StageClock& clock) {
   std::vector<std::uint64_t> common, mine;
-  std::vector<GridCell> open{{{}, 0}};
+  std::vector<GridCube> open{{{}, 0}};
   {
     const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
     while (!open.empty() && open.size() < common_cells) {
-      std::vector<GridCell> next;
-      for (const GridCell& cell : open) {
+      std::vector<GridCube> next;
+      for (const GridCube& cell : open) {
         const SplitSearch::Verdict verdict = search.judge(cell);
         if (verdict == SplitSearch::Verdict::keep) continue;
         if (verdict == SplitSearch::Verdict::split) common.push_back(SplitSearch::name(cell));
@@ -96,13 +96,13 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
                          const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock) {
   const std::vector<std::uint64_t> splits = find_splits(communicator, SplitSearch(frame, field, box), clock);
   const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
-  SplitCells cells;
+  SplitCubes cells;
   for (const std::uint64_t name : splits) {
     const int level = (63 - __builtin_clzll(name)) / 3;
     cells.split((name ^ 1ULL << 3 * level) << 3 * (finest_level - level), level);
   }
   cells.balance();
-  const SplitCells::Leaves leaves = cells.leaves();
+  const SplitCubes::Leaves leaves = cells.leaves();
   for (std::size_t i = 0; i < leaves.keys.size();) {
     const int level = leaves.levels[i], shift = 3 * (finest_level - level);
     bool whole = level > 0 && (leaves.keys[i] >> shift & 7) == 0 && i + 8 <= leaves.keys.size();
@@ -115,17 +115,17 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   _table = sizing::LeafTable(_blocks);
 }
 
-GridCell LatticeTree::leaf(BlockIndex b, int child) const {
-  return _split[b] ? SplitSearch::child_of(cell(b), child) : cell(b);
+GridCube LatticeTree::leaf(BlockIndex b, int child) const {
+  return _split[b] ? SplitSearch::child_of(cube(b), child) : cube(b);
 }
 
 int LatticeTree::child_at(BlockIndex b, sizing::GridPoint p) const {
   if (!_split[b]) return 0;
-  const std::uint32_t half = cell(b).edge() >> 1;
+  const std::uint32_t half = cube(b).edge() >> 1;
   return (p.x & half ? 1 : 0) | (p.y & half ? 2 : 0) | (p.z & half ? 4 : 0);
 }
 
-bool LatticeTree::is_split(const GridCell& cell) const {
+bool LatticeTree::is_split(const GridCube& cell) const {
   const BlockIndex b = block_at(cell.low);
   return _blocks.levels[b] > cell.level || (_blocks.levels[b] == cell.level && _split[b]);
 }

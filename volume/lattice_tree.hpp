@@ -27,10 +27,10 @@ public:
   static constexpr double coarsest_edge = 1.47;
 
   BlockIndex block_count() const { return static_cast<BlockIndex>(_blocks.keys.size()); }
-  GridCell cell(BlockIndex b) const { return {sizing::grid_point(_blocks.keys[b]), _blocks.levels[b]}; }
+  GridCube cube(BlockIndex b) const { return {sizing::grid_point(_blocks.keys[b]), _blocks.levels[b]}; }
   int leaf_count(BlockIndex b) const { return _split[b] ? 8 : 1; }
   int leaf_level(BlockIndex b) const { return _blocks.levels[b] + _split[b]; }
-  GridCell leaf(BlockIndex b, int child) const;
+  GridCube leaf(BlockIndex b, int child) const;
   /// All leaves of a block, a bit each.
   std::uint8_t all_leaves(BlockIndex b) const { return _split[b] ? 0xff : 1; }
 
@@ -38,7 +38,7 @@ public:
   /// Which leaf of its block holds a finest cell.
   int child_at(BlockIndex b, sizing::GridPoint p) const;
   /// Whether a cell has children.
-  bool is_split(const GridCell& cell) const;
+  bool is_split(const GridCube& cell) const;
 
   /// The lowest and the highest of the blocks that touch the box: those at its low and its high corner, since
   /// Morton order ascends along every axis.
@@ -69,7 +69,7 @@ private:
   bool any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
                  const Holds& holds) const;
 
-  sizing::SplitCells::Leaves _blocks;
+  sizing::SplitCubes::Leaves _blocks;
   std::vector<std::uint8_t> _split;
   sizing::LeafTable _table;
 };
@@ -92,7 +92,7 @@ bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds) const {
 template <class Holds>
 bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first,
                             BlockIndex last, const Holds& holds) const {
-  if (last - first == 1) return GridBox::of(cell(first)).overlaps(box) && holds(first);
+  if (last - first == 1) return GridBox::of(cube(first)).overlaps(box) && holds(first);
   if (!GridBox::of({sizing::grid_point(key), level}).overlaps(box)) return false;
   const int shift = 3 * (sizing::finest_level - level - 1);
   for (std::uint64_t child = 0; child < 8; ++child) {

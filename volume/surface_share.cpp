@@ -100,7 +100,7 @@ private:
     const BlockIndex first = shares[rank], last = shares[rank + 1];
     NearBoxes within_reach;
     for (BlockIndex b = first; b < last; ++b) {
-      const GridBox box = GridBox::of(tree.cell(b)).dilated(reach[b - first]);
+      const GridBox box = GridBox::of(tree.cube(b)).dilated(reach[b - first]);
       const auto [lowest, highest] = tree.range_of(box);
       if (lowest < first || highest >= last) within_reach.add(box);
     }
@@ -108,7 +108,7 @@ private:
     std::vector<Want> wants;
     for (BlockIndex n = 0; n < tree.block_count(); ++n) {
       const bool is_own = n >= first && n < last;
-      if (!is_own && table.is_met(n) && within_reach.any_within(GridBox::of(tree.cell(n)), 0))
+      if (!is_own && table.is_met(n) && within_reach.any_within(GridBox::of(tree.cube(n)), 0))
         wants.push_back({n, rank});
     }
     return wants;

@@ -1,5 +1,7 @@
 #include "volume/zone_piece.hpp"
 
+#include "mesh/tokens.hpp"
+
 #include <algorithm>
 
 namespace aeroloom::volume {
@@ -10,9 +12,6 @@ using mesh::Piece;
 using mesh::RegionId;
 
 namespace {
-
-/// Tokens of points that TetGen added: they have no leaf and fit no other zone.
-constexpr mesh::SharedToken added_token = mesh::SharedToken{1} << 61;
 
 class PieceMaker {
 public:
@@ -74,8 +73,8 @@ private:
   std::size_t given() const { return _content.problem.points.size(); }
   mesh::SharedToken token(LocalIndex v) const {
     if (static_cast<std::size_t>(v) < given()) return _content.tokens[v];
-    return added_token | static_cast<mesh::SharedToken>(_content.zone) << 32 |
-           (static_cast<std::size_t>(v) - given());
+    return mesh::added_token(_content.zone,
+                             static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
   }
   std::int64_t leaf(LocalIndex v) const {
     if (static_cast<std::size_t>(v) >= given()) return -1;

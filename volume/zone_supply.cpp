@@ -84,7 +84,7 @@ public:
                               [](const Corner& a, const Corner& b) { return a.number == b.number; }),
                   corners.end());
     for (const Corner& corner : corners) {
-      const auto token = static_cast<mesh::SharedToken>(corner.number);
+      const auto token = mesh::running_token(corner.number);
       add_point(token, corner.point);
       _content.dimension.push_back(corner.dimension);
       _content.entity.push_back(corner.entity);

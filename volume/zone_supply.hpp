@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/piece.hpp"
+#include "mesh/tokens.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "volume/block_points.hpp"
@@ -76,11 +77,9 @@ public:
                              : leaf_of_number(static_cast<std::int64_t>(token) - _surface_vertices);
   }
   ZoneIndex zone_of(const Leaf& leaf) const { return _zones.of(leaf.block, leaf.child); }
-  bool is_surface(mesh::SharedToken token) const {
-    return token < static_cast<mesh::SharedToken>(_surface_vertices);
-  }
+  bool is_surface(mesh::SharedToken token) const { return token < mesh::running_token(_surface_vertices); }
   mesh::SharedToken token_of(std::int64_t lattice_number) const {
-    return static_cast<mesh::SharedToken>(_surface_vertices + lattice_number);
+    return mesh::running_token(_surface_vertices + lattice_number);
   }
 
 private:

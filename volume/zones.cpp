@@ -16,7 +16,7 @@ public:
       : _loads(loads), _zones(zones) {
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
       if (loads[b] <= 0) continue;
-      const GridCell cell = tree.cell(b);
+      const GridCube cell = tree.cube(b);
       const std::uint32_t edge = cell.edge();
       _items.push_back({b, {2 * cell.low.x + edge, 2 * cell.low.y + edge, 2 * cell.low.z + edge}, edge});
     }

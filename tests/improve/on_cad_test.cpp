@@ -1,5 +1,5 @@
-#include "geometry/point_locator.hpp"
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
+#include "cad/model/point_locator.hpp"
 #include "improve/improver.hpp"
 #include "tests/improve/shaken.hpp"
 
@@ -29,24 +29,24 @@ struct Entities {
   std::map<Sides, std::int32_t> faces, edges, vertices;
 };
 
-Entities entities_of(const geometry::Model& model) {
+Entities entities_of(const cad::Model& model) {
   Entities found;
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
-    const geometry::Facets facets = model.facets(f, 0.1, 0.5);
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    const cad::Facets facets = model.facets(f, 0.1, 0.5);
     Vec3 middle;
     for (const Vec3 p : facets.points) middle += p / static_cast<double>(facets.points.size());
     found.faces[sides_of(middle)] = f;
   }
-  for (geometry::EdgeId e = 0; e < model.edge_count(); ++e) {
-    const geometry::Edge& edge = model.edge(e);
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
+    const cad::Edge& edge = model.edge(e);
     found.edges[sides_of(model.edge_point(e, 0.5 * (edge.first_parameter + edge.last_parameter)))] = e;
   }
-  for (geometry::VertexId v = 0; v < model.vertex_count(); ++v) found.vertices[sides_of(model.vertex(v))] = v;
+  for (cad::VertexId v = 0; v < model.vertex_count(); ++v) found.vertices[sides_of(model.vertex(v))] = v;
   return found;
 }
 
 /// A cube classified on the model, all but its corners moved at random along what they are on.
-mesh::examples::WholeMesh shaken_on_cad(const geometry::Model& model, int pieces, std::uint32_t seed) {
+mesh::examples::WholeMesh shaken_on_cad(const cad::Model& model, int pieces, std::uint32_t seed) {
   const Entities entities = entities_of(model);
   std::mt19937 random(seed);
   mesh::examples::WholeMesh whole = mesh::examples::whole_cube(5, pieces);
@@ -81,7 +81,7 @@ mesh::examples::WholeMesh shaken_on_cad(const geometry::Model& model, int pieces
 }
 
 /// Every vertex is on what it says, and every triangle on its face.
-void expect_on_cad(const geometry::Model& model, const std::vector<mesh::Piece>& pieces) {
+void expect_on_cad(const cad::Model& model, const std::vector<mesh::Piece>& pieces) {
   const Entities entities = entities_of(model);
   for (const mesh::Piece& piece : pieces) {
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -105,8 +105,8 @@ void expect_on_cad(const geometry::Model& model, const std::vector<mesh::Piece>&
 
 TEST(ImproveOnCad, SlidesAndKeepsTheBox) {
   const auto self = parallel::Communicator::self();
-  const geometry::Model model = geometry::make_primitive_domain(geometry::PrimitiveKind::box);
-  geometry::PointLocator locator(model);
+  const cad::Model model = cad::make_primitive_domain(cad::PrimitiveKind::box);
+  cad::PointLocator locator(model);
   std::int64_t slid = 0;
   for (std::uint32_t seed = 0; seed < 9; ++seed) {
     const int pieces = 1 + static_cast<int>(seed % 3);
@@ -130,9 +130,9 @@ TEST(ImproveOnCad, SlidesAndKeepsTheBox) {
 
 TEST(ImproveOnCad, DependsOnThePiecesAlone) {
   const auto world = parallel::Communicator::world(), self = parallel::Communicator::self();
-  const geometry::Model model = geometry::make_primitive_domain(geometry::PrimitiveKind::box);
+  const cad::Model model = cad::make_primitive_domain(cad::PrimitiveKind::box);
   const auto improved_hash = [&](const parallel::Communicator& communicator) {
-    geometry::PointLocator locator(model);
+    cad::PointLocator locator(model);
     mesh::DistributedMesh mesh = mesh::examples::distribute(communicator, shaken_on_cad(model, 5, 4), 5);
     parallel::StageClock clock;
     improve_mesh(communicator, mesh, {}, clock, {&locator, nullptr});

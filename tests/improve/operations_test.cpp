@@ -83,7 +83,7 @@ TEST(TetMesh, RemovesSwallowedVerticesFromAllArrays) {
   piece.shared_vertices = {2, 4};
   TetMesh mesh(piece, measure);
   EXPECT_FALSE(mesh.is_fixed(0));
-  Cavity cavity;
+  Replacement cavity;
   cavity.old_tets = {0, 1, 2, 3};
   cavity.new_tets = {{1, 2, 3, 4}};
   std::vector<LocalIndex> placed;
@@ -101,7 +101,7 @@ TEST(TetMesh, RemovesSwallowedVerticesFromAllArrays) {
 TEST(TetMesh, RefusesAFillingWithOtherFaces) {
   mesh::Piece piece = make_spindle(4);
   TetMesh mesh(piece, measure);
-  Cavity cavity;
+  Replacement cavity;
   cavity.old_tets = {0, 1};
   cavity.new_tets = {{0, 1, 2, 4}};
   std::vector<LocalIndex> placed;
@@ -122,7 +122,7 @@ TEST_P(Ring, LosesItsEdge) {
   const double before = volume(piece);
   TetMesh mesh(piece, measure);
   EdgeRemoval removal;
-  Cavity cavity;
+  Replacement cavity;
   ASSERT_TRUE(removal.propose(mesh, 1, 0, -1, cavity));
   EXPECT_EQ(cavity.new_tets.size(), 2u * (count - 2));
   EXPECT_GT(cavity.after, cavity.before);
@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Ring, testing::Values(3, 4, 5, 6, 7, 8));
 
 TEST(EdgeRemoval, LeavesBoundaryEdgesAndLargeRingsAlone) {
   EdgeRemoval removal;
-  Cavity cavity;
+  Replacement cavity;
   mesh::Piece large = make_spindle(EdgeRemoval::largest_ring + 1);
   TetMesh large_mesh(large, measure);
   EXPECT_FALSE(removal.propose(large_mesh, 0, 0, -1, cavity));
@@ -166,9 +166,9 @@ TEST(FaceRemoval, RemovesOneOrSeveralFaces) {
     const double before = volume(piece);
     TetMesh mesh(piece, TetQuality(50));
     FaceRemoval removal;
-    Cavity best;
+    Replacement best;
     for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
-      Cavity cavity;
+      Replacement cavity;
       if (removal.propose(mesh, t, 3, best.after, cavity)) best = cavity;
     }
     ASSERT_TRUE(best.improves()) << count;
@@ -220,7 +220,7 @@ TEST(CavityInsertion, PlacesANewVertexInAFlatCavity) {
   const double before = volume(piece);
   TetMesh mesh(piece, measure);
   CavityInsertion insertion;
-  Cavity cavity;
+  Replacement cavity;
   ASSERT_TRUE(insertion.propose_new_vertex(mesh, 4, cavity));
   EXPECT_EQ(cavity.old_tets.size(), 5u);
   mesh.add_vertex(insertion.position(), 0);
@@ -250,7 +250,7 @@ TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
   EXPECT_NEAR(before, 0.8, 1e-8);
   TetMesh mesh(piece, measure);
   CavityInsertion insertion;
-  Cavity cavity;
+  Replacement cavity;
   ASSERT_TRUE(insertion.propose_new_vertex(mesh, 3, cavity));
   EXPECT_LT(cavity.before, 1e-6);
   mesh.add_vertex(insertion.position(), 0);

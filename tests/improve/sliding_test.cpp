@@ -1,6 +1,6 @@
 #include "improve/sliding.hpp"
 
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "mesh/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
@@ -11,11 +11,11 @@
 namespace aeroloom::improve {
 namespace {
 
+using cad::Model;
+using cad::PrimitiveKind;
 using examples::close_boundary;
 using examples::make_piece;
 using examples::volume;
-using geometry::Model;
-using geometry::PrimitiveKind;
 
 const TetQuality measure(28);
 
@@ -30,7 +30,7 @@ double least_quality(const mesh::Piece& piece) {
 }
 
 bool slide_first_vertex(mesh::Piece& piece, const Model& model) {
-  geometry::PointLocator locator(model);
+  cad::PointLocator locator(model);
   TetMesh mesh(piece, measure);
   const ChangeLimits any;
   Sliding sliding(locator, any);
@@ -42,12 +42,12 @@ bool slide_first_vertex(mesh::Piece& piece, const Model& model) {
 }
 
 /// Four tetrahedra over a square of points on a face, around vertex 0 beside its middle.
-mesh::Piece make_fan(const Model& model, geometry::FaceId face, geometry::Vec2 middle, geometry::Vec2 half,
+mesh::Piece make_fan(const Model& model, cad::FaceId face, geometry::Vec2 middle, geometry::Vec2 half,
                      double depth) {
   const auto at = [&](double u, double v) {
     return model.face_point(face, {middle.x + u * half.x, middle.y + v * half.y});
   };
-  const geometry::SurfaceFrame frame = model.face_frame(face, middle);
+  const cad::SurfaceFrame frame = model.face_frame(face, middle);
   mesh::Piece piece = make_piece(
       {at(0.5, 0.4), at(-1, -1), at(1, -1), at(1, 1), at(-1, 1), frame.point - depth * frame.normal},
       {0, 1, 2, 5, 0, 2, 3, 5, 0, 3, 4, 5, 0, 4, 1, 5});
@@ -60,7 +60,7 @@ TEST(Sliding, KeepsToTheFace) {
   for (const PrimitiveKind kind : {PrimitiveKind::box, PrimitiveKind::sphere, PrimitiveKind::torus}) {
     const Model model = make_primitive_domain(kind);
     const bool plane = kind == PrimitiveKind::box;
-    const geometry::Facets facets = model.facets(0, 0.05, 0.5);
+    const cad::Facets facets = model.facets(0, 0.05, 0.5);
     geometry::Vec2 middle;
     for (const geometry::Vec2 uv : facets.uv) middle += uv / static_cast<double>(facets.uv.size());
     mesh::Piece piece =
@@ -70,14 +70,14 @@ TEST(Sliding, KeepsToTheFace) {
     ASSERT_TRUE(slide_first_vertex(piece, model));
     EXPECT_GT(least_quality(piece), before);
     EXPECT_GT(distance(piece.point(0), old), 1e-3);
-    EXPECT_TRUE(geometry::PointLocator(model).on_face(0, piece.point(0), 1e-10));
+    EXPECT_TRUE(cad::PointLocator(model).on_face(0, piece.point(0), 1e-10));
     EXPECT_GT(volume(piece), 0);
   }
 }
 
 TEST(Sliding, LeavesWhatOthersKnow) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
-  const geometry::Facets facets = model.facets(0, 0.05, 0.5);
+  const cad::Facets facets = model.facets(0, 0.05, 0.5);
   geometry::Vec2 middle;
   for (const geometry::Vec2 uv : facets.uv) middle += uv / static_cast<double>(facets.uv.size());
   mesh::Piece shared = make_fan(model, 0, middle, {0.1, 0.1}, 0.05);
@@ -93,9 +93,9 @@ TEST(Sliding, LeavesWhatOthersKnow) {
 
 TEST(Sliding, KeepsToTheCurve) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  geometry::EdgeId rim = 0;
+  cad::EdgeId rim = 0;
   while (model.edge(rim).first != model.edge(rim).last || model.is_seam(rim)) ++rim;
-  const geometry::Edge& edge = model.edge(rim);
+  const cad::Edge& edge = model.edge(rim);
   const auto at = [&](double share) {
     return model.edge_point(rim, (1 - share) * edge.first_parameter + share * edge.last_parameter);
   };
@@ -116,7 +116,7 @@ TEST(Sliding, KeepsToTheCurve) {
   ASSERT_TRUE(slide_first_vertex(piece, model));
   EXPECT_GT(least_quality(piece), before);
   EXPECT_GT(distance(piece.point(0), old), 1e-3);
-  EXPECT_TRUE(geometry::PointLocator(model).on_edge(rim, piece.point(0), 1e-10));
+  EXPECT_TRUE(cad::PointLocator(model).on_edge(rim, piece.point(0), 1e-10));
 }
 
 }  // namespace

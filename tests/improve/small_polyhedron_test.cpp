@@ -29,8 +29,8 @@ mesh::Piece make_spindle(int count) {
   return make_piece(points, cells);
 }
 
-// A polyhedron that is the shell of an edge has no better filling than the best of its ring: fillings that
-// keep the edge are one of those it chooses from.
+// A polyhedron that is the edge_ring of an edge has no better filling than the best of its ring: fillings
+// that keep the edge are one of those it chooses from.
 TEST(SmallPolyhedron, DoesAsWellAsEdgeRemovalOnARing) {
   for (int count = 3; count <= 7; ++count) {
     mesh::Piece piece = make_spindle(count);
@@ -42,7 +42,7 @@ TEST(SmallPolyhedron, DoesAsWellAsEdgeRemovalOnARing) {
     }
     EdgeRemoval removal;
     SmallPolyhedron polyhedron;
-    Cavity by_edge, cavity;
+    Replacement by_edge, cavity;
     ASSERT_TRUE(removal.propose(mesh, worst, 0, -1, by_edge));
     ASSERT_TRUE(polyhedron.propose(mesh, worst, -1, cavity)) << count;
     EXPECT_NEAR(cavity.after, by_edge.after, 1e-12) << count;
@@ -62,7 +62,7 @@ TEST(SmallPolyhedron, FillsRandomPolyhedraExactly) {
     mesh::Piece& piece = whole.pieces[0];
     TetMesh mesh(piece, measure);
     SmallPolyhedron polyhedron;
-    Cavity cavity;
+    Replacement cavity;
     std::vector<LocalIndex> placed;
     for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
       if (!mesh.is_alive(t) || mesh.quality(t) >= measure.target()) continue;
@@ -89,7 +89,7 @@ TEST(SmallPolyhedron, LeavesWhatIsBest) {
     std::swap(piece.cells[4], piece.cells[5]);
   TetMesh mesh(piece, measure);
   SmallPolyhedron polyhedron;
-  Cavity cavity;
+  Replacement cavity;
   EXPECT_FALSE(polyhedron.propose(mesh, 0, -1, cavity));
 }
 

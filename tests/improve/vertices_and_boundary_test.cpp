@@ -34,7 +34,7 @@ TEST(BoundaryFlip, TakesAFlatTetrahedronAway) {
   const double before = volume(piece);
   TetMesh mesh(piece, measure);
   BoundaryFlip flip;
-  Cavity cavity;
+  Replacement cavity;
   bool proposed = false;
   for (int edge = 0; edge < 6 && !proposed; ++edge) proposed = flip.propose(mesh, 2, edge, -1, cavity);
   ASSERT_TRUE(proposed);
@@ -67,7 +67,7 @@ TEST(BoundaryFlip, KeepsEdgesBetweenFacesAndSharpOnes) {
   const auto proposes = [](mesh::Piece piece) {
     TetMesh mesh(piece, measure);
     BoundaryFlip flip;
-    Cavity cavity;
+    Replacement cavity;
     bool any = false;
     for (int edge = 0; edge < 6; ++edge) any = flip.propose(mesh, 2, edge, -1, cavity) || any;
     return any;
@@ -238,7 +238,7 @@ TEST(EdgeContraction, RemovesAVertexInsideButNeverOneOnACurve) {
   volume(piece);
   TetMesh mesh(piece, measure);
   EdgeContraction contraction;
-  Cavity cavity;
+  Replacement cavity;
   ASSERT_TRUE(contraction.propose(mesh, from, to, -1, cavity));
   EXPECT_GT(cavity.after, cavity.before);
   std::vector<LocalIndex> placed;

@@ -18,11 +18,11 @@ namespace {
 using geometry::Vec3;
 
 void link(BackgroundSurface& surface) {
-  std::map<std::array<std::int32_t, 2>, HalfEdge> by_ends;
-  const auto count = static_cast<HalfEdge>(3 * surface.triangles.size());
-  for (HalfEdge h = 0; h < count; ++h) by_ends[{surface.start(h), surface.end(h)}] = h;
+  std::map<std::array<std::int32_t, 2>, geometry::HalfEdge> by_ends;
+  const auto count = static_cast<geometry::HalfEdge>(3 * surface.triangles.size());
+  for (geometry::HalfEdge h = 0; h < count; ++h) by_ends[{surface.start(h), surface.end(h)}] = h;
   surface.twins.assign(count, -1);
-  for (HalfEdge h = 0; h < count; ++h) {
+  for (geometry::HalfEdge h = 0; h < count; ++h) {
     const auto twin = by_ends.find({surface.end(h), surface.start(h)});
     if (twin != by_ends.end()) surface.twins[h] = twin->second;
   }
@@ -103,7 +103,7 @@ std::size_t reachable(const BackgroundSurface& surface, const std::vector<std::i
       stack.pop_back();
       ++count;
       for (int i = 0; i < 3; ++i) {
-        const HalfEdge twin = surface.twins[3 * t + i];
+        const geometry::HalfEdge twin = surface.twins[3 * t + i];
         if (twin < 0 || seen[twin / 3] || part[twin / 3] != part[t]) continue;
         seen[twin / 3] = 1;
         stack.push_back(twin / 3);
@@ -136,7 +136,7 @@ TEST(VertexFans, GoRoundEveryVertexOnce) {
     }
     for (std::int32_t i = 0; i + 1 < of_open.size(fan); ++i) {
       // The edge after corner i is that before corner i + 1.
-      const HalfEdge after = previous_half_edge(of_open.corners[of_open.first[fan] + i]);
+      const geometry::HalfEdge after = geometry::previous_half_edge(of_open.corners[of_open.first[fan] + i]);
       EXPECT_EQ(open.twins[after], of_open.edge(fan, i + 1));
     }
   }
@@ -150,7 +150,7 @@ TEST(Simplify, NoTwoPermittedCutsMeetSharply) {
     const Clusters clusters = simplify(surface, fans, {.smallest_angle = 40, .largest_load = 0});
     EXPECT_EQ(clusters.unresolved, 0);
     EXPECT_GT(clusters.forbidden_edges, 0);
-    const auto permitted = [&](HalfEdge h) {
+    const auto permitted = [&](geometry::HalfEdge h) {
       return surface.twins[h] < 0 ||
              clusters.of_triangle[h / 3] != clusters.of_triangle[surface.twins[h] / 3];
     };
@@ -160,8 +160,9 @@ TEST(Simplify, NoTwoPermittedCutsMeetSharply) {
         double angle = 0;
         for (std::int32_t k = 0; k < most && (fans.closed[fan] || from + k < size); ++k) {
           angle += fans.angles[fans.first[fan] + (from + k) % size];
-          const HalfEdge first = fans.edge(fan, from);
-          const HalfEdge second = fans.edge(fan, fans.closed[fan] ? (from + k + 1) % size : from + k + 1);
+          const geometry::HalfEdge first = fans.edge(fan, from);
+          const geometry::HalfEdge second =
+              fans.edge(fan, fans.closed[fan] ? (from + k + 1) % size : from + k + 1);
           const bool corner = surface.twins[first] < 0 && surface.twins[second] < 0;
           if (corner || !permitted(first) || !permitted(second)) continue;
           EXPECT_GE(angle, 40) << "fan " << fan;

@@ -54,7 +54,7 @@ TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   EXPECT_EQ(input.domain.file, "wing.step");
   EXPECT_FALSE(input.domain.transport);
   EXPECT_FALSE(input.domain.far_field);
-  EXPECT_EQ(input.domain.kind, geometry::DomainKind::automatic);
+  EXPECT_EQ(input.domain.kind, cad::DomainKind::automatic);
   EXPECT_FALSE(input.sizing.minimum || input.sizing.maximum || input.sizing.surface_maximum);
   EXPECT_FALSE(input.sizing.curvature_angle || input.sizing.growth);
   EXPECT_EQ(input.surface.piece_triangles, 50'000);
@@ -89,7 +89,7 @@ improve: {enabled: false, target_angle: 18, sweeps: 3}
 output: {directory: out/a, log: verbose}
 )");
   ASSERT_TRUE(input.domain.transport);
-  const geometry::TransportDimensions& d = *input.domain.transport;
+  const cad::TransportDimensions& d = *input.domain.transport;
   EXPECT_EQ(d.fuselage_length, 40);
   EXPECT_EQ(d.fuselage_diameter, 4.5);
   EXPECT_EQ(d.nose_length, 7);
@@ -108,11 +108,11 @@ output: {directory: out/a, log: verbose}
   EXPECT_EQ(d.wing.z, -1);
   EXPECT_EQ(d.wing.trailing_edge, 0.003);
   EXPECT_EQ(d.horizontal_tail.half_span, 7);
-  EXPECT_EQ(d.horizontal_tail.root_chord, geometry::TransportDimensions{}.horizontal_tail.root_chord);
+  EXPECT_EQ(d.horizontal_tail.root_chord, cad::TransportDimensions{}.horizontal_tail.root_chord);
   EXPECT_EQ(d.vertical_tail.sweep, 40.5);
-  EXPECT_EQ(input.domain.kind, geometry::DomainKind::body);
+  EXPECT_EQ(input.domain.kind, cad::DomainKind::body);
   ASSERT_TRUE(input.domain.far_field);
-  EXPECT_EQ(input.domain.far_field->shape, geometry::FarFieldShape::box);
+  EXPECT_EQ(input.domain.far_field->shape, cad::FarFieldShape::box);
   EXPECT_EQ(input.domain.far_field->extent, 12.5);
   EXPECT_EQ(input.sizing.minimum, 0.01);
   EXPECT_EQ(input.sizing.maximum, 1.5);

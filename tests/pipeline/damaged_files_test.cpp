@@ -1,5 +1,5 @@
 // Damaged files end in a model or in a message, never in a crash, whatever is wrong with them.
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "pipeline/load_domain.hpp"
 
 #include <array>
@@ -143,14 +143,14 @@ protected:
 
   /// The message, empty where the file gave a model.
   std::string outcome(const fs::path& file) {
-    geometry::DomainOptions options;
+    cad::DomainOptions options;
     options.file = file.string();
     parallel::StageClock clock;
     try {
-      const geometry::Domain domain = prepare_contained(options, clock);
+      const cad::Domain domain = prepare_contained(options, clock);
       EXPECT_GT(domain.model.face_count(), 0) << file;
       return {};
-    } catch (const geometry::CadError& error) {
+    } catch (const cad::CadError& error) {
       return error.what();
     } catch (const std::ios_base::failure& error) {
       return error.what();
@@ -192,19 +192,19 @@ TEST_F(DamagedFiles, EndInAModelOrAMessage) {
 }
 
 TEST_F(DamagedFiles, CrashesAndHangsOfTheCadLibraryBecomeMessages) {
-  using Sabotage = geometry::DomainOptions::Sabotage;
+  using Sabotage = cad::DomainOptions::Sabotage;
   const std::map<Sabotage, std::string> expected{{Sabotage::throws, "sabotage: an exception"},
                                                  {Sabotage::aborts, "crashed"},
                                                  {Sabotage::exhausts_memory, "memory"}};
   for (const auto& [sabotage, words] : expected) {
-    geometry::DomainOptions options;
+    cad::DomainOptions options;
     options.file = (_folder / "any.step").string();
     options.sabotage = sabotage;
     parallel::StageClock clock;
     try {
       prepare_contained(options, clock);
       ADD_FAILURE() << words;
-    } catch (const geometry::CadError& error) {
+    } catch (const cad::CadError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find("any.step"), std::string::npos) << error.what();
     }

@@ -24,9 +24,9 @@
 namespace aeroloom::pipeline {
 namespace {
 
+using cad::FarFieldShape;
+using cad::Symmetry;
 using cad_cases::Folder;
-using geometry::FarFieldShape;
-using geometry::Symmetry;
 
 /// The different values of a coordinate over the triangles of a patch.
 std::set<double> coordinates_of_patch(const std::string& file, const std::string& patch, int axis) {
@@ -53,7 +53,7 @@ struct HalfModel {
   int axis = 1;
   double position = 0;
   double fluid = 0;  ///< expected volume, to 2 %: the mesh has chords
-  geometry::Axis cylinder_axis = geometry::Axis::x;
+  cad::Axis cylinder_axis = cad::Axis::x;
 };
 
 constexpr double extent = 3;
@@ -61,7 +61,7 @@ constexpr double extent = 3;
 void expect_half(const HalfModel& half) {
   const Folder folder;
   Case input = cad_cases::coarse_case(folder.write(half.body, "body.brep"), folder, 20000);
-  geometry::FarFieldOptions far_field;
+  cad::FarFieldOptions far_field;
   far_field.shape = half.shape;
   far_field.extent = extent;
   far_field.symmetry = half.symmetry;
@@ -122,7 +122,7 @@ TEST(HalfModel, HalfCylinderAlongAndAcross) {
                .symmetry = Symmetry::y,
                .axis = 1,
                .fluid = far - half_sphere(1),
-               .cylinder_axis = geometry::Axis::y});
+               .cylinder_axis = cad::Axis::y});
 }
 
 // Cut across the tube: two discs are two holes in the plane.
@@ -152,7 +152,7 @@ TEST(HalfModel, CavityIsLeftOut) {
   expect_half({.body = shell, .symmetry = Symmetry::y, .fluid = half_sphere(2 * extent) - half_sphere(1)});
 }
 
-void expect_refused(const TopoDS_Shape& body, const geometry::FarFieldOptions& far_field,
+void expect_refused(const TopoDS_Shape& body, const cad::FarFieldOptions& far_field,
                     const std::string& words) {
   const Folder folder;
   Case input = cad_cases::coarse_case(folder.write(body, "body.brep"), folder, 5000);

@@ -39,7 +39,7 @@ struct Expected {
 void expect_regions(const TopoDS_Shape& shape, const Expected& expected) {
   const Folder folder;
   Case input = cad_cases::coarse_case(folder.write(shape, "regions.brep"), folder, 3000);
-  input.domain.kind = geometry::DomainKind::fluid;
+  input.domain.kind = cad::DomainKind::fluid;
   std::string alone;
   const RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
@@ -91,7 +91,7 @@ TEST(Regions, OverlappingSolidsAreRefusedWithAPlace) {
   const Folder folder;
   Case input = cad_cases::coarse_case(
       folder.write(together({box(0, 0, 0, 2, 1, 1), box(1, 0, 0, 2, 1, 1)}), "overlap.brep"), folder, 3000);
-  input.domain.kind = geometry::DomainKind::fluid;
+  input.domain.kind = cad::DomainKind::fluid;
   RunRecord record;
   try {
     run_case(parallel::Communicator::world(), input, record);
@@ -111,7 +111,7 @@ TEST(Regions, LoopsOfAFaceMayTouchInAVertex) {
   const TopoDS_Shape pin = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(3, 2, 1), gp_Dir(0, 0, 1)), 1, 2).Shape();
   const Folder folder;
   Case input = cad_cases::coarse_case(folder.write(together({plate, pin}), "pin.brep"), folder, 20000);
-  input.domain.kind = geometry::DomainKind::body;
+  input.domain.kind = cad::DomainKind::body;
   std::string alone;
   const RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);

@@ -1,13 +1,13 @@
 #include "pipeline/size_domain.hpp"
 
-#include "tests/geometry/strip_shapes.hpp"
+#include "tests/cad/strip_shapes.hpp"
 
 #include <gtest/gtest.h>
 
 namespace aeroloom::pipeline {
 namespace {
 
-using geometry::Model;
+using cad::Model;
 
 SizedDomain size(const Model& model, double minimum, NarrowFaces narrow_faces) {
   SizingRequest request;
@@ -18,7 +18,7 @@ SizedDomain size(const Model& model, double minimum, NarrowFaces narrow_faces) {
 }
 
 TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
-  const Model model = geometry::shapes::split_cylinder(2, 1.5);
+  const Model model = cad::shapes::split_cylinder(2, 1.5);
   const SizedDomain joined = size(model, 0.1, NarrowFaces::join);
   EXPECT_EQ(joined.model.face_count(), model.face_count() - 1);
   ASSERT_EQ(joined.joined.size(), 1u);
@@ -33,13 +33,13 @@ TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
 }
 
 TEST(SizeDomain, LeavesFacesAsWideAsElements) {
-  const Model model = geometry::shapes::split_cylinder(2, 1.5);
+  const Model model = cad::shapes::split_cylinder(2, 1.5);
   EXPECT_TRUE(size(model, 0.01, NarrowFaces::join).joined.empty());
 }
 
 // Sizes from the model go by what is left of it.
 TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
-  const Model model = geometry::shapes::split_cylinder(0.5, 1.5);
+  const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   SizingRequest request;
   request.target_tetrahedra = 20'000;
   parallel::StageClock clock;

@@ -25,7 +25,7 @@ TopoDS_Shape box_with_sphere() {
 
 Case pieces_case(const Folder& folder, const TopoDS_Shape& shape, double target, std::int64_t piece_tets) {
   Case input = cad_cases::coarse_case(folder.write(shape, "pieces.brep"), folder, target);
-  input.domain.kind = geometry::DomainKind::fluid;
+  input.domain.kind = cad::DomainKind::fluid;
   input.volume.piece_tets = piece_tets;
   return input;
 }

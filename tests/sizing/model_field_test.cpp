@@ -1,4 +1,4 @@
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/size_field.hpp"
 
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 using namespace aeroloom;
-using geometry::Model;
-using geometry::PrimitiveKind;
+using cad::Model;
+using cad::PrimitiveKind;
 using geometry::Vec3;
 using sizing::SizeField;
 using sizing::SizingOptions;
@@ -29,7 +29,7 @@ Vec3 random_direction(std::mt19937_64& random) {
 }
 
 Model box_with_sphere(double side, double radius) {
-  geometry::PrimitiveDimensions dimensions;
+  cad::PrimitiveDimensions dimensions;
   dimensions.box = {side, side, side};
   dimensions.radius = radius;
   return make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
@@ -79,7 +79,7 @@ TEST(ModelField, SurfaceMaximumCapsTheBodyAlone) {
 }
 
 TEST(ModelField, CylinderIsCoveredAllAlong) {
-  geometry::PrimitiveDimensions dimensions;
+  cad::PrimitiveDimensions dimensions;
   dimensions.radius = 0.5;
   dimensions.height = 8;
   const SizeField field =
@@ -92,7 +92,7 @@ TEST(ModelField, CylinderIsCoveredAllAlong) {
 }
 
 TEST(ModelField, ShortEdgesAskForTheirLength) {
-  geometry::PrimitiveDimensions dimensions;
+  cad::PrimitiveDimensions dimensions;
   dimensions.box = {4, 4, 0.05};
   const Model plate = make_primitive_domain(PrimitiveKind::box, dimensions);
   EXPECT_NEAR(build(plate, {0.01, 1, 12, 1.3, 0})({2, 2, 0}), 0.05, 1e-6);
@@ -106,7 +106,7 @@ TEST(ModelField, ShortEdgesAskForTheirLength) {
 }
 
 TEST(ModelField, NarrowFacesAskForTheirWidth) {
-  geometry::PrimitiveDimensions dimensions;
+  cad::PrimitiveDimensions dimensions;
   dimensions.box = {4, 4, 0.05};
   const SizeField field =
       build(make_primitive_domain(PrimitiveKind::box, dimensions), {0.04, 1, 12, 1.3, 0, 0});
@@ -124,7 +124,7 @@ TEST(ModelField, IsTheSameForAnyRankCount) {
   const SizingOptions options{0.01, 1, 12, 1.3, 0.3};
   for (const PrimitiveKind kind :
        {PrimitiveKind::torus, PrimitiveKind::cylinder, PrimitiveKind::box_with_sphere}) {
-    const Model model = geometry::make_primitive_domain(kind);
+    const Model model = cad::make_primitive_domain(kind);
     parallel::StageClock clock;
     const std::int64_t alone =
         hash(sizing::build_size_field(parallel::Communicator::self(), model, options, clock));
@@ -136,13 +136,13 @@ TEST(ModelField, IsTheSameForAnyRankCount) {
 }
 
 TEST(ModelField, SidesOfAWindTunnelCountAsFarField) {
-  const Model tunnel = geometry::make_primitive_domain(PrimitiveKind::box);
+  const Model tunnel = cad::make_primitive_domain(PrimitiveKind::box);
   for (const bool far : sizing::find_far_field(tunnel)) EXPECT_TRUE(far);
-  const Model torus = geometry::make_primitive_domain(PrimitiveKind::torus);
+  const Model torus = cad::make_primitive_domain(PrimitiveKind::torus);
   for (const bool far : sizing::find_far_field(torus)) EXPECT_FALSE(far);
 }
 
 TEST(ModelField, RefusesImpossibleOptionsOnEveryRank) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::box);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::box);
   EXPECT_THROW(build(model, {0, 1, 12, 1.3, 0}), std::invalid_argument);
 }

@@ -1,6 +1,6 @@
 #include "sizing/narrow_faces.hpp"
 
-#include "tests/geometry/strip_shapes.hpp"
+#include "tests/cad/strip_shapes.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@
 namespace aeroloom::sizing {
 namespace {
 
-using geometry::Model;
+using cad::Model;
 
 std::vector<NarrowFace> find(const Model& model, double width, double tolerance) {
   parallel::StageClock clock;
@@ -18,7 +18,7 @@ std::vector<NarrowFace> find(const Model& model, double width, double tolerance)
 }
 
 TEST(NarrowFaces, AreFoundWithTheirNeighbours) {
-  const Model model = geometry::shapes::split_cylinder(3, 2);
+  const Model model = cad::shapes::split_cylinder(3, 2);
   const double width = 3 * std::numbers::pi / 180;
   EXPECT_TRUE(find(model, 0.9 * width, 1).empty());
   const auto found = find(model, 1.1 * width, 1e-6);
@@ -36,21 +36,21 @@ TEST(NarrowFaces, AreFoundWithTheirNeighbours) {
 }
 
 TEST(NarrowFaces, ABluntTrailingEdgeStays) {
-  const Model model = geometry::shapes::blunt_wedge(0.01);
+  const Model model = cad::shapes::blunt_wedge(0.01);
   EXPECT_TRUE(find(model, 0.02, 1).empty());
 }
 
 // A strip behind a bend is taken in while that moves the surface by less than the tolerance, and never where
 // the surface turns by 20 degrees.
 TEST(NarrowFaces, CreasesStay) {
-  const Model bent = geometry::shapes::creased_prism(10);
+  const Model bent = cad::shapes::creased_prism(10);
   const double deviation = 0.05 * std::sin(10 * std::numbers::pi / 180);
   const auto found = find(bent, 0.06, 1.2 * deviation);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].degrees, 10, 1e-6);
   EXPECT_NEAR(found[0].deviation, deviation, 0.1 * deviation);
   EXPECT_TRUE(find(bent, 0.06, 0.8 * deviation).empty());
-  EXPECT_TRUE(find(geometry::shapes::creased_prism(25), 0.06, 1).empty());
+  EXPECT_TRUE(find(cad::shapes::creased_prism(25), 0.06, 1).empty());
 }
 
 }  // namespace

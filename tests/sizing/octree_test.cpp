@@ -9,9 +9,9 @@ using namespace aeroloom::sizing;
 
 namespace {
 
-SplitCells random_splits(unsigned seed, int count) {
+SplitCubes random_splits(unsigned seed, int count) {
   std::mt19937_64 random(seed);
-  SplitCells cells;
+  SplitCubes cells;
   for (int i = 0; i < count; ++i) {
     const int level = static_cast<int>(random() % finest_level);
     cells.split(random() >> 4, level);
@@ -46,7 +46,7 @@ TEST(Octree, LeavesTileTheCubeAlongTheCurve) {
 }
 
 TEST(Octree, UnsplitIsOneLeaf) {
-  SplitCells cells;
+  SplitCubes cells;
   cells.balance();
   const auto leaves = cells.leaves();
   ASSERT_EQ(leaves.keys.size(), 1U);
@@ -54,7 +54,7 @@ TEST(Octree, UnsplitIsOneLeaf) {
 }
 
 TEST(Octree, SplitCellsReachTheLevelAskedFor) {
-  SplitCells cells;
+  SplitCubes cells;
   cells.split(12345678901234567ULL, finest_level - 1);
   cells.balance();
   const auto leaves = cells.leaves();

@@ -1,4 +1,4 @@
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "parallel/collective_error.hpp"
 #include "sizing/size_field.hpp"
 
@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 using namespace aeroloom;
-using geometry::Model;
-using geometry::PrimitiveDimensions;
-using geometry::PrimitiveKind;
+using cad::Model;
+using cad::PrimitiveDimensions;
+using cad::PrimitiveKind;
 using sizing::PredictedCounts;
 using sizing::SizeField;
 using sizing::SizingOptions;
@@ -68,7 +68,7 @@ TEST(PredictCounts, LeavesOutTheBody) {
 }
 
 TEST(PredictCounts, IsTheSameForAnyRankCount) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::box_with_sphere);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::box_with_sphere);
   const SizingOptions options{0.01, 0.2, 12, 1.3, 0};
   const PredictedCounts alone = predict(model, options, parallel::Communicator::self());
   const PredictedCounts together = predict(model, options);
@@ -105,7 +105,7 @@ TEST(ChooseSizes, WorksWithoutFarField) {
 }
 
 TEST(ChooseSizes, RefusesImpossibleTargets) {
-  const Model box = geometry::make_primitive_domain(PrimitiveKind::box);
+  const Model box = cad::make_primitive_domain(PrimitiveKind::box);
   parallel::StageClock clock;
   EXPECT_THROW(sizing::choose_sizes(parallel::Communicator::world(), box, 0, clock), std::invalid_argument);
 }

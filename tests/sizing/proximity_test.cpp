@@ -1,8 +1,8 @@
 // Sizes fall to the thickness of thin parts and to the width of gaps, but not along wedges.
 #include "sizing/proximity.hpp"
 
-#include "geometry/domain.hpp"
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
+#include "cad/domain/domain.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/size_field.hpp"
 
@@ -18,8 +18,8 @@
 #include <unistd.h>
 
 using namespace aeroloom;
-using geometry::Model;
-using geometry::PrimitiveKind;
+using cad::Model;
+using cad::PrimitiveKind;
 using geometry::Vec3;
 using sizing::SizeField;
 using sizing::SizingOptions;
@@ -33,7 +33,7 @@ SizeField build(const Model& model, double proximity, double minimum = 0.001) {
 }
 
 Model plate(double thickness) {
-  geometry::PrimitiveDimensions dimensions;
+  cad::PrimitiveDimensions dimensions;
   dimensions.box = {2, 2, thickness};
   return make_primitive_domain(PrimitiveKind::box, dimensions);
 }
@@ -46,9 +46,9 @@ Model wedge(double degrees) {
   // A right triangle extruded: legs 1 and tan(angle).
   const double height = std::tan(degrees * M_PI / 180);
   BRepTools::Write(BRepPrimAPI_MakeWedge(1, height, 1, 0).Shape(), file.c_str());
-  geometry::DomainOptions options;
+  cad::DomainOptions options;
   options.file = file;
-  options.kind = geometry::DomainKind::body;
+  options.kind = cad::DomainKind::body;
   const Model model = prepare_domain(options).model;
   std::filesystem::remove(file);
   return model;
@@ -86,7 +86,7 @@ TEST(Proximity, ASharpEdgeDoesNotDriveSizesDown) {
   const SizeField field = build(sharp, 1);
   // On the sloping side, close to the sharp edge, which lies along z at x = 1, y = 0 or x = 0, y = height.
   double least = 1e300;
-  for (geometry::FaceId f = 0; f < sharp.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < sharp.face_count(); ++f) {
     if (sharp.is_far_field(f)) continue;
     for (const Vec3 p : sharp.facets(f, 0.01, 0.3).points) least = std::min(least, field(p));
   }

@@ -1,8 +1,8 @@
 #include "surface/chart.hpp"
 
-#include "geometry/domain.hpp"
+#include "cad/builtin/primitives.hpp"
+#include "cad/domain/domain.hpp"
 #include "geometry/predicates.hpp"
-#include "geometry/primitives.hpp"
 #include "surface/conformal_map.hpp"
 #include "surface/support_topology.hpp"
 #include "tests/surface/face_fixture.hpp"
@@ -15,9 +15,9 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::make_primitive_domain;
-using geometry::Model;
-using geometry::PrimitiveKind;
+using cad::make_primitive_domain;
+using cad::Model;
+using cad::PrimitiveKind;
 using geometry::Vec2;
 using geometry::Vec3;
 using testing::curves_of;
@@ -30,7 +30,7 @@ struct ChartedFace {
   std::vector<Chart> charts;
 };
 
-ChartedFace chart_face(const Model& model, geometry::FaceId face, const CurveMesh& curves,
+ChartedFace chart_face(const Model& model, cad::FaceId face, const CurveMesh& curves,
                        const sizing::SizeField& field) {
   ChartedFace result;
   result.whole = build_support(model, face, curves, facets_of(model, face), result.vertices);
@@ -73,7 +73,7 @@ TEST(Charts, PlaneFaceIsOneIsometricChart) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = uniform_field(model, 0.1);
   const CurveMesh curves = curves_of(model, field);
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const ChartedFace face = chart_face(model, f, curves, field);
     ASSERT_EQ(face.charts.size(), 1u);
     for (const double scale : face.charts.front().scale) EXPECT_NEAR(scale, 1, 1e-12);
@@ -96,7 +96,7 @@ TEST(Charts, TubeIsCutLengthwise) {
     const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.height = height});
     const auto field = uniform_field(model, 0.1);
     const CurveMesh curves = curves_of(model, field);
-    for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       const ChartedFace face = chart_face(model, f, curves, field);
       EXPECT_LE(face.charts.size(), 4u);
       for (const Vec3 p : face.vertices.points) EXPECT_NEAR(std::hypot(p.x, p.y), 0.25, 1e-9);
@@ -242,14 +242,14 @@ class RealModel : public ::testing::TestWithParam<std::string> {};
 TEST_P(RealModel, EveryFaceGetsCharts) {
   const auto file = testing::aircraft_folder() / GetParam();
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
-  geometry::DomainOptions options;
+  cad::DomainOptions options;
   options.file = file.string();
-  const Model model = geometry::prepare_domain(options).model;
+  const Model model = cad::prepare_domain(options).model;
   const auto field = uniform_field(model, 0.01 * model.body_bounds().diagonal());
   const CurveMesh curves = curves_of(model, field);
   const double start = parallel::cpu_seconds();
   std::size_t charts = 0;
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     SCOPED_TRACE(fmt::format("face {} {}", f, model.face(f).name));
     try {
       const ChartedFace face = chart_face(model, f, curves, field);

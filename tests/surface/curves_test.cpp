@@ -1,6 +1,6 @@
 #include "surface/curves.hpp"
 
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "surface/curve_metric.hpp"
 #include "tests/surface/face_fixture.hpp"
 
@@ -13,9 +13,9 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::make_primitive_domain;
-using geometry::Model;
-using geometry::PrimitiveKind;
+using cad::make_primitive_domain;
+using cad::Model;
+using cad::PrimitiveKind;
 using testing::curves_of;
 using testing::graded_field;
 using testing::uniform_field;
@@ -47,7 +47,7 @@ TEST(Curves, DivideStraightEdgesEvenly) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const CurveMesh curves = curves_of(model, uniform_field(model, 0.1));
   ASSERT_EQ(model.edge_count(), 12);
-  for (geometry::EdgeId e = 0; e < model.edge_count(); ++e) {
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
     const auto chain = curves.chain(model, e);
     ASSERT_EQ(chain.size(), 11u);
     EXPECT_EQ(chain.front(), model.edge(e).first);
@@ -56,7 +56,7 @@ TEST(Curves, DivideStraightEdgesEvenly) {
       EXPECT_NEAR(distance(curves.points[chain[i - 1]], curves.points[chain[i]]), 0.1, 1e-9);
     }
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) EXPECT_EQ(curves.edge_of(model, chain[i]), e);
-    EXPECT_EQ(curves.edge_of(model, chain.front()), geometry::no_entity);
+    EXPECT_EQ(curves.edge_of(model, chain.front()), cad::no_entity);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(Curves, CirclesHaveEqualSegmentsAndSeamsNone) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const CurveMesh curves = curves_of(model, uniform_field(model, 0.05));
   int circles = 0;
-  for (geometry::EdgeId e = 0; e < model.edge_count(); ++e) {
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
     const auto chain = curves.chain(model, e);
     if (!is_constraining(model, e)) {
       EXPECT_TRUE(chain.empty());
@@ -84,7 +84,7 @@ TEST(Curves, SegmentsAreEqualInTheMetricOfAGradedField) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = graded_field(model, model.bounds().low, 0.004, 0.2);
   const CurveMesh curves = curves_of(model, field);
-  for (geometry::EdgeId e = 0; e < model.edge_count(); ++e) {
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
     const auto parameters = curves.chain_parameters(model, e);
     std::vector<double> lengths;
     for (std::size_t i = 1; i < parameters.size(); ++i) {
@@ -109,7 +109,7 @@ TEST(Curves, CoarseSizesStillLeaveConformingLoops) {
     const Model model = make_primitive_domain(kind);
     const CurveMesh curves = curves_of(model, uniform_field(model, 100));
     std::map<std::pair<CurveVertex, CurveVertex>, int> single;
-    for (geometry::EdgeId e = 0; e < model.edge_count(); ++e) {
+    for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
       const auto chain = curves.chain(model, e);
       if (chain.size() == 2) ++single[std::minmax(chain.front(), chain.back())];
       if (!chain.empty() && chain.front() == chain.back()) {
@@ -117,7 +117,7 @@ TEST(Curves, CoarseSizesStillLeaveConformingLoops) {
       }
     }
     for (const auto& [ends, count] : single) EXPECT_EQ(count, 1);
-    for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       for (const auto& loop : model.face(f).loops) {
         std::size_t segments = 0;
         bool any = false;

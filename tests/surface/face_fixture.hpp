@@ -1,7 +1,7 @@
 /// Faces of small shapes and of real files, ready to be turned into supports and charts.
 #pragma once
 
-#include "geometry/model.hpp"
+#include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
@@ -19,23 +19,23 @@
 namespace aeroloom::surface::testing {
 
 /// A field of one size everywhere.
-inline sizing::SizeField uniform_field(const geometry::Model& model, double size) {
+inline sizing::SizeField uniform_field(const cad::Model& model, double size) {
   return sizing::SizeField::build(model.bounds(), {}, {size, size, 12, 1.3});
 }
 
 /// A field that grows with the distance from a point.
-inline sizing::SizeField graded_field(const geometry::Model& model, geometry::Vec3 point, double least,
+inline sizing::SizeField graded_field(const cad::Model& model, geometry::Vec3 point, double least,
                                       double most) {
   const std::vector<sizing::SizeSource> sources{{point, least}};
   return sizing::SizeField::build(model.bounds(), sources, {least, most, 12, 1.3});
 }
 
-inline CurveMesh curves_of(const geometry::Model& model, const sizing::SizeField& field) {
+inline CurveMesh curves_of(const cad::Model& model, const sizing::SizeField& field) {
   parallel::StageClock clock;
   return discretise_curves(parallel::Communicator::world(), model, field, clock);
 }
 
-inline geometry::Facets facets_of(const geometry::Model& model, geometry::FaceId face) {
+inline cad::Facets facets_of(const cad::Model& model, cad::FaceId face) {
   const double extent = (model.is_far_field(face) ? model.bounds() : model.body_bounds()).diagonal();
   return model.facets(face, 1e-3 * extent, 15 * std::numbers::pi / 180);
 }

@@ -1,10 +1,10 @@
 /// The borders of narrow faces vanish from the mesh, whole or in pieces, and the surface stays what it was.
-#include "geometry/joined_faces.hpp"
+#include "cad/model/joined_faces.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "sizing/narrow_faces.hpp"
 #include "surface/surface_mesher.hpp"
-#include "tests/geometry/strip_shapes.hpp"
+#include "tests/cad/strip_shapes.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -14,17 +14,17 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Model;
+using cad::Model;
 using geometry::Vec3;
 using parallel::Communicator;
 
 constexpr double size = 0.12, strip_degrees = 1.5;
 
 Model joined_cylinder(const Communicator& communicator) {
-  const Model apart = geometry::shapes::split_cylinder(strip_degrees, 2);
+  const Model apart = cad::shapes::split_cylinder(strip_degrees, 2);
   parallel::StageClock clock;
   auto narrow = sizing::find_narrow_faces(communicator, apart, size, 0.05 * size, clock);
-  return geometry::join_faces(apart, sizing::group_narrow_faces(apart, narrow, 0.05 * size));
+  return cad::join_faces(apart, sizing::group_narrow_faces(apart, narrow, 0.05 * size));
 }
 
 struct Meshed {
@@ -87,7 +87,7 @@ TEST(JoinedFacesMesh, StripsLeaveNoTrace) {
 // The same solid as it is: the strip's long edges are in the mesh.
 TEST(JoinedFacesMesh, KeptStripsForceSmallElements) {
   const Communicator communicator = Communicator::world();
-  const Model apart = geometry::shapes::split_cylinder(strip_degrees, 2);
+  const Model apart = cad::shapes::split_cylinder(strip_degrees, 2);
   const Meshed meshed = mesh_model(communicator, apart, {});
   const Meshed joined = mesh_model(communicator, joined_cylinder(communicator), {});
   EXPECT_GT(4 * meshed.surface.report.triangles, 5 * joined.surface.report.triangles);

@@ -1,5 +1,5 @@
 /// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "surface/coarse_loops.hpp"
@@ -17,8 +17,8 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::make_primitive_domain;
-using geometry::PrimitiveKind;
+using cad::make_primitive_domain;
+using cad::PrimitiveKind;
 using geometry::Vec3;
 using parallel::Communicator;
 using testing::graded_field;
@@ -29,8 +29,8 @@ struct Meshed {
   mesh::Numbering numbering;
 };
 
-Meshed mesh_model(const Communicator& communicator, const geometry::Model& model,
-                  const sizing::SizeField& field, const SurfaceOptions& options) {
+Meshed mesh_model(const Communicator& communicator, const cad::Model& model, const sizing::SizeField& field,
+                  const SurfaceOptions& options) {
   parallel::StageClock clock;
   SurfaceMesh surface = mesh_surface(communicator, model, field, options, clock);
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
@@ -56,7 +56,7 @@ Seam measure_seam(const Communicator& communicator, const mesh::DistributedMesh&
   for (const mesh::Piece& piece : surface.pieces) {
     std::vector<char> on_cut(piece.vertex_count(), 0);
     for (std::size_t i = 0; i < piece.shared_vertices.size(); ++i) {
-      on_cut[piece.shared_vertices[i]] = is_cut_token(piece.shared_tokens[i]);
+      on_cut[piece.shared_vertices[i]] = mesh::is_cut_token(piece.shared_tokens[i]);
     }
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
@@ -88,7 +88,7 @@ void PrintTo(const Shape& shape, std::ostream* out) {
 
 class Pieces : public ::testing::TestWithParam<Shape> {
 protected:
-  geometry::Model model = make_primitive_domain(GetParam().kind);
+  cad::Model model = make_primitive_domain(GetParam().kind);
   sizing::SizeField field = GetParam().graded
                                 ? graded_field(model, {0.25, 0, 0}, 0.4 * GetParam().size, GetParam().size)
                                 : uniform_field(model, GetParam().size);
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Pieces,
 /// Very heavy faces are cut twice; the second cuts end on the first ones.
 TEST(DividedTwice, HasNoSeamEither) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  const geometry::Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const sizing::SizeField field = uniform_field(model, 0.008);
   const SurfaceOptions options{.piece_triangles = 500};
   const Meshed meshed = mesh_model(world, model, field, options);
@@ -148,11 +148,11 @@ TEST(DividedTwice, HasNoSeamEither) {
 TEST(ImposedCuts, FollowABox) {
   const Communicator world = Communicator::world(), self = Communicator::self();
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::torus, PrimitiveKind::cylinder}) {
-    const geometry::Model model = make_primitive_domain(kind);
+    const cad::Model model = make_primitive_domain(kind);
     const sizing::SizeField field = uniform_field(model, 0.03);
     SurfaceOptions options{.piece_triangles = 1'000'000};
     const auto is_inside = [](Vec3 p) { return p.x > -0.1 && p.y > -0.05 && p.z > -0.12; };
-    options.divider = [&](geometry::FaceId, const partition::BackgroundSurface& surface) {
+    options.divider = [&](cad::FaceId, const partition::BackgroundSurface& surface) {
       std::vector<std::int32_t> part;
       for (const auto& [a, b, c] : surface.triangles) {
         part.push_back(is_inside((surface.points[a] + surface.points[b] + surface.points[c]) / 3.0) ? 1 : 0);
@@ -170,7 +170,7 @@ TEST(ImposedCuts, FollowABox) {
 
 TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
   const Communicator world = Communicator::world();
-  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const SurfaceOptions options{.decomposition = SurfaceDecomposition::faces, .piece_triangles = 100};
   const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.03), options);
   EXPECT_EQ(meshed.surface.mesh.piece_count, model.face_count());
@@ -178,17 +178,17 @@ TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
   EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
 }
 
-PieceSeed side_of_cylinder(const geometry::Model& model, const sizing::SizeField& field) {
+PieceSeed side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
   parallel::StageClock clock;
   const CurveMesh curves = discretise_curves(Communicator::self(), model, field, clock);
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (!model.is_planar(f)) return seed_of_face(model, f, curves, field, {});
   }
   throw std::logic_error("a cylinder without a side");
 }
 
 TEST(CoarseLoops, KeepASubsetInOrder) {
-  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.02);
   const PieceSeed seed = side_of_cylinder(model, field);
   const auto fine = static_cast<std::size_t>(std::round(2 * std::numbers::pi * 0.25 / 0.02));
@@ -219,7 +219,7 @@ TEST(CoarseLoops, KeepASubsetInOrder) {
 }
 
 TEST(PieceSeeds, TravelBitForBit) {
-  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.1);
   const PieceSeed seed = side_of_cylinder(model, field);
   const PieceSeed copy = unpack_seed(pack_seed(seed));
@@ -228,25 +228,25 @@ TEST(PieceSeeds, TravelBitForBit) {
 }
 
 TEST(Tokens, NameVerticesOfCurvesAndCuts) {
-  const geometry::Model model = make_primitive_domain(PrimitiveKind::cylinder);
+  const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   parallel::StageClock clock;
   const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1), clock);
   std::set<mesh::SharedToken> names;
   for (CurveVertex v = 0; v < static_cast<CurveVertex>(curves.points.size()); ++v) {
     const mesh::SharedToken token = curves.token(model, v);
     EXPECT_EQ(curves.vertex_of(token), v);
-    EXPECT_EQ(edge_of_token(token), curves.edge_of(model, v));
-    EXPECT_FALSE(is_cut_token(token));
+    EXPECT_EQ(mesh::edge_of_token(token), curves.edge_of(model, v));
+    EXPECT_FALSE(mesh::is_cut_token(token));
     names.insert(token);
   }
   for (const auto& [face, group, index] : {std::array{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}}) {
-    const mesh::SharedToken token = cut_token(face, group, index);
-    EXPECT_TRUE(is_cut_token(token));
-    EXPECT_EQ(edge_of_token(token), geometry::no_entity);
+    const mesh::SharedToken token = mesh::cut_token(face, group, index);
+    EXPECT_TRUE(mesh::is_cut_token(token));
+    EXPECT_EQ(mesh::edge_of_token(token), cad::no_entity);
     names.insert(token);
   }
   EXPECT_EQ(names.size(), curves.points.size() + 4);
-  EXPECT_THROW(cut_token(0, 1 << 16, 0), std::length_error);
+  EXPECT_THROW(mesh::cut_token(0, 1 << 16, 0), std::length_error);
 }
 
 }  // namespace

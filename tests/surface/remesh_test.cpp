@@ -1,6 +1,6 @@
 #include "surface/remesh.hpp"
 
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "mesh/quality.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Model;
-using geometry::PrimitiveKind;
+using cad::Model;
+using cad::PrimitiveKind;
 using geometry::Vec2;
 using geometry::Vec3;
 
@@ -41,7 +41,7 @@ void orient(const Model& model, FaceMesh& mesh) {
   }
 }
 
-FaceMesh grid_mesh(const Model& model, geometry::FaceId face, const Grid& grid,
+FaceMesh grid_mesh(const Model& model, cad::FaceId face, const Grid& grid,
                    const std::function<Vec3(double, double)>& place, Vec2 guess) {
   FaceMesh mesh;
   mesh.face = face;
@@ -133,11 +133,11 @@ void expect_good(const Model& model, const FaceMesh& before, const FaceMesh& aft
 }
 
 /// The face of a primitive whose facets reach furthest from the box's planes: the only curved one.
-geometry::FaceId curved_face(const Model& model) {
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+cad::FaceId curved_face(const Model& model) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (!model.is_planar(f)) return f;
   }
-  return geometry::no_entity;
+  return cad::no_entity;
 }
 
 FaceMesh torus_mesh(const Model& model, double size) {
@@ -152,7 +152,7 @@ FaceMesh torus_mesh(const Model& model, double size) {
 }
 
 TEST(Remesh, ImprovesATorusAcrossItsSeams) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::torus);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::torus);
   const double size = 0.04;
   FaceMesh mesh = torus_mesh(model, size);
   shake(model, 0.2 * size, mesh);
@@ -162,7 +162,7 @@ TEST(Remesh, ImprovesATorusAcrossItsSeams) {
 }
 
 TEST(Remesh, ImprovesASphereAcrossItsPoles) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::sphere);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::sphere);
   const double size = 0.02;
   // An octahedron, each side divided n times and blown up.
   FaceMesh mesh;
@@ -227,7 +227,7 @@ FaceMesh cylinder_mesh(const Model& model, double size, double row_factor) {
 class CylinderRows : public testing::TestWithParam<double> {};
 
 TEST_P(CylinderRows, ReachTheWantedSize) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::cylinder);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::cylinder);
   const double size = 0.04;
   FaceMesh mesh = cylinder_mesh(model, size, GetParam());
   shake(model, 0.1 * size, mesh);
@@ -239,7 +239,7 @@ TEST_P(CylinderRows, ReachTheWantedSize) {
 INSTANTIATE_TEST_SUITE_P(CoarseToFine, CylinderRows, testing::Values(0.6, 1.0, 2.5));
 
 TEST(Remesh, FollowsAGradedField) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::torus);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::torus);
   const std::vector<sizing::SizeSource> sources{{{0.75, 0, 0}, 0.008}};
   const auto field =
       sizing::SizeField::build(model.bounds(), sources, {.minimum = 0.008, .maximum = 0.06, .growth = 1.2});
@@ -262,7 +262,7 @@ TEST(Remesh, FollowsAGradedField) {
 }
 
 TEST(Remesh, GivesTheSameBitsEveryTime) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::torus);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::torus);
   FaceMesh first = torus_mesh(model, 0.05);
   shake(model, 0.01, first);
   FaceMesh second = first;
@@ -275,7 +275,7 @@ TEST(Remesh, GivesTheSameBitsEveryTime) {
 }
 
 TEST(Remesh, LeavesAnOctahedronAlone) {
-  const Model model = geometry::make_primitive_domain(PrimitiveKind::sphere);
+  const Model model = cad::make_primitive_domain(PrimitiveKind::sphere);
   FaceMesh mesh;
   mesh.face = 0;
   for (const Vec3 p :

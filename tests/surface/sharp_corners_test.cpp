@@ -3,8 +3,8 @@
 
 #include "mesh/quality.hpp"
 #include "surface/surface_mesher.hpp"
-#include "tests/geometry/cad_shapes.hpp"
-#include "tests/geometry/prisms.hpp"
+#include "tests/cad/cad_shapes.hpp"
+#include "tests/cad/prisms.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Model;
+using cad::Model;
 using geometry::Vec3;
 
 constexpr double sharp_degrees = 12;
@@ -23,7 +23,7 @@ constexpr double sharp_degrees = 12;
 /// A right triangle whose corner at the origin is sharp, drawn out along y.
 Model sharp_prism() {
   const double height = 3 * std::tan(sharp_degrees * std::numbers::pi / 180);
-  return geometry::shapes::prepare_fluid(geometry::shapes::prism({{0, 0}, {3, 0}, {3, height}}, 1)).model;
+  return cad::shapes::prepare_fluid(cad::shapes::prism({{0, 0}, {3, 0}, {3, height}}, 1)).model;
 }
 
 sizing::SizeField field_of(const Model& model) {
@@ -43,7 +43,7 @@ TEST(SharpCorners, AreFoundWithEqualLegs) {
     EXPECT_GT(corner.leg, 0.05);
     EXPECT_LT(corner.leg, 0.3);
     const Vec3 vertex = model.vertex(corner.vertex);
-    for (const geometry::EdgeEnd& end : corner.ends) {
+    for (const cad::EdgeEnd& end : corner.ends) {
       const auto chain = curves.chain(model, end.edge);
       const CurveVertex second = end.first ? chain[1] : chain[chain.size() - 2];
       EXPECT_NEAR(distance(curves.points[second], vertex), corner.leg, 1e-9);

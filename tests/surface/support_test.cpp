@@ -1,6 +1,6 @@
 #include "surface/support.hpp"
 
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
 #include "surface/support_topology.hpp"
 #include "tests/surface/face_fixture.hpp"
 
@@ -11,9 +11,9 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::make_primitive_domain;
-using geometry::Model;
-using geometry::PrimitiveKind;
+using cad::make_primitive_domain;
+using cad::Model;
+using cad::PrimitiveKind;
 using geometry::Vec3;
 using testing::curves_of;
 using testing::facets_of;
@@ -22,15 +22,15 @@ using testing::uniform_field;
 struct Built {
   Support support;
   FaceVertices vertices;
-  std::vector<SupportHalfEdge> twins;
+  std::vector<geometry::HalfEdge> twins;
   std::int64_t euler = 0;
   std::size_t loops = 0;
 };
 
-Built build(const Model& model, geometry::FaceId face, const CurveMesh& curves) {
+Built build(const Model& model, cad::FaceId face, const CurveMesh& curves) {
   Built built;
   built.support = build_support(model, face, curves, facets_of(model, face), built.vertices);
-  built.twins = match_half_edges(built.support.triangles);
+  built.twins = geometry::match_half_edges(built.support.triangles);
   const auto open = std::count(built.twins.begin(), built.twins.end(), -1);
   built.euler = static_cast<std::int64_t>(built.support.points.size()) -
                 (static_cast<std::int64_t>(built.twins.size()) + open) / 2 +
@@ -90,7 +90,7 @@ TEST(Support, CylinderHasATubeAndTwoDisks) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const CurveMesh curves = curves_of(model, uniform_field(model, 0.05));
   double area = 0;
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const Built built = build(model, f, curves);
     EXPECT_EQ(built.loops, model.is_planar(f) ? 1u : 2u);
     EXPECT_EQ(built.euler, model.is_planar(f) ? 1 : 0);
@@ -105,7 +105,7 @@ TEST(Support, MeshVerticesDivideCoarseFacets) {
   // Sizes far below the facets: each side of a box face has two triangles at most and 200 mesh vertices.
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const CurveMesh curves = curves_of(model, uniform_field(model, 0.005));
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const Built built = build(model, f, curves);
     EXPECT_EQ(built.support.loop_edges.size(), 800u);
     EXPECT_EQ(built.euler, 1);
@@ -119,8 +119,8 @@ TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
   // it.
   const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.radius = 0.25, .height = 0.004});
   const CurveMesh curves = curves_of(model, uniform_field(model, 0.002));
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
-    const geometry::Facets coarse = model.facets(f, 0.05, 1.2);
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    const cad::Facets coarse = model.facets(f, 0.05, 1.2);
     FaceVertices vertices;
     const Support support = build_support(model, f, curves, coarse, vertices);
     for (std::size_t t = 0; t < support.triangles.size(); ++t) {
@@ -135,7 +135,7 @@ TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
 TEST(Support, FacetNodesBetweenMeshVerticesRemain) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const CurveMesh curves = curves_of(model, uniform_field(model, 10));
-  for (geometry::FaceId f = 0; f < model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const Built built = build(model, f, curves);
     EXPECT_EQ(built.support.loop_edges.size(), 4 * built.loops);
     EXPECT_GT(std::count(built.twins.begin(), built.twins.end(), -1), 20 * static_cast<long>(built.loops));
@@ -150,7 +150,8 @@ TEST(SupportTopology, PinchedBoundaryFallsApartIntoFans) {
   support.triangles = {{0, 1, 2}, {2, 3, 4}};
   support.corner_uv.resize(2);
   support.mesh_vertex = {0, 1, 2, 3, 4};
-  const Support apart = separate_parts(support, match_half_edges(support.triangles), {0, 0}, 1).front();
+  const Support apart =
+      separate_parts(support, geometry::match_half_edges(support.triangles), {0, 0}, 1).front();
   EXPECT_EQ(apart.points.size(), 6u);
   EXPECT_EQ(std::count(apart.mesh_vertex.begin(), apart.mesh_vertex.end(), 2), 2);
   EXPECT_EQ(apart.loop_edges.size(), 6u);
@@ -171,7 +172,7 @@ TEST(SupportTopology, DividedEdgesKeepAreaAndConformity) {
   EXPECT_EQ(support.triangles.size(), 7u);
   EXPECT_EQ(former.size(), 7u);
   EXPECT_NEAR(support_area(support), 1, 1e-15);
-  const auto twins = match_half_edges(support.triangles);
+  const auto twins = geometry::match_half_edges(support.triangles);
   EXPECT_EQ(std::count(twins.begin(), twins.end(), -1), 5);
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {

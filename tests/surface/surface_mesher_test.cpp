@@ -1,8 +1,8 @@
 /// The whole surface stage on analytic shapes, on any number of ranks.
 #include "surface/surface_mesher.hpp"
 
-#include "geometry/domain.hpp"
-#include "geometry/primitives.hpp"
+#include "cad/builtin/primitives.hpp"
+#include "cad/domain/domain.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "surface/curves.hpp"
@@ -16,19 +16,18 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::PrimitiveKind;
+using cad::PrimitiveKind;
 using parallel::Communicator;
 
 /// A model with its surface meshed at `angle` degrees per element.
 struct Meshed {
-  geometry::Model model;
+  cad::Model model;
   sizing::SizeField field;
   SurfaceMesh surface;
   mesh::Numbering numbering;
 };
 
-Meshed mesh_model(const Communicator& communicator, const geometry::Model& model, double angle,
-                  double maximum) {
+Meshed mesh_model(const Communicator& communicator, const cad::Model& model, double angle, double maximum) {
   parallel::StageClock clock;
   const sizing::SizingOptions sizes{
       .minimum = 1e-3, .maximum = maximum, .curvature_angle = angle, .growth = 1.3};
@@ -60,7 +59,7 @@ std::vector<double> face_areas(const Communicator& communicator, const Meshed& m
 
 TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
   const Communicator world = Communicator::world();
-  const geometry::Model model = geometry::make_primitive_domain(PrimitiveKind::sphere, {.radius = 0.5});
+  const cad::Model model = cad::make_primitive_domain(PrimitiveKind::sphere, {.radius = 0.5});
   const double exact = std::numbers::pi / 6;
   for (const double degrees : {12.0, 8.0, 5.0}) {
     const Meshed meshed = mesh_model(world, model, degrees, 1);
@@ -75,7 +74,7 @@ TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
 TEST(SurfaceMesher, ChordalDeviationIsBounded) {
   const Communicator world = Communicator::world();
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::cylinder}) {
-    const geometry::Model model = geometry::make_primitive_domain(kind, {.radius = 1, .height = 1});
+    const cad::Model model = cad::make_primitive_domain(kind, {.radius = 1, .height = 1});
     for (const double wanted : {1e-2, 1e-3}) {
       parallel::StageClock clock;
       sizing::SizingOptions sizes{.minimum = 1, .maximum = 1, .curvature_angle = 60, .growth = 1.3};
@@ -103,15 +102,15 @@ class SurfaceShapes : public testing::TestWithParam<PrimitiveKind> {};
 
 TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
   const Communicator world = Communicator::world();
-  const Meshed meshed = mesh_model(world, geometry::make_primitive_domain(GetParam()), 5, 0.1);
+  const Meshed meshed = mesh_model(world, cad::make_primitive_domain(GetParam()), 5, 0.1);
   const auto report = mesh::check_surface_mesh(world, meshed.surface.mesh, meshed.numbering);
   ASSERT_TRUE(report.valid()) << report.violations.front();
   const std::vector<double> areas = face_areas(world, meshed);
-  for (geometry::FaceId f = 0; f < meshed.model.face_count(); ++f) {
+  for (cad::FaceId f = 0; f < meshed.model.face_count(); ++f) {
     const double exact = meshed.model.face_area(f);
     bool straight = meshed.model.is_planar(f);
     for (const auto& loop : meshed.model.face(f).loops) {
-      for (const geometry::EdgeUse& use : loop)
+      for (const cad::EdgeUse& use : loop)
         straight = straight && meshed.model.edge_curvature(use.edge, 0.5) == 0;
     }
     EXPECT_NEAR(areas[f], exact, (straight ? 1e-12 : 5e-3) * exact) << meshed.model.face(f).name;
@@ -128,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapes,
 /// The same pieces come out alone, in another order, and in the run of all: no piece knows of any other.
 TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  const Meshed meshed = mesh_model(world, geometry::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
+  const Meshed meshed = mesh_model(world, cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
   parallel::StageClock clock;
   const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field, clock);
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
@@ -141,7 +140,7 @@ TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
 
 TEST(SurfaceMesher, HashDoesNotDependOnRanks) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  const geometry::Model model = geometry::make_primitive_domain(PrimitiveKind::box_with_sphere);
+  const cad::Model model = cad::make_primitive_domain(PrimitiveKind::box_with_sphere);
   const Meshed together = mesh_model(world, model, 8, 0.1), alone = mesh_model(self, model, 8, 0.1);
   EXPECT_EQ(mesh::hash_mesh(world, together.surface.mesh, together.numbering),
             mesh::hash_mesh(self, alone.surface.mesh, alone.numbering));

@@ -89,7 +89,7 @@ Vec3 place_in_space(const Lattice& lattice, const Place& place) {
 
 /// Where a slot of a leaf stands, by what the header says of slots.
 Place place_of_slot(const LatticeTree& tree, BlockIndex b, int slot) {
-  const GridCell leaf = tree.leaf(b, slot / slots_per_leaf);
+  const GridCube leaf = tree.leaf(b, slot / slots_per_leaf);
   const int in_leaf = slot % slots_per_leaf;
   const std::set<int> middles[8] = {{}, {0}, {1}, {2}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}};
   Place place{2 * std::int64_t{leaf.low.x}, 2 * std::int64_t{leaf.low.y}, 2 * std::int64_t{leaf.low.z}};
@@ -217,7 +217,7 @@ TEST_P(WithinReach, are_all_triangles_that_points_need) {
       std::set<std::int32_t> known;
       for (BlockIndex b = first; b < last; ++b) {
         const double reach = reach_of_block(made.source(), b);
-        tree.for_each_block_in(GridBox::of(tree.cell(b)).dilated(reach), [&](BlockIndex n) {
+        tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(reach), [&](BlockIndex n) {
           known.insert(of_blocks.of(n).begin(), of_blocks.of(n).end());
         });
       }

@@ -30,7 +30,7 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
       continue;
     }
     ++counts[around.regions[b] + 1];
-    const GridBox box = GridBox::of(lattice.tree.cell(b));
+    const GridBox box = GridBox::of(lattice.tree.cube(b));
     const Vec3 size = box.high - box.low;
     for (int k = 0; k < 9; ++k) {
       const Vec3 part = k == 8 ? Vec3{0.5, 0.5, 0.5}

@@ -39,7 +39,7 @@ struct Divided {
     const LatticeTree& tree = lattice.tree;
     double size = 0;
     for (BlockIndex n = 0; n < tree.block_count(); ++n) {
-      if (!GridBox::of(tree.cell(n)).overlaps(GridBox::of(tree.cell(b)))) continue;
+      if (!GridBox::of(tree.cube(n)).overlaps(GridBox::of(tree.cube(b)))) continue;
       size = std::max({size, mean_edge_of_cell * lattice.frame.edge(tree.leaf_level(n)),
                        double{lattice.table.longest_edge[n]}});
     }

@@ -164,7 +164,7 @@ struct Grown {
         tree(communicator, frame, field, wanted, clock) {}
 
   /// Whether sizes ask for a cell to be split.
-  bool is_too_coarse(const GridCell& cell) const {
+  bool is_too_coarse(const GridCube& cell) const {
     if (!GridBox::of(cell).overlaps(wanted)) return false;
     const double half = 0.5 * cell.edge();
     const double size = field(frame.to_space(GridBox::of(cell).low + Vec3{half, half, half}));
@@ -182,12 +182,12 @@ TEST(LatticeTree, fills_the_root_along_the_curve) {
   for (const Grown& grown : {Grown(graded()), Grown(steep())}) {
     std::uint64_t next = 0;
     for (BlockIndex b = 0; b < grown.tree.block_count(); ++b) {
-      const GridCell cell = grown.tree.cell(b);
+      const GridCube cell = grown.tree.cube(b);
       EXPECT_EQ(sizing::morton_key(cell.low), next);
       next += std::uint64_t{cell.edge()} * cell.edge() * cell.edge();
       double volume = 0;
       for (int child = 0; child < grown.tree.leaf_count(b); ++child) {
-        const GridCell leaf = grown.tree.leaf(b, child);
+        const GridCube leaf = grown.tree.leaf(b, child);
         EXPECT_EQ(leaf.level, grown.tree.leaf_level(b));
         volume += std::pow(leaf.edge(), 3);
       }
@@ -225,12 +225,12 @@ TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
   int split = 0;
   for (const LeafOfBlock& leaf : leaves) EXPECT_FALSE(grown.is_too_coarse(leaf.cell));
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    if (tree.leaf_count(b) != 8 || grown.is_too_coarse(tree.cell(b))) continue;
+    if (tree.leaf_count(b) != 8 || grown.is_too_coarse(tree.cube(b))) continue;
     ++split;
-    const GridBox box = GridBox::of(tree.cell(b));
+    const GridBox box = GridBox::of(tree.cube(b));
     EXPECT_TRUE(std::any_of(leaves.begin(), leaves.end(),
                             [&](const LeafOfBlock& leaf) {
-                              return leaf.cell.level >= tree.cell(b).level + 2 &&
+                              return leaf.cell.level >= tree.cube(b).level + 2 &&
                                      GridBox::of(leaf.cell).overlaps(box);
                             }))
         << "block " << b << " is split without need";
@@ -277,7 +277,7 @@ TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
     ASSERT_EQ(shared.tree.block_count(), alone.tree.block_count());
     std::uint64_t mixed = 0;
     for (BlockIndex b = 0; b < alone.tree.block_count(); ++b) {
-      const GridCell cell = alone.tree.cell(b), same = shared.tree.cell(b);
+      const GridCube cell = alone.tree.cube(b), same = shared.tree.cube(b);
       ASSERT_EQ(sizing::morton_key(cell.low), sizing::morton_key(same.low));
       ASSERT_EQ(cell.level, same.level);
       ASSERT_EQ(alone.tree.leaf_count(b), shared.tree.leaf_count(b));
@@ -319,7 +319,7 @@ TEST(LatticeTree, knows_which_cells_are_split) {
     EXPECT_FALSE(grown.tree.is_split(leaf.cell));
     for (int level = 0; level < leaf.cell.level; ++level) {
       const std::uint32_t mask = ~((sizing::grid_size >> level) - 1);
-      const GridCell above{{leaf.cell.low.x & mask, leaf.cell.low.y & mask, leaf.cell.low.z & mask}, level};
+      const GridCube above{{leaf.cell.low.x & mask, leaf.cell.low.y & mask, leaf.cell.low.z & mask}, level};
       EXPECT_TRUE(grown.tree.is_split(above));
     }
     EXPECT_FALSE(grown.tree.is_split({leaf.cell.low, leaf.cell.level + 1}));
@@ -338,7 +338,7 @@ TEST(LatticeTree, visits_the_blocks_in_a_box) {
     if (box.high.x < 0 || box.high.y < 0 || box.high.z < 0) continue;
     std::vector<BlockIndex> expected, found;
     for (BlockIndex b = 0; b < grown.tree.block_count(); ++b) {
-      if (GridBox::of(grown.tree.cell(b)).overlaps(box)) expected.push_back(b);
+      if (GridBox::of(grown.tree.cube(b)).overlaps(box)) expected.push_back(b);
     }
     grown.tree.for_each_block_in(box, [&](BlockIndex b) { found.push_back(b); });
     EXPECT_EQ(found, expected);
@@ -361,10 +361,10 @@ TEST(LatticeTree, visits_the_neighbours_of_a_block) {
   const Grown grown(fields::around_unit_sphere(0.15, 0.9));
   const LatticeTree& tree = grown.tree;
   for (BlockIndex b = 0; b < tree.block_count(); b += 7) {
-    const GridBox box = GridBox::of(tree.cell(b));
+    const GridBox box = GridBox::of(tree.cube(b));
     std::vector<BlockIndex> expected, found;
     for (BlockIndex n = 0; n < tree.block_count(); ++n) {
-      if (GridBox::of(tree.cell(n)).overlaps(box)) expected.push_back(n);
+      if (GridBox::of(tree.cube(n)).overlaps(box)) expected.push_back(n);
     }
     tree.for_each_block_in(box.dilated(0.5), [&](BlockIndex n) { found.push_back(n); });
     EXPECT_EQ(found, expected);

@@ -104,7 +104,7 @@ struct Surroundings {
 struct LeafOfBlock {
   BlockIndex block;
   int child;
-  GridCell cell;
+  GridCube cell;
 };
 inline std::vector<LeafOfBlock> all_leaves(const LatticeTree& tree) {
   std::vector<LeafOfBlock> leaves;

@@ -50,7 +50,7 @@ TEST(SurfaceTable, knows_the_longest_edge_that_meets_each_block) {
   const std::vector<SurfaceTriangle> triangles = surfaces::numbered_triangles(shared.surface);
   int met = 0, free = 0;
   for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
-    const GridBox box = GridBox::of(lattice.tree.cell(b));
+    const GridBox box = GridBox::of(lattice.tree.cube(b));
     float longest = 0;
     for (const SurfaceTriangle& t : triangles) {
       geometry::Box corners;
@@ -73,7 +73,7 @@ TEST(SurfaceTable, counts_each_triangle_in_the_block_of_its_centre) {
   for (const SurfaceTriangle& t : surfaces::numbered_triangles(shared.surface)) {
     const Vec3 center = lattice.frame.to_grid((1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]));
     for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
-      const GridBox box = GridBox::of(lattice.tree.cell(b));
+      const GridBox box = GridBox::of(lattice.tree.cube(b));
       const auto within = [&](int axis) {
         return center[axis] >= box.low[axis] && center[axis] < box.high[axis];
       };
@@ -148,7 +148,7 @@ TEST(DeliverSurface, brings_what_is_within_reach) {
         for (double v = 0; u + v <= 1 && !is_near; v += step) {
           const Vec3 p = lattice.frame.to_grid(u * t.points[0] + v * t.points[1] + (1 - u - v) * t.points[2]);
           for (BlockIndex b = lattice.first(world); b < lattice.last(world) && !is_near; ++b)
-            is_near = GridBox::of(lattice.tree.cell(b)).gap_to({p, p}) <= reach;
+            is_near = GridBox::of(lattice.tree.cube(b)).gap_to({p, p}) <= reach;
         }
       }
       needed += is_near;
@@ -219,7 +219,7 @@ TEST(TrianglesOfBlocks, lists_those_whose_box_meets_a_block) {
   for (BlockIndex b = first; b < last; ++b) {
     std::vector<std::int32_t> expected;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (GridBox::of(lattice.tree.cell(b)).overlaps(grid_box(lattice.frame, triangles[t].points)))
+      if (GridBox::of(lattice.tree.cube(b)).overlaps(grid_box(lattice.frame, triangles[t].points)))
         expected.push_back(static_cast<std::int32_t>(t));
     }
     const auto found = of_blocks.of(b);

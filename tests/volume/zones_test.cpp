@@ -32,7 +32,7 @@ struct Tree {
     return result;
   }
   Vec3 center_of(BlockIndex b) const {
-    const GridBox box = GridBox::of(tree.cell(b));
+    const GridBox box = GridBox::of(tree.cube(b));
     return frame.to_space(0.5 * (box.low + box.high));
   }
 

@@ -1,0 +1,208 @@
+#include "cad/builtin/transport.hpp"
+
+#include "cad/builtin/transport_parts.hpp"
+#include "cad/model/named_shape.hpp"
+#include "cad/model/occ_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Solid.hxx>
+#include <fmt/format.h>
+#include <gp_Ax2.hxx>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr double sewing_tolerance = 1e-6;
+/// How deep a root section lies inside the fuselage, at least, in fuselage diameters.
+constexpr double least_depth = 0.005;
+
+void require(bool holds, const std::string& dimension, const char* rule, double value) {
+  if (!holds) throw CadError(fmt::format("transport: {} must {}, but it is {}", dimension, rule, value));
+}
+
+void check_surface(const std::string& name, const LiftingSurface& s) {
+  require(s.root_chord > 0, name + ".root_chord", "be positive", s.root_chord);
+  require(s.taper > 0 && s.taper <= 1, name + ".taper", "lie in (0, 1]", s.taper);
+  require(s.half_span > 0, name + ".half_span", "be positive", s.half_span);
+  require(std::abs(s.sweep) < 75, name + ".sweep", "lie within 75 degrees", s.sweep);
+  require(std::abs(s.dihedral) < 60, name + ".dihedral", "lie within 60 degrees", s.dihedral);
+  require(s.thickness > 0 && s.thickness <= 0.4, name + ".thickness", "lie in (0, 0.4]", s.thickness);
+  require(std::abs(s.camber) <= 0.1, name + ".camber", "lie within 0.1", s.camber);
+  require(std::abs(s.root_incidence) < 30, name + ".root_incidence", "lie within 30 degrees",
+          s.root_incidence);
+  require(std::abs(s.tip_incidence) < 30, name + ".tip_incidence", "lie within 30 degrees", s.tip_incidence);
+  require(s.trailing_edge >= 0 && s.trailing_edge < s.thickness, name + ".trailing_edge",
+          "be at least 0 and below the thickness", s.trailing_edge);
+}
+
+void check_dimensions(const TransportDimensions& d) {
+  require(d.fuselage_diameter > 0, "fuselage_diameter", "be positive", d.fuselage_diameter);
+  require(d.nose_length >= 0.5 * d.fuselage_diameter, "nose_length", "be at least half the fuselage_diameter",
+          d.nose_length);
+  require(d.tail_length >= d.fuselage_diameter, "tail_length", "be at least the fuselage_diameter",
+          d.tail_length);
+  require(d.fuselage_length >= d.nose_length + d.tail_length + d.fuselage_diameter, "fuselage_length",
+          "leave a cabin of a fuselage_diameter between nose and tail", d.fuselage_length);
+  require(std::abs(d.tail_upsweep) <= 0.5 * d.fuselage_diameter, "tail_upsweep",
+          "lie within half the fuselage_diameter", d.tail_upsweep);
+  check_surface("wing", d.wing);
+  check_surface("horizontal_tail", d.horizontal_tail);
+  check_surface("vertical_tail", d.vertical_tail);
+  const LiftingSurface& fin = d.vertical_tail;
+  for (const auto& [name, value] :
+       {std::pair("dihedral", fin.dihedral), std::pair("camber", fin.camber),
+        std::pair("root_incidence", fin.root_incidence), std::pair("tip_incidence", fin.tip_incidence)}) {
+    require(value == 0, fmt::format("vertical_tail.{}", name), "be 0, the aircraft being symmetric", value);
+  }
+}
+
+double least_section_depth(const Fuselage& fuselage, const Lifting& lifting, double station) {
+  double least = 1e300;
+  for (const Vec3 p : lifting.section(station)) least = std::min(least, fuselage.depth(p));
+  return least;
+}
+
+/// A station whose whole section lies inside the fuselage and off the plane of symmetry, where the other half
+/// begins.
+double find_inner_station(const std::string& name, const Fuselage& fuselage, const Lifting& lifting,
+                          const std::vector<double>& candidates, const TransportDimensions& d) {
+  for (const double station : candidates) {
+    if (least_section_depth(fuselage, lifting, station) > least_depth * d.fuselage_diameter) return station;
+  }
+  throw CadError(
+      fmt::format("transport: {0}.x, {0}.z and {0}.root_chord must put the root inside the fuselage", name));
+}
+
+void check_tip_outside(const std::string& name, const Fuselage& fuselage, const Lifting& lifting,
+                       double half_span) {
+  for (const Vec3 p : lifting.section(half_span)) {
+    require(fuselage.depth(p) < 0, name + ".half_span", "put the tip outside the fuselage", half_span);
+  }
+}
+
+Part mirror(const Part& part, const std::string& from, const std::string& to) {
+  gp_Trsf reflection;
+  reflection.SetMirror(gp_Ax2(gp::Origin(), gp::DY()));
+  BRepBuilderAPI_Transform transform(part.solid, reflection, Standard_True);
+  Part result{transform.Shape(), {}};
+  for (const NamedFace& face : part.faces) {
+    std::string name = face.name;
+    name.replace(name.find(from), from.size(), to);
+    result.faces.push_back({TopoDS::Face(transform.ModifiedShape(face.face)), name});
+  }
+  return result;
+}
+
+double volume(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+std::vector<Part> make_parts(const TransportDimensions& d) {
+  const Fuselage fuselage(d);
+  const double radius = 0.5 * d.fuselage_diameter;
+  const std::vector<double> beside{0.35 * radius, 0.2 * radius, 0.1 * radius};
+  std::vector<Part> parts{fuselage.make_part()};
+  const auto add_halves = [&](const std::string& name, const LiftingSurface& surface) {
+    const Lifting lifting(surface, SpreadTo::right);
+    const double inner = find_inner_station(name, fuselage, lifting, beside, d);
+    check_tip_outside(name, fuselage, lifting, surface.half_span);
+    parts.push_back(lifting.make_part(name + "_right", inner));
+    parts.push_back(mirror(parts.back(), "_right", "_left"));
+  };
+  add_halves("wing", d.wing);
+  add_halves("horizontal_tail", d.horizontal_tail);
+  const Lifting fin(d.vertical_tail, SpreadTo::up);
+  const double inner = find_inner_station("vertical_tail", fuselage, fin, {0.0}, d);
+  check_tip_outside("vertical_tail", fuselage, fin, d.vertical_tail.half_span);
+  parts.push_back(fin.make_part("vertical_tail", inner));
+  return parts;
+}
+
+/// Checks what a boolean operation that reports success may still have got wrong.
+void check_union(const TopoDS_Shape& shape, const std::vector<Part>& parts) {
+  double sum = 0;
+  for (const Part& part : parts) sum += volume(part.solid);
+  const double total = volume(shape), fuselage = volume(parts.front().solid);
+  if (!(total > fuselage && total < sum) || !BRepCheck_Analyzer(shape).IsValid()) {
+    throw CadError(
+        fmt::format("transport: the dimensions do not unite to one valid body (fuselage {:.6g} m^3, sum of "
+                    "parts {:.6g} m^3, union {:.6g} m^3)",
+                    fuselage, sum, total));
+  }
+}
+
+NamedShape unite(const std::vector<Part>& parts) {
+  TopTools_ListOfShape arguments, tools;
+  arguments.Append(parts.front().solid);
+  for (std::size_t i = 1; i < parts.size(); ++i) tools.Append(parts[i].solid);
+  BRepAlgoAPI_Fuse fuse;
+  fuse.SetArguments(arguments);
+  fuse.SetTools(tools);
+  fuse.Build();
+  TopExp_Explorer solids(fuse.Shape(), TopAbs_SOLID);
+  if (fuse.HasErrors() || !solids.More()) throw CadError("transport: the parts cannot be united");
+  NamedShape result;
+  result.shape = solids.Current();
+  solids.Next();
+  if (solids.More()) throw CadError("transport: the parts do not form one body");
+  check_union(result.shape, parts);
+  for (const Part& part : parts) {
+    for (const NamedFace& face : part.faces) {
+      const TopTools_ListOfShape& modified = fuse.Modified(face.face);
+      for (const TopoDS_Shape& piece : modified)
+        result.labels.Bind(piece, {face.name, "", "", "transport", false});
+      if (modified.IsEmpty() && !fuse.IsDeleted(face.face)) {
+        result.labels.Bind(face.face, {face.name, "", "", "transport", false});
+      }
+    }
+  }
+  result.unit_name.assign(1, 'm');
+  result.unit_in_metres = 1;
+  return result;
+}
+
+}  // namespace
+
+TopoDS_Face whole_face(const Handle(Geom_Surface) & surface) {
+  return BRepBuilderAPI_MakeFace(surface, sewing_tolerance);
+}
+
+Part sew_part(const std::vector<NamedFace>& faces) {
+  BRepBuilderAPI_Sewing sewing(sewing_tolerance);
+  for (const NamedFace& face : faces) sewing.Add(face.face);
+  sewing.Perform();
+  if (sewing.SewedShape().IsNull() || sewing.SewedShape().ShapeType() != TopAbs_SHELL ||
+      sewing.NbFreeEdges() > 0) {
+    throw CadError(fmt::format("transport: the faces of {} do not close", faces.front().name));
+  }
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
+  BRepLib::OrientClosedSolid(solid);
+  Part part{solid, {}};
+  for (const NamedFace& face : faces) {
+    part.faces.push_back({TopoDS::Face(sewing.ModifiedSubShape(face.face)), face.name});
+  }
+  return part;
+}
+
+NamedShape make_transport(const TransportDimensions& dimensions) {
+  check_dimensions(dimensions);
+  return guarded("building the transport aircraft", [&] { return unite(make_parts(dimensions)); });
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,25 @@
+/// What boolean operations have in common. Seen by this folder only.
+#pragma once
+
+#include "cad/model/named_shape.hpp"
+
+#include <vector>
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <TopoDS_Solid.hxx>
+
+namespace aeroloom::cad {
+
+/// What the CAD library's volumes of trimmed spline solids are good for, relative; an operation gone wrong is
+/// off by a body.
+inline constexpr double integration_error = 2e-3;
+
+/// Builds an operation whose arguments are set. Throws CadError when the CAD library reports failure; `doing`
+/// says what was tried.
+void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing);
+
+/// Gives faces that an operation made of the arguments' faces the labels of those.
+void follow_labels(BRepBuilderAPI_MakeShape& operation, const std::vector<TopoDS_Solid>& arguments,
+                   FaceLabels& labels);
+
+}  // namespace aeroloom::cad

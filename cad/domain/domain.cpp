@@ -1,0 +1,119 @@
+#include "cad/domain/domain.hpp"
+
+#include "cad/domain/domain_kind.hpp"
+#include "cad/domain/far_field.hpp"
+#include "cad/model/occ_guard.hpp"
+#include "cad/read/cad_reader.hpp"
+#include "cad/read/export.hpp"
+#include "cad/repair/heal.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+NamedShape read_source(const DomainOptions& options) {
+  if (options.transport) return make_transport(*options.transport);
+  return read_cad_file(options.file);
+}
+
+/// Gaps that elements would show are the user's to close.
+double largest_sewing_tolerance(const DomainOptions& options) {
+  constexpr double share_of_size = 0.1;
+  return options.smallest_size > 0 ? share_of_size * options.smallest_size
+                                   : std::numeric_limits<double>::infinity();
+}
+
+HullComparison compare(const NamedShape& solids, Volumes& volumes) {
+  return compare_with_hull(build_model(solids, tag_faces(solids, DomainKind::body, nullptr)),
+                           volumes.of(solids.shape));
+}
+
+/// `hull` receives the comparison where one was made.
+KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids, Volumes& volumes,
+                         std::optional<HullComparison>& hull) {
+  if (options.kind != DomainKind::automatic) return {options.kind, "as requested"};
+  if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
+  if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
+  hull = compare(solids, volumes);
+  return decide_kind(*hull);
+}
+
+/// `hull` compares the solids as they are; joined ones have other faces.
+Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, Volumes& volumes, Changes& changes) {
+  const bool single = solids_of(solids.shape).size() == 1;
+  const NamedShape fluid = join_regions(std::move(solids), volumes, changes);
+  if (!hull || !single) hull = compare(fluid, volumes);
+  return build_model(fluid, tag_faces(fluid, DomainKind::fluid, &*hull));
+}
+
+Model build_around_bodies(NamedShape solids, const FarFieldOptions& far_field, Volumes& volumes,
+                          Changes& changes) {
+  const NamedShape fluid =
+      surround(unite_bodies(std::move(solids), volumes, changes), far_field, volumes, changes);
+  return build_model(fluid, tag_faces(fluid, DomainKind::body, nullptr));
+}
+
+double largest_extent(Vec3 size) {
+  return std::max({size.x, size.y, size.z});
+}
+
+/// Triangulates every face coarsely, where nobody did: what the CAD library cannot triangulate is found here,
+/// where a crash is contained.
+void try_facets(const Model& model) {
+  for (FaceId f = 0; f < model.face_count(); ++f) model.facets(f, 0.01 * model.bounds().diagonal(), 0.6);
+}
+
+Domain prepare(const DomainOptions& options) {
+  DomainReport report;
+  Volumes volumes;
+  NamedShape solids =
+      make_solids(read_source(options), largest_sewing_tolerance(options), volumes, report.changes);
+  std::optional<HullComparison> hull;
+  const KindDecision decision = choose_kind(options, solids, volumes, hull);
+  report.kind = decision.kind;
+  report.reason = decision.reason;
+  Model model = report.kind == DomainKind::fluid
+                    ? build_fluid(std::move(solids), hull, volumes, report.changes)
+                    : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
+                                          volumes, report.changes);
+  if (!hull) try_facets(model);
+  report.reference_length = largest_extent(model.body_bounds().size());
+  return {std::move(model), std::move(report)};
+}
+
+std::string source_name(const DomainOptions& options) {
+  return options.transport ? "the built-in aircraft" : fmt::format("'{}'", options.file);
+}
+
+/// Errors below know the entity, not the file.
+template <class Action>
+auto with_source(const DomainOptions& options, Action&& action) {
+  const std::string source = source_name(options);
+  try {
+    return guarded("preparing the domain", std::forward<Action>(action));
+  } catch (const CadError& error) {
+    const std::string text = error.what();
+    if (text.find(source) != std::string::npos) throw;
+    throw CadError(source + ": " + text);
+  }
+}
+
+}  // namespace
+
+Domain prepare_domain(const DomainOptions& options) {
+  return with_source(options, [&] { return prepare(options); });
+}
+
+void export_step(const DomainOptions& options, const std::string& file) {
+  with_source(options, [&] {
+    Changes changes;
+    Volumes volumes;
+    write_step(make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes), file);
+  });
+}
+
+}  // namespace aeroloom::cad

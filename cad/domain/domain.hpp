@@ -1,0 +1,76 @@
+/// From a file or a built-in shape to the fluid domain to mesh.
+#pragma once
+
+#include "cad/builtin/transport.hpp"
+#include "cad/model/model.hpp"
+#include "cad/repair/change.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// Whether the file's solids are the fluid, or bodies in a far field.
+enum class DomainKind { automatic, fluid, body };
+
+enum class FarFieldShape { sphere, box, hemisphere, cylinder };
+enum class Axis { x, y, z };
+
+/// How a half model's plane of symmetry is found. `automatic`: none, except for the hemisphere, where it is
+/// the plane y = 0 the body is symmetric about, or else the coordinate plane it ends at.
+enum class Symmetry { automatic, none, x, y, z };
+
+/// The far field around a body. Its reference length is the largest extent of the body's box.
+struct FarFieldOptions {
+  FarFieldShape shape = FarFieldShape::sphere;
+  double extent = 10;   ///< distance from the body's centre to the far field, in reference lengths; for box
+                        ///< and cylinder: from the centre to each side and end
+  Axis axis = Axis::x;  ///< of the cylinder
+  /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
+  /// on the positive side is kept; the far field is cut to the same half.
+  Symmetry symmetry = Symmetry::automatic;
+  std::optional<double> symmetry_position =
+      {};  ///< of the plane on its axis; default: where the body ends, or 0
+};
+
+struct DomainOptions {
+  std::string file;  ///< STEP, IGES or BREP, by content and extension; empty for `transport`
+  std::optional<TransportDimensions> transport;  ///< the built-in aircraft
+  DomainKind kind = DomainKind::automatic;
+  std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
+  double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
+  /// What a contained run does before its work; for tests of containment.
+  enum class Sabotage : std::uint8_t {
+    none,
+    throws,
+    aborts,
+    hangs,
+    exhausts_memory
+  } sabotage = Sabotage::none;
+};
+
+/// What was read and what was done with it, for log and report.
+struct DomainReport {
+  DomainKind kind = DomainKind::automatic;  ///< as decided
+  std::string reason;                       ///< why, when it was decided here
+  double reference_length = 0;              ///< of the body (or the domain)
+  Changes changes;                          ///< every repair: what, where, how much
+};
+
+struct Domain {
+  Model model;
+  DomainReport report;
+};
+
+/// Reads, heals and builds the domain. Not collective: one rank calls it and broadcasts model.serialise().
+/// Closed shells become solids; faces that belong to no solid are dropped and listed. Throws CadError for
+/// what cannot be meshed: unreadable files, open shells, a far field that cuts the body, a boolean operation
+/// whose volume does not add up; std::ios_base::failure when the file cannot be opened.
+Domain prepare_domain(const DomainOptions& options);
+
+/// Writes the model's shape, before any far field, with names, as STEP.
+void export_step(const DomainOptions& options, const std::string& file);
+
+}  // namespace aeroloom::cad

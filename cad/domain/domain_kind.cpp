@@ -1,0 +1,166 @@
+#include "cad/domain/domain_kind.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr int direction_count = 200;
+constexpr double fluid_fill = 0.85;
+constexpr double hull_tolerance = 0.02;
+constexpr double inner_reach = 0.1;
+
+/// Directions spread evenly over the sphere (Fibonacci's spiral), the axes first: boxes are common.
+std::vector<Vec3> spread_directions() {
+  std::vector<Vec3> directions{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < direction_count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / direction_count;
+    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    directions.push_back({r * std::cos(turn), r * std::sin(turn), z});
+  }
+  return directions;
+}
+
+/// The half spaces dot(direction, x) <= reach that hold all points.
+struct Polytope {
+  std::vector<Vec3> directions = spread_directions();
+  std::vector<double> reach = std::vector<double>(directions.size(), -std::numeric_limits<double>::max());
+  std::vector<Vec3> extremes = std::vector<Vec3>(directions.size());  ///< a point reached in each direction
+
+  void add(Vec3 p) {
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const double height = dot(directions[i], p);
+      if (height > reach[i]) reach[i] = height, extremes[i] = p;
+    }
+  }
+  /// Distance from an inner point to the nearest half space's border.
+  double depth(Vec3 p) const {
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      least = std::min(least, reach[i] - dot(directions[i], p));
+    return least;
+  }
+  double volume(const Box& box) const;
+};
+
+double radical_inverse(int base, int index) {
+  double result = 0, weight = 1;
+  for (; index > 0; index /= base) {
+    weight /= base;
+    result += weight * (index % base);
+  }
+  return result;
+}
+
+/// Share of the box, by Halton's points.
+double Polytope::volume(const Box& box) const {
+  constexpr int samples = 20000;
+  const Vec3 size = box.size();
+  int inside = 0;
+  for (int i = 1; i <= samples; ++i) {
+    const Vec3 p = box.low + Vec3{size.x * radical_inverse(2, i), size.y * radical_inverse(3, i),
+                                  size.z * radical_inverse(5, i)};
+    inside += depth(p) >= 0;
+  }
+  return size.x * size.y * size.z * inside / samples;
+}
+
+std::vector<Facets> coarse_facets(const Model& model) {
+  std::vector<Facets> facets;
+  for (FaceId f = 0; f < model.face_count(); ++f) {
+    facets.push_back(model.facets(f, 0.005 * model.bounds().diagonal(), 0.6));
+  }
+  return facets;
+}
+
+/// How far the hull reaches beyond the facets of a face, each along its own normal: 0 for a piece of the
+/// hull.
+double distance_to_hull(const Facets& facets, const Polytope& hull) {
+  double largest = 0;
+  for (const auto& t : facets.triangles) {
+    const Vec3 a = facets.points[t[0]];
+    const Vec3 normal = normalized(cross(facets.points[t[1]] - a, facets.points[t[2]] - a));
+    for (const Vec3 p : hull.extremes) largest = std::max(largest, dot(normal, p - a));
+  }
+  return largest;
+}
+
+/// "xmin" and so on for a flat face on the box; empty otherwise.
+std::string side_of_box(const Box& face, const Box& all) {
+  static const char* const names[3][2] = {{"xmin", "xmax"}, {"ymin", "ymax"}, {"zmin", "zmax"}};
+  const double tolerance = 1e-6 * all.diagonal();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (face.high[axis] - face.low[axis] > tolerance) continue;
+    if (std::abs(face.low[axis] - all.low[axis]) <= tolerance) return names[axis][0];
+    if (std::abs(face.high[axis] - all.high[axis]) <= tolerance) return names[axis][1];
+  }
+  return {};
+}
+
+}  // namespace
+
+HullComparison compare_with_hull(const Model& solids, double volume) {
+  const std::vector<Facets> facets = coarse_facets(solids);
+  Polytope hull;
+  for (const Facets& face : facets) {
+    for (const Vec3 p : face.points) hull.add(p);
+  }
+  const double diagonal = solids.bounds().diagonal();
+  HullComparison result;
+  result.fill = volume / hull.volume(solids.bounds());
+  for (const Facets& face : facets) {
+    const double reach = distance_to_hull(face, hull) / diagonal;
+    result.on_hull.push_back(reach <= hull_tolerance);
+    result.inner_faces += reach > inner_reach;
+  }
+  return result;
+}
+
+KindDecision decide_kind(const HullComparison& hull) {
+  const bool fluid = hull.fill > fluid_fill && hull.inner_faces > 0;
+  const std::string figures = fmt::format(
+      "it fills {:.0f} % of its convex hull, and {} of its faces have much of the hull in front of them",
+      100 * hull.fill, hull.inner_faces);
+  if (fluid) return {DomainKind::fluid, "taken as the fluid: " + figures + ", as around an obstacle"};
+  return {DomainKind::body,
+          "taken as a body: " + figures +
+              fmt::format(" (a fluid fills more than {:.0f} % and has such faces)", 100 * fluid_fill)};
+}
+
+std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const HullComparison* hull) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(domain.shape, TopAbs_FACE, faces);
+  const Box all = tight_box(domain.shape);
+  const std::vector<std::vector<int>> solids = solids_around_faces(domain.shape);
+  std::vector<FaceTag> tags;
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const FaceLabel* found = domain.labels.Seek(faces(i));
+    const FaceLabel label = found ? *found : FaceLabel{};
+    FaceTag tag{label.name, label.far_field ? std::string("farfield") : label.name, label.far_field};
+    if (label.symmetry) tag.patch = "symmetry";
+    const bool fluid = kind == DomainKind::fluid;
+    const std::vector<int>& around = solids[i - 1];
+    if (tag.patch.empty() && around.size() == 2)
+      tag.patch = fmt::format("interface_{}_{}", around[0], around[1]);
+    if (tag.patch.empty() && !fluid) tag.patch = label.solid;
+    if (tag.patch.empty()) tag.patch = label.layer;
+    if (tag.patch.empty()) tag.patch = label.colour;
+    if (tag.patch.empty() && fluid) tag.patch = side_of_box(tight_box(faces(i)), all);
+    if (tag.patch.empty() && fluid && hull && hull->on_hull[i - 1]) tag.patch = "outer";
+    if (tag.patch.empty()) tag.patch = "body";
+    tags.push_back(std::move(tag));
+  }
+  return tags;
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,348 @@
+#include "cad/domain/far_field.hpp"
+
+#include "cad/domain/symmetry.hpp"
+#include "cad/model/model_data.hpp"
+#include "cad/model/step_trace.hpp"
+#include "cad/repair/heal.hpp"
+#include "cad/repair/plane_loops.hpp"
+#include "cad/repair/sewing.hpp"
+#include "cad/repair/shells.hpp"
+#include "geometry/disjoint_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include <BRepClass3d.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <fmt/format.h>
+#include <gp.hxx>
+#include <gp_Ax2.hxx>
+
+namespace aeroloom::cad {
+namespace {
+
+double largest_extent(const Box& box) {
+  return std::max({box.size().x, box.size().y, box.size().z});
+}
+
+/// Where the far field stands and how large it is.
+struct Extent {
+  gp_Pnt center;
+  double radius;
+};
+
+gp_Ax2 axis_at(const gp_Pnt& origin, Axis axis) {
+  return gp_Ax2(origin, axis == Axis::x ? gp::DX() : axis == Axis::y ? gp::DY() : gp::DZ());
+}
+
+TopoDS_Solid make_box(const Extent& extent, const std::optional<SymmetryPlane>& symmetry) {
+  const double r = extent.radius;
+  Vec3 low{extent.center.X() - r, extent.center.Y() - r, extent.center.Z() - r};
+  Vec3 high{extent.center.X() + r, extent.center.Y() + r, extent.center.Z() + r};
+  if (symmetry) (symmetry->positive ? low : high)[symmetry->axis] = symmetry->position;
+  return BRepPrimAPI_MakeBox(gp_Pnt(low.x, low.y, low.z), gp_Pnt(high.x, high.y, high.z)).Solid();
+}
+
+/// A sphere, or the half of it inside the plane.
+TopoDS_Solid make_sphere(const Extent& extent, const std::optional<SymmetryPlane>& symmetry) {
+  if (!symmetry) return BRepPrimAPI_MakeSphere(extent.center, extent.radius).Solid();
+  const gp_Ax2 inward(extent.center, symmetry->plane().Axis().Direction().Reversed());
+  return BRepPrimAPI_MakeSphere(inward, extent.radius, 0, std::numbers::pi / 2).Solid();
+}
+
+/// A cylinder along its axis, as long as it is wide. A plane along the axis halves it lengthwise, one across
+/// makes it end there.
+TopoDS_Solid make_cylinder(const Extent& extent, Axis axis, const std::optional<SymmetryPlane>& symmetry) {
+  const double r = extent.radius;
+  gp_Ax2 frame = axis_at(extent.center, axis);
+  if (symmetry && symmetry->axis == static_cast<int>(axis)) {
+    frame = gp_Ax2(extent.center, symmetry->plane().Axis().Direction().Reversed());
+    return BRepPrimAPI_MakeCylinder(frame, r, r).Solid();
+  }
+  if (!symmetry) {
+    frame.Translate(gp_Vec(frame.Direction()) * -r);
+    return BRepPrimAPI_MakeCylinder(frame, r, 2 * r).Solid();
+  }
+  // Half a turn from the frame's x direction: the fluid's side lies along its y direction.
+  const gp_Dir inward = symmetry->plane().Axis().Direction().Reversed();
+  frame = gp_Ax2(extent.center, frame.Direction(), inward.Crossed(frame.Direction()));
+  frame.Translate(gp_Vec(frame.Direction()) * -r);
+  return BRepPrimAPI_MakeCylinder(frame, r, 2 * r, std::numbers::pi).Solid();
+}
+
+TopoDS_Solid make_far_field(const FarFieldOptions& options, const Extent& extent,
+                            const std::optional<SymmetryPlane>& symmetry) {
+  switch (options.shape) {
+    case FarFieldShape::sphere:
+    case FarFieldShape::hemisphere:
+      return make_sphere(extent, symmetry);
+    case FarFieldShape::box:
+      return make_box(extent, symmetry);
+    case FarFieldShape::cylinder:
+      break;
+  }
+  return make_cylinder(extent, options.axis, symmetry);
+}
+
+/// How far the far field must reach from the centre to clear the bodies' box.
+double needed_extent(const FarFieldOptions& options, const Box& body, const gp_Pnt& center) {
+  Vec3 reach;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = center.Coord(axis + 1);
+    reach[axis] = std::max(body.high[axis] - at, at - body.low[axis]);
+  }
+  if (options.shape == FarFieldShape::box) return std::max({reach.x, reach.y, reach.z});
+  if (options.shape != FarFieldShape::cylinder) return norm(reach);
+  const int axis = static_cast<int>(options.axis);
+  return std::max(reach[axis], std::hypot(reach[(axis + 1) % 3], reach[(axis + 2) % 3]));
+}
+
+void require_clearance(const FarFieldOptions& options, const Box& body, const gp_Pnt& center,
+                       double reference) {
+  const double needed = needed_extent(options, body, center) / reference;
+  if (options.extent > 1.01 * needed) return;
+  throw CadError(
+      fmt::format("the far field cuts the body: its extent of {:.4g} reference lengths ({:.6g}) must exceed "
+                  "{:.4g} for this body",
+                  options.extent, reference, 1.01 * needed));
+}
+
+/// The shells that face the fluid. A body's cavities hold no outside fluid; a body in another's cavity never
+/// meets it.
+std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volumes, Changes& changes) {
+  std::vector<TopoDS_Shell> shells;
+  for (const TopoDS_Solid& solid : solids_of(bodies)) {
+    const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
+    if (outer.IsNull()) throw CadError("a body has no outer shell");
+    shells.push_back(outer);
+    int voids = -1;
+    for (TopExp_Explorer each(solid, TopAbs_SHELL); each.More(); each.Next()) ++voids;
+    if (voids > 0)
+      changes.push_back(
+          {fmt::format("{} closed cavities inside a body do not reach the fluid: left out", voids)});
+  }
+  const std::vector<TopoDS_Solid> nested = nest_shells(shells, volumes);
+  std::vector<TopoDS_Shell> outermost;
+  for (const TopoDS_Solid& solid : nested) {
+    const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
+    const bool buried = std::any_of(nested.begin(), nested.end(), [&](const TopoDS_Solid& other) {
+      return !other.IsSame(solid) &&
+             nest_shells({BRepClass3d::OuterShell(other), outer}, volumes).size() == 1;
+    });
+    if (!buried) outermost.push_back(outer);
+  }
+  if (outermost.size() < shells.size()) {
+    changes.push_back({fmt::format("{} bodies lie inside others and do not reach the fluid: left out",
+                                   shells.size() - outermost.size())});
+  }
+  return outermost;
+}
+
+/// The CAD library integrates trimmed spline faces to about four digits; what this is to find is a body that
+/// vanished or counts twice.
+void require_volume(double far_field, double body, double fluid) {
+  const double error = std::abs(far_field - body - fluid);
+  if (error <= 1e-3 * std::abs(body) + 1e-12 * far_field && body > 0) return;
+  throw CadError(
+      fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; the body's "
+                  "shells cross or are turned "
+                  "inside out",
+                  far_field, body, fluid));
+}
+
+std::vector<TopoDS_Face> faces_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Face> faces;
+  for (TopExp_Explorer each(shape, TopAbs_FACE); each.More(); each.Next())
+    faces.push_back(TopoDS::Face(each.Current()));
+  return faces;
+}
+
+/// The fluid's boundary while it is put together: faces that look out of the fluid.
+struct Walls {
+  std::vector<TopoDS_Face> faces;
+  TopoDS_Face plane;  ///< the part of the plane of symmetry that reaches the far field; null without one
+};
+
+/// Edges that one of the faces uses, and no other.
+std::vector<TopoDS_Edge> rim_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Face& face : faces) builder.Add(compound, face);
+  return open_edges(compound);
+}
+
+FaceLabel symmetry_label() {
+  FaceLabel label;
+  label.name = "symmetry";
+  label.solid = "fluid";
+  label.far_field = label.symmetry = true;
+  return label;
+}
+
+/// Puts the plane of symmetry in place of the bodies' sections: the far field's own faces there become one
+/// that gets the outlines of the sections as holes, what they enclose gets faces of its own.
+void add_plane(const SymmetryPlane& symmetry, const std::vector<TopoDS_Face>& far_faces,
+               const std::vector<TopoDS_Face>& sections, Walls& walls, FaceLabels& labels) {
+  const auto loops = find_plane_loops(rim_of(sections), symmetry.tolerance, symmetry.plane());
+  if (!loops) {
+    throw CadError(
+        fmt::format("the body's section at the plane of symmetry has an outline that is no simple "
+                    "closed loop: repair the body near coordinate {} = {:.6g}",
+                    symmetry.axis, symmetry.position));
+  }
+  std::vector<TopoDS_Wire> outlines;
+  for (std::size_t i = 0; i < loops->size(); ++i) {
+    if ((*loops)[i].depth == 0) outlines.push_back((*loops)[i].wire);
+    if ((*loops)[i].depth % 2 == 1) walls.faces.push_back(make_plane_face(*loops, i));
+  }
+  const auto rim = find_plane_loops(rim_of(far_faces), symmetry.tolerance, symmetry.plane());
+  if (!rim || rim->size() != 1) throw std::logic_error("the far field's section is no single loop");
+  walls.plane = make_plane_face(symmetry.plane(), rim->front().wire, outlines);
+  for (const TopoDS_Face& island : walls.faces) labels.Bind(island, symmetry_label());
+  labels.Bind(walls.plane, symmetry_label());
+}
+
+/// Groups faces that share edges; the group of face 0 first, each in order.
+std::vector<std::vector<TopoDS_Face>> connected_groups(const std::vector<TopoDS_Face>& faces) {
+  geometry::DisjointSets<int> sets(faces.size());
+  TopTools_IndexedMapOfShape edges;
+  std::vector<int> first_user;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (TopExp_Explorer each(faces[i], TopAbs_EDGE); each.More(); each.Next()) {
+      const int edge = edges.Add(each.Current()) - 1;
+      if (edge == static_cast<int>(first_user.size())) first_user.push_back(static_cast<int>(i));
+      sets.unite(first_user[edge], static_cast<int>(i));
+    }
+  }
+  std::vector<std::vector<TopoDS_Face>> groups(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) groups[sets.root(static_cast<int>(i))].push_back(faces[i]);
+  std::erase_if(groups, [](const auto& members) { return members.empty(); });
+  return groups;
+}
+
+TopoDS_Shell shell_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  for (const TopoDS_Face& face : faces) builder.Add(shell, face);
+  shell.Closed(true);
+  return shell;
+}
+
+/// The fluid's solid from its walls. Groups of walls that do not reach the plane of symmetry are voids around
+/// bodies; those closed by islands alone are cavities without connection to the outside.
+TopoDS_Solid make_fluid(const Walls& walls, const FaceLabels& labels, Volumes& volumes, double& cavities,
+                        Changes& changes) {
+  TopoDS_Solid fluid;
+  BRep_Builder builder;
+  builder.MakeSolid(fluid);
+  std::vector<TopoDS_Face> all{walls.plane};
+  all.insert(all.end(), walls.faces.begin(), walls.faces.end());
+  const auto groups = connected_groups(all);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const TopoDS_Shell shell = shell_of(groups[i]);
+    const bool has_island = std::any_of(groups[i].begin(), groups[i].end(), [&](const TopoDS_Face& face) {
+      const FaceLabel* label = labels.Seek(face);
+      return label != nullptr && label->symmetry;
+    });
+    if (i == 0 || !has_island) {
+      builder.Add(fluid, shell);
+      continue;
+    }
+    cavities += std::abs(volumes.of(shell));
+    changes.push_back(
+        {"a cavity inside a body, cut open by the plane of symmetry, does not reach the fluid: "
+         "left out",
+         tight_box(shell).center()});
+  }
+  return fluid;
+}
+
+NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const TopoDS_Solid& far_field,
+                         Volumes& volumes, Changes& changes) {
+  Walls walls;
+  std::vector<TopoDS_Face> far_faces, far_walls;
+  for (const TopoDS_Face& face : faces_of(far_field)) {
+    (symmetry.holds(face) ? far_faces : far_walls).push_back(face);
+  }
+  std::vector<TopoDS_Face> body_walls, sections;
+  double body_volume = 0;
+  for (const TopoDS_Shell& shell : outer_shells(bodies.shape, volumes, changes)) {
+    const TopoDS_Solid body = solid_of(shell, volumes);
+    body_volume += volumes.of(body);
+    for (const TopoDS_Face& face : faces_of(body)) {
+      (symmetry.holds(face) ? sections : body_walls).push_back(face);
+    }
+  }
+  add_plane(symmetry, far_faces, sections, walls, bodies.labels);
+  walls.faces.insert(walls.faces.end(), far_walls.begin(), far_walls.end());
+  for (const TopoDS_Face& face : body_walls) walls.faces.push_back(TopoDS::Face(face.Reversed()));
+  double cavities = 0;
+  const TopoDS_Solid fluid = make_fluid(walls, bodies.labels, volumes, cavities, changes);
+  require_volume(volumes.of(far_field), body_volume + cavities, volumes.of(fluid));
+  bodies.shape = make_compound({fluid});
+  return bodies;
+}
+
+NamedShape surround_whole(NamedShape bodies, const TopoDS_Solid& far_field, Volumes& volumes,
+                          Changes& changes) {
+  BRep_Builder builder;
+  TopoDS_Solid fluid;
+  builder.MakeSolid(fluid);
+  builder.Add(fluid, TopExp_Explorer(far_field, TopAbs_SHELL).Current());
+  double body_volume = 0;
+  for (const TopoDS_Shell& shell : outer_shells(bodies.shape, volumes, changes)) {
+    const TopoDS_Solid body = solid_of(shell, volumes);
+    body_volume += volumes.of(body);
+    builder.Add(fluid, TopExp_Explorer(body, TopAbs_SHELL).Current().Reversed());
+  }
+  require_volume(volumes.of(far_field), body_volume, volumes.of(fluid));
+  bodies.shape = make_compound({fluid});
+  return bodies;
+}
+
+void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(far_field, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    FaceLabel label;
+    label.name = faces.Extent() == 1 ? std::string("farfield") : fmt::format("farfield_{}", i);
+    label.solid = "fluid";
+    label.far_field = true;
+    labels.Bind(faces(i), label);
+  }
+}
+
+}  // namespace
+
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
+  tell_step("building the far field");
+  const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
+  const double reference = largest_extent(tight_box(bodies.shape));
+  if (symmetry) changes.push_back({describe(*symmetry)});
+  if (symmetry) bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
+  const Box box = tight_box(bodies.shape);
+  gp_Pnt center(box.center().x, box.center().y, box.center().z);
+  if (symmetry) center.SetCoord(symmetry->axis + 1, symmetry->position);
+  require_clearance(options, box, center, reference);
+  const TopoDS_Solid far_field = make_far_field(options, {center, options.extent * reference}, symmetry);
+  label_far_field(far_field, bodies.labels);
+  if (!symmetry) return surround_whole(std::move(bodies), far_field, volumes, changes);
+  return surround_half(std::move(bodies), *symmetry, far_field, volumes, changes);
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,257 @@
+#include "cad/domain/symmetry.hpp"
+
+#include "cad/domain/booleans.hpp"
+#include "cad/model/model_data.hpp"
+#include "cad/repair/heal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepGProp.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <GeomLib_IsPlanarSurface.hxx>
+#include <Geom_Surface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr double on_plane_share = 1e-6;  // of the body's diagonal
+constexpr double symmetric_share =
+    1e-3;  // of the body's extent: how unequal the halves of a symmetric body are
+constexpr char axis_names[] = {'x', 'y', 'z'};
+
+/// Where a body may end at a plane: a side of its box with planar faces on it.
+struct End {
+  SymmetryPlane plane;
+  double area = 0;
+};
+
+std::vector<End> find_ends(const TopoDS_Shape& bodies, const Box& box) {
+  std::vector<End> ends;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool positive : {true, false}) {
+      End end;
+      end.plane.axis = axis;
+      end.plane.positive = positive;
+      end.plane.position = positive ? box.low[axis] : box.high[axis];
+      end.plane.tolerance = on_plane_share * box.diagonal();
+      if (std::abs(end.plane.position) <= end.plane.tolerance) end.plane.position = 0;
+      for (TopExp_Explorer faces(bodies, TopAbs_FACE); faces.More(); faces.Next()) {
+        const TopoDS_Face face = TopoDS::Face(faces.Current());
+        if (!end.plane.holds(face)) continue;
+        GProp_GProps properties;
+        BRepGProp::SurfaceProperties(face, properties);
+        end.area += std::abs(properties.Mass());
+      }
+      if (end.area > 0) ends.push_back(end);
+    }
+  }
+  return ends;
+}
+
+/// Largest area first, ends at a coordinate plane before others.
+const End* best_end(const std::vector<End>& ends, std::optional<int> axis) {
+  const End* best = nullptr;
+  const auto better = [](const End& a, const End& b) {
+    const bool at_zero = a.plane.position == 0;
+    return at_zero != (b.plane.position == 0) ? at_zero : a.area > b.area;
+  };
+  for (const End& end : ends) {
+    if (axis && end.plane.axis != *axis) continue;
+    if (!best || better(end, *best)) best = &end;
+  }
+  return best;
+}
+
+SymmetryPlane plane_at(int axis, double position, const Box& box, std::string reason) {
+  const double tolerance = on_plane_share * box.diagonal();
+  if (position < box.low[axis] - tolerance || position > box.high[axis] + tolerance) {
+    throw CadError(
+        fmt::format("the plane of symmetry {} = {:.6g} misses the body, which reaches from {:.6g} to "
+                    "{:.6g}: give FarFieldOptions::symmetry_position",
+                    axis_names[axis], position, box.low[axis], box.high[axis]));
+  }
+  const bool positive = box.high[axis] - position > tolerance;
+  return {axis, position, positive, tolerance, std::move(reason)};
+}
+
+SymmetryPlane find_automatic(const TopoDS_Shape& bodies, const Box& box) {
+  const double extent = box.high.y - box.low.y;
+  if (std::abs(box.high.y + box.low.y) <= symmetric_share * extent) {
+    return plane_at(1, 0, box, "the body is symmetric about it");
+  }
+  const std::vector<End> ends = find_ends(bodies, box);
+  const End* end = best_end(ends, std::nullopt);
+  if (end != nullptr && end->plane.position == 0) {
+    SymmetryPlane plane = end->plane;
+    plane.reason = "the body ends there in planar faces";
+    return plane;
+  }
+  throw CadError(
+      "a hemisphere needs a plane of symmetry, but the body ends at no coordinate plane and is not "
+      "symmetric about y = 0: give FarFieldOptions::symmetry and FarFieldOptions::symmetry_position");
+}
+
+SymmetryPlane find_on_axis(int axis, const FarFieldOptions& options, const TopoDS_Shape& bodies,
+                           const Box& box) {
+  if (options.symmetry_position) return plane_at(axis, *options.symmetry_position, box, "as requested");
+  const double tolerance = on_plane_share * box.diagonal();
+  if (box.low[axis] < -tolerance && box.high[axis] > tolerance) {
+    return plane_at(axis, 0, box, "the body reaches across it");
+  }
+  const std::vector<End> ends = find_ends(bodies, box);
+  if (const End* end = best_end(ends, axis)) {
+    SymmetryPlane plane = end->plane;
+    plane.reason = "the body ends there in planar faces";
+    return plane;
+  }
+  throw CadError(
+      fmt::format("no plane of symmetry: the body reaches from {} = {:.6g} to {:.6g} and ends at neither "
+                  "in planar faces: give FarFieldOptions::symmetry_position",
+                  axis_names[axis], box.low[axis], box.high[axis]));
+}
+
+/// A box that holds what of the bodies lies on one side of the plane.
+TopoDS_Solid half_space(const Box& box, const SymmetryPlane& symmetry, bool positive) {
+  const double margin = box.diagonal();
+  Vec3 low = box.low - margin * Vec3{1, 1, 1}, high = box.high + margin * Vec3{1, 1, 1};
+  (positive ? low : high)[symmetry.axis] = symmetry.position;
+  return BRepPrimAPI_MakeBox(gp_Pnt(low.x, low.y, low.z), gp_Pnt(high.x, high.y, high.z)).Solid();
+}
+
+std::vector<TopoDS_Solid> common_with(const TopoDS_Solid& body, const TopoDS_Solid& half,
+                                      FaceLabels& labels) {
+  TopTools_ListOfShape arguments, tools;
+  arguments.Append(body);
+  tools.Append(half);
+  BRepAlgoAPI_Common common;
+  common.SetArguments(arguments);
+  common.SetTools(tools);
+  perform(common, "cutting a body at the plane of symmetry");
+  follow_labels(common, {body}, labels);
+  return common.Shape().IsNull() ? std::vector<TopoDS_Solid>{} : solids_of(common.Shape());
+}
+
+/// A body that reaches the plane must end there in a face: at a mere point or line of contact the fluid would
+/// have no thickness.
+void require_section(const TopoDS_Solid& body, const SymmetryPlane& symmetry) {
+  Vec3 contact;
+  double nearest = std::numeric_limits<double>::max();
+  for (TopExp_Explorer faces(body, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face face = TopoDS::Face(faces.Current());
+    if (symmetry.holds(face)) return;
+    const Box box = tight_box(face);
+    const double gap = std::abs((symmetry.positive ? box.low : box.high)[symmetry.axis] - symmetry.position);
+    if (gap < nearest) nearest = gap, contact = box.center();
+  }
+  contact[symmetry.axis] = symmetry.position;
+  throw CadError(
+      fmt::format("a body only touches the plane of symmetry {} = {:.6g}, near ({:.6g}, {:.6g}, {:.6g}), and "
+                  "has no planar face there: move FarFieldOptions::symmetry_position into the body",
+                  axis_names[symmetry.axis], symmetry.position, contact.x, contact.y, contact.z));
+}
+
+}  // namespace
+
+gp_Pln SymmetryPlane::plane() const {
+  Vec3 at, normal;
+  at[axis] = position;
+  normal[axis] = positive ? -1 : 1;
+  return gp_Pln(gp_Pnt(at.x, at.y, at.z), gp_Dir(normal.x, normal.y, normal.z));
+}
+
+bool SymmetryPlane::holds(const TopoDS_Face& face) const {
+  const Box box = tight_box(face);
+  if (std::abs(box.low[axis] - position) > tolerance || std::abs(box.high[axis] - position) > tolerance)
+    return false;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  return !surface.IsNull() && GeomLib_IsPlanarSurface(surface, tolerance).IsPlanar();
+}
+
+std::string describe(const SymmetryPlane& symmetry) {
+  return fmt::format("plane of symmetry {} = {:.6g}: {}", axis_names[symmetry.axis], symmetry.position,
+                     symmetry.reason);
+}
+
+std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies) {
+  const Box box = tight_box(bodies);
+  switch (options.symmetry) {
+    case Symmetry::x:
+      return find_on_axis(0, options, bodies, box);
+    case Symmetry::y:
+      return find_on_axis(1, options, bodies, box);
+    case Symmetry::z:
+      return find_on_axis(2, options, bodies, box);
+    case Symmetry::automatic:
+      if (options.shape == FarFieldShape::hemisphere) return find_automatic(bodies, box);
+      return std::nullopt;
+    case Symmetry::none:
+      break;
+  }
+  if (options.shape == FarFieldShape::hemisphere) {
+    throw CadError(
+        "a hemisphere is half a far field: give FarFieldOptions::symmetry, or the sphere as its shape");
+  }
+  return std::nullopt;
+}
+
+NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Volumes& volumes,
+                           Changes& changes) {
+  const Box all = tight_box(bodies.shape);
+  const TopoDS_Solid kept_half = half_space(all, symmetry, symmetry.positive);
+  const TopoDS_Solid other_half = half_space(all, symmetry, !symmetry.positive);
+  std::vector<TopoDS_Solid> kept;
+  int cut = 0, dropped = 0;
+  for (const TopoDS_Solid& body : solids_of(bodies.shape)) {
+    const Box box = tight_box(body);
+    const double low = box.low[symmetry.axis], high = box.high[symmetry.axis];
+    const double inward = symmetry.positive ? low - symmetry.position : symmetry.position - high;
+    const double outward = symmetry.positive ? high - symmetry.position : symmetry.position - low;
+    if (inward >= -symmetry.tolerance) {
+      if (inward <= symmetry.tolerance) require_section(body, symmetry);
+      kept.push_back(body);
+      continue;
+    }
+    if (outward <= symmetry.tolerance) {
+      ++dropped;
+      continue;
+    }
+    const std::vector<TopoDS_Solid> inside = common_with(body, kept_half, bodies.labels);
+    FaceLabels unused;
+    const std::vector<TopoDS_Solid> outside = common_with(body, other_half, unused);
+    double parts = 0;
+    for (const auto* half : {&inside, &outside}) {
+      for (const TopoDS_Solid& part : *half) parts += volumes.of(part);
+    }
+    const double whole = volumes.of(body);
+    if (inside.empty() || std::abs(parts - whole) > integration_error * whole) {
+      throw CadError(
+          fmt::format("cutting a body at {} = {:.6g} went wrong: its halves have a volume of {:.9g}, the "
+                      "body has {:.9g}",
+                      axis_names[symmetry.axis], symmetry.position, parts, whole));
+    }
+    kept.insert(kept.end(), inside.begin(), inside.end());
+    ++cut;
+  }
+  if (kept.empty()) throw CadError("no body lies on the side of the plane of symmetry that is kept");
+  if (cut + dropped > 0) {
+    Vec3 at = all.center();
+    at[symmetry.axis] = symmetry.position;
+    changes.push_back(
+        {fmt::format("{} bodies cut at the plane of symmetry {} = {:.6g}, {} on its other side dropped", cut,
+                     axis_names[symmetry.axis], symmetry.position, dropped),
+         at});
+  }
+  bodies.shape = make_compound(kept);
+  return bodies;
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,161 @@
+#include "cad/domain/booleans.hpp"
+#include "cad/domain/far_field.hpp"
+#include "cad/model/model_data.hpp"
+#include "cad/repair/heal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// Groups solids whose boxes touch, each group ascending.
+std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_Solid>& solids) {
+  std::vector<Box> boxes;
+  Box all;
+  for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));
+  const Vec3 gap = 1e-6 * all.diagonal() * Vec3{1, 1, 1};
+  for (Box& box : boxes) box.low -= gap, box.high += gap;
+  std::vector<std::size_t> group(solids.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (group[i] == group[j] || !boxes[i].overlaps(boxes[j])) continue;
+      const std::size_t keep = std::min(group[i], group[j]), drop = std::max(group[i], group[j]);
+      std::replace(group.begin(), group.end(), drop, keep);
+    }
+  }
+  std::vector<std::vector<TopoDS_Solid>> groups(solids.size());
+  for (std::size_t i = 0; i < solids.size(); ++i) groups[group[i]].push_back(solids[i]);
+  std::erase_if(groups, [](const auto& members) { return members.empty(); });
+  return groups;
+}
+
+double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, Volumes& volumes) {
+  TopTools_ListOfShape arguments, tools;
+  arguments.Append(first);
+  tools.Append(second);
+  BRepAlgoAPI_Common common;
+  common.SetArguments(arguments);
+  common.SetTools(tools);
+  perform(common, "intersecting two bodies");
+  return common.Shape().IsNull() ? 0 : std::abs(volumes.of(common.Shape()));
+}
+
+/// One after the other, so that each union's volume can be checked against its two parts.
+std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes& volumes,
+                                FaceLabels& labels) {
+  std::vector<TopoDS_Solid> united{group.front()};
+  for (std::size_t i = 1; i < group.size(); ++i) {
+    TopTools_ListOfShape arguments, tools;
+    for (const TopoDS_Solid& solid : united) arguments.Append(solid);
+    tools.Append(group[i]);
+    BRepAlgoAPI_Fuse fuse;
+    fuse.SetArguments(arguments);
+    fuse.SetTools(tools);
+    perform(fuse, "uniting bodies that touch");
+    std::vector<TopoDS_Solid> inputs = united;
+    inputs.push_back(group[i]);
+    follow_labels(fuse, inputs, labels);
+    const TopoDS_Shape before = make_compound(united);
+    const double parts = volumes.of(before) + volumes.of(group[i]);
+    const double whole = volumes.of(fuse.Shape());
+    const double tolerance = integration_error * parts;
+    if (std::abs(parts - whole) > tolerance &&
+        std::abs(parts - common_volume(before, group[i], volumes) - whole) > tolerance) {
+      throw CadError(fmt::format("uniting bodies went wrong: parts of volume {:.9g} gave a union of {:.9g}",
+                                 parts, whole));
+    }
+    united = solids_of(fuse.Shape());
+    if (united.empty()) throw CadError("uniting bodies left no solid");
+  }
+  return united;
+}
+
+}  // namespace
+
+NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes) {
+  std::vector<TopoDS_Solid> result;
+  for (const auto& group : touching_groups(solids_of(bodies.shape))) {
+    const std::vector<TopoDS_Solid> united = group.size() > 1 ? unite(group, volumes, bodies.labels) : group;
+    if (group.size() > united.size()) {
+      changes.push_back({fmt::format("{} touching bodies united to {}", group.size(), united.size())});
+    }
+    result.insert(result.end(), united.begin(), united.end());
+  }
+  bodies.shape = make_compound(result);
+  return bodies;
+}
+
+namespace {
+
+/// The first pairs of solids that overlap, with places.
+std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volumes) {
+  constexpr int shown = 3;
+  std::vector<Box> boxes;
+  for (const TopoDS_Solid& solid : group) boxes.push_back(tight_box(solid));
+  std::string text;
+  int found = 0;
+  for (std::size_t i = 0; i < group.size() && found < shown; ++i) {
+    for (std::size_t j = 0; j < i && found < shown; ++j) {
+      if (!boxes[i].overlaps(boxes[j])) continue;
+      const double common = common_volume(group[i], group[j], volumes);
+      if (common <= integration_error * std::min(volumes.of(group[i]), volumes.of(group[j]))) continue;
+      ++found;
+      const Vec3 low{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
+                     std::max(boxes[i].low.z, boxes[j].low.z)};
+      const Vec3 high{std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y),
+                      std::min(boxes[i].high.z, boxes[j].high.z)};
+      const Vec3 at = 0.5 * (low + high);
+      text += fmt::format("; two share a volume of {:.6g} around ({:.6g}, {:.6g}, {:.6g})", common, at.x,
+                          at.y, at.z);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) {
+  std::vector<TopoDS_Solid> result;
+  for (const auto& group : touching_groups(solids_of(regions.shape))) {
+    if (group.size() == 1) {
+      result.push_back(group.front());
+      continue;
+    }
+    TopTools_ListOfShape arguments;
+    double parts = 0;
+    for (const TopoDS_Solid& solid : group) {
+      arguments.Append(solid);
+      parts += volumes.of(solid);
+    }
+    BRepAlgoAPI_BuilderAlgo join;
+    join.SetArguments(arguments);
+    perform(join, "joining regions that touch");
+    follow_labels(join, group, regions.labels);
+    const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
+    double whole = 0;
+    for (const TopoDS_Solid& solid : joined) whole += volumes.of(solid);
+    if (joined.size() < group.size() || std::abs(whole - parts) > integration_error * parts) {
+      throw CadError(
+          fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}{}. Remedy: make "
+                      "them touch in the CAD program, or take them as bodies (DomainOptions::kind: body)",
+                      group.size(), whole, parts, name_overlaps(group, volumes)));
+    }
+    changes.push_back({fmt::format("{} touching regions joined face to face", group.size())});
+    result.insert(result.end(), joined.begin(), joined.end());
+  }
+  regions.shape = make_compound(result);
+  return regions;
+}
+
+}  // namespace aeroloom::cad

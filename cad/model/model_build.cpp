@@ -1,0 +1,200 @@
+#include "cad/model/model_data.hpp"
+#include "cad/model/model_topology.hpp"
+#include "cad/model/occ_guard.hpp"
+#include "cad/model/step_trace.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <BinTools.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr std::uint64_t magic = 0x324d4c4145524f41;  // "AOREALM2"
+
+class ByteWriter {
+public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* begin = reinterpret_cast<const std::byte*>(&value);
+    bytes.insert(bytes.end(), begin, begin + sizeof(T));
+  }
+  void put_text(const std::string& text) {
+    put<std::uint64_t>(text.size());
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    bytes.insert(bytes.end(), begin, begin + text.size());
+  }
+
+  std::vector<std::byte> bytes;
+};
+
+class ByteReader {
+public:
+  explicit ByteReader(std::span<const std::byte> bytes) : _bytes(bytes) {}
+  template <class T>
+  T get() {
+    T value;
+    std::memcpy(&value, take(sizeof(T)), sizeof(T));
+    return value;
+  }
+  std::string get_text() {
+    const auto size = get<std::uint64_t>();
+    return {reinterpret_cast<const char*>(take(size)), static_cast<std::size_t>(size)};
+  }
+
+private:
+  const std::byte* take(std::uint64_t size) {
+    if (size > _bytes.size() - _at) throw CadError("the model's bytes are truncated");
+    const std::byte* begin = _bytes.data() + _at;
+    _at += size;
+    return begin;
+  }
+
+  std::span<const std::byte> _bytes;
+  std::size_t _at = 0;
+};
+
+Box body_box(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>& tags, const Box& all) {
+  const bool any = std::any_of(tags.begin(), tags.end(), [](const FaceTag& tag) { return tag.far_field; });
+  if (!any) return all;
+  Box box;
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    if (!tags[i - 1].far_field) box.add(tight_box(faces(i)));
+  }
+  return box.empty() ? all : box;
+}
+
+/// A region is called as the solid of its faces; a face between two regions may carry the other one's label.
+std::vector<std::string> region_names(const NamedShape& named) {
+  TopTools_IndexedMapOfShape solids, faces;
+  TopExp::MapShapes(named.shape, TopAbs_SOLID, solids);
+  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const std::vector<std::vector<int>> around = solids_around_faces(named.shape);
+  std::vector<std::string> names(solids.Extent());
+  for (const std::size_t most : {1, 2}) {
+    for (int f = 1; f <= faces.Extent(); ++f) {
+      const FaceLabel* label = named.labels.Seek(faces(f));
+      if (label == nullptr || around[f - 1].size() > most) continue;
+      for (const int solid : around[f - 1]) {
+        if (names[solid].empty()) names[solid] = label->solid;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) names[i] = fmt::format("region_{}", i);
+  }
+  return names;
+}
+
+void put_labels(const NamedShape& named, const std::vector<FaceTag>& tags, ByteWriter& writer) {
+  writer.put_text(named.unit_name);
+  writer.put(named.unit_in_metres);
+  writer.put(named.gap);
+  const std::vector<std::string> regions = region_names(named);
+  writer.put<std::uint64_t>(regions.size());
+  for (const std::string& name : regions) writer.put_text(name);
+  writer.put<std::uint64_t>(tags.size());
+  for (const FaceTag& tag : tags) {
+    writer.put_text(tag.name);
+    writer.put_text(tag.patch);
+    writer.put<char>(tag.far_field);
+  }
+}
+
+std::vector<FaceTag> get_labels(ByteReader& reader, Model::Data& data) {
+  data.unit_name = reader.get_text();
+  data.unit_in_metres = reader.get<double>();
+  data.gap = reader.get<double>();
+  data.region_names.resize(reader.get<std::uint64_t>());
+  for (std::string& name : data.region_names) name = reader.get_text();
+  std::vector<FaceTag> tags(reader.get<std::uint64_t>());
+  for (FaceTag& tag : tags) {
+    tag.name = reader.get_text();
+    tag.patch = reader.get_text();
+    tag.far_field = reader.get<char>() != 0;
+  }
+  return tags;
+}
+
+void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
+  if (tags.size() != data.faces.size()) throw CadError("the model's bytes disagree with its shape");
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    Face& face = data.faces[i];
+    face.name = tags[i].name.empty() ? fmt::format("face_{}", i) : tags[i].name;
+    const std::string& patch = tags[i].patch.empty() ? face.name : tags[i].patch;
+    const auto found = std::find(data.patches.begin(), data.patches.end(), patch);
+    face.patch = static_cast<std::int32_t>(found - data.patches.begin());
+    if (found == data.patches.end()) data.patches.push_back(patch);
+    data.far_field.push_back(tags[i].far_field);
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape solids, faces;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  std::vector<std::vector<int>> around(faces.Extent());
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    TopTools_IndexedMapOfShape own;
+    TopExp::MapShapes(solids(i), TopAbs_FACE, own);
+    for (int f = 1; f <= own.Extent(); ++f) around[faces.FindIndex(own(f)) - 1].push_back(i - 1);
+  }
+  return around;
+}
+
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
+  tell_step("building the model");
+  return guarded("building the model", [&] {
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+    BRepTools::Clean(named.shape);
+    ByteWriter writer;
+    writer.put(magic);
+    put_labels(named, tags, writer);
+    const Box bounds = tight_box(named.shape);
+    writer.put(bounds);
+    writer.put(body_box(faces, tags, bounds));
+    std::ostringstream stream;
+    BinTools::Write(named.shape, stream, false, false, BinTools_FormatVersion_CURRENT);
+    writer.put_text(stream.str());
+    return Model::from_bytes(writer.bytes);
+  });
+}
+
+Model Model::from_bytes(std::span<const std::byte> bytes) {
+  return guarded("rebuilding the model from its bytes", [&] {
+    ByteReader reader(bytes);
+    if (reader.get<std::uint64_t>() != magic) throw CadError("these bytes are no model of this version");
+    auto data = std::make_shared<Model::Data>();
+    data->bytes.assign(bytes.begin(), bytes.end());
+    const std::vector<FaceTag> tags = get_labels(reader, *data);
+    data->bounds = reader.get<Box>();
+    data->body_bounds = reader.get<Box>();
+    std::istringstream stream(reader.get_text());
+    BinTools::Read(data->shape, stream);
+    if (data->shape.IsNull()) throw CadError("the model's bytes hold no shape");
+    index_topology(*data);
+    apply_tags(tags, *data);
+    return Model(std::move(data));
+  });
+}
+
+std::string Model::Data::describe_face(FaceId id) const {
+  const FaceEvaluator& face = face_evaluators.at(id);
+  const Vec3 at = face.surface.point(0.5 * (face.uv_low + face.uv_high));
+  const std::string& name = static_cast<std::size_t>(id) < faces.size() ? faces[id].name : std::string();
+  return fmt::format("face {} '{}' near ({:.6g}, {:.6g}, {:.6g})", id, name, at.x, at.y, at.z);
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,127 @@
+/// What is behind a Model: shapes of the CAD library and cached evaluators. Seen by this folder only.
+#pragma once
+
+#include "cad/model/model.hpp"
+#include "cad/model/named_shape.hpp"
+#include "cad/model/surface_evaluator.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Geom2dAdaptor_Curve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace aeroloom::cad {
+
+/// What a face is called in the model.
+struct FaceTag {
+  std::string name;
+  std::string patch;
+  bool far_field = false;
+};
+
+/// The solids of a shape around each of its faces, both by TopExp's order; one, or two for inner faces.
+std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);
+
+/// Builds the model of a shape whose faces all belong to solids. `tags` follow TopExp's order of faces.
+/// Throws CadError.
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags);
+
+/// The box of a shape's geometry, without the gaps that tolerances and control points would add.
+Box tight_box(const TopoDS_Shape& shape);
+
+/// The parameter curve of one passage along an edge.
+struct UseCurve {
+  EdgeUse use;
+  Geom2dAdaptor_Curve curve;
+  double first = 0, last = 0;  ///< parameters of the curve at the ends of the edge's interval
+};
+
+struct EdgeEvaluator {
+  TopoDS_Edge shape;        ///< oriented forward
+  GeomAdaptor_Curve curve;  ///< not set on degenerate edges
+};
+
+/// One parameter direction of a surface.
+struct ParameterRange {
+  double low = 0,
+         high = 0;      ///< natural range; of a periodic direction, one period from where the face begins
+  double period = 0;    ///< 0 where it is not periodic
+  bool closed = false;  ///< both ends are the same curve, without being periodic
+
+  /// The length after which points repeat; 0 where they do not.
+  double repeats_after() const { return period > 0 ? period : closed ? high - low : 0; }
+  /// The parameter of the same point inside the range.
+  double wrap(double parameter) const {
+    const double length = repeats_after();
+    if (length == 0 || (parameter >= low && parameter <= high)) return parameter;
+    return parameter - length * std::floor((parameter - low) / length);
+  }
+};
+
+struct FaceEvaluator {
+  TopoDS_Face shape;      ///< oriented forward
+  bool reversed = false;  ///< the normal out of the front region is opposite to du x dv
+  bool planar = false;
+  SurfaceEvaluator surface;
+  ParameterRange u, v;
+  Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
+  std::vector<UseCurve> uses;  ///< by (edge, use)
+  mutable double area = -1;    ///< computed on demand
+
+  const UseCurve& use(const EdgeUse& wanted) const;
+};
+
+/// Parameters of a point that lies on the face, from parameters near it.
+Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
+
+/// Coordinates that are known exactly, from axis-aligned planes (plane_snap.hpp).
+struct Snap {
+  std::array<bool, 3> fixed{};
+  Vec3 value;
+
+  void fix(int axis, double position) {
+    if (fixed[axis]) return;
+    fixed[axis] = true;
+    value[axis] = position;
+  }
+  Vec3 operator()(Vec3 p) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (fixed[axis]) p[axis] = value[axis];
+    }
+    return p;
+  }
+};
+
+struct JoinedFaces;
+
+struct Model::Data {
+  std::vector<std::byte> bytes;
+  TopoDS_Shape shape;
+  std::vector<Vec3> vertices;
+  std::vector<Edge> edges;
+  std::vector<EdgeEvaluator> edge_evaluators;
+  std::vector<Face> faces;
+  std::vector<FaceEvaluator> face_evaluators;
+  std::vector<Snap> vertex_snaps, edge_snaps, face_snaps;
+  std::vector<char> far_field;
+  std::vector<std::string> region_names;
+  std::vector<std::string> patches;
+  Box bounds, body_bounds;
+  std::string unit_name;
+  double unit_in_metres = 1;
+  double gap = 0;
+  std::shared_ptr<const JoinedFaces> joined;  ///< where faces are joined: evaluators and snaps are its base's
+
+  /// "face 12 'wing_upper' near (x, y, z)", for messages.
+  std::string describe_face(FaceId id) const;
+};
+
+}  // namespace aeroloom::cad

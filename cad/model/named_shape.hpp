@@ -1,0 +1,40 @@
+/// A shape of the CAD library on its way to a model, with what its file says about faces. Seen by this folder
+/// only.
+#pragma once
+
+#include "cad/builtin/transport.hpp"
+
+#include <string>
+
+#include <NCollection_DataMap.hxx>
+#include <TopTools_ShapeMapHasher.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace aeroloom::cad {
+
+/// What a file says about one face; empty strings where it says nothing.
+struct FaceLabel {
+  std::string name;  ///< of the face itself
+  std::string layer;
+  std::string colour;  ///< "#rrggbb"
+  std::string solid;   ///< name of the solid (part, product) the face belongs to
+  bool far_field = false;
+  bool symmetry = false;  ///< on the plane of symmetry of a half model
+};
+
+/// Labels by face; the orientation of the face does not matter. Look up only: iteration follows addresses.
+using FaceLabels = NCollection_DataMap<TopoDS_Shape, FaceLabel, TopTools_ShapeMapHasher>;
+
+struct NamedShape {
+  TopoDS_Shape shape;
+  FaceLabels labels;
+  std::string unit_name;      ///< "m", "mm", "in", ...; empty when the source declares none
+  double unit_in_metres = 1;  ///< lengths of `shape` are in this unit
+  double gap = 0;             ///< the widest one that sewing closed
+};
+
+/// The built-in aircraft: one closed solid in metres with named faces. Throws CadError for dimensions that
+/// make none.
+NamedShape make_transport(const TransportDimensions& dimensions);
+
+}  // namespace aeroloom::cad

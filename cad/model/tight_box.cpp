@@ -1,0 +1,166 @@
+#include "cad/model/model_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepTools.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr int axes = 3;
+
+void add_point(Box& box, const gp_Pnt& p) {
+  box.add(Vec3{p.X(), p.Y(), p.Z()});
+}
+
+/// The box of control points and tolerances: never too small.
+Box loose_box(const TopoDS_Shape& shape) {
+  Bnd_Box bounds;
+  BRepBndLib::Add(shape, bounds, false);
+  Box box;
+  if (bounds.IsVoid() || bounds.IsOpen()) return {{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+  bounds.Get(box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+  return box;
+}
+
+bool inside(const Box& inner, const Box& outer) {
+  return outer.contains(inner.low) && outer.contains(inner.high);
+}
+
+/// The largest value of a function of one variable near the best of its samples, by golden section.
+template <class Function>
+void refine(Function&& height, double low, double high) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = height(a), at_b = height(b);
+  for (int i = 0; i < 40; ++i) {
+    if (at_a > at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - golden * (high - low), at_a = height(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + golden * (high - low), at_b = height(b);
+    }
+  }
+}
+
+void add_edge(Box& box, const TopoDS_Edge& edge) {
+  if (BRep_Tool::Degenerated(edge)) return;
+  const BRepAdaptor_Curve curve(edge);
+  const int samples = 8 * std::min(200, curve.NbIntervals(GeomAbs_C2)) + 8;
+  const double first = curve.FirstParameter(), step = (curve.LastParameter() - first) / samples;
+  std::array<int, 2 * axes> best{};
+  std::array<double, 2 * axes> reach;
+  reach.fill(-std::numeric_limits<double>::max());
+  for (int i = 0; i <= samples; ++i) {
+    const gp_Pnt p = curve.Value(first + i * step);
+    add_point(box, p);
+    for (int side = 0; side < 2 * axes; ++side) {
+      const double height = (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
+      if (height > reach[side]) reach[side] = height, best[side] = i;
+    }
+  }
+  if (curve.GetType() == GeomAbs_Line) return;
+  for (int side = 0; side < 2 * axes; ++side) {
+    const auto height = [&](double parameter) {
+      const gp_Pnt p = curve.Value(parameter);
+      add_point(box, p);
+      return (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
+    };
+    refine(height, first + std::max(0, best[side] - 1) * step,
+           first + std::min(samples, best[side] + 1) * step);
+  }
+}
+
+/// Extremes inside a face: samples, then Newton's method for the point where the surface turns back.
+class FaceExtremes {
+public:
+  FaceExtremes(const TopoDS_Face& face, Box& box)
+      : _box(box), _surface(face, false), _classifier(face, 1e-9) {
+    BRepTools::UVBounds(face, _low.x, _high.x, _low.y, _high.y);
+  }
+
+  void add() {
+    std::array<Vec2, 2 * axes> best{};
+    std::array<double, 2 * axes> reach;
+    reach.fill(-std::numeric_limits<double>::max());
+    for (int i = 0; i <= samples; ++i) {
+      for (int j = 0; j <= samples; ++j) {
+        const Vec2 uv{_low.x + (_high.x - _low.x) * i / samples, _low.y + (_high.y - _low.y) * j / samples};
+        const gp_Pnt p = _surface.Value(uv.x, uv.y);
+        for (int side = 0; side < 2 * axes; ++side) {
+          const double height = (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
+          if (height > reach[side] && lies_on_face(uv)) reach[side] = height, best[side] = uv;
+        }
+      }
+    }
+    for (int side = 0; side < 2 * axes; ++side) {
+      if (reach[side] > -std::numeric_limits<double>::max())
+        climb(best[side], side / 2 + 1, side % 2 ? 1 : -1);
+    }
+  }
+
+private:
+  static constexpr int samples = 16;
+
+  bool lies_on_face(Vec2 uv) { return _classifier.Perform({uv.x, uv.y}) != TopAbs_OUT; }
+
+  /// Ends at the border of the face at the latest: its edges were looked at on their own.
+  void climb(Vec2 uv, int axis, double sign) {
+    for (int step = 0; step < 20; ++step) {
+      gp_Pnt p;
+      gp_Vec du, dv, duu, dvv, duv;
+      _surface.D2(uv.x, uv.y, p, du, dv, duu, dvv, duv);
+      add_point(_box, p);
+      const double gu = sign * du.Coord(axis), gv = sign * dv.Coord(axis);
+      const double a = sign * duu.Coord(axis), b = sign * duv.Coord(axis), c = sign * dvv.Coord(axis);
+      const double determinant = a * c - b * b;
+      Vec2 move{(-gu * c + gv * b) / determinant, (-gv * a + gu * b) / determinant};
+      if (!(determinant > 0 && a < 0)) {
+        const double share = std::max(std::abs(gu) / (_high.x - _low.x), std::abs(gv) / (_high.y - _low.y));
+        if (!(share > 0)) return;
+        move = Vec2{gu, gv} / (share * 2 * samples);
+      }
+      const Vec2 next{std::clamp(uv.x + move.x, _low.x, _high.x), std::clamp(uv.y + move.y, _low.y, _high.y)};
+      const gp_Pnt there = _surface.Value(next.x, next.y);
+      if (sign * (there.Coord(axis) - p.Coord(axis)) <= 0 || !lies_on_face(next)) return;
+      uv = next;
+    }
+  }
+
+  Box& _box;
+  BRepAdaptor_Surface _surface;
+  BRepTopAdaptor_FClass2d _classifier;
+  Vec2 _low, _high;
+};
+
+}  // namespace
+
+Box tight_box(const TopoDS_Shape& shape) {
+  Box box;
+  TopTools_IndexedMapOfShape edges, faces;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= edges.Extent(); ++i) add_edge(box, TopoDS::Edge(edges(i)));
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const TopoDS_Face face = TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD));
+    if (BRepAdaptor_Surface(face, false).GetType() == GeomAbs_Plane) continue;
+    if (!box.empty() && inside(loose_box(face), box)) continue;
+    FaceExtremes(face, box).add();
+  }
+  return box;
+}
+
+}  // namespace aeroloom::cad

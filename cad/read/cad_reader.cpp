@@ -1,0 +1,190 @@
+#include "cad/read/cad_reader.hpp"
+
+#include "cad/model/occ_guard.hpp"
+#include "cad/model/step_trace.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BinTools.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// Both ends of a file, enough to tell what it is and whether it is complete.
+struct Ends {
+  std::string head, tail;
+};
+
+Ends read_ends(const std::string& file) {
+  constexpr std::streamoff window = 4096;
+  std::ifstream stream;
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    stream.open(file, std::ios::binary | std::ios::ate);
+    const std::streamoff size = stream.tellg();
+    Ends ends;
+    ends.head.resize(std::min(size, window));
+    stream.seekg(0);
+    stream.read(ends.head.data(), static_cast<std::streamsize>(ends.head.size()));
+    ends.tail.resize(std::min(size, window));
+    stream.seekg(size - std::min(size, window));
+    stream.read(ends.tail.data(), static_cast<std::streamsize>(ends.tail.size()));
+    return ends;
+  } catch (const std::ios_base::failure& failure) {
+    throw std::ios_base::failure(fmt::format("cannot read '{}'", file), failure.code());
+  }
+}
+
+bool contains(const std::string& text, const char* wanted) {
+  return text.find(wanted) != std::string::npos;
+}
+
+std::string trimmed(std::string text) {
+  const auto solid = [](unsigned char c) { return !std::isspace(c) && c != 0; };
+  text.erase(std::find_if(text.rbegin(), text.rend(), solid).base(), text.end());
+  text.erase(text.begin(), std::find_if(text.begin(), text.end(), solid));
+  return text;
+}
+
+/// What stands at the beginning, printable, for messages.
+std::string excerpt(const std::string& head) {
+  std::string text = trimmed(head).substr(0, 40);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '.');
+  return text;
+}
+
+/// IGES: lines of 80 characters with the section's letter in column 73. Line lengths vary when trailing
+/// blanks were stripped, never before that column.
+bool looks_like_iges(const std::string& head) {
+  const std::string line = head.substr(0, head.find_first_of("\r\n"));
+  return line.size() > 73 && line[72] == 'S' &&
+         line.find_first_not_of(" 0123456789", 73) == std::string::npos;
+}
+
+bool iges_is_complete(const std::string& tail) {
+  const std::string text = trimmed(tail);
+  const std::string line = text.substr(text.find_last_of("\r\n") + 1);
+  return line.size() > 73 - 1 && line[72] == 'T';
+}
+
+void require(bool condition, const std::string& file, const std::string& found) {
+  if (!condition) throw CadError(fmt::format("'{}': {}", file, found));
+}
+
+/// The CAD library's BREP readers print to standard output when they stumble.
+class SilentOutput {
+public:
+  SilentOutput() : _buffer(std::cout.rdbuf(nullptr)) {}
+  ~SilentOutput() {
+    std::cout.rdbuf(_buffer);
+    std::cout.clear();
+  }
+  SilentOutput(const SilentOutput&) = delete;
+  SilentOutput& operator=(const SilentOutput&) = delete;
+
+private:
+  std::streambuf* _buffer;
+};
+
+/// The stream throws where the file ends too early: the readers would go round in circles for ever.
+NamedShape read_brep(const std::string& file, bool binary) {
+  NamedShape named;
+  try {
+    const SilentOutput silent;
+    std::ifstream stream(file, std::ios::binary);
+    stream.exceptions(std::ios::failbit | std::ios::badbit);
+    if (binary) {
+      BinTools::Read(named.shape, stream);
+    } else {
+      BRepTools::Read(named.shape, stream, BRep_Builder());
+    }
+  } catch (const std::ios_base::failure&) {
+    throw CadError(fmt::format("'{}': a BREP file that is damaged or ends too early", file));
+  }
+  require(!named.shape.IsNull(), file, "a BREP file that is damaged: no shape could be read");
+  return named;
+}
+
+/// STEP files may begin with comments.
+std::string without_comments(std::string text) {
+  text = trimmed(text);
+  while (text.starts_with("/*")) {
+    const std::size_t end = text.find("*/");
+    text = end == std::string::npos ? std::string() : trimmed(text.substr(end + 2));
+  }
+  return text;
+}
+
+enum class Format { unknown, step, iges, brep, binary_brep };
+
+Format recognise(const Ends& ends) {
+  if (without_comments(ends.head).starts_with("ISO-10303-21")) return Format::step;
+  if (looks_like_iges(ends.head)) return Format::iges;
+  if (contains(ends.head, "Open CASCADE Topology V")) return Format::binary_brep;
+  return contains(ends.head, "CASCADE Topology V") ? Format::brep : Format::unknown;
+}
+
+[[noreturn]] void refuse(const std::string& file, const Ends& ends) {
+  if (contains(ends.head, "ISO-10303-21")) {
+    throw CadError(
+        fmt::format("'{}': a STEP file must begin with ISO-10303-21; found \"{}\". Remedy: remove what "
+                    "stands before ISO-10303-21",
+                    file, excerpt(ends.head)));
+  }
+  throw CadError(
+      fmt::format("'{}' is neither STEP, IGES nor BREP: it begins with \"{}\"", file, excerpt(ends.head)));
+}
+
+NamedShape read_by_content(const std::string& file, const Ends& ends) {
+  switch (recognise(ends)) {
+    case Format::step:
+      require(contains(ends.tail, "END-ISO-10303-21"), file,
+              "a STEP file that ends too early: no END-ISO-10303-21");
+      return read_step(file);
+    case Format::iges:
+      require(iges_is_complete(ends.tail), file,
+              "an IGES file that ends too early: its last line is no T section");
+      return read_iges(file);
+    case Format::brep:
+      return read_brep(file, false);
+    case Format::binary_brep:
+      return read_brep(file, true);
+    case Format::unknown:
+      break;
+  }
+  refuse(file, ends);
+}
+
+}  // namespace
+
+std::string format_of_cad_file(const std::string& file) {
+  switch (recognise(read_ends(file))) {
+    case Format::step:
+      return "STEP";
+    case Format::iges:
+      return "IGES";
+    case Format::brep:
+    case Format::binary_brep:
+      return "BREP";
+    case Format::unknown:
+      break;
+  }
+  return {};
+}
+
+NamedShape read_cad_file(const std::string& file) {
+  const Ends ends = read_ends(file);
+  require(!trimmed(ends.head).empty(), file, "the file is empty");
+  tell_step("reading the file");
+  return guarded(fmt::format("reading '{}'", file), [&] { return read_by_content(file, ends); });
+}
+
+}  // namespace aeroloom::cad

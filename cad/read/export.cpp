@@ -1,0 +1,69 @@
+#include "cad/read/export.hpp"
+
+#include "cad/model/model.hpp"
+#include "cad/read/length_unit.hpp"
+#include "cad/repair/heal.hpp"
+
+#include <fstream>
+
+#include <STEPConstruct.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <Transfer_FinderProcess.hxx>
+#include <XSControl_TransferWriter.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+void require_writable(const std::string& file) {
+  std::ofstream stream(file, std::ios::binary);
+  if (!stream) throw std::ios_base::failure(fmt::format("cannot write '{}'", file));
+}
+
+void set_name(const Handle(Transfer_FinderProcess) & process, const TopoDS_Shape& shape,
+              const std::string& name) {
+  if (name.empty()) return;
+  const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(process, shape);
+  if (!item.IsNull()) item->SetName(new TCollection_HAsciiString(name.c_str()));
+}
+
+/// The writer drops names; they go into the STEP entities after the transfer.
+void write_names(const NamedShape& named, const Handle(Transfer_FinderProcess) & process) {
+  for (const TopoDS_Solid& solid : solids_of(named.shape)) {
+    std::string solid_name;
+    for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next()) {
+      const FaceLabel* label = named.labels.Seek(faces.Current());
+      if (!label) continue;
+      set_name(process, faces.Current(), label->name);
+      if (solid_name.empty()) solid_name = label->solid;
+    }
+    set_name(process, solid, solid_name);
+  }
+}
+
+}  // namespace
+
+void write_step(const NamedShape& named, const std::string& file) {
+  require_writable(file);
+  STEPControl_Controller::Init();
+  const LengthUnit* unit = find_length_unit(named.unit_name);
+  set_cad_library_unit(unit ? *unit : millimetre());
+  STEPControl_Writer writer;
+  if (writer.Transfer(named.shape, STEPControl_AsIs) != IFSelect_RetDone) {
+    throw CadError("the CAD library cannot turn this shape into STEP");
+  }
+  write_names(named, writer.WS()->TransferWriter()->FinderProcess());
+  if (writer.Write(file.c_str()) != IFSelect_RetDone) {
+    throw std::ios_base::failure(fmt::format("cannot write '{}'", file));
+  }
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,76 @@
+#include "cad/model/model.hpp"
+#include "cad/read/cad_reader.hpp"
+#include "cad/read/length_unit.hpp"
+#include "cad/read/xde_document.hpp"
+
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPControl_Controller.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_ConnectedFaceSet.hxx>
+#include <StepShape_Face.hxx>
+#include <StepShape_SolidModel.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopLoc_Location.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// The unit the file declares first; nullptr when it declares none that is known.
+const LengthUnit* declared_unit(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  for (const TCollection_AsciiString& name : lengths) {
+    if (const LengthUnit* unit = find_length_unit(name.ToCString())) return unit;
+  }
+  return nullptr;
+}
+
+/// Names in the file's faces, shells and solids themselves: the framework keeps only those of products.
+EntityNames entity_names(STEPControl_Reader& reader) {
+  EntityNames names;
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto item = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(i));
+    if (item.IsNull() || item->Name().IsNull() || item->Name()->IsEmpty()) continue;
+    if (!item->IsKind(STANDARD_TYPE(StepShape_Face)) && !item->IsKind(STANDARD_TYPE(StepShape_SolidModel)) &&
+        !item->IsKind(STANDARD_TYPE(StepShape_ConnectedFaceSet))) {
+      continue;
+    }
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, item);
+    if (!shape.IsNull()) names.Bind(shape.Located(TopLoc_Location()), item->Name()->ToCString());
+  }
+  return names;
+}
+
+}  // namespace
+
+NamedShape read_step(const std::string& file) {
+  STEPControl_Controller::Init();
+  STEPCAFControl_Reader reader;
+  reader.SetColorMode(true);
+  reader.SetNameMode(true);
+  reader.SetLayerMode(true);
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+    throw CadError(fmt::format("'{}': a STEP file that cannot be parsed", file));
+  }
+  const LengthUnit* declared = declared_unit(reader.ChangeReader());
+  const LengthUnit& unit = declared ? *declared : millimetre();
+  set_cad_library_unit(unit);
+  reader.ChangeReader().SetSystemLengthUnit(unit.metres * 1000);
+  Handle(TDocStd_Document) document = make_document();
+  if (!reader.Transfer(document)) throw CadError(fmt::format("'{}': a STEP file without shapes", file));
+  NamedShape named = collect_parts(document, entity_names(reader.ChangeReader()));
+  named.unit_name = declared ? declared->name : "";
+  named.unit_in_metres = unit.metres;
+  document->Close();
+  return named;
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,120 @@
+#include "cad/repair/diagnosis.hpp"
+
+#include "cad/model/model_data.hpp"
+#include "cad/model/occ_guard.hpp"
+#include "cad/read/cad_reader.hpp"
+#include "cad/repair/sewing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr int shown_of_a_kind = 20;
+constexpr double short_edge = 1e-5;          // of the diagonal
+constexpr double sliver_width = 1e-4;        // of the diagonal
+constexpr double sliver_slenderness = 0.01;  // width over length
+
+struct MeasuredEdge {
+  double length;
+  Vec3 middle;
+};
+
+MeasuredEdge measure(const TopoDS_Edge& edge) {
+  const BRepAdaptor_Curve curve(edge);
+  const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+  return {GCPnts_AbscissaPoint::Length(curve), {middle.X(), middle.Y(), middle.Z()}};
+}
+
+int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map.Extent();
+}
+
+void find_open_edges(const TopoDS_Shape& shape, Diagnosis& diagnosis) {
+  for (const TopoDS_Edge& edge : open_edges(shape)) {
+    if (++diagnosis.counts.open_edges > shown_of_a_kind) continue;
+    const MeasuredEdge found = measure(edge);
+    diagnosis.findings.push_back({fmt::format("an open edge of length {:.6g}", found.length), found.middle});
+  }
+}
+
+void find_short_edges(const TopoDS_Shape& shape, double diagonal, Diagnosis& diagnosis) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    double first, last;
+    if (BRep_Tool::Degenerated(edge) || BRep_Tool::Curve(edge, first, last).IsNull()) continue;
+    const MeasuredEdge found = measure(edge);
+    if (found.length >= short_edge * diagonal || ++diagnosis.counts.short_edges > shown_of_a_kind) continue;
+    diagnosis.findings.push_back({fmt::format("a short edge of length {:.3g}", found.length), found.middle});
+  }
+}
+
+std::string name_of(const NamedShape& named, const TopoDS_Shape& face, int index) {
+  const FaceLabel* label = named.labels.Seek(face);
+  return label != nullptr && !label->name.empty() ? label->name : fmt::format("face_{}", index);
+}
+
+void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    GProp_GProps surface, rim;
+    BRepGProp::SurfaceProperties(faces(i), surface);
+    BRepGProp::LinearProperties(faces(i), rim);
+    const double length = 0.5 * rim.Mass();  // of a strip
+    const double width = length > 0 ? std::abs(surface.Mass()) / length : 0;
+    if (width > sliver_width * diagonal || width > sliver_slenderness * length) continue;
+    if (++diagnosis.counts.sliver_faces > shown_of_a_kind) continue;
+    diagnosis.findings.push_back({fmt::format("a sliver face '{}' {:.3g} wide and {:.3g} long",
+                                              name_of(named, faces(i), i - 1), width, length),
+                                  tight_box(faces(i)).center()});
+  }
+}
+
+void examine(const NamedShape& named, Diagnosis& diagnosis) {
+  diagnosis.unit_name = named.unit_name;
+  diagnosis.bounds = tight_box(named.shape);
+  diagnosis.counts.solids = count(named.shape, TopAbs_SOLID);
+  diagnosis.counts.shells = count(named.shape, TopAbs_SHELL);
+  diagnosis.counts.faces = count(named.shape, TopAbs_FACE);
+  diagnosis.counts.edges = count(named.shape, TopAbs_EDGE);
+  const double diagonal = diagnosis.bounds.diagonal();
+  find_open_edges(named.shape, diagnosis);
+  find_short_edges(named.shape, diagonal, diagnosis);
+  find_slivers(named, diagonal, diagnosis);
+}
+
+}  // namespace
+
+Diagnosis diagnose(const DomainOptions& options) {
+  Diagnosis diagnosis;
+  diagnosis.format = options.transport ? "built-in" : format_of_cad_file(options.file);
+  guarded("examining the geometry", [&] {
+    examine(options.transport ? make_transport(*options.transport) : read_cad_file(options.file), diagnosis);
+  });
+  try {
+    diagnosis.domain = prepare_domain(options);
+  } catch (const CadError& error) {
+    diagnosis.failure = error.what();
+  }
+  return diagnosis;
+}
+
+}  // namespace aeroloom::cad

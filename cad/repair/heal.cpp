@@ -1,0 +1,166 @@
+#include "cad/repair/heal.hpp"
+
+#include "cad/model/model_data.hpp"
+#include "cad/model/step_trace.hpp"
+#include "cad/repair/repair_edges.hpp"
+#include "cad/repair/sewing.hpp"
+#include "cad/repair/shells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// What a file's shape consists of.
+struct Parts {
+  std::vector<TopoDS_Solid> solids;
+  std::vector<TopoDS_Shell> closed_shells;  ///< outside solids
+  TopTools_IndexedMapOfShape open_faces;    ///< of shells that do not close
+  TopTools_IndexedMapOfShape loose_faces;   ///< of no shell
+};
+
+std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Shell> shells;
+  for (TopExp_Explorer each(shape, TopAbs_SHELL); each.More(); each.Next()) {
+    shells.push_back(TopoDS::Shell(each.Current()));
+  }
+  return shells;
+}
+
+Parts take_apart(const TopoDS_Shape& shape, Changes& changes) {
+  Parts parts;
+  TopTools_IndexedMapOfShape solids, shells, faces;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    const std::vector<TopoDS_Shell> bounds = shells_of(solids(i));
+    const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed);
+    if (closed) {
+      parts.solids.push_back(TopoDS::Solid(solids(i).Oriented(TopAbs_FORWARD)));
+    } else {
+      changes.push_back({fmt::format("solid {} is not closed: its faces are sewn anew", i - 1)});
+      TopExp::MapShapes(solids(i), TopAbs_FACE, parts.open_faces);
+    }
+  }
+  // A compound may list the shells and faces of its solids once more.
+  TopTools_IndexedMapOfShape of_solids;
+  for (int i = 1; i <= solids.Extent(); ++i) TopExp::MapShapes(solids(i), TopAbs_FACE, of_solids);
+  for (TopExp_Explorer each(shape, TopAbs_SHELL, TopAbs_SOLID); each.More(); each.Next()) {
+    const TopExp_Explorer first(each.Current(), TopAbs_FACE);
+    if (first.More() && !of_solids.Contains(first.Current())) shells.Add(each.Current());
+  }
+  for (int i = 1; i <= shells.Extent(); ++i) {
+    const TopoDS_Shell shell = TopoDS::Shell(shells(i));
+    if (is_closed(shell)) {
+      parts.closed_shells.push_back(shell);
+    } else {
+      TopExp::MapShapes(shell, TopAbs_FACE, parts.open_faces);
+    }
+  }
+  for (TopExp_Explorer each(shape, TopAbs_FACE, TopAbs_SHELL); each.More(); each.Next()) {
+    parts.loose_faces.Add(each.Current());
+  }
+  return parts;
+}
+
+/// One solid may hold shells that are no voids but bodies of their own.
+void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
+                 std::vector<TopoDS_Solid>& result, Changes& changes) {
+  const std::vector<TopoDS_Shell> shells = shells_of(solid);
+  if (shells.size() == 1) {
+    const double volume = volumes.of(solid);
+    if (volume >= 0) return result.push_back(solid);
+    changes.push_back({fmt::format("solid {} was inside out: turned", index)});
+    return result.push_back(solid_of(shells.front(), volumes));
+  }
+  const std::vector<TopoDS_Solid> split = nest_shells(shells, volumes);
+  if (split.size() > 1) {
+    changes.push_back({fmt::format("solid {} held {} separate bodies: one solid each", index, split.size())});
+  }
+  result.insert(result.end(), split.begin(), split.end());
+}
+
+void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
+                Changes& changes) {
+  TopTools_IndexedMapOfShape used;
+  for (const TopoDS_Solid& solid : solids) TopExp::MapShapes(solid, TopAbs_FACE, used);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    if (used.Contains(faces(i))) continue;
+    const Vec3 center = tight_box(faces(i)).center();
+    changes.push_back(
+        {fmt::format("a loose face around ({:.6g}, {:.6g}, {:.6g}) belongs to no solid: dropped", center.x,
+                     center.y, center.z)});
+  }
+}
+
+void require_volume(const std::vector<TopoDS_Solid>& solids, Volumes& volumes) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Box box = tight_box(solids[i]);
+    const double volume = volumes.of(solids[i]);
+    if (volume > 1e-9 * std::pow(box.diagonal(), 3)) continue;
+    const Vec3 at = box.center();
+    throw CadError(
+        fmt::format("solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses no volume ({:.3g} in a box of "
+                    "diagonal {:.6g}): a sheet "
+                    "is no body",
+                    i, at.x, at.y, at.z, volume, box.diagonal()));
+  }
+}
+
+}  // namespace
+
+std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, TopAbs_SOLID, map);
+  std::vector<TopoDS_Solid> solids;
+  for (int i = 1; i <= map.Extent(); ++i) solids.push_back(TopoDS::Solid(map(i)));
+  return solids;
+}
+
+TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Solid& solid : solids) builder.Add(compound, solid);
+  return compound;
+}
+
+NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volumes, Changes& changes) {
+  tell_step("healing the shape");
+  Parts parts = take_apart(named.shape, changes);
+  std::vector<TopoDS_Solid> solids;
+  for (std::size_t i = 0; i < parts.solids.size(); ++i)
+    split_solid(parts.solids[i], i, volumes, solids, changes);
+  std::vector<TopoDS_Shell> shells = parts.closed_shells;
+  if (!shells.empty()) changes.push_back({fmt::format("{} closed shells promoted to solids", shells.size())});
+  if (solids.empty() && shells.empty()) {
+    TopExp::MapShapes(named.shape, TopAbs_FACE, parts.open_faces);
+    parts.loose_faces.Clear();
+  }
+  if (!parts.open_faces.IsEmpty()) {
+    const SewnShells sewn = sew(parts.open_faces, largest_tolerance, named.labels, changes);
+    shells.insert(shells.end(), sewn.shells.begin(), sewn.shells.end());
+    named.gap = sewn.gap;
+  }
+  const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);
+  solids.insert(solids.end(), promoted.begin(), promoted.end());
+  if (solids.empty()) throw CadError("there are no faces to make a solid of");
+  drop_faces(parts.loose_faces, solids, changes);
+  named.shape = make_compound(solids);
+  repair_edges(named.shape, 1e-6 * tight_box(named.shape).diagonal(), changes);
+  require_volume(solids, volumes);
+  return named;
+}
+
+}  // namespace aeroloom::cad

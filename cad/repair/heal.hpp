@@ -1,0 +1,25 @@
+/// From what a file holds to closed solids. Seen by this folder only.
+#pragma once
+
+#include "cad/model/named_shape.hpp"
+#include "cad/repair/change.hpp"
+#include "cad/repair/volumes.hpp"
+
+#include <string>
+#include <vector>
+
+#include <TopoDS_Solid.hxx>
+
+namespace aeroloom::cad {
+
+/// The solids of a shape, in order.
+std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape);
+TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids);
+
+/// A compound of closed, outward solids: the shape's own; closed shells promoted; what remains, when there
+/// are no solids, sewn (sewing.hpp) with tolerances up to `largest_tolerance`. Labels follow. Every change is
+/// appended to `changes`. Throws CadError listing open edges where no closed solid comes out, and for solids
+/// without volume.
+NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volumes, Changes& changes);
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,110 @@
+#include "cad/repair/repair_edges.hpp"
+
+#include "cad/model/model_data.hpp"
+#include "cad/model/model_topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2dAPI_Interpolate.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <ShapeFix_Edge.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_HArray1OfPnt2d.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+constexpr int samples = 200;
+
+/// Crowded towards the ends, where parameters run away most.
+double sample_parameter(double first, double last, int i) {
+  return first + (last - first) * 0.5 * (1 - std::cos(std::numbers::pi * i / samples));
+}
+
+struct Pace {
+  double before = 0,
+         after = 0;  ///< largest distance of the edge from its parameter curve at equal parameters
+  Handle(TColgp_HArray1OfPnt2d) uv;  ///< of the points of the edge
+  Handle(TColStd_HArray1OfReal) at;
+};
+
+Pace measure_pace(const TopoDS_Edge& edge, const FaceEvaluator& face, double tolerance) {
+  double first, last, low, high;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(edge, face.shape, low, high);
+  Pace pace{0, 0, new TColgp_HArray1OfPnt2d(1, samples + 1), new TColStd_HArray1OfReal(1, samples + 1)};
+  for (int i = 0; i <= samples; ++i) {
+    const double parameter = i == samples ? last : sample_parameter(first, last, i);
+    const gp_Pnt place = curve->Value(parameter);
+    const Vec3 point{place.X(), place.Y(), place.Z()};
+    const gp_Pnt2d guess = image->Value(low + (parameter - first) / (last - first) * (high - low));
+    Vec2 uv{guess.X(), guess.Y()};
+    pace.before = std::max(pace.before, distance(face.surface.point(uv), point));
+    if (i > 0 && i < samples) uv = settle_on_face(face, point, uv, tolerance);
+    pace.after = std::max(pace.after, distance(face.surface.point(uv), point));
+    pace.uv->SetValue(i + 1, gp_Pnt2d(uv.x, uv.y));
+    pace.at->SetValue(i + 1, parameter);
+  }
+  return pace;
+}
+
+/// Gives an edge that leaves its face, because its two curves run at different paces, a parameter curve that
+/// keeps up. True when it did.
+bool keep_pace(const TopoDS_Edge& edge, const TopoDS_Face& shape, double tolerance) {
+  const FaceEvaluator face = make_evaluator(shape, tolerance);
+  const Pace pace = measure_pace(edge, face, 1e-3 * tolerance);
+  if (pace.before <= tolerance || pace.after > 0.1 * pace.before) return false;
+  Geom2dAPI_Interpolate interpolation(pace.uv, pace.at, false, 0);
+  interpolation.Perform();
+  if (!interpolation.IsDone()) return false;
+  BRep_Builder builder;
+  builder.UpdateEdge(edge, interpolation.Curve(), face.shape, pace.after);
+  builder.Range(edge, face.shape, pace.at->First(), pace.at->Last());
+  return true;
+}
+
+}  // namespace
+
+void repair_edges(const TopoDS_Shape& shape, double tolerance, Changes& changes) {
+  TopTools_IndexedDataMapOfShapeListOfShape users;
+  TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
+  int curves = 0, images = 0, paces = 0;
+  for (int i = 1; i <= users.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i).Oriented(TopAbs_FORWARD));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    double first, last;
+    if (BRep_Tool::Curve(edge, first, last).IsNull()) curves += BRepLib::BuildCurve3d(edge);
+    for (const TopoDS_Shape& shape_of_face : users(i)) {
+      const TopoDS_Face face = TopoDS::Face(shape_of_face.Oriented(TopAbs_FORWARD));
+      const bool seam = BRep_Tool::IsClosed(edge, face);
+      if (BRep_Tool::CurveOnSurface(edge, face, first, last).IsNull()) {
+        images += ShapeFix_Edge().FixAddPCurve(edge, face, seam);
+      } else if (!seam && !BRep_Tool::Curve(edge, first, last).IsNull()) {
+        paces += keep_pace(edge, face, tolerance);
+      }
+    }
+  }
+  if (curves > 0) changes.push_back({fmt::format("{} edges got the curve they lacked", curves)});
+  if (images > 0)
+    changes.push_back({fmt::format("{} edges got the parameter curve they lacked on a face", images)});
+  if (paces > 0) {
+    changes.push_back({fmt::format(
+        "{} parameter curves left their edges by more than {:.3g}, running at another pace: fitted anew",
+        paces, tolerance)});
+  }
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,23 @@
+/// Closed shells and which of them lies in which. Seen by this folder only.
+#pragma once
+
+#include "cad/repair/volumes.hpp"
+
+#include <vector>
+
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+
+namespace aeroloom::cad {
+
+/// Whether every proper edge of the shell is shared, so that it encloses space.
+bool is_closed(const TopoDS_Shell& shell);
+
+/// A solid of one closed shell, turned outward.
+TopoDS_Solid solid_of(const TopoDS_Shell& shell, Volumes& volumes);
+
+/// Solids from closed shells: each shell at even nesting depth becomes a solid, the shells directly inside it
+/// become its voids.
+std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, Volumes& volumes);
+
+}  // namespace aeroloom::cad

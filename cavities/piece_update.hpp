@@ -1,0 +1,73 @@
+/// Tetrahedra that leave a piece and others that come. Used by rounds.cpp.
+#pragma once
+
+#include "cavities/rounds.hpp"
+
+#include <span>
+
+namespace aeroloom::cavities {
+
+// What travels between pieces and cavities, its vertices by token.
+struct WireTet {
+  CavityId cavity;
+  mesh::PieceId piece;
+  mesh::RegionId region;
+  std::array<mesh::SharedToken, 4> vertices;
+};
+struct WireVertex {
+  CavityId cavity;
+  mesh::PieceId piece;
+  std::int32_t dimension;
+  mesh::SharedToken token;
+  geometry::Vec3 point;
+  std::int32_t entity, unused = 0;  ///< no padding travels
+};
+struct WireTriangle {
+  CavityId cavity;
+  mesh::PieceId piece;
+  std::int32_t face;
+  std::array<mesh::SharedToken, 3> vertices;
+  std::int32_t patch, unused = 0;
+};
+
+/// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.
+class PieceUpdate {
+public:
+  /// `tokens` names every vertex of the piece in this round.
+  PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedToken>& tokens);
+
+  /// A cell that leaves: those of its vertices that stay behind are shared from now on.
+  void leave(mesh::LocalIndex cell);
+  void keep(mesh::LocalIndex cell);
+  void keep_triangle(mesh::LocalIndex triangle) { _kept_triangles.push_back(triangle); }
+
+  /// The piece with what comes; `vertices` has at least those of `tets` that the piece does not know.
+  mesh::Piece finish(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices,
+                     const std::vector<WireTriangle>& triangles);
+
+private:
+  struct Named {
+    mesh::SharedToken token;
+    mesh::LocalIndex vertex;
+  };
+
+  void number_old();
+  mesh::LocalIndex add(geometry::Vec3 p, std::int32_t dimension, std::int32_t entity);
+  void add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices);
+  void append_cells(std::span<const WireTet> tets);
+  void append_triangles(const std::vector<WireTriangle>& triangles);
+  void sort_names();
+  void trim();
+  mesh::LocalIndex find(mesh::SharedToken token) const;
+  void list_shared();
+
+  const mesh::Piece& _old;
+  const std::vector<mesh::SharedToken>& _tokens;
+  mesh::Piece _piece;
+  std::vector<mesh::LocalIndex> _number;  // new number of an old vertex, -1: gone
+  std::vector<char> _named;               // per old vertex: shared from now on
+  std::vector<mesh::LocalIndex> _kept, _kept_triangles;
+  std::vector<Named> _names;  // by token
+};
+
+}  // namespace aeroloom::cavities

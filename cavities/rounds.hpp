@@ -1,0 +1,86 @@
+/// Cavities that reach over several pieces: tetrahedra around chosen vertices are taken out, brought together
+/// on one rank, replaced by others, and given back to the pieces. Pieces change their outline by this;
+/// the mesh stays one mesh, whatever the rank count.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace aeroloom::cavities {
+
+/// Cavities are named by numbers that follow from the mesh alone.
+using CavityId = std::uint64_t;
+inline constexpr CavityId no_cavity = 0;
+
+/// A cavity per cell of a grid whose cells are `width` times as wide as `size`, up to eight times that: sizes
+/// may grow a lot within a cell. Another `shift` gives a grid whose borders lie elsewhere.
+CavityId cavity_at(geometry::Vec3 p, double size, double width, int shift);
+
+/// A triangle of the surface mesh that bounds a cavity.
+struct CavityTriangle {
+  std::array<mesh::LocalIndex, 3> vertices;
+  std::int32_t face, patch;
+};
+
+/// One cavity before it is refilled. Vertices are numbered within the cavity; those that pieces share come
+/// by token, the others by piece, so the order is the same for any rank count.
+struct Cavity {
+  CavityId id = no_cavity;
+  mesh::RegionId region = 0;
+  std::vector<geometry::Vec3> points;
+  std::vector<std::int8_t> dimension;  ///< per point: classification
+  std::vector<std::int32_t> entity;    ///< per point
+  std::vector<std::array<mesh::LocalIndex, 4>> tets;
+  std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
+};
+
+/// A vertex that comes with a refilling; inside the region unless it says otherwise.
+struct AddedVertex {
+  geometry::Vec3 point;
+  std::int8_t dimension = 3;
+  std::int32_t entity = 0;  ///< of a vertex on the CAD
+};
+
+/// What takes the place of a cavity's tetrahedra. They cover the same region with the same boundary faces,
+/// but for those on the surface mesh where `triangles` says so: the faces they leave open there.
+struct Refilling {
+  std::vector<AddedVertex> added;  ///< numbered behind those of the cavity
+  std::vector<std::array<mesh::LocalIndex, 4>> tets;
+  std::optional<std::vector<CavityTriangle>> triangles;  ///< in the place of the cavity's
+
+  const std::vector<CavityTriangle>& triangles_of(const Cavity& cavity) const {
+    return triangles ? *triangles : cavity.triangles;
+  }
+};
+
+/// Refills a cavity; nothing: it stays as it was. Must be a function of its argument alone.
+using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
+
+/// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. What one
+/// piece wishes for a shared vertex, the others do too; where they differ the higher number counts.
+using CavityWishes = std::vector<std::vector<CavityId>>;
+
+struct CavityRound {
+  std::int64_t cavities = 0, refilled = 0;
+};
+
+/// Whether a vertex with this token was placed by the last round on the mesh.
+bool is_placed_by_last_round(const mesh::DistributedMesh& mesh, mesh::SharedToken token);
+
+/// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
+/// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
+/// another round with other wishes. Then the stars of their neighbours are taken as well, where these lie
+/// inside a piece and near one cavity only. Deals cavities out by size. At most 255 rounds on one mesh.
+/// Collective. Throws CollectiveError.
+CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                            const CavityWishes& wishes, const RefillCavity& refill,
+                            parallel::StageClock& clock);
+
+}  // namespace aeroloom::cavities

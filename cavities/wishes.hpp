@@ -1,0 +1,27 @@
+/// Which vertices' stars a round of cavities takes. Used by rounds.cpp.
+#pragma once
+
+#include "cavities/rounds.hpp"
+
+namespace aeroloom::cavities {
+
+/// All pieces wish the same for shared vertices: the highest. Collective.
+void spread_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                   CavityWishes& wishes);
+
+/// Withdraws wishes of vertices with a neighbour in another cavity, in any piece. Collective.
+void settle_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                   CavityWishes& wishes);
+
+/// Adds the inner vertices next to each cavity: to it, if they are next to no other.
+void widen(const mesh::Piece& piece, std::vector<CavityId>& wishes);
+
+/// The first wish among vertices.
+inline CavityId cavity_of(const std::vector<CavityId>& wishes, const mesh::LocalIndex* vertices, int count) {
+  for (int k = 0; k < count; ++k) {
+    if (wishes[vertices[k]] != no_cavity) return wishes[vertices[k]];
+  }
+  return no_cavity;
+}
+
+}  // namespace aeroloom::cavities

@@ -1,0 +1,16 @@
+/// What the user may ask of the improvement stage.
+#pragma once
+
+namespace aeroloom::improve {
+
+struct ImproveOptions {
+  bool enabled = true;
+  double target_angle = 28;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
+                             ///< minus 1.5 times this, are worked on
+  int sweeps = 12;           ///< at most; ends earlier when a sweep gains nothing
+  int relaxation = 1;        ///< passes of smoothing for the average (relaxation.hpp)
+  bool boundary_may_change = true;  ///< its triangles may flip and edges contract within one CAD face
+  int shifted_rounds = 3;  ///< at most, across the borders of pieces; ends earlier when nothing is left
+};
+
+}  // namespace aeroloom::improve

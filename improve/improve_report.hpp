@@ -1,0 +1,17 @@
+/// What the improvement stage tells about its work.
+#pragma once
+
+#include <cstdint>
+
+namespace aeroloom::improve {
+
+struct ImproveReport {
+  std::int64_t bad_before = 0, bad_after = 0;        ///< tetrahedra that miss the target
+  double min_angle_before = 0, min_angle_after = 0;  ///< degrees
+  std::int64_t smoothed = 0;                         ///< vertices inside moved
+  std::int64_t slid = 0;                             ///< vertices moved along CAD faces and curves
+  std::int64_t swaps = 0;                            ///< cavities filled anew
+  std::int64_t changed_triangles = 0;                ///< of the boundary
+};
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,73 @@
+#include "mesh/tokens.hpp"
+
+#include <stdexcept>
+
+namespace aeroloom::mesh {
+namespace {
+
+// Surfaces: bit 63 for cuts, then 23 bits of face, 16 of group, 24 of index; without it edge + 1 and index.
+constexpr SharedToken cut_bit = SharedToken{1} << 63;
+constexpr int face_bits = 23, group_bits = 16, index_bits = 24;
+constexpr int edge_shift = 32;
+
+// Volumes: bits 63 and 62 for rounds, 8 for the round, 54 for piece and vertex or for a running number.
+constexpr SharedToken late_bit = SharedToken{1} << 63, placed_bit = SharedToken{1} << 62,
+                      added_bit = SharedToken{1} << 61;
+constexpr int round_shift = 54, piece_shift = 31, zone_shift = 32;
+constexpr SharedToken round_mask = 0xff;
+
+constexpr SharedToken wide(std::int64_t value) {
+  return static_cast<SharedToken>(value);
+}
+
+}  // namespace
+
+SharedToken vertex_token(std::int32_t vertex) {
+  return wide(vertex);
+}
+
+SharedToken curve_token(std::int32_t edge, std::int32_t index) {
+  return (wide(edge) + 1) << edge_shift | wide(index);
+}
+
+SharedToken cut_token(std::int32_t face, std::int32_t group, std::int32_t index) {
+  if (face >= 1 << face_bits || group >= 1 << group_bits || index >= 1 << index_bits) {
+    throw std::length_error("a face is cut into more pieces than vertices on cuts can be named for");
+  }
+  return cut_bit | wide(face) << (group_bits + index_bits) | wide(group) << index_bits | wide(index);
+}
+
+bool is_cut_token(SharedToken token) {
+  return (token & cut_bit) != 0;
+}
+
+std::int32_t edge_of_token(SharedToken token) {
+  return is_cut_token(token) ? -1 : static_cast<std::int32_t>(token >> edge_shift) - 1;
+}
+
+std::int32_t index_of_token(SharedToken token) {
+  return static_cast<std::int32_t>(token & 0xffffffffu);
+}
+
+SharedToken running_token(std::int64_t number) {
+  return wide(number);
+}
+
+SharedToken added_token(std::int32_t zone, std::int64_t index) {
+  return added_bit | wide(zone) << zone_shift | wide(index);
+}
+
+SharedToken late_token(int round, PieceId piece, LocalIndex vertex) {
+  return late_bit | wide(round) << round_shift | wide(piece) << piece_shift | wide(vertex);
+}
+
+SharedToken placed_token(int round, std::int64_t index) {
+  return late_bit | placed_bit | wide(round) << round_shift | wide(index);
+}
+
+bool is_placed_by(SharedToken token, int round) {
+  return (token & late_bit) != 0 && (token & placed_bit) != 0 &&
+         (token >> round_shift & round_mask) == wide(round);
+}
+
+}  // namespace aeroloom::mesh

@@ -1,0 +1,45 @@
+/// Solids with a narrow strip on their side, for tests of narrow faces.
+#pragma once
+
+#include "tests/cad/cad_shapes.hpp"
+#include "tests/cad/prisms.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
+
+namespace aeroloom::cad::shapes {
+
+/// A cylinder of radius 1 about z, its side in two faces: one of them `degrees` wide.
+inline Model split_cylinder(double degrees, double height) {
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
+  const double cut = degrees * std::numbers::pi / 180;
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(circle, 0, cut).Edge(),
+                               BRepBuilderAPI_MakeEdge(circle, cut, 2 * std::numbers::pi).Edge());
+  return prepare_fluid(
+             BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, height)).Shape())
+      .model;
+}
+
+/// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.
+inline Model blunt_wedge(double thickness) {
+  return prepare_fluid(prism({{0, -0.2}, {1, -0.5 * thickness}, {1, 0.5 * thickness}, {0, 0.2}}, 1)).model;
+}
+
+/// A prism along y with a side that bends by so many degrees before its end: what is behind the bend is a
+/// strip 0.05 wide. No other edge of it is smooth.
+inline Model creased_prism(double degrees) {
+  const double slope = std::atan(0.3) + degrees * std::numbers::pi / 180, width = 0.05;
+  return prepare_fluid(
+             prism({{0, 0}, {1, 0.3}, {1 + width * std::cos(slope), 0.3 + width * std::sin(slope)}, {0.1, 2}},
+                   1))
+      .model;
+}
+
+}  // namespace aeroloom::cad::shapes

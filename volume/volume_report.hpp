@@ -1,0 +1,47 @@
+/// What the volume stage tells about its work.
+#pragma once
+
+#include "geometry/vec.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// What the decomposition tells.
+struct DecompositionReport {
+  std::int64_t blocks = 0;  ///< of the lattice
+  std::int64_t lattice_points = 0;
+  double expected_tetrahedra = 0;  ///< from points and triangles
+  std::int32_t zones = 0;
+  double imbalance = 1;  ///< heaviest zone over the mean, halo included
+};
+
+/// A zone that could not be filled at first.
+struct Retry {
+  std::int32_t zone;
+  std::string change;  ///< what was done about it
+  std::string reason;
+};
+
+/// A place where zones made different tetrahedra, and which of them counts.
+struct Disagreement {
+  geometry::Vec3 place;
+  std::int32_t zone;   ///< that counts
+  std::int32_t faces;  ///< that did not match
+  std::int32_t round;
+};
+
+/// What the filling tells.
+struct VolumeReport {
+  std::int64_t tetrahedra = 0;
+  double halo = 1;                  ///< lattice points that zones know, all together, over those there are
+  std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
+  std::vector<Retry> retries;
+  std::vector<Disagreement> disagreements;
+  int rounds = 1;            ///< of filling; further ones fill again what failed or disagreed
+  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
+};
+
+}  // namespace aeroloom::volume
