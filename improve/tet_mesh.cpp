@@ -10,13 +10,6 @@ namespace {
 using mesh::tetrahedron_edges;
 using mesh::tetrahedron_faces;
 
-std::array<LocalIndex, 3> sorted(LocalIndex a, LocalIndex b, LocalIndex c) {
-  if (a > b) std::swap(a, b);
-  if (b > c) std::swap(b, c);
-  if (a > b) std::swap(a, b);
-  return {a, b, c};
-}
-
 }  // namespace
 
 TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure, bool boundary_may_change)
@@ -38,42 +31,6 @@ TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure, bool boundary_ma
   match_all_faces();
   if (boundary_may_change) match_triangles();
   fix_vertices();
-}
-
-// The open side of a face that is a boundary triangle gets the triangle's number.
-void TetMesh::match_triangles() {
-  struct Named {
-    std::array<LocalIndex, 3> key;
-    LocalIndex triangle;
-  };
-  std::vector<Named> named(_piece.boundary.size() / 3);
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    const LocalIndex* v = _piece.boundary.data() + 3 * i;
-    named[i] = {sorted(v[0], v[1], v[2]), static_cast<LocalIndex>(i)};
-  }
-  const auto before = [](const Named& a, const Named& b) { return a.key < b.key; };
-  std::sort(named.begin(), named.end(), before);
-  for (std::size_t h = 0; h < _mates.size() && !named.empty(); ++h) {
-    if (_mates[h] >= 0) continue;
-    const Named wanted{face_key(static_cast<HalfFace>(h)), 0};
-    const auto found = std::lower_bound(named.begin(), named.end(), wanted, before);
-    if (found != named.end() && found->key == wanted.key) _mates[h] = -2 - found->triangle;
-  }
-}
-
-std::array<LocalIndex, 3> TetMesh::triangle(LocalIndex i) const {
-  const LocalIndex* v = _piece.boundary.data() + 3 * static_cast<std::size_t>(i);
-  return {v[0], v[1], v[2]};
-}
-
-bool TetMesh::is_free_triangle(LocalIndex i) const {
-  const auto v = triangle(i);
-  return v[0] >= 0 && !(is_shared(v[0]) && is_shared(v[1]) && is_shared(v[2]));
-}
-
-bool TetMesh::on_same_face(LocalIndex i, LocalIndex k) const {
-  return _piece.triangle_face[i] == _piece.triangle_face[k] &&
-         _piece.triangle_patch[i] == _piece.triangle_patch[k];
 }
 
 std::array<LocalIndex, 3> TetMesh::face_key(HalfFace h) const {
@@ -152,69 +109,6 @@ void TetMesh::collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets) {
   }
 }
 
-namespace {
-
-// For each edge, the two other vertices in the order that makes (start, end, from, to) positive.
-constexpr int others[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
-
-}  // namespace
-
-bool TetMesh::collect_fan(LocalIndex t, int edge, int most, Fan& fan) const {
-  fan.start = _cells[t][tetrahedron_edges[edge][0]];
-  fan.end = _cells[t][tetrahedron_edges[edge][1]];
-  LocalIndex from = _cells[t][others[edge][0]], to = _cells[t][others[edge][1]];
-  // Back to the first tetrahedron, then forward through all of them.
-  LocalIndex current = t;
-  for (int steps = 0;; ++steps) {
-    const HalfFace previous = _mates[4 * current + local_vertex(current, to)];
-    if (is_triangle(previous)) {
-      fan.triangles[0] = triangle_of(previous);
-      break;
-    }
-    if (previous < 0 || steps == most) return false;
-    to = from;
-    current = previous >> 2;
-    from = _cells[current][previous & 3];
-    if (current == t) return false;
-  }
-  fan.tets.clear();
-  fan.ring.assign(1, from);
-  while (true) {
-    if (static_cast<int>(fan.tets.size()) == most) return false;
-    fan.tets.push_back(current);
-    fan.ring.push_back(to);
-    const HalfFace next = _mates[4 * current + local_vertex(current, from)];
-    if (is_triangle(next)) {
-      fan.triangles[1] = triangle_of(next);
-      return true;
-    }
-    if (next < 0) return false;
-    from = to;
-    current = next >> 2;
-    to = _cells[current][next & 3];
-  }
-}
-
-bool TetMesh::collect_edge_ring(LocalIndex t, int edge, int most, EdgeRing& edge_ring) const {
-  edge_ring.start = _cells[t][tetrahedron_edges[edge][0]];
-  edge_ring.end = _cells[t][tetrahedron_edges[edge][1]];
-  LocalIndex from = _cells[t][others[edge][0]], to = _cells[t][others[edge][1]];
-  edge_ring.tets.clear();
-  edge_ring.ring.clear();
-  LocalIndex current = t;
-  do {
-    if (static_cast<int>(edge_ring.tets.size()) == most) return false;
-    edge_ring.tets.push_back(current);
-    edge_ring.ring.push_back(from);
-    const HalfFace next = _mates[4 * current + local_vertex(current, from)];
-    if (next < 0) return false;
-    from = to;
-    current = next >> 2;
-    to = _cells[current][next & 3];
-  } while (current != t);
-  return true;
-}
-
 void TetMesh::take_slots(const Replacement& cavity, std::vector<LocalIndex>& placed) {
   placed.clear();
   for (std::size_t i = 0; i < cavity.new_tets.size(); ++i) {
@@ -235,36 +129,6 @@ void TetMesh::take_slots(const Replacement& cavity, std::vector<LocalIndex>& pla
   }
   for (std::size_t i = cavity.new_tets.size(); i < cavity.old_tets.size(); ++i)
     _cells[cavity.old_tets[i]][0] = -1;
-}
-
-// A face that is open from now on is the boundary's triangle `triangle`, as seen from outside.
-void TetMesh::open_boundary(const FaceRecord& record, LocalIndex triangle) {
-  if (record.side < 0) throw std::logic_error("improve: a boundary triangle without a tetrahedron");
-  _mates[record.side] = -2 - triangle;
-  const auto& face = tetrahedron_faces[record.side & 3];
-  const Corners& c = _cells[record.side >> 2];
-  for (int k = 0; k < 3; ++k) _piece.boundary[3 * static_cast<std::size_t>(triangle) + k] = c[face[k]];
-}
-
-// Pairs stay, single faces are the new boundary.
-void TetMesh::match_boundary(const Replacement& cavity) {
-  std::size_t kept = 0, used = 0;
-  for (std::size_t i = 0; i < _faces.size(); ++i) {
-    if (i + 1 < _faces.size() && _faces[i].key == _faces[i + 1].key) {
-      _faces[kept++] = _faces[i++];
-      _faces[kept++] = _faces[i];
-    } else if (used < cavity.old_triangles.size()) {
-      open_boundary(_faces[i], cavity.old_triangles[used++]);
-    } else {
-      throw std::logic_error("improve: a cavity opens more boundary than it had");
-    }
-  }
-  _faces.resize(kept);
-  _changed_triangles += static_cast<std::int64_t>(cavity.old_triangles.size());
-  for (; used < cavity.old_triangles.size(); ++used) {
-    _piece.boundary[3 * static_cast<std::size_t>(cavity.old_triangles[used])] = -1;
-    _dead_triangles = true;
-  }
 }
 
 void TetMesh::match_cavity_faces() {
@@ -373,21 +237,6 @@ void TetMesh::order_cells() {
     emit(t);
     for (; next != added.end() && _place[*next] == t; ++next) emit(_original_count + *next);
   }
-}
-
-void TetMesh::remove_dead_triangles() {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < _piece.triangle_face.size(); ++i) {
-    if (_piece.boundary[3 * i] < 0) continue;
-    std::copy_n(_piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(i), 3,
-                _piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
-    _piece.triangle_face[kept] = _piece.triangle_face[i];
-    _piece.triangle_patch[kept] = _piece.triangle_patch[i];
-    ++kept;
-  }
-  _piece.boundary.resize(3 * kept);
-  _piece.triangle_face.resize(kept);
-  _piece.triangle_patch.resize(kept);
 }
 
 // Those that a cavity has swallowed.

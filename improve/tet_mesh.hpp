@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::improve {
@@ -22,6 +23,14 @@ using Corners = std::array<LocalIndex, 4>;
 /// One side of a face: 4 * tetrahedron + local face (opposite the local vertex). Where there is no
 /// tetrahedron: -1, or -2 - i on triangle i of the piece's boundary.
 using HalfFace = std::int32_t;
+
+/// The corners of a triangle, ascending.
+inline std::array<LocalIndex, 3> sorted(LocalIndex a, LocalIndex b, LocalIndex c) {
+  if (a > b) std::swap(a, b);
+  if (b > c) std::swap(b, c);
+  if (a > b) std::swap(a, b);
+  return {a, b, c};
+}
 
 /// Whether this side of a face is a triangle of the piece's boundary, and which.
 inline bool is_triangle(HalfFace h) {

@@ -10,6 +10,11 @@
 
 namespace aeroloom::partition {
 
+using TriangleIndex = std::int32_t;  ///< of a background triangle
+using ClusterIndex = std::int32_t;   ///< of a node of the simplified dual graph
+using PartIndex = std::int32_t;      ///< of a part of the background
+using FanIndex = std::int32_t;       ///< of the triangles around a vertex, in VertexFans
+
 /// An oriented triangulation, coarse next to the mesh to come. Edges with a triangle on one side alone are
 /// feature curves: they bound pieces whatever the decomposition.
 struct BackgroundSurface {
@@ -30,15 +35,15 @@ struct VertexFans {
   std::vector<char> closed;                 ///< per fan: 1 around an interior vertex
   std::vector<double> angles;               ///< per corner, degrees
 
-  std::int32_t count() const { return static_cast<std::int32_t>(closed.size()); }
-  std::int32_t size(std::int32_t fan) const { return first[fan + 1] - first[fan]; }
+  FanIndex count() const { return static_cast<FanIndex>(closed.size()); }
+  std::int32_t size(FanIndex fan) const { return first[fan + 1] - first[fan]; }
   /// Edges leave the vertex between corners: edge i of a fan lies before its corner i; an open fan ends with
   /// one more. This is its half-edge in one of the triangles beside it.
-  geometry::HalfEdge edge(std::int32_t fan, std::int32_t i) const {
+  geometry::HalfEdge edge(FanIndex fan, std::int32_t i) const {
     return i < size(fan) ? corners[first[fan] + i]
                          : geometry::previous_half_edge(corners[first[fan + 1] - 1]);
   }
-  std::int32_t edge_count(std::int32_t fan) const { return size(fan) + (closed[fan] ? 0 : 1); }
+  std::int32_t edge_count(FanIndex fan) const { return size(fan) + (closed[fan] ? 0 : 1); }
 };
 
 /// Fans in the order of their first corners (open ones begin at a feature curve).
@@ -47,7 +52,8 @@ VertexFans gather_fans(const BackgroundSurface& surface);
 /// Stretches of a fan between two of its edges: `from` and `to` are edge numbers, the angle between them is
 /// counted counter-clockwise.
 struct Wedge {
-  std::int32_t fan, from, to;
+  FanIndex fan;
+  std::int32_t from, to;
   double angle;  ///< degrees
 };
 

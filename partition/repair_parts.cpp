@@ -6,19 +6,20 @@
 namespace aeroloom::partition {
 namespace {
 
+constexpr int repair_rounds = 6;
+
 bool is_feature(const BackgroundSurface& surface, geometry::HalfEdge h) {
   return surface.twins[h] < 0;
 }
 
-bool is_border(const BackgroundSurface& surface, const std::vector<std::int32_t>& part,
-               geometry::HalfEdge h) {
+bool is_border(const BackgroundSurface& surface, const std::vector<PartIndex>& part, geometry::HalfEdge h) {
   return is_feature(surface, h) || part[h / 3] != part[surface.twins[h] / 3];
 }
 
 /// Calls visit(wedge) for each stretch between neighbouring borders of one fan.
 template <class Visit>
 void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
-                  const std::vector<std::int32_t>& part, std::int32_t fan, Visit visit) {
+                  const std::vector<PartIndex>& part, FanIndex fan, Visit visit) {
   const std::int32_t size = fans.size(fan), edges = fans.edge_count(fan);
   std::int32_t start = 0;
   while (start < edges && !is_border(surface, part, fans.edge(fan, start))) ++start;
@@ -40,7 +41,7 @@ void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
 class Widener {
 public:
   Widener(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
-          std::vector<std::int32_t>& part)
+          std::vector<PartIndex>& part)
       : _surface(surface), _fans(fans), _smallest(smallest_angle), _part(part), _fan_of(fans.corners.size()) {
     for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
       for (std::int32_t i = fans.first[fan]; i < fans.first[fan + 1]; ++i) _fan_of[fans.corners[i]] = fan;
@@ -116,10 +117,21 @@ private:
   std::vector<std::int32_t> _fan_of;  // per corner
 };
 
+/// Numbers the parts by first triangle; empty ones vanish.
+PartIndex number_parts(std::vector<PartIndex>& part) {
+  PartIndex parts = 0;
+  std::vector<PartIndex> number(part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1, -1);
+  for (PartIndex& p : part) {
+    if (number[p] < 0) number[p] = parts++;
+    p = number[p];
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans& fans,
-                              const std::vector<std::int32_t>& part) {
+                              const std::vector<PartIndex>& part) {
   std::vector<Wedge> wedges;
   for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
     visit_wedges(surface, fans, part, fan, [&](const Wedge& wedge) { wedges.push_back(wedge); });
@@ -127,7 +139,7 @@ std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans
   return wedges;
 }
 
-void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& part) {
+void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& part) {
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
   std::vector<std::int32_t> component(count, -1), stack;
   std::vector<double> loads;
@@ -183,8 +195,19 @@ void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& 
 }
 
 std::int32_t widen_wedges(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
-                          std::vector<std::int32_t>& part) {
+                          std::vector<PartIndex>& part) {
   return Widener(surface, fans, smallest_angle, part).run();
+}
+
+PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+                       std::vector<PartIndex>& part) {
+  connect_parts(surface, part);
+  for (int round = 0; round < repair_rounds && smallest_angle > 0; ++round) {
+    const std::int32_t moves = widen_wedges(surface, fans, smallest_angle, part);
+    connect_parts(surface, part);
+    if (moves == 0) break;
+  }
+  return number_parts(part);
 }
 
 }  // namespace aeroloom::partition

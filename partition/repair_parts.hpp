@@ -11,15 +11,21 @@ namespace aeroloom::partition {
 /// Neighbouring wedges between cuts, or a cut and a feature curve, around all vertices, in the order of fans.
 /// Wedges between two feature curves are not listed: no decomposition changes them.
 std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans& fans,
-                              const std::vector<std::int32_t>& part);
+                              const std::vector<PartIndex>& part);
 
 /// Gives all but the heaviest component of each part to the neighbour it shares the longest border with.
-void connect_parts(const BackgroundSurface& surface, std::vector<std::int32_t>& part);
+void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& part);
 
 /// Moves the triangles of wedges below `smallest_angle` (degrees) to the part on either side when that makes
 /// the sum of what is missing around them smaller. Parts may fall apart: connect_parts() follows.
 /// Deterministic. Returns the number of moves.
 std::int32_t widen_wedges(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
-                          std::vector<std::int32_t>& part);
+                          std::vector<PartIndex>& part);
+
+/// Both in turn, until nothing moves or a few rounds have passed: connected parts whose borders meet, as far
+/// as the surface allows it, at `smallest_angle` (degrees) or more; 0: connected parts, whatever their
+/// angles. Parts are numbered by their first triangles, none is empty. Returns their number.
+PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+                       std::vector<PartIndex>& part);
 
 }  // namespace aeroloom::partition

@@ -4,7 +4,7 @@
 
 #include "mesh/distributed_mesh.hpp"
 #include "surface/curves.hpp"
-#include "surface/face_pieces.hpp"
+#include "surface/face_division.hpp"
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
 

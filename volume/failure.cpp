@@ -197,4 +197,25 @@ void refuse_surface(const parallel::Communicator& communicator, const Contradict
       soup.points, soup.triangles);
 }
 
+std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
+                                         const std::vector<ZoneFailure>& mine) {
+  parallel::Packer packer;
+  for (const ZoneFailure& failure : mine) {
+    packer.value(failure.zone);
+    packer.text(failure.reason);
+  }
+  std::vector<ZoneFailure> all;
+  for (const parallel::Bytes& bytes : communicator.all_gather(packer.take())) {
+    parallel::Unpacker unpacker(bytes);
+    while (!unpacker.at_end()) {
+      ZoneFailure& failure = all.emplace_back();
+      failure.zone = unpacker.value<ZoneIndex>();
+      failure.reason = unpacker.text();
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
+  return all;
+}
+
 }  // namespace aeroloom::volume

@@ -13,6 +13,16 @@
 
 namespace aeroloom::volume {
 
+/// Why a zone was not filled.
+struct ZoneFailure {
+  ZoneIndex zone;
+  std::string reason;
+};
+
+/// The failures of all ranks, by zone. Collective.
+std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
+                                         const std::vector<ZoneFailure>& mine);
+
 /// Keeps what this rank's failing zones looked like.
 class Evidence {
 public:

@@ -32,12 +32,6 @@ constexpr double wider = 1.5;
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
 
-/// Why a zone was not filled.
-struct ZoneFailure {
-  ZoneIndex zone;
-  std::string reason;
-};
-
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
 public:
@@ -128,7 +122,7 @@ private:
 
   /// Changes what the zones that failed are made of; returns those to be filled again.
   std::vector<ZoneIndex> change_failed() {
-    const std::vector<ZoneFailure> failures = gather_failures();
+    const std::vector<ZoneFailure> failures = gather_failures(_communicator, std::exchange(_failures, {}));
     if (failures.empty()) return {};
     _evidence.stop_at_defects(_communicator);
     std::vector<std::uint8_t> touched(_parts.tree->block_count(), 0);
@@ -166,27 +160,6 @@ private:
     if (points_change) make_all_points(_communicator, _input, _parts, _clock);
     add_those_that_see(touched, pending);
     return pending;
-  }
-
-  std::vector<ZoneFailure> gather_failures() {
-    parallel::Packer packer;
-    for (const ZoneFailure& failure : _failures) {
-      packer.value(failure.zone);
-      packer.text(failure.reason);
-    }
-    _failures.clear();
-    std::vector<ZoneFailure> all;
-    for (const parallel::Bytes& bytes : _communicator.all_gather(packer.take())) {
-      parallel::Unpacker unpacker(bytes);
-      while (!unpacker.at_end()) {
-        ZoneFailure& failure = all.emplace_back();
-        failure.zone = unpacker.value<ZoneIndex>();
-        failure.reason = unpacker.text();
-      }
-    }
-    std::sort(all.begin(), all.end(),
-              [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
-    return all;
   }
 
   /// The zone with most blocks beside those of this one; none in a volume of one zone.

@@ -1,9 +1,9 @@
 #include "front/front.hpp"
 
-#include "front/delaunay.hpp"
 #include "front/edge_crossings.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/quality.hpp"
+#include "tests/front/loops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,46 +16,6 @@
 
 namespace aeroloom::front {
 namespace {
-
-using geometry::Vec2;
-
-constexpr double pi = std::numbers::pi;
-
-void add_loop(FrontInput& input, const std::vector<Vec2>& loop) {
-  const auto first = static_cast<std::int32_t>(input.points.size()),
-             count = static_cast<std::int32_t>(loop.size());
-  input.points.insert(input.points.end(), loop.begin(), loop.end());
-  for (std::int32_t i = 0; i < count; ++i) input.edges.push_back({first + i, first + (i + 1) % count});
-}
-
-std::vector<Vec2> circle(Vec2 centre, double radius, int edges) {
-  std::vector<Vec2> loop;
-  for (int i = 0; i < edges; ++i) {
-    const double angle = 2 * pi * i / edges;
-    loop.push_back(centre + radius * Vec2{std::cos(angle), std::sin(angle)});
-  }
-  return loop;
-}
-
-std::vector<Vec2> reversed(std::vector<Vec2> loop) {
-  std::reverse(loop.begin(), loop.end());
-  return loop;
-}
-
-/// A polygon with its sides divided evenly into edges of about the given length.
-std::vector<Vec2> polygon(const std::vector<Vec2>& corners, double edge) {
-  std::vector<Vec2> loop;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2 a = corners[i], b = corners[(i + 1) % corners.size()];
-    const int parts = std::max(1, static_cast<int>(std::lround(distance(a, b) / edge)));
-    for (int k = 0; k < parts; ++k) loop.push_back(a + (double(k) / parts) * (b - a));
-  }
-  return loop;
-}
-
-std::vector<Vec2> rectangle(Vec2 low, Vec2 high, double edge) {
-  return polygon({low, {high.x, low.y}, high, {low.x, high.y}}, edge);
-}
 
 FrontResult fill(const FrontInput& input, const std::function<double(Vec2)>& size) {
   return fill_front(input, [&](Vec2 p, std::int32_t&) { return size(p); });
@@ -402,39 +362,6 @@ TEST(FrontErrors, RefusesSizesThatAreNone) {
   add_loop(input, circle({0, 0}, 1, 10));
   EXPECT_THROW(fill(input, [](Vec2) { return 0; }), std::invalid_argument);
   EXPECT_THROW(fill(input, [](Vec2) { return std::nan(""); }), std::invalid_argument);
-}
-
-TEST(Delaunay, KeepsCirclesEmptyOnAGrid) {
-  std::vector<Vec2> points;
-  for (int i = 0; i < 12; ++i) {
-    for (int j = 0; j < 12; ++j) points.push_back({double(i), double(j)});
-  }
-  const Delaunay plane(points);
-  EXPECT_FALSE(plane.has_duplicates());
-  ASSERT_EQ(plane.mesh.triangles.size(), 2 * (points.size() + 4) - 2 - 4);
-  for (const auto& triangle : plane.mesh.triangles) {
-    const auto& v = triangle.vertices;
-    ASSERT_GT(geometry::orient2d(plane.points[v[0]], plane.points[v[1]], plane.points[v[2]]), 0);
-    for (const Vec2 p : points) {
-      ASSERT_LE(geometry::in_circle(plane.points[v[0]], plane.points[v[1]], plane.points[v[2]], p), 0);
-    }
-  }
-}
-
-TEST(Delaunay, RecoversEdgesThatAreNotDelaunay) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Vec2> points{{-1, 0.5}, {2, 0.5}, {0.5, -1}, {0.5, 2}};
-  for (int i = 0; i < 500; ++i) points.push_back({unit(random), unit(random)});
-  Delaunay plane(points);
-  EXPECT_TRUE(plane.recover(0, 1));
-  EXPECT_NE(plane.mesh.find(0, 1), geometry::no_linked_edge);
-  EXPECT_TRUE(plane.mesh.is_fixed(plane.mesh.find(1, 0)));
-  EXPECT_FALSE(plane.recover(2, 3)) << "it crosses the first";
-  for (const auto& triangle : plane.mesh.triangles) {
-    const auto& v = triangle.vertices;
-    ASSERT_GT(geometry::orient2d(plane.points[v[0]], plane.points[v[1]], plane.points[v[2]]), 0);
-  }
 }
 
 }  // namespace

@@ -64,8 +64,7 @@ TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   EXPECT_EQ(input.output.directory, "out");
 }
 
-TEST_F(CaseTest, ReadsEveryKey) {
-  const Case input = read(R"(
+const char* const every_key = R"(
 geometry:
   builtin: transport
   dimensions:
@@ -87,7 +86,10 @@ surface: {piece_triangles: 1000, decomposition: faces}
 volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.02, halo: 2, inject: aborts, inject_piece: 3}
 improve: {enabled: false, target_angle: 18, sweeps: 3}
 output: {directory: out/a, log: verbose}
-)");
+)";
+
+TEST_F(CaseTest, ReadsEveryKeyOfTheGeometry) {
+  const Case input = read(every_key);
   ASSERT_TRUE(input.domain.transport);
   const cad::TransportDimensions& d = *input.domain.transport;
   EXPECT_EQ(d.fuselage_length, 40);
@@ -114,6 +116,11 @@ output: {directory: out/a, log: verbose}
   ASSERT_TRUE(input.domain.far_field);
   EXPECT_EQ(input.domain.far_field->shape, cad::FarFieldShape::box);
   EXPECT_EQ(input.domain.far_field->extent, 12.5);
+  EXPECT_EQ(input.narrow_faces, NarrowFaces::keep);
+}
+
+TEST_F(CaseTest, ReadsEveryKeyOfTheStages) {
+  const Case input = read(every_key);
   EXPECT_EQ(input.sizing.minimum, 0.01);
   EXPECT_EQ(input.sizing.maximum, 1.5);
   EXPECT_EQ(input.sizing.surface_maximum, 0.5);
@@ -122,7 +129,6 @@ output: {directory: out/a, log: verbose}
   EXPECT_EQ(input.sizing.target_tetrahedra, 2e6);
   EXPECT_EQ(input.sizing.feature_minimum, 0.002);
   EXPECT_EQ(input.sizing.chordal_deviation, 1e-4);
-  EXPECT_EQ(input.narrow_faces, NarrowFaces::keep);
   EXPECT_EQ(input.surface.piece_triangles, 1000);
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::faces);
   EXPECT_EQ(input.volume.piece_tets, 300'000);

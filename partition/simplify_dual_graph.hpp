@@ -14,23 +14,22 @@
 namespace aeroloom::partition {
 
 struct SimplifyOptions {
-  double smallest_angle = 40;  ///< degrees that permitted cuts make with each other and with feature curves
+  double smallest_angle = 40;  ///< degrees that permitted cuts make with each other and with feature curves;
+                               ///< 0: nothing is contracted, to compare with
   double largest_load = 0;  ///< a cluster does not grow beyond this load; what that leaves is repaired later
 };
 
 /// The contracted dual graph: clusters of triangles.
 struct Clusters {
-  std::vector<std::int32_t> of_triangle;  ///< cluster per triangle, numbered by first triangle
+  std::vector<ClusterIndex> of_triangle;  ///< cluster per triangle, numbered by first triangle
   std::vector<double> loads;              ///< per cluster
   std::int32_t forbidden_edges = 0;       ///< inner edges where no cut is permitted
   std::int32_t unresolved = 0;            ///< wedges left open because their clusters would grow too heavy
 };
 
-/// Every triangle a cluster of its own.
-Clusters single_triangles(const BackgroundSurface& surface);
-
 /// Contracts arcs, the sharpest wedges first. Of the two edges of a wedge that one is contracted whose
 /// clusters are lighter together; ties go to the lower half-edge. Deterministic.
-Clusters simplify(const BackgroundSurface& surface, const VertexFans& fans, const SimplifyOptions& options);
+Clusters simplify_dual_graph(const BackgroundSurface& surface, const VertexFans& fans,
+                             const SimplifyOptions& options);
 
 }  // namespace aeroloom::partition

@@ -1,4 +1,4 @@
-#include "partition/simplify.hpp"
+#include "partition/simplify_dual_graph.hpp"
 
 #include "geometry/disjoint_sets.hpp"
 
@@ -14,23 +14,23 @@ namespace {
 class ClusterForest {
 public:
   explicit ClusterForest(const std::vector<double>& loads) : _sets(loads.size()), _loads(loads) {}
-  std::int32_t root(std::int32_t t) { return _sets.root(t); }
-  double load(std::int32_t root) const { return _loads[root]; }
+  TriangleIndex root(TriangleIndex t) { return _sets.root(t); }
+  double load(TriangleIndex root) const { return _loads[root]; }
   /// Of two roots.
-  void unite(std::int32_t a, std::int32_t b) {
+  void unite(TriangleIndex a, TriangleIndex b) {
     _sets.unite(a, b);
     _loads[std::min(a, b)] += _loads[std::max(a, b)];
   }
 
 private:
-  geometry::DisjointSets<std::int32_t> _sets;
+  geometry::DisjointSets<TriangleIndex> _sets;
   std::vector<double> _loads;
 };
 
 /// All wedges below the threshold, the sharpest first. In a closed fan no wedge goes all the way round.
 std::vector<Wedge> sharp_wedges(const VertexFans& fans, double threshold) {
   std::vector<Wedge> wedges;
-  for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
+  for (FanIndex fan = 0; fan < fans.count(); ++fan) {
     const std::int32_t size = fans.size(fan);
     for (std::int32_t from = 0; from < size; ++from) {
       double angle = 0;
@@ -53,10 +53,10 @@ std::vector<Wedge> sharp_wedges(const VertexFans& fans, double threshold) {
 Clusters number_clusters(const BackgroundSurface& surface, ClusterForest& forest) {
   Clusters clusters;
   clusters.of_triangle.resize(surface.triangles.size());
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface.triangles.size()); ++t) {
-    const std::int32_t root = forest.root(t);
+  for (TriangleIndex t = 0; t < static_cast<TriangleIndex>(surface.triangles.size()); ++t) {
+    const TriangleIndex root = forest.root(t);
     if (root == t) {
-      clusters.of_triangle[t] = static_cast<std::int32_t>(clusters.loads.size());
+      clusters.of_triangle[t] = static_cast<ClusterIndex>(clusters.loads.size());
       clusters.loads.push_back(forest.load(t));
     } else {
       clusters.of_triangle[t] = clusters.of_triangle[root];
@@ -71,19 +71,15 @@ Clusters number_clusters(const BackgroundSurface& surface, ClusterForest& forest
 
 }  // namespace
 
-Clusters single_triangles(const BackgroundSurface& surface) {
-  ClusterForest forest(surface.loads);
-  return number_clusters(surface, forest);
-}
-
-Clusters simplify(const BackgroundSurface& surface, const VertexFans& fans, const SimplifyOptions& options) {
+Clusters simplify_dual_graph(const BackgroundSurface& surface, const VertexFans& fans,
+                             const SimplifyOptions& options) {
   ClusterForest forest(surface.loads);
   std::int32_t unresolved = 0;
   for (const Wedge& wedge : sharp_wedges(fans, options.smallest_angle)) {
     // The clusters on both sides of each of its edges; a feature curve cannot be contracted.
     struct Arc {
       bool feature = true;
-      std::int32_t left = -1, right = -1;
+      TriangleIndex left = -1, right = -1;  // roots of the clusters beside it
       double load = 0;
       geometry::HalfEdge half_edge = -1;
     };

@@ -1,4 +1,6 @@
-/// From a CAD face to its pieces.
+/// From a CAD face to its pieces: background mesh, simplified dual graph, partition, repair, cuts, pieces,
+/// after Chen, Zhao, Zheng et al. (22nd International Meshing Roundtable, 2013,
+/// doi:10.1007/978-3-319-02335-9_31).
 ///
 /// A piece that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
 /// twice: into about the square root of the number of pieces first, then each of these, by any rank. So no
@@ -10,6 +12,7 @@
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
 
+#include <deque>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -23,7 +26,7 @@ public:
   const sizing::SizeField& fine() const { return _fields.front(); }
 
 private:
-  std::vector<sizing::SizeField> _fields;
+  std::deque<sizing::SizeField> _fields;  // references to those made stay good
 };
 
 struct SeedPieces {

@@ -1,9 +1,8 @@
 /// The dual graph of a background surface: fans, contraction, METIS and repair.
-#include "partition/decompose_surface.hpp"
-
 #include "partition/graph_partition.hpp"
+#include "partition/partition_clusters.hpp"
 #include "partition/repair_parts.hpp"
-#include "partition/simplify.hpp"
+#include "partition/simplify_dual_graph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +77,22 @@ BackgroundSurface sphere(int divisions) {
   return surface;
 }
 
+/// Simplified, partitioned, repaired; 0 degrees: METIS alone.
+struct SurfaceDecomposition {
+  std::vector<PartIndex> part;
+  PartIndex parts;
+};
+
+SurfaceDecomposition decompose(const BackgroundSurface& surface, PartIndex parts,
+                               double smallest_angle = 40) {
+  const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
+  const VertexFans fans = gather_fans(surface);
+  const Clusters clusters = simplify_dual_graph(surface, fans, {smallest_angle, 0.15 * total / parts});
+  SurfaceDecomposition result{partition_clusters(surface, clusters, parts), 0};
+  result.parts = repair_parts(surface, fans, smallest_angle, result.part);
+  return result;
+}
+
 std::vector<double> part_loads(const BackgroundSurface& surface, const SurfaceDecomposition& result) {
   std::vector<double> loads(result.parts, 0.0);
   for (std::size_t t = 0; t < result.part.size(); ++t) loads[result.part[t]] += surface.loads[t];
@@ -147,7 +162,7 @@ TEST(Simplify, NoTwoPermittedCutsMeetSharply) {
   for (const double stretch : {1.0, 2.5}) {
     const BackgroundSurface surface = plate(20, 20, stretch, 0.25);
     const VertexFans fans = gather_fans(surface);
-    const Clusters clusters = simplify(surface, fans, {.smallest_angle = 40, .largest_load = 0});
+    const Clusters clusters = simplify_dual_graph(surface, fans, {.smallest_angle = 40, .largest_load = 0});
     EXPECT_EQ(clusters.unresolved, 0);
     EXPECT_GT(clusters.forbidden_edges, 0);
     const auto permitted = [&](geometry::HalfEdge h) {
@@ -175,7 +190,7 @@ TEST(Simplify, NoTwoPermittedCutsMeetSharply) {
 TEST(Simplify, ClustersKeepTheLoadAndObeyItsLimit) {
   const BackgroundSurface surface = plate(20, 20, 3, 0.25);
   const Clusters clusters =
-      simplify(surface, gather_fans(surface), {.smallest_angle = 60, .largest_load = 95});
+      simplify_dual_graph(surface, gather_fans(surface), {.smallest_angle = 60, .largest_load = 95});
   EXPECT_NEAR(std::accumulate(clusters.loads.begin(), clusters.loads.end(), 0.0), 8000, 1e-9);
   EXPECT_LE(*std::max_element(clusters.loads.begin(), clusters.loads.end()), 95);
   EXPECT_GT(clusters.unresolved, 0);
@@ -231,13 +246,12 @@ TEST(RepairParts, ASpikeIsTakenBack) {
 
 TEST(DecomposeSurface, PartsAreConnectedBalancedAndMeetAtGoodAngles) {
   for (const BackgroundSurface& surface : {plate(40, 40, 1, 0.25), sphere(4)}) {
-    const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
-    const SurfaceDecomposition result = decompose_surface(surface, {.piece_load = total / 16});
+    const SurfaceDecomposition result = decompose(surface, 16);
     EXPECT_EQ(result.parts, 16);
     EXPECT_EQ(reachable(surface, result.part), surface.triangles.size());
     EXPECT_LT(imbalance(part_loads(surface, result)), 1.25);
     EXPECT_GE(sharpest(surface, result.part), 40);
-    const SurfaceDecomposition again = decompose_surface(surface, {.piece_load = total / 16});
+    const SurfaceDecomposition again = decompose(surface, 16);
     EXPECT_EQ(result.part, again.part);
   }
 }
@@ -245,19 +259,18 @@ TEST(DecomposeSurface, PartsAreConnectedBalancedAndMeetAtGoodAngles) {
 /// Where background triangles are stretched, METIS alone leaves the angles that simplification avoids.
 TEST(DecomposeSurface, PlainMetisIsWorse) {
   const BackgroundSurface surface = plate(40, 60, 2.5, 0.3);
-  const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
-  const auto good = decompose_surface(surface, {.piece_load = total / 20});
-  const auto plain = decompose_surface(surface, {.piece_load = total / 20, .smallest_angle = 0});
+  const auto good = decompose(surface, 20);
+  const auto plain = decompose(surface, 20, 0);
   EXPECT_LT(sharpest(surface, plain.part), 38);
   EXPECT_GE(sharpest(surface, good.part), 40);
   EXPECT_LT(imbalance(part_loads(surface, good)), 1.2);
 }
 
-TEST(DecomposeSurface, ALightSurfaceStaysWhole) {
+TEST(DecomposeSurface, OnePartIsTheWhole) {
   const BackgroundSurface surface = plate(4, 4, 1, 0);
-  const auto result = decompose_surface(surface, {.piece_load = 1000});
+  const auto result = decompose(surface, 1);
   EXPECT_EQ(result.parts, 1);
-  EXPECT_EQ(result.part, std::vector<std::int32_t>(surface.triangles.size(), 0));
+  EXPECT_EQ(result.part, std::vector<PartIndex>(surface.triangles.size(), 0));
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+#include "surface/face_division.hpp"
+
+#include "partition/partition_clusters.hpp"
+#include "partition/repair_parts.hpp"
+#include "partition/simplify_dual_graph.hpp"
+#include "surface/background.hpp"
+#include "surface/cut_angles.hpp"
+#include "surface/cut_curves.hpp"
+#include "surface/support_flips.hpp"
+#include "surface/support_topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+namespace aeroloom::surface {
+namespace {
+
+using geometry::Vec3;
+
+/// Background triangles in a piece, about.
+constexpr double triangles_per_piece = 64;
+/// So often the background gets twice as fine where its loops cross; a seed that is still no good stays
+/// whole.
+constexpr int most_halvings = 4;
+/// No cluster is heavier than this part of a piece, so that pieces can be balanced.
+constexpr double largest_cluster = 0.15;
+/// A seed of more pieces is cut twice.
+constexpr double most_pieces_at_once = 24;
+
+/// The pieces that a seed is cut into at once.
+double count_parts(const PieceSeed& seed, const SurfaceOptions& options) {
+  const double pieces = std::max(1.0, std::round(seed.load / static_cast<double>(options.piece_triangles)));
+  return pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
+}
+
+/// The background as the decomposition sees it.
+partition::BackgroundSurface weigh(const FaceMesh& mesh, const sizing::SizeField& field) {
+  partition::BackgroundSurface surface{
+      mesh.points, mesh.triangles, geometry::match_half_edges(mesh.triangles), {}};
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
+    double density = 0;
+    for (const Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
+      density += 1 / std::pow(field(middle), 2) / 3;
+    }
+    surface.loads.push_back(2 / std::numbers::sqrt3 * norm(cross(q - p, r - p)) * density);
+  }
+  return surface;
+}
+
+/// A part of a divided support as a seed; its vertices are those of the whole that it has.
+PieceSeed seed_of_part(Support part, const FaceVertices& known, const std::vector<mesh::SharedToken>& tokens,
+                       const sizing::SizeField& field) {
+  PieceSeed seed;
+  std::vector<std::int32_t> used;
+  for (const std::int32_t v : part.mesh_vertex) {
+    if (v >= 0) used.push_back(v);
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::int32_t v : used) {
+    seed.vertices.points.push_back(known.points[v]);
+    seed.vertices.uv.push_back(known.uv[v]);
+    seed.vertices.tokens.push_back(tokens[v]);
+  }
+  for (std::int32_t& v : part.mesh_vertex) {
+    if (v >= 0) v = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  }
+  seed.support = std::move(part);
+  seed.load = predict_triangles(seed.support, field);
+  return seed;
+}
+
+/// The parts of a background beside each other, the cuts between them discretised once.
+struct CutFace {
+  std::vector<Support> supports;          ///< of the parts
+  FaceVertices vertices;                  ///< those of the seed, then those on cuts
+  std::vector<mesh::SharedToken> tokens;  ///< per vertex
+  FeatureEdges features;                  ///< fine edges that are no cuts
+};
+
+CutFace discretise_cuts(const cad::Model& model, const PieceSeed& seed, const Background& background,
+                        std::vector<partition::PartIndex> part, std::int32_t group,
+                        const sizing::SizeField& field) {
+  Support whole = support_of(model, seed, background, part);
+  CutFace cut{{}, seed.vertices, {}, FeatureEdges(whole, seed.vertices)};
+  JoinedVertices joined = joined_vertices(whole);
+  cut.supports = separate_at_cut(model, field, {std::move(whole), std::move(part)}, cut.vertices, joined);
+  cut.tokens = cut.vertices.tokens;
+  for (std::size_t v = cut.tokens.size(); v < cut.vertices.points.size(); ++v)
+    cut.tokens.push_back(mesh::cut_token(seed.support.face, group, static_cast<std::int32_t>(v)));
+  return cut;
+}
+
+SeedPieces make_pieces(CutFace cut, const sizing::SizeField& field) {
+  SeedPieces pieces;
+  for (Support& support : cut.supports) {
+    flip_to_delaunay(support);
+    pieces.seeds.push_back(seed_of_part(std::move(support), cut.vertices, cut.tokens, field));
+  }
+  pieces.angles = measure_cut_angles(pieces.seeds, cut.features);
+  return pieces;
+}
+
+/// What divide_seed() is asked for.
+struct Division {
+  const cad::Model& model;
+  const PieceSeed& seed;
+  std::int32_t group;
+  partition::PartIndex parts;
+  const SurfaceOptions& options;
+};
+
+/// The method of Chen, Zhao, Zheng et al., a verb each. Nothing where there is no background mesh as coarse
+/// as 2^power fine sizes.
+std::optional<SeedPieces> divide(const Division& wanted, int power, CoarseSizes& sizes) {
+  const auto& [model, seed, group, parts, options] = wanted;
+  const sizing::SizeField& fine = sizes.fine();
+
+  std::optional<Background> background =
+      mesh_background(model, seed, sizes.field(power), std::ldexp(1.0, power), options);
+  if (!background) return std::nullopt;
+  const partition::BackgroundSurface surface = weigh(background->mesh, fine);
+
+  std::vector<partition::PartIndex> part;
+  if (options.divider) {
+    part = options.divider(seed.support.face, surface);
+  } else {
+    const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
+    const partition::VertexFans fans = partition::gather_fans(surface);
+    const partition::Clusters clusters =
+        partition::simplify_dual_graph(surface, fans, {options.cut_angle, largest_cluster * total / parts});
+    part = partition::partition_clusters(surface, clusters, parts);
+    partition::repair_parts(surface, fans, options.cut_angle, part);
+  }
+
+  if (options.cut_angle > 0) straighten_cuts(model, fine, part, options.cut_angle, background->mesh);
+  CutFace cut = discretise_cuts(model, seed, *background, std::move(part), group, fine);
+
+  return make_pieces(std::move(cut), fine);
+}
+
+}  // namespace
+
+const sizing::SizeField& CoarseSizes::field(int power) {
+  while (static_cast<int>(_fields.size()) <= power) _fields.push_back(_fields.back().scaled(2));
+  return _fields[power];
+}
+
+bool is_heavy(double load, const SurfaceOptions& options) {
+  return options.decomposition == SurfaceDecomposition::pieces &&
+         load >= 1.5 * static_cast<double>(options.piece_triangles);
+}
+
+SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
+                       const SurfaceOptions& options) {
+  const double parts = count_parts(seed, options);
+  const double factor = std::sqrt(seed.load / parts / triangles_per_piece);
+  const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
+  const Division wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};
+  for (int at = power; at >= std::max(0, power - most_halvings); --at) {
+    if (std::optional<SeedPieces> pieces = divide(wanted, at, sizes)) return std::move(*pieces);
+  }
+  SeedPieces whole;
+  whole.seeds.push_back(std::move(seed));
+  return whole;
+}
+
+}  // namespace aeroloom::surface
