@@ -1,7 +1,6 @@
 #include "improve/cavity_improver.hpp"
 
 #include "improve/improver.hpp"
-
 #include "improve/relaxation.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/tet_faces.hpp"

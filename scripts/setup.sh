@@ -11,7 +11,7 @@ packages=(
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
   libvtk9-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev clang-format clang-tidy
   python3 python3-vtk9
 )
 

@@ -62,9 +62,8 @@ void OpenFacets::flip(const std::vector<SurfaceFrame>& frames) {
 
 bool OpenFacets::is_folded() const {
   const int orientation = parameter_orientation();
-  return std::any_of(_support.corner_uv.begin(), _support.corner_uv.end(), [&](const auto& uv) {
-    return geometry::orient2d(uv[0], uv[1], uv[2]) == -orientation;
-  });
+  return std::any_of(_support.corner_uv.begin(), _support.corner_uv.end(),
+                     [&](const auto& uv) { return geometry::orient2d(uv[0], uv[1], uv[2]) == -orientation; });
 }
 
 void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {

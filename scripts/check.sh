@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# check.sh: what the tests do not see. Format of the whole tree, clang-tidy on the sources of the last commit, the
+# fast tests under address and undefined behaviour sanitizers, and the example outside the tree against the
+# installed package. Needs the build of test.sh.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+
+echo "check: format"
+git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+
+echo "check: clang-tidy"
+last=$(git rev-parse --quiet --verify HEAD~1 || git hash-object -t tree /dev/null)
+mapfile -t changed < <(git diff --name-only --diff-filter=d "$last" -- '*.cpp' ':!examples')
+if [ "${#changed[@]}" -gt 0 ]; then
+  printf '%s\0' "${changed[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p build/release --quiet --warnings-as-errors='*'
+fi
+
+echo "check: sanitizers"
+cmake --preset sanitize > /dev/null
+cmake --build --preset sanitize --target fast_tests
+# Leaks of the message passing library are not ours.
+ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1 ctest --preset sanitize -L fast
+
+echo "check: the installed package"
+rm -rf build/installed build/example
+cmake --install build/release --prefix "$PWD/build/installed" > /dev/null
+cmake -S examples/solver -B build/example -DCMAKE_PREFIX_PATH="$PWD/build/installed" -DCMAKE_BUILD_TYPE=Release > /dev/null
+cmake --build build/example
+for ranks in 1 3; do
+  scripts/mpirun_local.sh "$ranks" build/example/solver | tee "build/example/on_$ranks"
+done
+# One mesh, whatever the number of ranks.
+diff <(tail -n 1 build/example/on_1) <(tail -n 1 build/example/on_3)

@@ -1,0 +1,130 @@
+// The built-in aircraft stage by stage, as a library: faces divided, volume in zones, improved, and its
+// boundary compared with the CAD itself.
+#include "cad/domain/domain.hpp"
+#include "improve/improver.hpp"
+#include "mesh/validity.hpp"
+#include "surface/surface_mesher.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom {
+namespace {
+
+using geometry::Vec3;
+
+/// Before the server of contained runs starts.
+[[maybe_unused]] const bool registered = (volume::register_volume_tasks(), true);
+
+struct Aircraft {
+  cad::Model model;
+  surface::SurfaceMesh surface;
+  mesh::DistributedMesh volume;
+  volume::VolumeReport report;
+  improve::ImproveReport improved;
+};
+
+Aircraft mesh_aircraft(const parallel::Communicator& ranks, bool improve) {
+  cad::DomainOptions domain;
+  domain.transport.emplace();
+  domain.far_field.emplace();
+  domain.far_field->extent = 3;
+  const cad::Model model = cad::Model::from_bytes(cad::prepare_domain(domain).model.serialise());
+  parallel::StageClock clock;
+  const sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 30'000, clock);
+  const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes, clock);
+  surface::SurfaceOptions surface_options;
+  surface_options.piece_triangles = 400;
+  Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options, clock), {}, {}, {}};
+  const mesh::Numbering numbering = mesh::number_mesh(ranks, aircraft.surface.mesh);
+  volume::VolumeOptions options;
+  options.piece_tets = 10'000;
+  const volume::VolumeInput input{aircraft.surface.mesh, numbering, aircraft.surface.field, options};
+  aircraft.volume =
+      volume::fill_zones(ranks, input, volume::decompose(ranks, input, clock), clock, aircraft.report);
+  if (improve) {
+    cad::PointLocator locator(model);
+    aircraft.improved =
+        improve::improve_mesh(ranks, aircraft.volume, {}, clock, {&locator, &aircraft.surface.field});
+  }
+  return aircraft;
+}
+
+/// How far the boundary vertices of a mesh are from the CAD vertex, edge or face they are classified on.
+double largest_distance(const cad::Model& model, const mesh::DistributedMesh& mesh) {
+  cad::PointLocator locator(model);
+  const double tolerance = 1e-4 * model.body_bounds().diagonal();
+  double largest = 0;
+  for (const mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const Vec3 p = piece.point(v);
+      const std::int32_t entity = piece.vertex_entity[v];
+      if (piece.vertex_dimension[v] == 0) {
+        largest = std::max(largest, distance(p, model.vertex(entity)));
+      } else if (piece.vertex_dimension[v] == 1) {
+        const auto t = locator.on_edge(entity, p, tolerance);
+        largest = std::max(largest, t ? distance(p, model.edge_point(entity, *t)) : 1e300);
+      } else if (piece.vertex_dimension[v] == 2) {
+        const auto uv = locator.on_face(entity, p, tolerance);
+        largest = std::max(largest, uv ? distance(p, model.face_point(entity, *uv)) : 1e300);
+      }
+    }
+  }
+  return largest;
+}
+
+/// Areas of the boundary by CAD face. Collective.
+std::vector<double> areas_by_face(const parallel::Communicator& ranks, const cad::Model& model,
+                                  const mesh::DistributedMesh& mesh) {
+  std::vector<double> areas(model.face_count(), 0);
+  for (const mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+      const mesh::LocalIndex* v = piece.boundary_triangle(t);
+      const Vec3 a = piece.point(v[0]);
+      areas[piece.triangle_face[t]] += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
+    }
+  }
+  for (double& area : areas) area = ranks.sum(area);
+  return areas;
+}
+
+TEST(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
+  const auto ranks = parallel::Communicator::world();
+  const Aircraft aircraft = mesh_aircraft(ranks, true);
+  EXPECT_GT(aircraft.surface.report.divided_faces, 3) << "faces are cut into pieces";
+  EXPECT_GT(aircraft.volume.piece_count, 2) << "the volume is filled in zones";
+  EXPECT_GT(ranks.sum(aircraft.improved.changed_triangles), 0) << "there is something to compare";
+  const mesh::Numbering numbering = mesh::number_mesh(ranks, aircraft.volume);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(ranks, aircraft.volume, numbering, nullptr);
+  EXPECT_TRUE(validity.violations.empty());
+  const double length = aircraft.model.body_bounds().diagonal();
+  EXPECT_LT(ranks.maximum(largest_distance(aircraft.model, aircraft.volume)), 1e-7 * length);
+  // Coarse triangles cut corners: by little altogether, by more on the narrow ends of lifting surfaces.
+  const std::vector<double> areas = areas_by_face(ranks, aircraft.model, aircraft.volume);
+  double body = 0, cad_body = 0;
+  for (cad::FaceId f = 0; f < aircraft.model.face_count(); ++f) {
+    const double area = aircraft.model.face_area(f);
+    EXPECT_NEAR(areas[f], area, 0.25 * area) << aircraft.model.face(f).name;
+    if (!aircraft.model.is_far_field(f)) body += areas[f], cad_body += area;
+  }
+  EXPECT_NEAR(body, cad_body, 0.01 * cad_body);
+}
+
+TEST(AircraftOnCad, IsTheSameMeshOnAnyNumberOfRanks) {
+  const auto world = parallel::Communicator::world(), self = parallel::Communicator::self();
+  if (world.size() == 1) GTEST_SKIP() << "nothing to compare";
+  const auto hash = [](const parallel::Communicator& ranks) {
+    const Aircraft aircraft = mesh_aircraft(ranks, true);
+    return mesh::hash_mesh(ranks, aircraft.volume, mesh::number_mesh(ranks, aircraft.volume));
+  };
+  const std::string together = hash(world);
+  if (world.is_root()) {
+    EXPECT_EQ(together, hash(self));
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom
