@@ -34,21 +34,19 @@ public:
     _facts->flush_on(spdlog::level::info);
   }
   void fact(const std::string& message, LogLevel from) {
-    if (!_configured) return print_early("", message);
     if (speaks_at(from)) _facts->info(message);
   }
   void trouble(spdlog::level::level_enum severity, const char* word, const std::string& message) {
-    if (!_configured) return print_early(word, message);
+    if (!_configured) {
+      std::fprintf(stderr, "%s: %s\n", word, message.c_str());
+      return;
+    }
     _troubles->log(severity, "{}{}: {}", word, _ranks > 1 ? fmt::format(" (rank {})", _rank) : "", message);
   }
   bool speaks_at(LogLevel level) const { return _configured && _rank == 0 && _level >= level; }
   bool rewrites() const { return _rewrites; }
 
 private:
-  static void print_early(const char* word, const std::string& message) {
-    std::fprintf(stderr, "%s%s%s\n", word, *word ? ": " : "", message.c_str());
-  }
-
   bool _configured = false, _rewrites = false;
   Rank _rank = 0;
   int _ranks = 1;

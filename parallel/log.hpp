@@ -12,7 +12,8 @@ namespace aeroloom::parallel {
 /// What rank 0 prints besides warnings and errors, which are always printed.
 enum class LogLevel { quiet, normal, verbose };
 
-/// Call once after start; before that, messages go to standard error of every rank.
+/// Call once after start; before that, or where a host program never does, facts are not printed, and
+/// warnings and errors go to standard error of every rank.
 void configure_log(const Communicator& communicator, LogLevel level);
 /// Printed by rank 0 only.
 void log_info(const std::string& message);
