@@ -67,6 +67,7 @@ using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
 /// piece wishes for a shared vertex, the others do too; where they differ the higher number counts.
 using CavityWishes = std::vector<std::vector<CavityId>>;
 
+/// Of the whole mesh, the same on every rank.
 struct CavityRound {
   std::int64_t cavities = 0, refilled = 0;
 };

@@ -24,8 +24,8 @@ struct FrontInput {
       edges;  ///< directed, the region on their left; they form closed loops
 };
 
-/// Wanted edge length in the chart at a point of the chart; positive. `hint` is the last support triangle
-/// looked at; the function may use and update it to start its search.
+/// Wanted edge length in the chart at a point of the chart; positive. `hint` is the function's own: 0 at
+/// first, then what it left there.
 using ChartSize = std::function<double(geometry::Vec2 point, std::int32_t& hint)>;
 
 struct FrontResult {

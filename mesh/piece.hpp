@@ -1,4 +1,4 @@
-/// A piece of a simplicial mesh: the unit of decomposition, work, scheduling, checkpointing and failure.
+/// A piece of a simplicial mesh: the unit of decomposition, work, scheduling and failure.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -68,7 +68,7 @@ struct Piece {
   }
 };
 
-/// A piece as bytes, for migration and checkpoints, and back. Bit for bit.
+/// A piece as bytes, for migration, and back. Bit for bit.
 parallel::Bytes pack_piece(const Piece& piece);
 Piece unpack_piece(std::span<const std::byte> bytes);
 

@@ -32,7 +32,9 @@ SharedToken curve_token(std::int32_t edge, std::int32_t index) {
 
 SharedToken cut_token(std::int32_t face, std::int32_t group, std::int32_t index) {
   if (face >= 1 << face_bits || group >= 1 << group_bits || index >= 1 << index_bits) {
-    throw std::length_error("a face is cut into more pieces than vertices on cuts can be named for");
+    throw std::runtime_error(
+        "a face is cut into more pieces than vertices on cuts can be named for: ask for larger ones "
+        "(SurfaceOptions::piece_triangles)");
   }
   return cut_bit | wide(face) << (group_bits + index_bits) | wide(group) << index_bits | wide(index);
 }

@@ -1,4 +1,4 @@
-/// The names of vertices that several pieces may know: all of them are made and tested here.
+/// The names of vertices that several pieces may know: made here.
 ///
 /// A token is known by construction, before any numbering. On a surface, CAD vertices are named by their
 /// number, vertices of curves and cuts by CAD entity and index, so names ascend by vertex, curve, cut. In a
@@ -19,7 +19,7 @@ SharedToken vertex_token(std::int32_t vertex);
 /// Vertex `index` inside a CAD edge.
 SharedToken curve_token(std::int32_t edge, std::int32_t index);
 /// Vertex `index` on the cuts that one division (`group`, below 2^16) of a CAD face made; index below 2^24,
-/// face below 2^23, or std::length_error.
+/// face below 2^23. Throws std::runtime_error beyond that.
 SharedToken cut_token(std::int32_t face, std::int32_t group, std::int32_t index);
 
 bool is_cut_token(SharedToken token);
@@ -35,7 +35,7 @@ SharedToken running_token(std::int64_t number);
 /// A point that TetGen added to a zone: it fits no other zone.
 SharedToken added_token(std::int32_t zone, std::int64_t index);
 
-/// Rounds that rounds over several pieces can be told apart on one mesh.
+/// Rounds of cavities that tokens tell apart on one mesh.
 inline constexpr int most_token_rounds = 255;
 /// A vertex of a piece that is shared from a round on.
 SharedToken late_token(int round, PieceId piece, LocalIndex vertex);

@@ -16,7 +16,7 @@ using PartIndex = std::int32_t;      ///< of a part of the background
 using FanIndex = std::int32_t;       ///< of the triangles around a vertex, in VertexFans
 
 /// An oriented triangulation, coarse next to the mesh to come. Edges with a triangle on one side alone are
-/// feature curves: they bound pieces whatever the decomposition.
+/// feature curves, or cuts of a division before: they bound pieces whatever the decomposition.
 struct BackgroundSurface {
   std::vector<geometry::Vec3> points;
   std::vector<std::array<std::int32_t, 3>> triangles;

@@ -10,7 +10,7 @@ namespace aeroloom::partition {
 
 /// METIS on the simplified dual graph: the part of each triangle. An arc weighs as much as the fine edges a
 /// cut there would have. Some of the `parts` may stay empty, and a part may fall asunder: repair_parts()
-/// follows. A function of its arguments alone.
+/// follows. A function of its arguments alone. Throws std::runtime_error when METIS fails.
 std::vector<PartIndex> partition_clusters(const BackgroundSurface& surface, const Clusters& clusters,
                                           PartIndex parts);
 

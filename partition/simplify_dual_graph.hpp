@@ -16,7 +16,8 @@ namespace aeroloom::partition {
 struct SimplifyOptions {
   double smallest_angle = 40;  ///< degrees that permitted cuts make with each other and with feature curves;
                                ///< 0: nothing is contracted, to compare with
-  double largest_load = 0;  ///< a cluster does not grow beyond this load; what that leaves is repaired later
+  double largest_load = 0;  ///< a cluster does not grow beyond this load; what that leaves is repaired later;
+                            ///< 0: no limit
 };
 
 /// The contracted dual graph: clusters of triangles.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check.sh: what the tests do not see. Format of the whole tree, clang-tidy on the sources of the last commit, the
+# check.sh: what the tests do not see. Format of the whole tree, lengths of files, clang-tidy on the sources of the last commit, the
 # fast tests under address and undefined behaviour sanitizers, and the example outside the tree against the
 # installed package. Needs the build of test.sh.
 set -euo pipefail
@@ -9,6 +9,10 @@ scripts/setup.sh
 
 echo "check: format"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+
+echo "check: no file above 400 lines"
+long=$(git ls-files '*.cpp' '*.hpp' '*.py' | xargs wc -l | awk '$1 > 400 && $2 != "total"')
+[ -z "$long" ] || { echo "$long"; exit 1; }
 
 echo "check: clang-tidy"
 last=$(git rev-parse --quiet --verify HEAD~1 || git hash-object -t tree /dev/null)

@@ -90,13 +90,14 @@ private:
   std::vector<float> _corner_sizes;  // (leaves,8), corners in Morton order
 };
 
-/// The field of a model: curvature of faces and edges, far field, bounds, growth. Faces are sampled by the
-/// ranks in parallel, sources are gathered and thinned, the octree is built identically everywhere.
-/// Collective. Throws std::invalid_argument for impossible options.
+/// The field of a model: curvature and chordal deviation of faces and edges, proximity, narrow strips, sharp
+/// corners, far field, bounds, growth. Faces are sampled by the ranks in parallel, sources are gathered and
+/// thinned, the octree is built identically everywhere. Collective. Throws std::invalid_argument for
+/// impossible options, CollectiveError where the CAD library fails.
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock);
 
-/// Sizes for the impatient: a field that gives about `target` tetrahedra, with bounds taken from the model.
+/// Sizes for the impatient: a field that gives about `target_tetrahedra`, with bounds taken from the model.
 /// Collective.
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock);

@@ -19,12 +19,12 @@ struct CutSupport {
   std::vector<std::int32_t> part;  ///< per triangle
 };
 
-/// Whether a support's loops join these vertices, for a support that is not cut yet.
+/// The pairs that a support's loops join, for a support that is not cut yet.
 JoinedVertices joined_vertices(const Support& support);
 
 /// Spreads mesh vertices over the cuts so that segments have length 1 in the metric of the field, appends
 /// them to `vertices`, and takes the parts asunder. They come in the order of their first triangles, a part
-/// in several pieces as several parts.
+/// in several pieces as several parts. Pairs that cuts join are added to `joined`.
 std::vector<Support> separate_at_cut(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
                                      FaceVertices& vertices, JoinedVertices& joined);
 

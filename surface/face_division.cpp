@@ -1,13 +1,14 @@
 #include "surface/face_division.hpp"
 
+#include "mesh/tokens.hpp"
 #include "partition/partition_clusters.hpp"
 #include "partition/repair_parts.hpp"
 #include "partition/simplify_dual_graph.hpp"
 #include "surface/background.hpp"
 #include "surface/cut_angles.hpp"
 #include "surface/cut_curves.hpp"
+#include "surface/remesh.hpp"
 #include "surface/support_flips.hpp"
-#include "surface/support_topology.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,12 @@ namespace {
 
 using geometry::Vec3;
 
-/// Background triangles in a piece, about.
-constexpr double triangles_per_piece = 64;
+/// Background triangles in a part of a division, about.
+constexpr double triangles_per_part = 64;
 /// So often the background gets twice as fine where its loops cross; a seed that is still no good stays
 /// whole.
 constexpr int most_halvings = 4;
-/// No cluster is heavier than this part of a piece, so that pieces can be balanced.
+/// No cluster is heavier than this fraction of a part, so that parts can be balanced.
 constexpr double largest_cluster = 0.15;
 /// A seed of more pieces is cut twice.
 constexpr double most_pieces_at_once = 24;
@@ -158,7 +159,7 @@ bool is_heavy(double load, const SurfaceOptions& options) {
 SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
                        const SurfaceOptions& options) {
   const double parts = count_parts(seed, options);
-  const double factor = std::sqrt(seed.load / parts / triangles_per_piece);
+  const double factor = std::sqrt(seed.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
   const Division wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};
   for (int at = power; at >= std::max(0, power - most_halvings); --at) {

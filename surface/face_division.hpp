@@ -2,13 +2,12 @@
 /// after Chen, Zhao, Zheng et al. (22nd International Meshing Roundtable, 2013,
 /// doi:10.1007/978-3-319-02335-9_31).
 ///
-/// A piece that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
+/// A seed that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
 /// twice: into about the square root of the number of pieces first, then each of these, by any rank. So no
 /// rank has more to do with a single face than a small part of it.
 #pragma once
 
 #include "surface/piece_seed.hpp"
-#include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
 
@@ -40,7 +39,8 @@ bool is_heavy(double load, const SurfaceOptions& options);
 /// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,
 /// and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other divisions
 /// of the same face. Where no background mesh can be had, the seed stays whole. A function of the arguments
-/// alone. Not collective. Throws SurfaceError or cad::CadError.
+/// alone. Not collective. Throws SurfaceError, cad::CadError, or
+/// std::runtime_error where METIS fails or there are more cuts than can be named.
 SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
                        const SurfaceOptions& options);
 

@@ -20,7 +20,8 @@ struct SurfaceMesh {
   sizing::SizeField field;
 };
 
-/// Meshes the surface of the model. Collective. Throws (through parallel::agree) the same error on all ranks.
+/// Meshes the surface of the model. Collective. Throws SurfaceError or CollectiveError, the same on all
+/// ranks. Where no stage of the clock is open nothing is counted, here and in the other stages.
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
                          const sizing::SizeField& field, const SurfaceOptions& options,
                          parallel::StageClock& clock);

@@ -1,4 +1,4 @@
-/// Whether zones fit together, and what is done where they do not.
+/// Whether zones fit together, and where they do not; what is done about it is in fill_zones.cpp.
 #pragma once
 
 #include "parallel/communicator.hpp"

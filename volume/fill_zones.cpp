@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -358,7 +359,7 @@ private:
   parallel::StageClock& _clock;
   VolumeReport& _report;
   ZoneFinder _finder;
-  std::vector<int> _changes_of;  // per zone: of its points so far
+  std::vector<int> _changes_of;  // per zone: rungs climbed since it was merged last
   std::vector<std::uint8_t> _merged;
   int _rounds_of_giving = 0;
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
@@ -372,7 +373,7 @@ private:
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report) {
-  register_volume_tasks();  // where the host program has not
+  register_volume_tasks();  // where the host program has not; too late where it runs a server without them
   return ZoneFiller(communicator, input, decomposition.parts(), clock, report).run();
 }
 

@@ -41,21 +41,22 @@ private:
 };
 
 /// Makes the lattice and divides it into zones. A function of surface, sizes and options, whatever the ranks.
-/// Collective. Throws CollectiveError.
+/// Collective. Throws CollectiveError, VolumeFailure where the surface contradicts itself.
 Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
                         parallel::StageClock& clock);
 
 /// Fills the zones, dealt out largest first, and proves that they fit together. A zone that cannot be filled
 /// gets other perturbations of its points, then points farther off the surface, then is merged with a
 /// neighbour; where zones disagree the lowest of them counts. One mesh piece per zone and region, by zone,
-/// then region. The triangles of a face between two regions belong to pieces of its front region. Collective.
-/// Throws VolumeFailure.
+/// then region. The triangles of a face between two regions belong to pieces of its front region. After three
+/// rounds of that the zones there are merged. `input` is that of decompose(); `report` starts empty.
+/// Collective. Throws CollectiveError, VolumeFailure where there are triangles to look at.
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report);
 
 /// Makes the contained task known; call before parallel::Environment or parallel::ContainedServer is
-/// constructed.
+/// constructed: afterwards fill_zones() throws std::logic_error.
 void register_volume_tasks();
 
 }  // namespace aeroloom::volume

@@ -1,4 +1,4 @@
-/// Zones: the pieces of space that tetrahedra are dealt out by.
+/// Zones: the sets of blocks that tetrahedra are dealt out by.
 #pragma once
 
 #include "volume/block_points.hpp"

@@ -64,13 +64,15 @@ struct Domain {
   DomainReport report;
 };
 
-/// Reads, heals and builds the domain. Not collective: one rank calls it and broadcasts model.serialise().
-/// Closed shells become solids; faces that belong to no solid are dropped and listed. Throws CadError for
-/// what cannot be meshed: unreadable files, open shells, a far field that cuts the body, a boolean operation
-/// whose volume does not add up; std::ios_base::failure when the file cannot be opened.
+/// Reads, heals and builds the domain, in this process: what crashes in the CAD library ends it. Not
+/// collective: one rank calls it and broadcasts model.serialise(). Closed shells become solids; faces that
+/// belong to no solid are dropped and listed. Throws CadError for what cannot be meshed: unreadable files,
+/// open shells, a far field that cuts the body, a boolean operation whose volume does not add up;
+/// std::ios_base::failure when the file cannot be opened.
 Domain prepare_domain(const DomainOptions& options);
 
-/// Writes the model's shape, before any far field, with names, as STEP.
+/// Writes the model's shape, before any far field, with names, as STEP. Not collective. Throws as
+/// prepare_domain; std::ios_base::failure when the file cannot be written.
 void export_step(const DomainOptions& options, const std::string& file);
 
 }  // namespace aeroloom::cad
