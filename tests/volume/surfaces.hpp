@@ -221,7 +221,7 @@ inline Surface shaken(Surface surface, double amount) {
       LocalTriangle &s = surface.triangles[around[0]], &t = surface.triangles[around[1]];
       const int axis = axes[around[0]];
       if (axis < 0 || surface.face[around[0]] != surface.face[around[1]]) continue;
-      const auto apex = [&](LocalTriangle& triangle) {  // first, the edge behind it
+      const auto apex = [&edge = edge](LocalTriangle& triangle) {  // first, the edge behind it
         while (triangle[0] == edge.first || triangle[0] == edge.second)
           std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
         return triangle[0];
