@@ -36,4 +36,4 @@ for ranks in 1 3; do
   scripts/mpirun_local.sh "$ranks" build/example/solver | tee "build/example/on_$ranks"
 done
 # One mesh, whatever the number of ranks.
-diff <(tail -n 1 build/example/on_1) <(tail -n 1 build/example/on_3)
+diff <(grep hash build/example/on_1) <(grep hash build/example/on_3)
