@@ -85,8 +85,10 @@ def judge(build, folder, log):
         # End-to-end tests need the program.
         if tests == "pipeline" and run(["ninja", "-C", build, "bin/aeroloom"], log) != 0:
             return None
-        if run(["ctest", "--test-dir", build / "tests" / tests, "-j2", "--stop-on-failure"], log) != 0:
-            return tests
+        # The quick ones first: most mistakes do not live longer.
+        for which in (["-L", "fast"], ["-LE", "fast"]):
+            if run(["ctest", "--test-dir", build / "tests" / tests, "-j2", "--stop-on-failure", *which], log) != 0:
+                return tests
     return "missed"
 
 

@@ -46,7 +46,7 @@ def main():
         memory = max(s["peak_rss_bytes_max"] for s in both) / 2**20
         alone = alone or memory
         volume, zones = stages["volume"], report["volume"]
-        print(f"| {ranks} | {zones['zones']} | {zones['halo']:.2f} | {report['mesh']['tetrahedra']:,} | {cpu:.1f} "
+        print(f"| {ranks} | {zones['zones']} | {zones['overlap']:.2f} | {report['mesh']['tetrahedra']:,} | {cpu:.1f} "
               f"| {volume['cpu_seconds_max']:.2f} | {volume['cpu_seconds_max'] / volume['cpu_seconds_mean']:.3f} "
               f"| {100 * serial / cpu:.1f} % | {memory:.0f} | {memory / alone:.2f} | {report['mesh']['hash'][:8]} |", flush=True)
 

@@ -125,8 +125,7 @@ namespace {
 constexpr int border_rounds = 2;
 /// In these, what is far from the surface is held to more than the target: the lattice around it is better.
 constexpr double border_ambition = 1.1;
-constexpr double largest_target = 50;  // degrees, that TetQuality takes
-constexpr int border_relaxation = 2;   // passes
+constexpr int border_relaxation = 2;  // passes
 
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
@@ -143,7 +142,7 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
     cavities::refill_cavities(communicator, mesh, wishes, improve, clock);
   };
   ImproveOptions ambitious = options;
-  ambitious.target_angle = std::min(border_ambition * options.target_angle, largest_target);
+  ambitious.target_angle = std::min(border_ambition * options.target_angle, TetQuality::largest_target);
   ambitious.relaxation = border_relaxation;
   CavityImprover for_borders(mesh, ambitious, options.target_angle, source);
   CavityImprover for_bad(mesh, options, options.target_angle, source);

@@ -28,9 +28,10 @@ inline double mean_edge(const std::array<geometry::Vec3, 4>& p) {
 /// angle T or above 180 - 1.5 T. Not positive for flat or inverted tetrahedra.
 class TetQuality {
 public:
-  /// `target_angle` in degrees, within (0, 50]; throws std::invalid_argument otherwise.
+  static constexpr double largest_target = 50;  ///< degrees
+  /// `target_angle` in degrees, above 0 and at most largest_target; throws std::invalid_argument otherwise.
   explicit TetQuality(double target_angle) {
-    if (!(target_angle > 0 && target_angle <= 50)) {
+    if (!(target_angle > 0 && target_angle <= largest_target)) {
       throw std::invalid_argument("improve: the target angle must lie within (0, 50] degrees");
     }
     const double small = target_angle * std::numbers::pi / 180;

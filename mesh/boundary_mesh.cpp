@@ -98,4 +98,17 @@ DistributedMesh boundary_mesh(const parallel::Communicator& communicator, const 
   return surface;
 }
 
+DistributedMesh part_of_surface(const DistributedMesh& surface, SurfacePart which) {
+  DistributedMesh part = surface;
+  for (Piece& piece : part.pieces) {
+    const bool is_inner = surface.sides_of(piece.common_face()).is_inner();
+    if (is_inner == (which == SurfacePart::between_regions)) continue;
+    Piece empty;
+    empty.id = piece.id;
+    empty.kind = piece.kind;
+    piece = std::move(empty);
+  }
+  return part;
+}
+
 }  // namespace aeroloom::mesh

@@ -4,6 +4,8 @@
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
 
+#include <cstdint>
+
 namespace aeroloom::mesh {
 
 /// The boundary triangles, those between two regions included: one piece per tetrahedral piece and CAD face
@@ -12,5 +14,10 @@ namespace aeroloom::mesh {
 /// tetrahedral mesh. Collective.
 DistributedMesh boundary_mesh(const parallel::Communicator& communicator, const DistributedMesh& volume,
                               const Numbering& numbering);
+
+/// What a surface mesh has of triangles: those that one region lies behind, or those that two share.
+enum class SurfacePart : std::uint8_t { outside, between_regions };
+/// Those alone. Pieces keep their ids, left out ones are empty. Not collective.
+DistributedMesh part_of_surface(const DistributedMesh& surface, SurfacePart which);
 
 }  // namespace aeroloom::mesh

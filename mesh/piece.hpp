@@ -32,7 +32,7 @@ struct Piece {
   PieceId id = 0;
   CellKind kind = CellKind::tetrahedron;
   RegionId region = 0;                        ///< that the cells of a tetrahedral piece lie in
-  std::vector<double> coordinates;            ///< (n,3)
+  std::vector<double> coordinates;            ///< (n,3) in the unit of the CAD model
   std::vector<LocalIndex> cells;              ///< (m,3) or (m,4)
   std::vector<std::int8_t> vertex_dimension;  ///< (n) 0 CAD vertex, 1 edge, 2 face, 3 region
   std::vector<std::int32_t> vertex_entity;    ///< (n) id of that CAD entity

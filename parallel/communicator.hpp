@@ -70,9 +70,6 @@ public:
   /// Concatenation of every rank's items in rank order, on every rank.
   template <Transferable T>
   std::vector<T> all_gather_items(std::span<const T> mine) const;
-  /// As all_gather_items, on `root` only; empty elsewhere.
-  template <Transferable T>
-  std::vector<T> gather_items(std::span<const T> mine, Rank root = 0) const;
   template <Transferable T>
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 

@@ -28,16 +28,6 @@ std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
 }
 
 template <Transferable T>
-std::vector<T> Communicator::gather_items(std::span<const T> mine, Rank root) const {
-  std::vector<T> all;
-  for (const Bytes& part : gather(to_bytes(mine), root)) {
-    const std::vector<T> items = from_bytes<T>(part);
-    all.insert(all.end(), items.begin(), items.end());
-  }
-  return all;
-}
-
-template <Transferable T>
 void Communicator::broadcast_items(std::vector<T>& items, Rank root) const {
   Bytes bytes = to_bytes(std::span<const T>(items));
   broadcast(bytes, root);

@@ -51,6 +51,16 @@ void declare_dimensions(KeyTable& keys, cad::TransportDimensions& dimensions) {
   declare_lifting_surface(keys.section("vertical_tail"), dimensions.vertical_tail);
 }
 
+void declare_sabotage(KeyTable& keys, parallel::Sabotage& sabotage) {
+  using parallel::Sabotage;
+  keys.choice<Sabotage>("inject", sabotage,
+                        {{"none", Sabotage::none},
+                         {"throws", Sabotage::throws},
+                         {"aborts", Sabotage::aborts},
+                         {"hangs", Sabotage::hangs},
+                         {"exhausts_memory", Sabotage::exhausts_memory}});
+}
+
 void declare_geometry(KeyTable& root, Draft& draft) {
   using cad::DomainKind;
   using cad::FarFieldShape;
@@ -63,13 +73,7 @@ void declare_geometry(KeyTable& root, Draft& draft) {
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
   keys.choice<NarrowFaces>("narrow_faces", draft.result.narrow_faces,
                            {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}});
-  using Sabotage = cad::DomainOptions::Sabotage;
-  keys.choice<Sabotage>("inject", draft.result.domain.sabotage,
-                        {{"none", Sabotage::none},
-                         {"throws", Sabotage::throws},
-                         {"aborts", Sabotage::aborts},
-                         {"hangs", Sabotage::hangs},
-                         {"exhausts_memory", Sabotage::exhausts_memory}});
+  declare_sabotage(keys, draft.result.geometry_sabotage);
   KeyTable& far_field = root.section("farfield", &draft.far_field_given);
   far_field.choice<FarFieldShape>("shape", draft.far_field.shape,
                                   {{"sphere", FarFieldShape::sphere},
@@ -102,7 +106,6 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
 }
 
 void declare_stages(KeyTable& root, Case& result) {
-  using volume::VolumeOptions;
   const Range piece_size = Range::between(100, 1e9, "elements");
   KeyTable& surface_keys = root.section("surface");
   using surface::SurfaceDecomposition;
@@ -117,13 +120,8 @@ void declare_stages(KeyTable& root, Case& result) {
   volume.number("perturbation", result.volume.perturbation,
                 Range::between(0, 0.05, "mean edges of the lattice"));
   volume.number("halo", result.volume.halo, Range::between(0.5, 5, "largest sizes nearby"));
-  volume.choice<VolumeOptions::Sabotage>("inject", result.volume.sabotage,
-                                         {{"none", VolumeOptions::Sabotage::none},
-                                          {"throws", VolumeOptions::Sabotage::throws},
-                                          {"aborts", VolumeOptions::Sabotage::aborts},
-                                          {"hangs", VolumeOptions::Sabotage::hangs},
-                                          {"exhausts_memory", VolumeOptions::Sabotage::exhausts_memory}});
-  volume.integer("inject_piece", result.volume.sabotaged_zone, Range::between(-1, 1e9));
+  declare_sabotage(volume, result.volume.sabotage);
+  volume.integer("inject_zone", result.volume.sabotaged_zone, Range::between(-1, 1e9));
   const std::string no_interfaces = "volume pieces have no interfaces";
   volume.retired("erase_interfaces", no_interfaces);
   volume.retired("interface_angle", no_interfaces);

@@ -38,6 +38,7 @@ struct OutputOptions {
 
 struct Case {
   cad::DomainOptions domain;
+  parallel::Sabotage geometry_sabotage = parallel::Sabotage::none;  ///< of the contained CAD run
   NarrowFaces narrow_faces = NarrowFaces::join;
   SizingRequest sizing;
   surface::SurfaceOptions surface;

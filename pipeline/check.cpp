@@ -207,7 +207,7 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
   parallel::Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    record.diagnosis = diagnose_contained(input.domain, clock);
+    record.diagnosis = diagnose_contained(input.domain, clock, input.geometry_sabotage);
     if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;

@@ -19,6 +19,7 @@ using cad::Change;
 using cad::DomainOptions;
 using parallel::Bytes;
 using parallel::Packer;
+using parallel::Sabotage;
 using parallel::Unpacker;
 
 const char* const prepare_task_name = "geometry.prepare";
@@ -47,7 +48,6 @@ void pack_options(const DomainOptions& options, Packer& packer) {
   packer.value(std::uint8_t{far_field.symmetry_position.has_value()});
   packer.value(far_field.symmetry_position.value_or(0));
   packer.value(options.smallest_size);
-  packer.value(options.sabotage);
 }
 
 DomainOptions unpack_options(Unpacker& unpacker) {
@@ -68,7 +68,6 @@ DomainOptions unpack_options(Unpacker& unpacker) {
   if (placed) far_field.symmetry_position = position;
   if (surrounded) options.far_field = far_field;
   options.smallest_size = unpacker.value<double>();
-  options.sabotage = unpacker.value<DomainOptions::Sabotage>();
   return options;
 }
 
@@ -140,24 +139,11 @@ cad::Diagnosis unpack_diagnosis(Unpacker& unpacker) {
   return diagnosis;
 }
 
-void commit_sabotage(DomainOptions::Sabotage sabotage) {
-  using Sabotage = DomainOptions::Sabotage;
-  if (sabotage == Sabotage::throws) throw std::runtime_error("sabotage: an exception");
-  if (sabotage == Sabotage::aborts) std::abort();
-  if (sabotage == Sabotage::hangs) {
-    for (;;) std::atomic_signal_fence(std::memory_order_seq_cst);
-  }
-  if (sabotage == Sabotage::exhausts_memory) {
-    constexpr std::size_t chunk = 64 << 20;
-    std::vector<std::vector<char>> hoard;
-    for (;;) hoard.emplace_back(chunk, 'x');
-  }
-}
-
 /// In the child: errors of known kinds travel as data, the step at hand goes to standard error.
 template <class Work>
 Bytes answer(std::span<const std::byte> input, Work work) {
   Unpacker unpacker(input);
+  const auto sabotage = unpacker.value<Sabotage>();
   const DomainOptions options = unpack_options(unpacker);
   cad::listen_to_steps(
       [](const std::string& step) { fmt::print(stderr, "\n{}", step), std::fflush(stderr); });
@@ -168,7 +154,7 @@ Bytes answer(std::span<const std::byte> input, Work work) {
     packer.text(text);
   };
   try {
-    commit_sabotage(options.sabotage);
+    parallel::commit_sabotage(sabotage);
     packer.value(Outcome::done);
     work(options, packer);
   } catch (const cad::CadError& error) {
@@ -222,8 +208,10 @@ parallel::ContainedLimits limits_for(const DomainOptions& options) {
 
 /// Runs a task on the options and hands its output over where it ended well.
 template <class Read>
-auto run_task(const char* task, const DomainOptions& options, parallel::StageClock& clock, Read read) {
+auto run_task(const char* task, const DomainOptions& options, parallel::StageClock& clock, Sabotage sabotage,
+              Read read) {
   Packer packer;
+  packer.value(sabotage);
   pack_options(options, packer);
   const parallel::ContainedLimits limits = limits_for(options);
   const parallel::ContainedResult result = parallel::run_contained(task, packer.take(), limits);
@@ -250,20 +238,21 @@ void register_geometry_tasks() {
   parallel::register_contained_task(diagnose_task_name, diagnose_task);
 }
 
-cad::Domain prepare_contained(const DomainOptions& options, parallel::StageClock& clock) {
-  return run_task(prepare_task_name, options, clock, unpack_domain);
+cad::Domain prepare_contained(const DomainOptions& options, parallel::StageClock& clock, Sabotage sabotage) {
+  return run_task(prepare_task_name, options, clock, sabotage, unpack_domain);
 }
 
-cad::Diagnosis diagnose_contained(const DomainOptions& options, parallel::StageClock& clock) {
-  return run_task(diagnose_task_name, options, clock, unpack_diagnosis);
+cad::Diagnosis diagnose_contained(const DomainOptions& options, parallel::StageClock& clock,
+                                  Sabotage sabotage) {
+  return run_task(diagnose_task_name, options, clock, sabotage, unpack_diagnosis);
 }
 
 cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
-                       parallel::StageClock& clock, cad::DomainReport& report) {
+                       parallel::StageClock& clock, cad::DomainReport& report, Sabotage sabotage) {
   Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    cad::Domain domain = prepare_contained(options, clock);
+    cad::Domain domain = prepare_contained(options, clock, sabotage);
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
     report = std::move(domain.report);
     bytes = domain.model.serialise();

@@ -1,10 +1,11 @@
 /// The domain from CAD, prepared in a contained run: the CAD library may throw, crash, hang or exhaust memory
-/// on a damaged file without taking a rank down.
+/// on a damaged file without taking a rank down. Sabotage strikes in the child, before its work.
 #pragma once
 
 #include "cad/domain/domain.hpp"
 #include "cad/repair/diagnosis.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/sabotage.hpp"
 #include "parallel/timers.hpp"
 
 namespace aeroloom::pipeline {
@@ -14,16 +15,19 @@ void register_geometry_tasks();
 
 /// Prepares the domain in a child of this rank. Not collective. Throws what cad::prepare_domain throws;
 /// cad::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
-cad::Domain prepare_contained(const cad::DomainOptions& options, parallel::StageClock& clock);
+cad::Domain prepare_contained(const cad::DomainOptions& options, parallel::StageClock& clock,
+                              parallel::Sabotage sabotage = parallel::Sabotage::none);
 
 /// Looks at the geometry in a child of this rank; as above, but a domain that cannot be made is part of the
 /// diagnosis. Not collective.
-cad::Diagnosis diagnose_contained(const cad::DomainOptions& options, parallel::StageClock& clock);
+cad::Diagnosis diagnose_contained(const cad::DomainOptions& options, parallel::StageClock& clock,
+                                  parallel::Sabotage sabotage = parallel::Sabotage::none);
 
 /// Rank 0 prepares the domain, every rank numbers its entities from the same bytes. `report` is filled on
 /// rank 0 alone. Collective; throws CollectiveError.
 cad::Model load_domain(const parallel::Communicator& communicator, const cad::DomainOptions& options,
-                       parallel::StageClock& clock, cad::DomainReport& report);
+                       parallel::StageClock& clock, cad::DomainReport& report,
+                       parallel::Sabotage sabotage = parallel::Sabotage::none);
 
 /// The model that rank 0 has as bytes, on every rank. Collective; throws CollectiveError.
 cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,

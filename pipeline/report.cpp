@@ -177,7 +177,7 @@ Json volume_json(const RunRecord& record) {
           {"blocks", decomposition.blocks},
           {"lattice_points", decomposition.lattice_points},
           {"expected_tetrahedra", decomposition.expected_tetrahedra},
-          {"halo", record.volume.halo},
+          {"overlap", record.volume.overlap},
           {"imbalance", decomposition.imbalance},
           {"rounds", record.volume.rounds},
           {"steiner_points", record.volume.steiner_points},

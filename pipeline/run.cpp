@@ -103,22 +103,10 @@ struct FinishedSurface : NumberedMesh {
   sizing::SizeField field;
 };
 
-/// The boundary of the domain: the surface without its inner faces, those between two regions. With `inner`,
-/// those faces alone. Pieces keep their ids, left out ones are empty.
-mesh::DistributedMesh part_of_surface(const mesh::DistributedMesh& surface, bool inner) {
-  mesh::DistributedMesh part = surface;
-  for (mesh::Piece& piece : part.pieces) {
-    if (surface.sides_of(piece.common_face()).is_inner() == inner) continue;
-    mesh::Piece empty;
-    empty.id = piece.id;
-    empty.kind = piece.kind;
-    piece = std::move(empty);
-  }
-  return part;
-}
-
 NumberedMesh number_part(const Communicator& communicator, const mesh::DistributedMesh& surface, bool inner) {
-  NumberedMesh part{part_of_surface(surface, inner), {}};
+  NumberedMesh part{
+      mesh::part_of_surface(surface, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside),
+      {}};
   part.numbering = mesh::number_mesh(communicator, part.mesh);
   return part;
 }
@@ -218,7 +206,7 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
   parallel::log_info(fmt::format(
       "volume: {} tetrahedra; zones knew {:.2f} times the points there are; {} round(s), {} retries, "
       "{} places where zones disagreed",
-      record.volume.tetrahedra, record.volume.halo, record.volume.rounds, record.volume.retries.size(),
+      record.volume.tetrahedra, record.volume.overlap, record.volume.rounds, record.volume.retries.size(),
       record.volume.disagreements.size()));
   return filled;
 }
@@ -243,7 +231,8 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   const std::string& directory = input.output.directory;
 
   const cad::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
-    cad::Model model = load_domain(communicator, input.domain, record.clock, record.domain);
+    cad::Model model =
+        load_domain(communicator, input.domain, record.clock, record.domain, input.geometry_sabotage);
     describe_domain(model, record);
     return model;
   });

@@ -145,7 +145,7 @@ private:
     for (const CutPlane& plane : propose_planes(domain.support)) {
       std::optional<CutSupport> cut = cut_by_plane(domain.support, plane);
       if (!cut) continue;
-      std::vector<Support> parts = separate_at_cut(_model, _field, std::move(*cut), _vertices, _joined);
+      std::vector<Support> parts = discretise_cuts(_model, _field, std::move(*cut), _vertices, _joined);
       for (Support& part : parts) flip_to_delaunay(part);
       push(std::move(parts), domain.depth + 1);
       return;

@@ -182,7 +182,7 @@ JoinedVertices joined_vertices(const Support& support) {
   return joined;
 }
 
-std::vector<Support> separate_at_cut(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
+std::vector<Support> discretise_cuts(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
                                      FaceVertices& vertices, JoinedVertices& joined) {
   CutDiscretiser(model, field, cut, vertices, joined).run();
   const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(cut.support.triangles);

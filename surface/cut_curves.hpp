@@ -25,7 +25,7 @@ JoinedVertices joined_vertices(const Support& support);
 /// Spreads mesh vertices over the cuts so that segments have length 1 in the metric of the field, appends
 /// them to `vertices`, and takes the parts asunder. They come in the order of their first triangles, a part
 /// in several pieces as several parts. Pairs that cuts join are added to `joined`.
-std::vector<Support> separate_at_cut(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
+std::vector<Support> discretise_cuts(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
                                      FaceVertices& vertices, JoinedVertices& joined);
 
 }  // namespace aeroloom::surface

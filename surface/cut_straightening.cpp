@@ -1,3 +1,5 @@
+#include "surface/cut_straightening.hpp"
+
 #include "surface/face_remesher.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "surface/background.hpp"
 #include "surface/cut_angles.hpp"
 #include "surface/cut_curves.hpp"
-#include "surface/remesh.hpp"
+#include "surface/cut_straightening.hpp"
 #include "surface/support_flips.hpp"
 
 #include <algorithm>
@@ -89,7 +89,7 @@ CutFace discretise_cuts(const cad::Model& model, const PieceSeed& seed, const Ba
   Support whole = support_of(model, seed, background, part);
   CutFace cut{{}, seed.vertices, {}, FeatureEdges(whole, seed.vertices)};
   JoinedVertices joined = joined_vertices(whole);
-  cut.supports = separate_at_cut(model, field, {std::move(whole), std::move(part)}, cut.vertices, joined);
+  cut.supports = discretise_cuts(model, field, {std::move(whole), std::move(part)}, cut.vertices, joined);
   cut.tokens = cut.vertices.tokens;
   for (std::size_t v = cut.tokens.size(); v < cut.vertices.points.size(); ++v)
     cut.tokens.push_back(mesh::cut_token(seed.support.face, group, static_cast<std::int32_t>(v)));

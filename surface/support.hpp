@@ -12,8 +12,8 @@
 
 namespace aeroloom::surface {
 
-/// A triangulated patch of one CAD face. Seams are closed and poles are single points, by topology: what
-/// repeats in the parameter plane occurs once here, and parameters belong to triangle corners.
+/// A triangulated part of one CAD face, or all of it. Seams are closed and poles are single points, by
+/// topology: what repeats in the parameter plane occurs once here, and parameters belong to triangle corners.
 struct Support {
   cad::FaceId face = cad::no_entity;
   std::vector<geometry::Vec3> points;
@@ -22,7 +22,7 @@ struct Support {
   /// Vertex of the face's mesh at this support point, -1 where there is none. Numbers run over the face:
   /// those of `FaceVertices` below. Where the boundary touches itself, several points share a vertex.
   std::vector<std::int32_t> mesh_vertex;
-  /// Boundary edges of the mesh as directed pairs of support points, the patch on the left: chords between
+  /// Boundary edges of the mesh as directed pairs of support points, the support on the left: chords between
   /// consecutive mesh vertices. Empty on a closed surface.
   std::vector<std::array<std::int32_t, 2>> loop_edges;
 };

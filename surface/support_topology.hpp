@@ -23,7 +23,7 @@ inline geometry::Vec2 end_uv(const Support& support, geometry::HalfEdge h) {
   return start_uv(support, geometry::next_half_edge(h));
 }
 
-/// The boundary as closed loops of half-edges, the patch on the left; by ascending first half-edge. Every
+/// The boundary as closed loops of half-edges, the support on the left; by ascending first half-edge. Every
 /// point must have at most one outgoing boundary half-edge, as separate_parts() leaves it.
 std::vector<std::vector<geometry::HalfEdge>> trace_boundary(const Support& support,
                                                             const std::vector<geometry::HalfEdge>& twins);

@@ -96,7 +96,7 @@ std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {
     DisputedPlace& place = places[n];
     ++place.faces;
     place.zones.push_back(unmatched[f].zone);
-    for (const std::int64_t leaf : unmatched[f].leaves) {
+    for (const LeafNumber leaf : unmatched[f].leaves) {
       if (leaf >= 0) place.leaves.push_back(leaf);
     }
   }

@@ -17,8 +17,8 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
 
 /// A place where zones disagree: faces without partner that are connected by vertices.
 struct DisputedPlace {
-  std::vector<std::int64_t> leaves;  ///< of the vertices, ascending: 8 * block + child
-  std::vector<ZoneIndex> zones;      ///< that claim faces there, ascending
+  std::vector<LeafNumber> leaves;  ///< of the vertices, ascending; none where TetGen added them all
+  std::vector<ZoneIndex> zones;    ///< that claim faces there, ascending
   std::int32_t faces = 0;
 };
 /// By lowest vertex.

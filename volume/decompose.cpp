@@ -1,6 +1,6 @@
 #include "parallel/collective_error.hpp"
-#include "volume/decomposition_parts.hpp"
-#include "volume/failure.hpp"
+#include "volume/decomposition_data.hpp"
+#include "volume/evidence.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -26,95 +26,92 @@ geometry::Box box_of(const parallel::Communicator& communicator, const mesh::Dis
 
 /// The surface near each rank's blocks.
 void share_surface(const parallel::Communicator& communicator, const VolumeInput& input,
-                   Decomposition::Parts& parts, parallel::StageClock& clock) {
-  parts.table = tabulate_surface(communicator, *parts.frame, *parts.tree, input.surface, clock);
-  parts.changes.assign(parts.tree->block_count(), {});
-  parts.shares = share_blocks(*parts.tree, parts.table, communicator.size());
-  const BlockIndex first = parts.shares[communicator.rank()], last = parts.shares[communicator.rank() + 1];
+                   Decomposition::Data& data, parallel::StageClock& clock) {
+  data.table = tabulate_surface(communicator, *data.frame, *data.tree, input.surface, clock);
+  data.changes.assign(data.tree->block_count(), {});
+  data.shares = share_blocks(*data.tree, data.table, communicator.size());
+  const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
   std::vector<double> reach;
   if (communicator.size() > 1) {
     const ScopedCpu task(clock, ScopedCpu::As::task);
-    for (BlockIndex b = first; b < last; ++b) reach.push_back(reach_of_block(parts.source(input), b));
+    for (BlockIndex b = first; b < last; ++b) reach.push_back(reach_of_block(data.source(input), b));
   }
-  parts.triangles = deliver_surface(communicator, *parts.frame, *parts.tree, parts.table, parts.shares, reach,
-                                    input.surface, input.numbering, clock);
+  data.triangles = deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, reach,
+                                   input.surface, input.numbering, clock);
   const ScopedCpu task(clock, ScopedCpu::As::task);
-  parts.surface = std::make_unique<NearSurface>(parts.triangles);
-  parts.of_blocks =
-      std::make_unique<TrianglesOfBlocks>(*parts.frame, *parts.tree, first, last, parts.triangles);
+  data.surface = std::make_unique<NearSurface>(data.triangles);
+  data.of_blocks = std::make_unique<TrianglesOfBlocks>(*data.frame, *data.tree, first, last, data.triangles);
 }
 
 /// Zones of equal expected size.
-void divide(const VolumeInput& input, Decomposition::Parts& parts, parallel::StageClock& clock) {
+void divide(const VolumeInput& input, Decomposition::Data& data, parallel::StageClock& clock) {
   const ScopedCpu repeated(clock, ScopedCpu::As::serial);
-  const std::vector<double> loads = block_loads(parts.table, parts.counts);
-  parts.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
-  const ZoneIndex count = wanted_zones(parts.report.expected_tetrahedra, input.options.piece_tets);
-  parts.zones = std::make_unique<Zones>(bisect(*parts.tree, loads, count));
-  parts.expected.assign(count, 0);
-  for (BlockIndex b = 0; b < parts.tree->block_count(); ++b)
-    parts.expected[parts.zones->of(b, 0)] += loads[b];
-  parts.report.zones = count;
+  const std::vector<double> loads = block_loads(data.table, data.counts);
+  data.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
+  const ZoneIndex count = wanted_zones(data.report.expected_tetrahedra, input.options.piece_tets);
+  data.zones = std::make_unique<Zones>(bisect(*data.tree, loads, count));
+  data.expected.assign(count, 0);
+  for (BlockIndex b = 0; b < data.tree->block_count(); ++b) data.expected[data.zones->of(b, 0)] += loads[b];
+  data.report.zones = count;
 }
 
 /// What zones know, and who fills them.
-void plan_all(const parallel::Communicator& communicator, const VolumeInput& input,
-              Decomposition::Parts& parts, parallel::StageClock& clock) {
-  std::vector<ZoneIndex> all(parts.zones->count());
+void plan_all(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
+              parallel::StageClock& clock) {
+  std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<double> widths(all.size(), input.options.halo);
-  parts.plan = plan_zones(communicator, parts.tables(), all, widths, clock);
+  data.plan = plan_zones(communicator, data.tables(), all, widths, clock);
   double work = 0, heaviest = 0;
-  for (const ZoneLoad& load : parts.plan.loads) {
+  for (const ZoneLoad& load : data.plan.loads) {
     work += load.work();
     heaviest = std::max(heaviest, load.work());
   }
-  parts.report.imbalance = heaviest * static_cast<double>(all.size()) / std::max(1.0, work);
+  data.report.imbalance = heaviest * static_cast<double>(all.size()) / std::max(1.0, work);
 }
 
 }  // namespace
 
-Decomposition::Decomposition(std::unique_ptr<Parts> parts) : _parts(std::move(parts)) {}
+Decomposition::Decomposition(std::unique_ptr<Data> data) : _data(std::move(data)) {}
 Decomposition::Decomposition(Decomposition&&) noexcept = default;
 Decomposition& Decomposition::operator=(Decomposition&&) noexcept = default;
 Decomposition::~Decomposition() = default;
 
 const DecompositionReport& Decomposition::report() const {
-  return _parts->report;
+  return _data->report;
 }
 
 void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                     Decomposition::Parts& parts, parallel::StageClock& clock) {
-  const BlockIndex first = parts.shares[communicator.rank()], last = parts.shares[communicator.rank() + 1];
+                     Decomposition::Data& data, parallel::StageClock& clock) {
+  const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
   std::vector<std::uint8_t> mine;
   parallel::agree(communicator, [&] {
     const ScopedCpu task(clock, ScopedCpu::As::task);
-    parts.points = make_points(parts.source(input), first, last, *parts.surface);
-    for (BlockIndex b = first; b < last; ++b)
-      mine.push_back(static_cast<std::uint8_t>(parts.points.count(b)));
+    data.points = make_points(data.source(input), first, last, *data.surface);
+    for (BlockIndex b = first; b < last; ++b) mine.push_back(static_cast<std::uint8_t>(data.points.count(b)));
   });
-  parts.counts = communicator.all_gather_items<std::uint8_t>(mine);
-  parts.report.lattice_points = communicator.sum(static_cast<std::int64_t>(parts.points.points.size()));
+  data.counts = communicator.all_gather_items<std::uint8_t>(mine);
+  data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(data.points.points.size()));
 }
 
 Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
                         parallel::StageClock& clock) {
-  auto parts = std::make_unique<Decomposition::Parts>();
+  auto data = std::make_unique<Decomposition::Data>();
   const geometry::Box box = box_of(communicator, input.surface);
-  parts->frame = std::make_unique<LatticeFrame>(input.field, box);
-  parts->tree = std::make_unique<LatticeTree>(communicator, *parts->frame, input.field,
-                                              parts->frame->grid_box(box), clock);
-  parts->report.blocks = parts->tree->block_count();
-  share_surface(communicator, input, *parts, clock);
-  BlockRegions regions = find_block_regions(communicator, *parts->frame, *parts->tree, parts->table,
-                                            parts->shares, parts->triangles, *parts->surface, clock);
+  data->frame = std::make_unique<LatticeFrame>(input.field, box);
+  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field,
+                                             data->frame->grid_box(box), clock);
+  data->report.blocks = data->tree->block_count();
+  share_surface(communicator, input, *data, clock);
+  BlockRegions regions = find_block_regions(communicator, *data->frame, *data->tree, data->table,
+                                            data->shares, data->triangles, *data->surface, clock);
   if (regions.contradiction)
-    refuse_surface(communicator, *regions.contradiction, parts->triangles, *parts->surface, input.surface);
-  parts->regions = std::move(regions.of_block);
-  make_all_points(communicator, input, *parts, clock);
-  divide(input, *parts, clock);
-  plan_all(communicator, input, *parts, clock);
-  return Decomposition(std::move(parts));
+    refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
+  data->regions = std::move(regions.of_block);
+  make_all_points(communicator, input, *data, clock);
+  divide(input, *data, clock);
+  plan_all(communicator, input, *data, clock);
+  return Decomposition(std::move(data));
 }
 
 }  // namespace aeroloom::volume

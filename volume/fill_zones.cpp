@@ -1,8 +1,8 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "volume/agreement.hpp"
-#include "volume/decomposition_parts.hpp"
-#include "volume/failure.hpp"
+#include "volume/decomposition_data.hpp"
+#include "volume/evidence.hpp"
 #include "volume/zone_piece.hpp"
 
 #include <algorithm>
@@ -36,21 +36,21 @@ constexpr int most_rounds_of_giving = 3;
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
 public:
-  ZoneFiller(const parallel::Communicator& communicator, const VolumeInput& input,
-             Decomposition::Parts& parts, parallel::StageClock& clock, VolumeReport& report)
+  ZoneFiller(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
+             parallel::StageClock& clock, VolumeReport& report)
       : _communicator(communicator),
         _input(input),
-        _parts(parts),
+        _data(data),
         _clock(clock),
         _report(report),
-        _finder(*parts.frame, *parts.tree, *parts.zones, input.numbering.vertex_count),
-        _changes_of(parts.zones->count(), 0),
-        _merged(parts.zones->count(), 0) {}
+        _finder(*data.frame, *data.tree, *data.zones, input.numbering.vertex_count),
+        _changes_of(data.zones->count(), 0),
+        _merged(data.zones->count(), 0) {}
 
   mesh::DistributedMesh run() {
-    fill(std::move(_parts.plan));
-    _report.halo = static_cast<double>(_communicator.sum(_known_points)) /
-                   static_cast<double>(std::max<std::int64_t>(1, _parts.report.lattice_points));
+    fill(std::move(_data.plan));
+    _report.overlap = static_cast<double>(_communicator.sum(_known_points)) /
+                      static_cast<double>(std::max<std::int64_t>(1, _data.report.lattice_points));
     for (_report.rounds = 1;; ++_report.rounds) {
       std::vector<ZoneIndex> pending = change_failed();
       if (pending.empty()) pending = settle_disputes();
@@ -66,8 +66,8 @@ private:
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
     for (const std::vector<ZoneWant>& wants : plan.wants) {
       std::vector<ZoneContent> contents =
-          supply_zones(_communicator, _parts.tables(), {_parts.points, _parts.triangles, *_parts.of_blocks},
-                       _finder, _parts.shares, plan.widths, wants, _clock);
+          supply_zones(_communicator, _data.tables(), {_data.points, _data.triangles, *_data.of_blocks},
+                       _finder, _data.shares, plan.widths, wants, _clock);
       parallel::agree(_communicator, [&] {
         for (ZoneContent& content : contents) {
           fill_one(content);
@@ -80,7 +80,7 @@ private:
   ZonePlan plan(const std::vector<ZoneIndex>& pending) {
     std::vector<double> widths;
     for (const int changes : _changes_of) widths.push_back(_input.options.halo * std::pow(wider, changes));
-    return plan_zones(_communicator, _parts.tables(), pending, widths, _clock);
+    return plan_zones(_communicator, _data.tables(), pending, widths, _clock);
   }
 
   void fill_one(ZoneContent& content) {
@@ -106,17 +106,17 @@ private:
 
   void require_size(const ZoneContent& content) const {
     const std::int64_t predicted = predict_tetrahedra(content.problem);
-    if (predicted <= _input.options.largest_piece) return;
+    if (predicted <= _input.options.largest_zone) return;
     throw std::runtime_error(fmt::format(
         "a zone would get {} tetrahedra, more than {}. Ask for smaller pieces (VolumeOptions::piece_tets) "
         "or larger elements (SizingOptions::minimum).",
-        predicted, _input.options.largest_piece));
+        predicted, _input.options.largest_zone));
   }
 
-  VolumeOptions::Sabotage sabotage_of(ZoneIndex zone) const {
+  parallel::Sabotage sabotage_of(ZoneIndex zone) const {
     const std::int64_t struck = _input.options.sabotaged_zone;
     const bool strikes = struck < 0 || (zone == struck && !_merged[zone]);
-    return strikes ? _input.options.sabotage : VolumeOptions::Sabotage::none;
+    return strikes ? _input.options.sabotage : parallel::Sabotage::none;
   }
 
   // --- the ladder
@@ -126,11 +126,11 @@ private:
     const std::vector<ZoneFailure> failures = gather_failures(_communicator, std::exchange(_failures, {}));
     if (failures.empty()) return {};
     _evidence.stop_at_defects(_communicator);
-    std::vector<std::uint8_t> touched(_parts.tree->block_count(), 0);
+    std::vector<std::uint8_t> touched(_data.tree->block_count(), 0);
     std::vector<ZoneIndex> pending;
     bool points_change = false;
     for (const ZoneFailure& failure : failures) {
-      const BlocksOfZones blocks = list_blocks(*_parts.tree, *_parts.zones);
+      const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
       const std::span<const BlockIndex> own = blocks.of(failure.zone);
       if (own.empty()) continue;  // merged with one that failed before it
       pending.push_back(failure.zone);
@@ -142,8 +142,8 @@ private:
         for (const BlockIndex b : own) {
           if (!rung.other_points) break;
           touched[b] = 1;
-          ++_parts.changes[b].variant;
-          _parts.changes[b].farther = rung.farther;
+          ++_data.changes[b].variant;
+          _data.changes[b].farther = rung.farther;
         }
         points_change = points_change || rung.other_points;
       } else {
@@ -158,18 +158,18 @@ private:
                                      failure.reason.substr(0, failure.reason.find('\n'))));
       _report.retries.push_back({failure.zone, change, failure.reason});
     }
-    if (points_change) make_all_points(_communicator, _input, _parts, _clock);
+    if (points_change) make_all_points(_communicator, _input, _data, _clock);
     add_those_that_see(touched, pending);
     return pending;
   }
 
   /// The zone with most blocks beside those of this one; none in a volume of one zone.
   ZoneIndex widest_neighbour(ZoneIndex zone, std::span<const BlockIndex> own) const {
-    std::vector<std::int32_t> beside(_parts.zones->count(), 0);
+    std::vector<std::int32_t> beside(_data.zones->count(), 0);
     for (const BlockIndex b : own) {
-      _parts.tree->for_each_block_in(GridBox::of(_parts.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
-        const ZoneIndex z = _parts.zones->of(n, 0);
-        if (z != zone && (_parts.counts[n] > 0 || _parts.table.is_met(n))) ++beside[z];
+      _data.tree->for_each_block_in(GridBox::of(_data.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
+        const ZoneIndex z = _data.zones->of(n, 0);
+        if (z != zone && (_data.counts[n] > 0 || _data.table.is_met(n))) ++beside[z];
       });
     }
     const auto most = std::max_element(beside.begin(), beside.end());
@@ -178,33 +178,33 @@ private:
 
   void merge(ZoneIndex a, ZoneIndex b) {
     const ZoneIndex low = std::min(a, b), high = std::max(a, b);
-    _parts.zones->merge(high, low);
+    _data.zones->merge(high, low);
     _results.erase(high);
     _merged[low] = _merged[high] = 1;
     _changes_of[low] = 0;
-    _parts.expected[low] += _parts.expected[high];
+    _data.expected[low] += _data.expected[high];
   }
 
   /// Adds the zones that know leaves of the touched blocks, sorts, each once; those without blocks go.
   void add_those_that_see(const std::vector<std::uint8_t>& touched, std::vector<ZoneIndex>& pending) {
-    const LatticeTree& tree = *_parts.tree;
+    const LatticeTree& tree = *_data.tree;
     int most = 0;
     for (const int changes : _changes_of) most = std::max(most, changes);
     const double width = _input.options.halo * std::pow(wider, most);
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
       if (!touched[b]) continue;
       const double reach =
-          _parts.frame->grid_distance(width * largest_size_around(*_parts.frame, tree, _parts.table, b));
+          _data.frame->grid_distance(width * largest_size_around(*_data.frame, tree, _data.table, b));
       tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(reach), [&](BlockIndex n) {
         for (int child = 0; child < tree.leaf_count(n); ++child) {
-          const ZoneIndex z = _parts.zones->of(n, child);
+          const ZoneIndex z = _data.zones->of(n, child);
           if (pending.empty() || pending.back() != z) pending.push_back(z);
         }
       });
     }
     std::sort(pending.begin(), pending.end());
     pending.erase(std::unique(pending.begin(), pending.end()), pending.end());
-    const BlocksOfZones blocks = list_blocks(tree, *_parts.zones);
+    const BlocksOfZones blocks = list_blocks(tree, *_data.zones);
     std::erase_if(pending, [&](ZoneIndex z) { return blocks.of(z).empty(); });
   }
 
@@ -218,11 +218,11 @@ private:
     const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces, _clock);
     if (unmatched.empty()) return {};
     ++_rounds_of_giving;
-    std::vector<std::uint8_t> touched(_parts.tree->block_count(), 0);
+    std::vector<std::uint8_t> touched(_data.tree->block_count(), 0);
     std::vector<ZoneIndex> pending;
     for (const DisputedPlace& place : find_places(unmatched)) {
       const ZoneIndex lowest = place.zones.front();
-      const geometry::Vec3 where = place.leaves.empty() ? geometry::Vec3{} : place_of(place.leaves.front());
+      const geometry::Vec3 where = middle_of(place, lowest);
       _report.disagreements.push_back({where, lowest, place.faces, _rounds_of_giving});
       parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
                                         place.faces, place.zones.size(), where.x, where.y, where.z));
@@ -241,7 +241,7 @@ private:
   std::vector<ZoneIndex> zones_around(const DisputedPlace& place) const {
     std::vector<ZoneIndex> zones = place.zones;
     for_each_leaf_around(place, 2,
-                         [&](BlockIndex b, int child) { zones.push_back(_parts.zones->of(b, child)); });
+                         [&](BlockIndex b, int child) { zones.push_back(_data.zones->of(b, child)); });
     std::sort(zones.begin(), zones.end());
     zones.erase(std::unique(zones.begin(), zones.end()), zones.end());
     return zones;
@@ -250,7 +250,7 @@ private:
   /// Makes one zone of several, some of which another place may have merged before. False: they were one
   /// already.
   bool merge_all(const std::vector<ZoneIndex>& zones, std::vector<std::uint8_t>& touched) {
-    const BlocksOfZones blocks = list_blocks(*_parts.tree, *_parts.zones);
+    const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
     std::vector<ZoneIndex> left;
     for (const ZoneIndex z : zones) {
       if (!blocks.of(z).empty()) left.push_back(z);
@@ -271,23 +271,31 @@ private:
                     where.x, where.y, where.z));
   }
 
-  geometry::Vec3 place_of(std::int64_t leaf) const {
-    const GridBox box =
-        GridBox::of(_parts.tree->leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8)));
-    return _parts.frame->to_space(0.5 * (box.low + box.high));
+  /// The middle of a place's first leaf; of the zone's, where none of the vertices there has one.
+  geometry::Vec3 middle_of(const DisputedPlace& place, ZoneIndex zone) const {
+    Leaf leaf{0, 0};
+    if (!place.leaves.empty()) {
+      leaf = leaf_of_number(place.leaves.front());
+    } else if (const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
+               !blocks.of(zone).empty()) {
+      leaf.block = blocks.of(zone).front();
+    }
+    const GridBox box = GridBox::of(_data.tree->leaf(leaf));
+    return _data.frame->to_space(0.5 * (box.low + box.high));
   }
 
   /// Calls visit(block, child) for the leaves of a place and those less than `rings` leaves away from one.
   template <class Visit>
   void for_each_leaf_around(const DisputedPlace& place, int rings, const Visit& visit) const {
-    const LatticeTree& tree = *_parts.tree;
-    for (const std::int64_t leaf : place.leaves) {
-      const GridCube cell = tree.leaf(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
+    const LatticeTree& tree = *_data.tree;
+    for (const LeafNumber number : place.leaves) {
+      const Leaf leaf = leaf_of_number(number);
       if (rings == 0) {
-        visit(static_cast<BlockIndex>(leaf / 8), static_cast<int>(leaf % 8));
+        visit(leaf.block, leaf.child);
         continue;
       }
-      const GridBox box = GridBox::of(cell).dilated((rings - 0.5) * cell.edge());
+      const GridCube cube = tree.leaf(leaf);
+      const GridBox box = GridBox::of(cube).dilated((rings - 0.5) * cube.edge());
       tree.for_each_block_in(box, [&](BlockIndex n) {
         for (int c = 0; c < tree.leaf_count(n); ++c) {
           if (GridBox::of(tree.leaf(n, c)).overlaps(box)) visit(n, c);
@@ -300,7 +308,7 @@ private:
   void give(const DisputedPlace& place, ZoneIndex to, std::vector<std::uint8_t>& touched) {
     for_each_leaf_around(place, _rounds_of_giving - 1, [&](BlockIndex b, int child) {
       touched[b] = 1;
-      _parts.zones->give(b, child, to);
+      _data.zones->give(b, child, to);
     });
   }
 
@@ -311,7 +319,7 @@ private:
     std::vector<double> mine;
     for (const auto& [zone, result] : _results) {
       mine.push_back(std::abs(
-          _parts.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
+          _data.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
     }
     std::vector<double> errors = _communicator.all_gather_items<double>(mine);
     std::sort(errors.begin(), errors.end());
@@ -355,7 +363,7 @@ private:
 
   const parallel::Communicator& _communicator;
   const VolumeInput& _input;
-  Decomposition::Parts& _parts;
+  Decomposition::Data& _data;
   parallel::StageClock& _clock;
   VolumeReport& _report;
   ZoneFinder _finder;
@@ -374,7 +382,7 @@ mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, con
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report) {
   register_volume_tasks();  // where the host program has not; too late where it runs a server without them
-  return ZoneFiller(communicator, input, decomposition.parts(), clock, report).run();
+  return ZoneFiller(communicator, input, decomposition.data(), clock, report).run();
 }
 
 }  // namespace aeroloom::volume

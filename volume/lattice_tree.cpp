@@ -10,12 +10,12 @@ using sizing::SplitCubes;
 
 namespace {
 
-/// Cells that are looked at by every rank alike, before the rest is shared out.
+/// Cubes that are looked at by every rank alike, before the rest is shared out.
 constexpr std::size_t common_cells = 4096;
 /// Trilinear interpolation may be steeper than the growth limit by this factor.
 constexpr double slope_margin = std::numbers::sqrt3;
 
-/// Finds the cells that sizes want split.
+/// Finds the cubes that sizes want split.
 class SplitSearch {
 public:
   SplitSearch(const LatticeFrame& frame, const sizing::SizeField& field, const GridBox& box)
@@ -23,12 +23,12 @@ public:
 
   enum class Verdict { keep, split, look_below };
 
-  /// A split cell's centre sees a small size. In fields so steep that it may miss one in a corner, children
+  /// A split cube's centre sees a small size. In fields so steep that it may miss one in a corner, children
   /// are looked at where that is possible.
-  Verdict judge(const GridCube& cell) const {
-    if (cell.level >= finest_level || !GridBox::of(cell).overlaps(_box)) return Verdict::keep;
-    const double edge = _frame.edge(cell.level), half = 0.5 * cell.edge();
-    const double size = _field(_frame.to_space(GridBox::of(cell).low + Vec3{half, half, half}));
+  Verdict judge(const GridCube& cube) const {
+    if (cube.level >= finest_level || !GridBox::of(cube).overlaps(_box)) return Verdict::keep;
+    const double edge = _frame.edge(cube.level), half = 0.5 * cube.edge();
+    const double size = _field(_frame.to_space(GridBox::of(cube).low + Vec3{half, half, half}));
     if (edge * mean_edge_of_cell > LatticeTree::coarsest_edge * size) return Verdict::split;
     constexpr double half_diagonal = 0.5 * std::numbers::sqrt3;
     constexpr double harmless = mean_edge_of_cell / LatticeTree::coarsest_edge / half_diagonal;
@@ -37,22 +37,22 @@ public:
     return may_miss ? Verdict::look_below : Verdict::keep;
   }
 
-  void search(const GridCube& cell, std::vector<std::uint64_t>& found) const {
-    const Verdict verdict = judge(cell);
+  void search(const GridCube& cube, std::vector<std::uint64_t>& found) const {
+    const Verdict verdict = judge(cube);
     if (verdict == Verdict::keep) return;
-    if (verdict == Verdict::split) found.push_back(name(cell));
-    for (int child = 0; child < 8; ++child) search(child_of(cell, child), found);
+    if (verdict == Verdict::split) found.push_back(name(cube));
+    for (int child = 0; child < 8; ++child) search(child_of(cube, child), found);
   }
 
-  static GridCube child_of(const GridCube& cell, int child) {
-    const std::uint32_t half = cell.edge() >> 1;
-    return {{cell.low.x + (child & 1 ? half : 0), cell.low.y + (child & 2 ? half : 0),
-             cell.low.z + (child & 4 ? half : 0)},
-            cell.level + 1};
+  static GridCube child_of(const GridCube& cube, int child) {
+    const std::uint32_t half = cube.edge() >> 1;
+    return {{cube.low.x + (child & 1 ? half : 0), cube.low.y + (child & 2 ? half : 0),
+             cube.low.z + (child & 4 ? half : 0)},
+            cube.level + 1};
   }
-  /// Level and place of a cell in one word: a bit above its level key.
-  static std::uint64_t name(const GridCube& cell) {
-    return 1ULL << 3 * cell.level | sizing::morton_key(cell.low) >> 3 * (finest_level - cell.level);
+  /// Level and place of a cube in one word: a bit above its level key.
+  static std::uint64_t name(const GridCube& cube) {
+    return 1ULL << 3 * cube.level | sizing::morton_key(cube.low) >> 3 * (finest_level - cube.level);
   }
 
 private:
@@ -62,7 +62,7 @@ private:
   double _slope;
 };
 
-/// The cells that sizes want split, on every rank.
+/// The cubes that sizes want split, on every rank.
 std::vector<std::uint64_t> find_splits(const parallel::Communicator& communicator, const SplitSearch& search,
                                        parallel::StageClock& clock) {
   std::vector<std::uint64_t> common, mine;
@@ -71,11 +71,11 @@ std::vector<std::uint64_t> find_splits(const parallel::Communicator& communicato
     const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
     while (!open.empty() && open.size() < common_cells) {
       std::vector<GridCube> next;
-      for (const GridCube& cell : open) {
-        const SplitSearch::Verdict verdict = search.judge(cell);
+      for (const GridCube& cube : open) {
+        const SplitSearch::Verdict verdict = search.judge(cube);
         if (verdict == SplitSearch::Verdict::keep) continue;
-        if (verdict == SplitSearch::Verdict::split) common.push_back(SplitSearch::name(cell));
-        for (int child = 0; child < 8; ++child) next.push_back(SplitSearch::child_of(cell, child));
+        if (verdict == SplitSearch::Verdict::split) common.push_back(SplitSearch::name(cube));
+        for (int child = 0; child < 8; ++child) next.push_back(SplitSearch::child_of(cube, child));
       }
       open.swap(next);
     }
@@ -96,13 +96,13 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
                          const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock) {
   const std::vector<std::uint64_t> splits = find_splits(communicator, SplitSearch(frame, field, box), clock);
   const parallel::ScopedCpu repeated(clock, parallel::ScopedCpu::As::serial);
-  SplitCubes cells;
+  SplitCubes cubes;
   for (const std::uint64_t name : splits) {
     const int level = (63 - __builtin_clzll(name)) / 3;
-    cells.split((name ^ 1ULL << 3 * level) << 3 * (finest_level - level), level);
+    cubes.split((name ^ 1ULL << 3 * level) << 3 * (finest_level - level), level);
   }
-  cells.balance();
-  const SplitCubes::Leaves leaves = cells.leaves();
+  cubes.balance();
+  const SplitCubes::Leaves leaves = cubes.leaves();
   for (std::size_t i = 0; i < leaves.keys.size();) {
     const int level = leaves.levels[i], shift = 3 * (finest_level - level);
     bool whole = level > 0 && (leaves.keys[i] >> shift & 7) == 0 && i + 8 <= leaves.keys.size();
@@ -125,9 +125,9 @@ int LatticeTree::child_at(BlockIndex b, sizing::GridPoint p) const {
   return (p.x & half ? 1 : 0) | (p.y & half ? 2 : 0) | (p.z & half ? 4 : 0);
 }
 
-bool LatticeTree::is_split(const GridCube& cell) const {
-  const BlockIndex b = block_at(cell.low);
-  return _blocks.levels[b] > cell.level || (_blocks.levels[b] == cell.level && _split[b]);
+bool LatticeTree::is_split(const GridCube& cube) const {
+  const BlockIndex b = block_at(cube.low);
+  return _blocks.levels[b] > cube.level || (_blocks.levels[b] == cube.level && _split[b]);
 }
 
 }  // namespace aeroloom::volume

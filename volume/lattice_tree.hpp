@@ -15,13 +15,27 @@ namespace aeroloom::volume {
 
 using BlockIndex = std::int32_t;  ///< of a block, along the Morton curve
 
+/// A leaf: a child of a block, 0 where the block is the leaf.
+struct Leaf {
+  BlockIndex block;
+  int child;
+};
+/// Leaves in one number, by block, then child.
+using LeafNumber = std::int64_t;
+inline LeafNumber leaf_number(const Leaf& leaf) {
+  return 8 * LeafNumber{leaf.block} + leaf.child;
+}
+inline Leaf leaf_of_number(LeafNumber number) {
+  return {static_cast<BlockIndex>(number / 8), static_cast<int>(number % 8)};
+}
+
 /// An octree whose leaves are as fine as the sizes ask for and whose neighbours, over faces, edges and
-/// corners, differ by one level at most. A *block* is a cell with eight leaves, or a leaf that has a split
+/// corners, differ by one level at most. A *block* is a cube with eight leaves, or a leaf that has a split
 /// sibling. Blocks fill the root. Immutable, the same on every rank: one key and one level per block.
 class LatticeTree {
 public:
-  /// A cell is split where the mean edge of its lattice is above `coarsest_edge` times the size at its
-  /// centre. Cells off `box` are not split. Ranks share the asking for sizes. Collective.
+  /// A cube is split where the mean edge of its lattice is above `coarsest_edge` times the size at its
+  /// centre. Cubes off `box` are not split. Ranks share the asking for sizes. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
               const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock);
   static constexpr double coarsest_edge = 1.47;
@@ -31,19 +45,20 @@ public:
   int leaf_count(BlockIndex b) const { return _split[b] ? 8 : 1; }
   int leaf_level(BlockIndex b) const { return _blocks.levels[b] + _split[b]; }
   GridCube leaf(BlockIndex b, int child) const;
+  GridCube leaf(const Leaf& which) const { return leaf(which.block, which.child); }
   /// All leaves of a block, a bit each.
   std::uint8_t all_leaves(BlockIndex b) const { return _split[b] ? 0xff : 1; }
 
   BlockIndex block_at(sizing::GridPoint p) const { return _table.find(sizing::morton_key(p)); }
-  /// Which leaf of its block holds a finest cell.
+  /// Which leaf of its block holds a finest cube.
   int child_at(BlockIndex b, sizing::GridPoint p) const;
-  /// Whether a cell has children.
-  bool is_split(const GridCube& cell) const;
+  /// Whether a cube has children.
+  bool is_split(const GridCube& cube) const;
 
   /// The lowest and the highest of the blocks that touch the box: those at its low and its high corner, since
   /// Morton order ascends along every axis.
   std::pair<BlockIndex, BlockIndex> range_of(const GridBox& box) const {
-    return {block_at(nearest_cell(box.low)), block_at(nearest_cell(box.high))};
+    return {block_at(nearest_cube(box.low)), block_at(nearest_cube(box.high))};
   }
   /// Calls visit(b) for all blocks that touch the box, ascending.
   template <class Visit>
@@ -58,8 +73,8 @@ public:
   bool any_block_in(const GridBox& box, const Holds& holds) const;
 
 private:
-  /// The finest cell that holds a place in the grid; the nearest one for places outside.
-  static sizing::GridPoint nearest_cell(geometry::Vec3 place) {
+  /// The finest cube that holds a place in the grid; the nearest one for places outside.
+  static sizing::GridPoint nearest_cube(geometry::Vec3 place) {
     const auto clamp = [](double t) {
       return static_cast<std::uint32_t>(std::clamp(t, 0.0, sizing::grid_size - 1.0));
     };
@@ -76,9 +91,9 @@ private:
 
 template <class Holds>
 bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds) const {
-  const std::uint64_t low = sizing::morton_key(nearest_cell(box.low));
-  const std::uint64_t high = sizing::morton_key(nearest_cell(box.high));
-  // The smallest cell that holds both corners.
+  const std::uint64_t low = sizing::morton_key(nearest_cube(box.low));
+  const std::uint64_t high = sizing::morton_key(nearest_cube(box.high));
+  // The smallest cube that holds both corners.
   const int differing = low == high ? 0 : 64 - __builtin_clzll(low ^ high);
   const int shift = (differing + 2) / 3 * 3;
   const std::uint64_t key = low >> shift << shift;

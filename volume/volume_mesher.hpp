@@ -27,17 +27,17 @@ struct VolumeInput {
 /// The points and zones of a volume. Each rank has the points of its blocks.
 class Decomposition {
 public:
-  struct Parts;
-  explicit Decomposition(std::unique_ptr<Parts> parts);
+  struct Data;
+  explicit Decomposition(std::unique_ptr<Data> data);
   Decomposition(Decomposition&&) noexcept;
   Decomposition& operator=(Decomposition&&) noexcept;
   ~Decomposition();
 
   const DecompositionReport& report() const;
-  Parts& parts() { return *_parts; }
+  Data& data() { return *_data; }  ///< of the stage itself (decomposition_data.hpp)
 
 private:
-  std::unique_ptr<Parts> _parts;
+  std::unique_ptr<Data> _data;
 };
 
 /// Makes the lattice and divides it into zones. A function of surface, sizes and options, whatever the ranks.

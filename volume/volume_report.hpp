@@ -36,7 +36,7 @@ struct Disagreement {
 /// What the filling tells.
 struct VolumeReport {
   std::int64_t tetrahedra = 0;
-  double halo = 1;                  ///< lattice points that zones know, all together, over those there are
+  double overlap = 1;               ///< lattice points that zones know, all together, over those there are
   std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
   std::vector<Retry> retries;
   std::vector<Disagreement> disagreements;

@@ -6,7 +6,6 @@
 #include "volume/zones.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -50,21 +49,7 @@ private:
   int _exponent = 0;
 };
 
-void commit_sabotage(VolumeOptions::Sabotage sabotage) {
-  using Sabotage = VolumeOptions::Sabotage;
-  if (sabotage == Sabotage::throws) throw std::runtime_error("sabotage: an exception");
-  if (sabotage == Sabotage::aborts) std::abort();
-  if (sabotage == Sabotage::hangs) {
-    for (;;) std::atomic_signal_fence(std::memory_order_seq_cst);
-  }
-  if (sabotage == Sabotage::exhausts_memory) {
-    constexpr std::size_t chunk = 64 << 20;
-    std::vector<std::vector<char>> hoard;
-    for (;;) hoard.emplace_back(chunk, 'x');
-  }
-}
-
-Bytes pack_problem(const ZoneProblem& problem, VolumeOptions::Sabotage sabotage) {
+Bytes pack_problem(const ZoneProblem& problem, parallel::Sabotage sabotage) {
   parallel::Packer packer;
   packer.value(sabotage);
   packer.array(problem.points);
@@ -110,7 +95,7 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
 /// Runs in the child.
 Bytes fill_task(std::span<const std::byte> input) {
   parallel::Unpacker unpacker(input);
-  commit_sabotage(unpacker.value<VolumeOptions::Sabotage>());
+  parallel::commit_sabotage(unpacker.value<parallel::Sabotage>());
   const ZoneProblem problem = unpack_problem(unpacker);
   const UnitFrame frame(problem.points);
   std::vector<Vec3> points = problem.points, added;
@@ -163,7 +148,7 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
                                    tetrahedra_per_triangle * static_cast<double>(problem.triangles.size()));
 }
 
-ZoneFilling fill_zone(const ZoneProblem& problem, VolumeOptions::Sabotage sabotage) {
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage) {
   const std::int64_t predicted = predict_tetrahedra(problem);
   const parallel::ContainedLimits limits{
       base_cpu_seconds + cpu_seconds_per_tetrahedron * static_cast<double>(predicted),

@@ -25,6 +25,6 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem);
 
 /// Runs TetGen in a child under limits that follow from the predicted count. Nothing the child does harms the
 /// caller.
-ZoneFilling fill_zone(const ZoneProblem& problem, VolumeOptions::Sabotage sabotage);
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage);
 
 }  // namespace aeroloom::volume

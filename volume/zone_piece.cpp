@@ -76,10 +76,10 @@ private:
     return mesh::added_token(_content.zone,
                              static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
   }
-  std::int64_t leaf(LocalIndex v) const {
+  LeafNumber leaf(LocalIndex v) const {
     if (static_cast<std::size_t>(v) >= given()) return -1;
-    const ZoneFinder::Leaf at = _finder.leaf_of(_content.tokens[v], _content.problem.points[v]);
-    return 8 * std::int64_t{at.block} + at.child;
+    const Leaf at = _finder.leaf_of(_content.tokens[v], _content.problem.points[v]);
+    return leaf_number(at);
   }
 
   /// Vertices on faces to other zones, and where triangles of several regions meet.

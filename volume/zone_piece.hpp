@@ -14,7 +14,7 @@ namespace aeroloom::volume {
 /// A face of a zone's cell behind which another zone's cell must be.
 struct ZoneFace {
   std::array<mesh::SharedToken, 3> vertices;  ///< ascending
-  std::array<std::int64_t, 3> leaves;  ///< 8 * block + child of each vertex; -1 of one that TetGen added
+  std::array<LeafNumber, 3> leaves;           ///< of each vertex; -1 of one that TetGen added
   ZoneIndex zone;
   mesh::RegionId region;
   std::int32_t odd;  ///< 1 where its turn, seen from outside of the cell, is that of the descending vertices

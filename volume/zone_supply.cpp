@@ -150,7 +150,7 @@ public:
     _surroundings.move_to(zone, _own_blocks.of(zone));
     const double width = _widths[zone];
     std::erase_if(points, [&](const PointOfZone& p) {
-      const ZoneFinder::Leaf leaf = ZoneFinder::leaf_of_number(p.number);
+      const Leaf leaf = ZoneFinder::leaf_of_lattice(p.number);
       if (_finder.zone_of(leaf) == zone) return false;
       const Vec3 place = _frame.to_grid(p.point);
       return !_surroundings.is_near({place, place}, leaf.block, width);

@@ -58,23 +58,19 @@ public:
              mesh::GlobalIndex surface_vertices)
       : _frame(frame), _tree(tree), _zones(zones), _surface_vertices(surface_vertices) {}
 
-  struct Leaf {
-    BlockIndex block;
-    int child;
-  };
   Leaf leaf_of_place(geometry::Vec3 p) const {
     const sizing::GridPoint cell = _frame.cell_at(_frame.to_grid(p));
     const BlockIndex b = _tree.block_at(cell);
     return {b, _tree.child_at(b, cell)};
   }
-  static Leaf leaf_of_number(std::int64_t lattice_number) {
+  static Leaf leaf_of_lattice(std::int64_t lattice_number) {
     return {static_cast<BlockIndex>(lattice_number / slots_per_block),
             static_cast<int>(lattice_number % slots_per_block) / slots_per_leaf};
   }
   /// The leaf of a vertex with this token at this place.
   Leaf leaf_of(mesh::SharedToken token, geometry::Vec3 p) const {
     return is_surface(token) ? leaf_of_place(p)
-                             : leaf_of_number(static_cast<std::int64_t>(token) - _surface_vertices);
+                             : leaf_of_lattice(static_cast<std::int64_t>(token) - _surface_vertices);
   }
   ZoneIndex zone_of(const Leaf& leaf) const { return _zones.of(leaf.block, leaf.child); }
   bool is_surface(mesh::SharedToken token) const { return token < mesh::running_token(_surface_vertices); }

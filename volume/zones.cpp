@@ -98,25 +98,22 @@ private:
 }  // namespace
 
 ZoneIndex Zones::find(BlockIndex b, int child) const {
-  const std::int64_t leaf = 8 * std::int64_t{b} + child;
-  const auto at =
-      std::lower_bound(_given.begin(), _given.end(), leaf,
-                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
+  const LeafNumber leaf = leaf_number({b, child});
+  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf,
+                                   [](const Given& given, LeafNumber wanted) { return given.leaf < wanted; });
   return at != _given.end() && at->leaf == leaf ? at->zone : _of_block[b];
 }
 
 bool Zones::is_whole(BlockIndex b) const {
-  const auto at =
-      std::lower_bound(_given.begin(), _given.end(), 8 * std::int64_t{b},
-                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
-  return at == _given.end() || at->leaf >= 8 * (std::int64_t{b} + 1);
+  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf_number({b, 0}),
+                                   [](const Given& given, LeafNumber wanted) { return given.leaf < wanted; });
+  return at == _given.end() || at->leaf >= leaf_number({b + 1, 0});
 }
 
 void Zones::give(BlockIndex b, int child, ZoneIndex zone) {
-  const std::int64_t leaf = 8 * std::int64_t{b} + child;
-  const auto at =
-      std::lower_bound(_given.begin(), _given.end(), leaf,
-                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
+  const LeafNumber leaf = leaf_number({b, child});
+  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf,
+                                   [](const Given& given, LeafNumber wanted) { return given.leaf < wanted; });
   if (at != _given.end() && at->leaf == leaf)
     at->zone = zone;
   else

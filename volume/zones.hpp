@@ -35,7 +35,7 @@ public:
 
 private:
   struct Given {
-    std::int64_t leaf;  ///< 8 * block + child
+    LeafNumber leaf;
     ZoneIndex zone;
   };
   ZoneIndex find(BlockIndex b, int child) const;

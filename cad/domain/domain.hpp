@@ -41,14 +41,6 @@ struct DomainOptions {
   DomainKind kind = DomainKind::automatic;
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
-  /// What a contained run does before its work; for tests of containment.
-  enum class Sabotage : std::uint8_t {
-    none,
-    throws,
-    aborts,
-    hangs,
-    exhausts_memory
-  } sabotage = Sabotage::none;
 };
 
 /// What was read and what was done with it, for log and report.

@@ -83,7 +83,7 @@ farfield: {shape: box, extent: 12.5}
 sizing: {minimum: 0.01, maximum: 1.5, surface_maximum: 0.5, curvature_angle: 15, growth: 1.2, target_tetrahedra: 2e6,
          feature_minimum: 0.002, chordal_deviation: 1e-4}
 surface: {piece_triangles: 1000, decomposition: faces}
-volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.02, halo: 2, inject: aborts, inject_piece: 3}
+volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.02, halo: 2, inject: aborts, inject_zone: 3}
 improve: {enabled: false, target_angle: 18, sweeps: 3}
 output: {directory: out/a, log: verbose}
 )";
@@ -135,7 +135,7 @@ TEST_F(CaseTest, ReadsEveryKeyOfTheStages) {
   EXPECT_EQ(input.volume.lattice_clearance, 0.5);
   EXPECT_EQ(input.volume.perturbation, 0.02);
   EXPECT_EQ(input.volume.halo, 2);
-  EXPECT_EQ(input.volume.sabotage, volume::VolumeOptions::Sabotage::aborts);
+  EXPECT_EQ(input.volume.sabotage, parallel::Sabotage::aborts);
   EXPECT_EQ(input.volume.sabotaged_zone, 3);
   EXPECT_FALSE(input.improve.enabled);
   EXPECT_EQ(input.improve.target_angle, 18);
@@ -196,7 +196,7 @@ TEST_F(CaseTest, RetiredKeysSayWhyTheyAre) {
       "no interfaces");
   EXPECT_EQ(error_of(transport + "volume: {interface_angel: 45}\n"),
             "case.yaml:2:10: unknown key 'interface_angel' in 'volume'; valid keys: piece_tets, "
-            "lattice_clearance, perturbation, halo, inject, inject_piece");
+            "lattice_clearance, perturbation, halo, inject, inject_zone");
   EXPECT_EQ(resolved_yaml(read(transport)).find("interface"), std::string::npos);
 }
 

@@ -192,17 +192,16 @@ TEST_F(DamagedFiles, EndInAModelOrAMessage) {
 }
 
 TEST_F(DamagedFiles, CrashesAndHangsOfTheCadLibraryBecomeMessages) {
-  using Sabotage = cad::DomainOptions::Sabotage;
+  using parallel::Sabotage;
   const std::map<Sabotage, std::string> expected{{Sabotage::throws, "sabotage: an exception"},
                                                  {Sabotage::aborts, "crashed"},
                                                  {Sabotage::exhausts_memory, "memory"}};
   for (const auto& [sabotage, words] : expected) {
     cad::DomainOptions options;
     options.file = (_folder / "any.step").string();
-    options.sabotage = sabotage;
     parallel::StageClock clock;
     try {
-      prepare_contained(options, clock);
+      prepare_contained(options, clock, sabotage);
       ADD_FAILURE() << words;
     } catch (const cad::CadError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();

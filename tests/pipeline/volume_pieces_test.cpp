@@ -75,13 +75,13 @@ TEST(VolumePieces, OfTwoRegionsKeepThemApart) {
   EXPECT_GT(record.decomposition.zones, 4);
 }
 
-class FailingPiece : public testing::TestWithParam<volume::VolumeOptions::Sabotage> {};
+class FailingPiece : public testing::TestWithParam<parallel::Sabotage> {};
 
 TEST_P(FailingPiece, EndsMergedWithItsNeighbour) {
   const Folder folder;
   Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
   input.volume.sabotage = GetParam();
-  input.volume.retries = GetParam() == volume::VolumeOptions::Sabotage::hangs ? 0 : 1;
+  input.volume.retries = GetParam() == parallel::Sabotage::hangs ? 0 : 1;
   input.volume.sabotaged_zone = 2;
   RunRecord record;
   run_case(parallel::Communicator::world(), input, record);
@@ -94,15 +94,13 @@ TEST_P(FailingPiece, EndsMergedWithItsNeighbour) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FailingPiece,
-                         testing::Values(volume::VolumeOptions::Sabotage::throws,
-                                         volume::VolumeOptions::Sabotage::aborts,
-                                         volume::VolumeOptions::Sabotage::hangs,
-                                         volume::VolumeOptions::Sabotage::exhausts_memory));
+                         testing::Values(parallel::Sabotage::throws, parallel::Sabotage::aborts,
+                                         parallel::Sabotage::hangs, parallel::Sabotage::exhausts_memory));
 
 TEST(VolumePieces, ThatAllFailEndTheRunWithAReproducer) {
   const Folder folder;
   Case input = pieces_case(folder, box_with_sphere(), 8'000, 2'000);
-  input.volume.sabotage = volume::VolumeOptions::Sabotage::throws;
+  input.volume.sabotage = parallel::Sabotage::throws;
   input.volume.retries = 1;
   std::filesystem::create_directories(input.output.directory);
   RunRecord record;

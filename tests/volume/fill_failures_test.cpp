@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Vec3;
 using parallel::Communicator;
-using Sabotage = VolumeOptions::Sabotage;
+using Sabotage = parallel::Sabotage;
 
 const bool tasks_are_known = (register_volume_tasks(), true);
 
@@ -241,7 +241,7 @@ TEST(VolumeFailures, name_the_faces_beside_a_gap) {
 TEST(VolumeFailures, refuse_a_piece_too_large_on_every_rank) {
   const Communicator world = Communicator::world();
   VolumeOptions options;
-  options.largest_piece = 1000;
+  options.largest_zone = 1000;
   std::string said;
   try {
     const Filled filled(world, body(), sizes(), options);

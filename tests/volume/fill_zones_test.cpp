@@ -142,7 +142,7 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
     alone.assign(text.begin(), text.end());
     EXPECT_EQ(filled.decomposed.lattice_points, same.decomposed.lattice_points);
     EXPECT_EQ(filled.decomposed.blocks, same.decomposed.blocks);
-    EXPECT_EQ(filled.report.halo, same.report.halo);
+    EXPECT_EQ(filled.report.overlap, same.report.overlap);
     EXPECT_EQ(filled.decomposed.imbalance, same.decomposed.imbalance);
   }
   world.broadcast_items(alone);
@@ -201,7 +201,7 @@ TEST(FillZones, expect_about_the_tetrahedra_that_come) {
   EXPECT_NEAR(filled.decomposed.expected_tetrahedra / cells, 1, 0.15);
   EXPECT_EQ(filled.decomposed.zones, wanted_zones(filled.decomposed.expected_tetrahedra, 8'000));
   EXPECT_LT(filled.report.load_error_90, 0.5);
-  EXPECT_GT(filled.report.halo, 1);
+  EXPECT_GT(filled.report.overlap, 1);
   EXPECT_LT(filled.decomposed.imbalance, 1.6);
 }
 

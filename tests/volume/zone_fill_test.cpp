@@ -18,7 +18,7 @@ namespace {
 
 using geometry::Vec3;
 using parallel::Communicator;
-using Sabotage = VolumeOptions::Sabotage;
+using Sabotage = parallel::Sabotage;
 
 const bool tasks_are_known = (register_volume_tasks(), true);
 

@@ -4,7 +4,7 @@
 #include "geometry/predicates.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/decomposition_parts.hpp"
+#include "volume/decomposition_data.hpp"
 
 #include <algorithm>
 #include <map>
@@ -42,14 +42,14 @@ protected:
     problem = new Problem(*communicator, *surface, fields::uniform(0.14), options);
     parallel::StageClock clock;
     decomposition = new Decomposition(decompose(*communicator, problem->input(), clock));
-    Decomposition::Parts& parts = decomposition->parts();
-    const ZoneFinder finder(*parts.frame, *parts.tree, *parts.zones, problem->numbering.vertex_count);
+    Decomposition::Data& data = decomposition->data();
+    const ZoneFinder finder(*data.frame, *data.tree, *data.zones, problem->numbering.vertex_count);
     zones = new std::vector<Zone>;
-    for (const std::vector<ZoneWant>& wants : parts.plan.wants) {
+    for (const std::vector<ZoneWant>& wants : data.plan.wants) {
       for (ZoneContent& content :
-           supply_zones(*communicator, parts.tables(), {parts.points, parts.triangles, *parts.of_blocks},
-                        finder, parts.shares, parts.plan.widths, wants, clock)) {
-        ZoneFilling filling = fill_zone(content.problem, VolumeOptions::Sabotage::none);
+           supply_zones(*communicator, data.tables(), {data.points, data.triangles, *data.of_blocks}, finder,
+                        data.shares, data.plan.widths, wants, clock)) {
+        ZoneFilling filling = fill_zone(content.problem, parallel::Sabotage::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(content, filling, finder);
         zones->push_back({std::move(content), std::move(filling), std::move(result)});
@@ -189,8 +189,8 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
     std::map<SharedToken, LocalIndex> known;
     for (std::size_t v = 0; v < zone.content.tokens.size(); ++v)
       known[zone.content.tokens[v]] = static_cast<LocalIndex>(v);
-    const Decomposition::Parts& parts = decomposition->parts();
-    const ZoneFinder finder(*parts.frame, *parts.tree, *parts.zones, problem->numbering.vertex_count);
+    const Decomposition::Data& data = decomposition->data();
+    const ZoneFinder finder(*data.frame, *data.tree, *data.zones, problem->numbering.vertex_count);
     for (std::size_t i = 0; i < zone.result.faces.size(); ++i) {
       const ZoneFace& face = zone.result.faces[i];
       const Crossing& crossing = zone.filling.owned.crossings[i];
@@ -203,7 +203,7 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
         v[k] = known.at(face.vertices[k]);
         EXPECT_NE(v[k], cell[crossing.face]);
         EXPECT_NE(std::find(cell.begin(), cell.end(), v[k]), cell.end());
-        const ZoneFinder::Leaf leaf = finder.leaf_of(face.vertices[k], zone.content.problem.points[v[k]]);
+        const Leaf leaf = finder.leaf_of(face.vertices[k], zone.content.problem.points[v[k]]);
         EXPECT_EQ(face.leaves[k], 8 * std::int64_t{leaf.block} + leaf.child);
       }
       // Counter-clockwise seen from outside: the fourth vertex lies on the other side.

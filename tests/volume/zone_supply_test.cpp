@@ -1,7 +1,7 @@
 /// Who fills which zone, and what each gets to know.
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/decomposition_parts.hpp"
+#include "volume/decomposition_data.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -29,20 +29,19 @@ struct Divided {
       : surface(surfaces::nested_cubes(8)),
         problem(communicator, surface, fields::around_unit_sphere(0.1, 0.4), in_zones_of(1500)),
         decomposition(decompose(communicator, problem.input(), clock)),
-        parts(decomposition.parts()),
-        finder(*parts.frame, *parts.tree, *parts.zones, problem.numbering.vertex_count) {
-    for (BlockIndex b = 10; b < parts.tree->block_count(); b += 50)
-      parts.zones->give(b, parts.tree->leaf_count(b) / 2, 3);
-    all.resize(parts.zones->count());
+        data(decomposition.data()),
+        finder(*data.frame, *data.tree, *data.zones, problem.numbering.vertex_count) {
+    for (BlockIndex b = 10; b < data.tree->block_count(); b += 50)
+      data.zones->give(b, data.tree->leaf_count(b) / 2, 3);
+    all.resize(data.zones->count());
     std::iota(all.begin(), all.end(), 0);
     widths.assign(all.size(), problem.options.halo);
-    plan = plan_zones(communicator, parts.tables(), all, widths, clock);
+    plan = plan_zones(communicator, data.tables(), all, widths, clock);
   }
 
   std::vector<ZoneContent> supply(const std::vector<ZoneWant>& wants) {
-    return supply_zones(problem.communicator, parts.tables(),
-                        {parts.points, parts.triangles, *parts.of_blocks}, finder, parts.shares, widths,
-                        wants, clock);
+    return supply_zones(problem.communicator, data.tables(), {data.points, data.triangles, *data.of_blocks},
+                        finder, data.shares, widths, wants, clock);
   }
   std::vector<ZoneContent> supply_all() {
     std::vector<ZoneContent> contents;
@@ -56,7 +55,7 @@ struct Divided {
   Problem problem;
   parallel::StageClock clock;
   Decomposition decomposition;
-  Decomposition::Parts& parts;
+  Decomposition::Data& data;
   ZoneFinder finder;
   std::vector<ZoneIndex> all;
   std::vector<double> widths;
@@ -65,9 +64,9 @@ struct Divided {
 
 /// The leaves that each zone is to know.
 std::set<std::pair<BlockIndex, int>> leaves_known(const Divided& divided, ZoneIndex zone) {
-  const LatticeTree& tree = *divided.parts.tree;
-  HaloTaker taker(*divided.parts.frame, tree, divided.parts.table, *divided.parts.zones);
-  const BlocksOfZones own = list_blocks(tree, *divided.parts.zones);
+  const LatticeTree& tree = *divided.data.tree;
+  HaloTaker taker(*divided.data.frame, tree, divided.data.table, *divided.data.zones);
+  const BlocksOfZones own = list_blocks(tree, *divided.data.zones);
   std::set<std::pair<BlockIndex, int>> leaves;
   for (const TakenBlock& taken : taker.take(zone, own.of(zone), divided.problem.options.halo)) {
     for (int child = 0; child < 8; ++child) {
@@ -79,12 +78,12 @@ std::set<std::pair<BlockIndex, int>> leaves_known(const Divided& divided, ZoneIn
 
 /// Whether a box that lies in a block, or has its middle there, is as near to the zone as is asked for.
 bool is_near(const Divided& divided, ZoneIndex zone, const GridBox& box, BlockIndex b) {
-  const LatticeTree& tree = *divided.parts.tree;
-  const double reach = divided.parts.frame->grid_distance(
-      divided.problem.options.halo * largest_size_around(*divided.parts.frame, tree, divided.parts.table, b));
+  const LatticeTree& tree = *divided.data.tree;
+  const double reach = divided.data.frame->grid_distance(
+      divided.problem.options.halo * largest_size_around(*divided.data.frame, tree, divided.data.table, b));
   const std::vector<LeafOfBlock> leaves = all_leaves(tree);
   return std::any_of(leaves.begin(), leaves.end(), [&](const LeafOfBlock& leaf) {
-    return divided.parts.zones->of(leaf.block, leaf.child) == zone &&
+    return divided.data.zones->of(leaf.block, leaf.child) == zone &&
            GridBox::of(leaf.cell).gap_to(box) <= reach;
   });
 }
@@ -144,7 +143,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   const std::vector<ZoneIndex> some{2, 5};
   std::vector<double> widths = divided.widths;
   widths[5] *= 1.5;
-  const ZonePlan plan = plan_zones(world, divided.parts.tables(), some, widths, divided.clock);
+  const ZonePlan plan = plan_zones(world, divided.data.tables(), some, widths, divided.clock);
   ASSERT_EQ(plan.loads.size(), 2u);
   EXPECT_EQ(plan.loads[0].zone, 2);
   EXPECT_EQ(plan.loads[1].zone, 5);
@@ -162,7 +161,7 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     std::int32_t unused = 0;
   };
   std::vector<Row> mine;
-  const BlockPoints& points = divided.parts.points;
+  const BlockPoints& points = divided.data.points;
   for (BlockIndex b = points.first; b < points.last(); ++b) {
     for (std::int64_t i = points.starts[b - points.first]; i < points.starts[b - points.first + 1]; ++i)
       mine.push_back({lattice_number(b, points.slots[i]), points.points[i], points.regions[i]});
@@ -175,8 +174,8 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     std::size_t at = content.problem.surface_points();
     const std::size_t first = at;
     for (const Row& row : all) {
-      const ZoneFinder::Leaf leaf = ZoneFinder::leaf_of_number(row.number);
-      const Vec3 place = divided.parts.frame->to_grid(row.point);
+      const Leaf leaf = ZoneFinder::leaf_of_lattice(row.number);
+      const Vec3 place = divided.data.frame->to_grid(row.point);
       if (!is_near(divided, content.zone, {place, place}, leaf.block)) continue;
       EXPECT_TRUE(leaves.count({leaf.block, leaf.child}));
       ASSERT_LT(at, content.tokens.size());
@@ -199,10 +198,10 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
 TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
   const Communicator world = Communicator::world();
   Divided divided(world);
-  const LatticeFrame& frame = *divided.parts.frame;
+  const LatticeFrame& frame = *divided.data.frame;
   std::set<mesh::GlobalIndex> numbers;
   std::vector<SurfaceTriangle> all;
-  for (const SurfaceTriangle& t : world.all_gather_items<SurfaceTriangle>(divided.parts.triangles)) {
+  for (const SurfaceTriangle& t : world.all_gather_items<SurfaceTriangle>(divided.data.triangles)) {
     if (numbers.insert(t.number).second) all.push_back(t);
   }
   ASSERT_EQ(all.size(), divided.surface.triangles.size());
@@ -244,19 +243,19 @@ TEST(SupplyZones, tells_whose_each_vertex_is) {
     for (std::size_t v = 0; v < content.tokens.size(); ++v) {
       const bool is_surface = v < content.problem.surface_points();
       EXPECT_EQ(divided.finder.is_surface(content.tokens[v]), is_surface);
-      ZoneFinder::Leaf leaf{};
+      Leaf leaf{};
       if (is_surface) {  // by brute force
-        const Vec3 g = divided.parts.frame->to_grid(content.problem.points[v]);
-        for (const LeafOfBlock& other : all_leaves(*divided.parts.tree)) {
+        const Vec3 g = divided.data.frame->to_grid(content.problem.points[v]);
+        for (const LeafOfBlock& other : all_leaves(*divided.data.tree)) {
           const GridBox box = GridBox::of(other.cell);
           const auto within = [&](int axis) { return g[axis] >= box.low[axis] && g[axis] < box.high[axis]; };
           if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
         }
       } else {
-        leaf = ZoneFinder::leaf_of_number(static_cast<std::int64_t>(content.tokens[v]) -
-                                          divided.problem.numbering.vertex_count);
+        leaf = ZoneFinder::leaf_of_lattice(static_cast<std::int64_t>(content.tokens[v]) -
+                                           divided.problem.numbering.vertex_count);
       }
-      const ZoneIndex zone = divided.parts.zones->of(leaf.block, leaf.child);
+      const ZoneIndex zone = divided.data.zones->of(leaf.block, leaf.child);
       const Owner expected = zone == content.zone  ? Owner::mine
                              : zone < content.zone ? Owner::lower
                                                    : Owner::higher;

@@ -1,4 +1,4 @@
-#include "volume/failure.hpp"
+#include "volume/evidence.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -14,7 +14,7 @@
 
 namespace aeroloom::volume {
 
-struct Decomposition::Parts {
+struct Decomposition::Data {
   // The same on every rank.
   std::unique_ptr<const LatticeFrame> frame;
   std::unique_ptr<const LatticeTree> tree;
@@ -44,6 +44,6 @@ struct Decomposition::Parts {
 
 /// Makes the points of this rank's blocks (anew) and counts those of all. Collective.
 void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                     Decomposition::Parts& parts, parallel::StageClock& clock);
+                     Decomposition::Data& data, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume
