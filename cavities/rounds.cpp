@@ -18,8 +18,6 @@
 namespace aeroloom::cavities {
 namespace {
 
-using geometry::Vec3;
-
 /// What became of a cavity; the same on every rank.
 struct Outcome {
   CavityId cavity;
@@ -233,6 +231,44 @@ struct Delivery {
   std::vector<WireTriangle> triangles;
 };
 
+/// Adds a refilled cavity. `first_added` is the number of its first new vertex among those of the round.
+void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added, Delivery& out) {
+  const CavityId id = owned.cavity.id;
+  const auto known = static_cast<mesh::LocalIndex>(owned.tokens.size());
+  const auto token = [&](mesh::LocalIndex v) {
+    return v < known ? owned.tokens[v] : mesh::placed_token(round, first_added + (v - known));
+  };
+  const CavityShares& shares = owned.shares;
+  std::vector<std::pair<mesh::PieceId, mesh::LocalIndex>> uses;
+  for (std::size_t i = 0; i < owned.refilling->tets.size(); ++i) {
+    const auto& t = owned.refilling->tets[i];
+    out.tets.push_back(
+        {id, shares.of_tet[i], owned.cavity.region, {token(t[0]), token(t[1]), token(t[2]), token(t[3])}});
+    for (const mesh::LocalIndex v : t) uses.emplace_back(shares.of_tet[i], v);
+  }
+  std::sort(uses.begin(), uses.end());
+  uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+  for (const auto& [piece, v] : uses) {
+    if (v < known) {
+      out.vertices.push_back({id, piece, owned.cavity.dimension[v], owned.tokens[v], owned.cavity.points[v],
+                              owned.cavity.entity[v]});
+    } else {
+      const AddedVertex& added = owned.refilling->added[v - known];
+      out.vertices.push_back({id, piece, added.dimension, token(v), added.point,
+                              added.dimension == 3 ? owned.cavity.region : added.entity});
+    }
+  }
+  const std::vector<CavityTriangle>& triangles = owned.refilling->triangles_of(owned.cavity);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const CavityTriangle& t = triangles[i];
+    out.triangles.push_back({id,
+                             shares.of_triangle[i],
+                             t.face,
+                             {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])},
+                             t.patch});
+  }
+}
+
 Delivery deliver_refilled(const parallel::Communicator& communicator,
                           const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
                           const std::vector<parallel::Rank>& owner_of_piece, int round,
@@ -246,46 +282,7 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     first_new += outcome.added;
     if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
     const OwnedCavity& owned = cavities[next++];
-    if (!owned.refilling) continue;
-    const CavityId id = owned.cavity.id;
-    const auto known = static_cast<mesh::LocalIndex>(owned.tokens.size());
-    const auto token = [&](mesh::LocalIndex v) {
-      return v < known ? owned.tokens[v] : mesh::placed_token(round, first + (v - known));
-    };
-    const CavityShares& shares = owned.shares;
-    struct Use {
-      mesh::PieceId piece;
-      mesh::LocalIndex vertex;
-      auto operator<=>(const Use&) const = default;
-    };
-    std::vector<Use> uses;
-    for (std::size_t i = 0; i < owned.refilling->tets.size(); ++i) {
-      const auto& t = owned.refilling->tets[i];
-      out.tets.push_back(
-          {id, shares.of_tet[i], owned.cavity.region, {token(t[0]), token(t[1]), token(t[2]), token(t[3])}});
-      for (const mesh::LocalIndex v : t) uses.push_back({shares.of_tet[i], v});
-    }
-    std::sort(uses.begin(), uses.end());
-    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
-    for (const auto& [piece, v] : uses) {
-      if (v < known) {
-        out.vertices.push_back({id, piece, owned.cavity.dimension[v], owned.tokens[v], owned.cavity.points[v],
-                                owned.cavity.entity[v]});
-      } else {
-        const AddedVertex& added = owned.refilling->added[v - known];
-        out.vertices.push_back({id, piece, added.dimension, token(v), added.point,
-                                added.dimension == 3 ? owned.cavity.region : added.entity});
-      }
-    }
-    const std::vector<CavityTriangle>& triangles = owned.refilling->triangles_of(owned.cavity);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const CavityTriangle& t = triangles[i];
-      out.triangles.push_back({id,
-                               shares.of_triangle[i],
-                               t.face,
-                               {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])},
-                               t.patch});
-    }
+    if (owned.refilling) pack_refilled(owned, round, first, out);
   }
   clock.add_task_cpu(parallel::cpu_seconds() - start);
   const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };

@@ -51,6 +51,33 @@ public:
     }
   }
 
+  /// Calls `visit(place)` for the places of leaves reached through nodes with away(box) below `bound`, which
+  /// visit may lower; the nearer child first.
+  template <class Away, class Visit>
+  void search_nearest(const Away& away, const double& bound, const Visit& visit) const {
+    struct Waiting {
+      std::int32_t node;
+      double away;
+    };
+    Waiting stack[most_levels];
+    int depth = 0;
+    if (!_nodes.empty()) stack[depth++] = {0, away(_nodes[0].box)};
+    while (depth > 0) {
+      const Waiting next = stack[--depth];
+      if (!(next.away < bound)) continue;
+      const Node& node = _nodes[next.node];
+      if (node.is_leaf()) {
+        for (std::int32_t i = node.begin; i < node.end; ++i) visit(i);
+        continue;
+      }
+      const Waiting left{next.node + 1, away(_nodes[next.node + 1].box)};
+      const Waiting right{node.right, away(_nodes[node.right].box)};
+      const bool left_first = left.away <= right.away;
+      stack[depth++] = left_first ? right : left;
+      stack[depth++] = left_first ? left : right;
+    }
+  }
+
   /// The deepest stack that a search needs.
   static constexpr int most_levels = 64;
 

@@ -7,7 +7,6 @@
 namespace aeroloom::improve {
 namespace {
 
-using mesh::tetrahedron_edges;
 using mesh::tetrahedron_faces;
 
 }  // namespace

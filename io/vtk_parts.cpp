@@ -93,6 +93,7 @@ std::vector<PartPiece> bring_parts(const parallel::Communicator& communicator,
     pack(mesh.pieces[i], numbering.vertices[i], packers[static_cast<parallel::Rank>(part - first)]);
   }
   std::vector<parallel::Parcel> parcels;
+  parcels.reserve(packers.size());
   for (auto& [rank, packer] : packers) parcels.push_back({rank, packer.take()});
   std::vector<PartPiece> pieces;
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {

@@ -156,6 +156,7 @@ void read_regions(vtkUnstructuredGrid& grid, const std::vector<vtkIdType>& cells
     return;
   }
   std::vector<double> values;
+  values.reserve(cells.size());
   for (const vtkIdType c : cells) values.push_back(labels->GetComponent(c, 0));
   std::vector<double> kinds = values;
   std::sort(kinds.begin(), kinds.end());

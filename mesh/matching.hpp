@@ -63,6 +63,8 @@ struct Matching {
   Label label;
   Judge judge;
 };
+template <class Enumerate, class Label, class Judge>
+Matching(RoleEntities, Enumerate, Label, Judge) -> Matching<Enumerate, Label, Judge>;
 
 /// Matches the faces (N = 3) or edges (N = 2) of a mesh. Offenders go to `findings`. Collective.
 template <std::size_t N, class Enumerate, class Label, class Judge>

@@ -35,6 +35,7 @@ void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
     }
   }
   std::vector<parallel::Parcel> parcels;
+  parcels.reserve(leaving.size());
   for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);

@@ -1,8 +1,9 @@
-/// Mixing of bits: which rank a key is met on, and the steps of the mesh hash.
+/// Bits: places compared by them, which rank a key is met on, and the steps of the mesh hash.
 #pragma once
 
 #include "parallel/communicator.hpp"
 
+#include <bit>
 #include <cstdint>
 
 namespace aeroloom::mesh {
@@ -18,6 +19,14 @@ constexpr std::uint64_t mix_bits(std::uint64_t word) {
 /// Mixes one more word into a running value.
 constexpr std::uint64_t mix_in(std::uint64_t state, std::uint64_t word) {
   return mix_bits(state * 0x9e3779b97f4a7c15ULL + word);
+}
+
+/// Whether two places are the same in every bit: 0 and -0 differ, a NaN equals itself.
+constexpr bool same_bits(const double (&a)[3], const double (&b)[3]) {
+  const auto same = [&](int i) {
+    return std::bit_cast<std::uint64_t>(a[i]) == std::bit_cast<std::uint64_t>(b[i]);
+  };
+  return same(0) && same(1) && same(2);
 }
 
 /// The rank on which all holders of a key meet, from the key's mixed bits.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <tuple>
@@ -75,8 +74,7 @@ void require_agreement(const parallel::Communicator& communicator, const std::ve
   for (std::size_t i = 0, first = 0; i < met.size(); ++i) {
     if (met[i].token != met[first].token) first = i;
     if (i == first) continue;
-    const bool equal =
-        std::memcmp(met[i].coordinates, met[first].coordinates, sizeof met[i].coordinates) == 0;
+    const bool equal = same_bits(met[i].coordinates, met[first].coordinates);
     if (equal && met[i].piece != met[i - 1].piece) continue;
     ++count;
     const Clash clash{equal ? met[i - 1] : met[first], met[i]};

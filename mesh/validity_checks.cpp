@@ -189,7 +189,7 @@ void check_shared_coordinates(const parallel::Communicator& communicator, const 
   for (std::size_t i = 1, owner = 0; i < met.size(); ++i) {
     if (met[i].number != met[owner].number) {
       owner = i;
-    } else if (std::memcmp(met[i].coordinates, met[owner].coordinates, sizeof met[i].coordinates) != 0) {
+    } else if (!same_bits(met[i].coordinates, met[owner].coordinates)) {
       findings.add(Violation::shared_coordinates_differ,
                    {{met[i].number}, met[i].piece, Entity::vertex, met[i].vertex});
     }

@@ -32,7 +32,8 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   const SizedDomain sized = size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined;
-  forecast.counts = sizing::predict_counts(communicator, sized.model, sized.field, clock);
+  forecast.counts =
+      sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
   forecast.seconds = seconds_per_triangle * triangles + seconds_per_tetrahedron * tetrahedra;
   forecast.bytes = base_bytes * communicator.size() + bytes_per_tetrahedron * tetrahedra;

@@ -2,6 +2,7 @@
 
 #include "cad/model/joined_faces.hpp"
 #include "parallel/collective_error.hpp"
+#include "sizing/choose_sizes.hpp"
 #include "sizing/narrow_faces.hpp"
 
 #include <optional>
@@ -38,14 +39,21 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   return joined;
 }
 
-}  // namespace
-
-sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, const cad::Model& model,
-                                    const SizingRequest& request, parallel::StageClock& clock) {
+/// Sizes as asked for, and the field where it was built on the way to them.
+struct ResolvedSizes {
   sizing::SizingOptions sizes;
+  std::optional<sizing::ChosenSizes> chosen;
+};
+
+ResolvedSizes resolve_sizes(const sizing::ModelSampler& sampler, const SizingRequest& request,
+                            const std::optional<sizing::ChosenSizes>& near) {
+  ResolvedSizes resolved;
   if (!request.minimum || !request.maximum) {
-    sizes = sizing::choose_sizes(communicator, model, request.target_tetrahedra, clock);
+    const auto near_sizes = near ? std::optional(near->options) : std::nullopt;
+    resolved.chosen = sizing::choose_sizes(sampler, request.target_tetrahedra, near_sizes);
+    resolved.sizes = resolved.chosen->options;
   }
+  sizing::SizingOptions& sizes = resolved.sizes;
   if (request.minimum) sizes.minimum = *request.minimum, sizes.feature_minimum = 0;
   if (request.feature_minimum) sizes.feature_minimum = *request.feature_minimum;
   if (request.maximum) sizes.maximum = *request.maximum;
@@ -60,22 +68,38 @@ sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, 
                     "the model. Remedy: give both",
                     sizes.minimum, sizes.maximum));
   }
-  return sizes;
+  return resolved;
 }
+
+/// The sized domain of a model that stays as it is.
+SizedDomain finish(const cad::Model& model, const sizing::ModelSampler& sampler, ResolvedSizes resolved,
+                   cad::Changes joined) {
+  const sizing::SizingOptions& sizes = resolved.sizes;
+  if (resolved.chosen && resolved.chosen->options == sizes) {
+    return {model, sizes, std::move(resolved.chosen->field), std::move(joined), resolved.chosen->counts};
+  }
+  return {model, sizes, sampler.build_field(sizes), std::move(joined), {}};
+}
+
+}  // namespace
 
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
-  sizing::SizingOptions sizes = resolve_sizes(communicator, model, request, clock);
+  const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
+  const sizing::ModelSampler sampler(communicator, model, clock, layers);
+  ResolvedSizes resolved = resolve_sizes(sampler, request, {});
+  if (narrow_faces == NarrowFaces::keep) return finish(model, sampler, std::move(resolved), {});
   cad::Changes changes;
-  std::optional<cad::Model> joined;
-  if (narrow_faces == NarrowFaces::join) {
-    joined = join_narrow_faces(communicator, model, sizes.minimum, clock, changes);
-  }
-  if (!joined) return {model, sizes, sizing::build_size_field(communicator, model, sizes, clock), {}};
-  // Without them, sizes that aim at a number of elements come out a little smaller.
-  if (!request.minimum) sizes = resolve_sizes(communicator, *joined, request, clock);
-  sizing::SizeField field = sizing::build_size_field(communicator, *joined, sizes, clock);
-  return {std::move(*joined), sizes, std::move(field), std::move(changes)};
+  const std::optional<cad::Model> joined =
+      join_narrow_faces(communicator, model, resolved.sizes.minimum, clock, changes);
+  if (!joined) return finish(model, sampler, std::move(resolved), {});
+  const sizing::ModelSampler of_joined(communicator, *joined, clock, layers);
+  // Without narrow faces, sizes that aim at a number of elements come out a little smaller.
+  if (!request.minimum)
+    resolved = resolve_sizes(of_joined, request, resolved.chosen);
+  else
+    resolved.chosen.reset();
+  return finish(*joined, of_joined, std::move(resolved), std::move(changes));
 }
 
 }  // namespace aeroloom::pipeline

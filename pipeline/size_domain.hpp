@@ -8,22 +8,21 @@
 #include "pipeline/case.hpp"
 #include "sizing/size_field.hpp"
 
-namespace aeroloom::pipeline {
+#include <optional>
 
-/// What the user asked for; the rest is chosen from the model. Bounds that the user gave bind the choice.
-/// Throws std::invalid_argument when they contradict what was chosen. Collective.
-sizing::SizingOptions resolve_sizes(const parallel::Communicator& communicator, const cad::Model& model,
-                                    const SizingRequest& request, parallel::StageClock& clock);
+namespace aeroloom::pipeline {
 
 struct SizedDomain {
   cad::Model model;  ///< faces narrower than the smallest size joined with neighbours, if wanted
   sizing::SizingOptions sizes;
   sizing::SizeField field;
-  cad::Changes joined;  ///< one for each face that vanished
+  cad::Changes joined;                            ///< one for each face that vanished
+  std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
 };
 
-/// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. The same on every
-/// rank. Collective. Throws as resolve_sizes.
+/// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. What the user did not
+/// ask for is chosen from the model; bounds that the user gave bind the choice. The same on every rank.
+/// Collective. Throws std::invalid_argument where what was asked for contradicts what was chosen.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock);
 

@@ -292,6 +292,7 @@ std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) c
   if (const auto near = nearest_name(unknown, here)) return "did you mean '" + *near + "'?";
   root.collect_paths(everywhere);
   std::vector<std::string> last_names;
+  last_names.reserve(everywhere.size());
   for (const std::string& path : everywhere) last_names.push_back(path.substr(path.rfind('.') + 1));
   if (const auto near = nearest_name(unknown, last_names)) {
     const auto found = std::find(last_names.begin(), last_names.end(), *near) - last_names.begin();

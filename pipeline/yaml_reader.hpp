@@ -122,6 +122,7 @@ template <class Enum>
 void KeyTable::choice(const std::string& name, Enum& target,
                       const std::vector<std::pair<std::string, Enum>>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& value : values) names.push_back(value.first);
   add(
       name, [&target, names, values](const YamlValue& value) { target = values[value.choice(names)].second; },

@@ -99,13 +99,20 @@ FieldBuilder::FieldBuilder(const SizeField& previous) : FieldBuilder(previous._d
 }
 
 SizeField FieldBuilder::build(std::span<const SizeSource> sources) {
+  return *build_within(sources, std::numeric_limits<std::int64_t>::max());
+}
+
+std::optional<SizeField> FieldBuilder::build_within(std::span<const SizeSource> sources,
+                                                    std::int64_t most_leaves) {
   for (const SizeSource& source : sources) {
     require(source.size > 0 && std::isfinite(source.size), "a source must have a positive size", source.size);
     if (source.size < _options.maximum) _sources.push_back(source);
   }
   _sources = thin_sources(_root, _sources);
   split_at_sources();
-  split_where_coarse(solve());
+  _cells.balance();
+  if (_cells.leaf_count() > most_leaves) return std::nullopt;
+  if (!split_where_coarse(solve(), most_leaves / 8)) return std::nullopt;
   return finish(solve());
 }
 
@@ -195,8 +202,9 @@ void FieldBuilder::run_front(Sizes& sizes) const {
   });
 }
 
-void FieldBuilder::split_where_coarse(const Sizes& sizes) {
+bool FieldBuilder::split_where_coarse(const Sizes& sizes, std::int64_t most_cubes) {
   std::array<std::int32_t, 8> seeds{};
+  std::int64_t split = 0;
   const auto visit = [&](auto&& self, std::uint64_t key, int level) -> void {
     const std::uint32_t half = grid_size >> level >> 1;
     const GridPoint low = grid_point(key), center{low.x + half, low.y + half, low.z + half};
@@ -206,6 +214,7 @@ void FieldBuilder::split_where_coarse(const Sizes& sizes) {
         size = std::min(size, sizes.seed_size[seed] + _slope * distance(sizes.nodes.points[seed], center));
     }
     if (level >= finest_level || std::ldexp(_root.edge, -level) <= leaf_edge_per_size * size) return;
+    if (++split > most_cubes) return;
     _cells.split(key, level);
     for (std::uint64_t child = 0; child < 8; ++child) {
       self(self, key | child << 3 * (finest_level - level - 1), level + 1);
@@ -217,7 +226,9 @@ void FieldBuilder::split_where_coarse(const Sizes& sizes) {
     // Without a seed the leaf lies at the maximum, or where the previous field rules.
     if (std::all_of(seeds.begin(), seeds.end(), [](std::int32_t seed) { return seed < 0; })) continue;
     visit(visit, sizes.leaves.keys[leaf], sizes.leaves.levels[leaf]);
+    if (split > most_cubes) return false;
   }
+  return true;
 }
 
 SizeField FieldBuilder::finish(Sizes sizes) const {

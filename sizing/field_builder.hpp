@@ -4,6 +4,8 @@
 #include "sizing/size_field.hpp"
 #include "sizing/sources.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,8 @@ public:
 
   /// The field under these sources, whose sizes may lie below the minimum. Called once.
   SizeField build(std::span<const SizeSource> sources);
+  /// As above; nothing, at less cost, where the field has clearly more than `most_leaves`.
+  std::optional<SizeField> build_within(std::span<const SizeSource> sources, std::int64_t most_leaves);
 
 private:
   /// The octree of the present split cells with, per node, the size and the node whose seed it obeys.
@@ -42,7 +46,8 @@ private:
   void bound_sizes(Sizes& sizes) const;
   void plant_seeds(Sizes& sizes) const;
   void run_front(Sizes& sizes) const;
-  void split_where_coarse(const Sizes& sizes);
+  /// False where that would take more cubes than that; some are split then.
+  bool split_where_coarse(const Sizes& sizes, std::int64_t most_cubes);
   SizeField finish(Sizes sizes) const;
 
   double distance(GridPoint a, GridPoint b) const;

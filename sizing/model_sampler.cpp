@@ -1,12 +1,16 @@
 #include "sizing/model_sampler.hpp"
 
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "parallel/schedule.hpp"
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+
+#include <fmt/format.h>
 
 namespace aeroloom::sizing {
 namespace {
@@ -55,6 +59,14 @@ struct FaceTriangle {
 // Gaps that are looked for, and the shortest edge of the facets rays start from, as parts of the body's
 // extent.
 constexpr double narrow_gap = 20, finest_gap = 400;
+// Rays on a facet that is bisected down to an edge, times the square of that edge, over its area; and how
+// many rays all faces together may take, about.
+constexpr double rays_per_area = 24, most_rays = 2e6;
+
+/// The shortest edge of the facets that rays start from, where all faces would need it.
+double finest_facet(double extent, double area) {
+  return std::max(extent / finest_gap, std::sqrt(rays_per_area * area / most_rays));
+}
 
 /// What walls opposite to each other ask for.
 std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOptions& options) {
@@ -125,11 +137,18 @@ void ModelSampler::measure_gaps(std::vector<Triangle> walls, std::vector<FaceId>
       ScopedCpu cpu(_clock, ScopedCpu::As::serial);
       walls_tree.emplace(std::move(walls), std::move(faces));
     }
+    double area = 0;
+    for (FaceId f = 0; f < _model.face_count(); ++f) area += _model.is_far_field(f) ? 0 : _areas[f];
+    const double finest = finest_facet(extent, area);
+    if (_layers > 0 && finest > 1.5 * extent / finest_gap) {
+      parallel::log_info(
+          fmt::format("sizing: so much surface that gaps are looked for every {:.3g} only", finest));
+    }
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (std::size_t i = 0; i < _faces.size() && _layers > 0; ++i) {
       if (_model.is_far_field(_faces[i])) continue;
       const std::vector<Gap> gaps =
-          find_gaps(_model, _facets[i], *walls_tree, extent / narrow_gap, extent / finest_gap, _layers);
+          find_gaps(_model, _facets[i], *walls_tree, extent / narrow_gap, finest, _layers);
       _gaps.insert(_gaps.end(), gaps.begin(), gaps.end());
     }
   });
@@ -165,6 +184,11 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
 }
 
 SizeField ModelSampler::build_field(const SizingOptions& options) const {
+  return *build_field_within(options, std::numeric_limits<std::int64_t>::max());
+}
+
+std::optional<SizeField> ModelSampler::build_field_within(const SizingOptions& options,
+                                                          std::int64_t most_leaves) const {
   check_options(options);
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
@@ -179,7 +203,7 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
   const std::vector<SizeSource> behind_corners = _communicator.all_gather_items<SizeSource>(mine);
   all.insert(all.end(), behind_corners.begin(), behind_corners.end());
   ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-  return FieldBuilder(_model.bounds(), options).build(all);
+  return FieldBuilder(_model.bounds(), options).build_within(all, most_leaves);
 }
 
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,

@@ -7,6 +7,8 @@
 #include "sizing/proximity.hpp"
 #include "sizing/triangle_tree.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,9 +25,12 @@ public:
 
   /// The field under these options. Collective.
   SizeField build_field(const SizingOptions& options) const;
+  /// As above; nothing where the field has clearly more leaves. Collective.
+  std::optional<SizeField> build_field_within(const SizingOptions& options, std::int64_t most_leaves) const;
   /// As predict_counts. Collective.
   PredictedCounts predict(const SizeField& field) const;
 
+  const cad::Model& model() const { return _model; }
   /// The box of all faces that are not far field; of everything where there are none.
   const geometry::Box& body_box() const { return _body_box; }
 
@@ -39,7 +44,7 @@ private:
   double count_tetrahedra(const SizeField& field) const;
 
   parallel::Communicator _communicator;
-  const cad::Model& _model;
+  cad::Model _model;
   parallel::StageClock& _clock;
   double _layers;
   RootCube _root;

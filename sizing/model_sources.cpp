@@ -41,6 +41,12 @@ double size_for_curvature(double curvature, double angle, double largest, const 
   return options.chordal_deviation > 0 && k > 0 ? std::min(size, size_for_deviation(k, options)) : size;
 }
 
+/// On a face of the body or of the far field.
+double largest_size(bool far_field, const SizingOptions& options) {
+  return far_field || options.surface_maximum == 0 ? options.maximum
+                                                   : std::min(options.maximum, options.surface_maximum);
+}
+
 struct FaceSample {
   Vec2 uv;
   Vec3 point;
@@ -57,9 +63,7 @@ public:
         _options(options),
         _planar(model.is_planar(face)),
         _angle(radians_per_element(far_field, options)),
-        _largest(far_field || options.surface_maximum == 0
-                     ? options.maximum
-                     : std::min(options.maximum, options.surface_maximum)) {}
+        _largest(largest_size(far_field, options)) {}
 
   std::vector<SizeSource> run(const cad::Facets& facets) {
     if (_planar && _largest >= _options.maximum) return {};
@@ -208,13 +212,14 @@ std::vector<bool> find_far_field(const cad::Model& model) {
 cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field) {
   const double deflection = far_field ? far_facet_deflection * model.bounds().diagonal()
                                       : facet_deflection * model.body_bounds().diagonal();
-  return model.facets(face, deflection, facet_angle);
+  return model.facets(face, deflection, facet_angle, cad::Model::Keep::yes);
 }
 
 std::vector<SizeSource> face_sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
                                      bool far_field, const SizingOptions& options) {
   std::vector<SizeSource> sources = FaceSampler(model, face, far_field, options).run(facets);
-  const std::vector<SizeSource> strips = strip_sources(model, facets, options);
+  const std::vector<SizeSource> strips =
+      strip_sources(model, facets, options, largest_size(far_field, options));
   sources.insert(sources.end(), strips.begin(), strips.end());
   return sources;
 }

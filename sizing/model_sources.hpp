@@ -24,9 +24,10 @@ std::vector<SizeSource> face_sources(const cad::Model& model, cad::FaceId face, 
                                      bool far_field, const SizingOptions& options);
 
 /// The part of face_sources that comes from narrow strips: between two edges of the face that share no
-/// vertex, elements are at most as large as the distance; down to smallest_feature_size().
+/// vertex, elements are at most as large as the distance; down to smallest_feature_size(). Distances from
+/// `reach` on ask for nothing.
 std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,
-                                      const SizingOptions& options);
+                                      const SizingOptions& options, double reach);
 
 /// Whether elements of some size see the corner below 30 degrees.
 bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner);

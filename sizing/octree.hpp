@@ -26,6 +26,12 @@ public:
   };
   /// After balance().
   Leaves leaves() const;
+  /// How many there are, once balanced.
+  std::int64_t leaf_count() const {
+    std::int64_t split = 0;
+    for (const std::vector<std::uint64_t>& cells : _cells) split += static_cast<std::int64_t>(cells.size());
+    return 7 * split + 1;
+  }
 
 private:
   std::array<std::vector<std::uint64_t>, finest_level> _cells;

@@ -14,10 +14,9 @@ using geometry::Vec3;
 constexpr double triangles_per_area = 4 / std::numbers::sqrt3;     // times 1/h^2
 constexpr double tetrahedra_per_volume = 6 * std::numbers::sqrt2;  // times 1/h^3
 constexpr double facet_per_size = 3;  // edge of a part of a facet that one value of h stands for
-constexpr double cell_per_size = 1;   // edge of a cube on the boundary whose eighths count by their centres
+constexpr double cube_per_size = 1;   // edge of a cube on the boundary that one value of h stands for
 constexpr int deepest_bisection = 40;
 constexpr int deepest_subdivision = 8;
-constexpr std::size_t many_facets = 64;  // in a cube: sides are then told by rays
 constexpr std::int64_t leaves_per_task = 1024;
 
 /// Integral of 1/h^2 over one facet.
@@ -93,27 +92,21 @@ private:
     return found;
   }
 
-  bool is_inside(Vec3 point, const std::vector<std::int32_t>& touching) const {
-    return touching.size() > many_facets ? _boundary.contains(point) : _boundary.is_behind(point, touching);
-  }
-
-  /// A cube that the boundary passes, eighth by eighth.
+  /// A cube that the boundary passes, eighth by eighth until one value of h stands for it.
   double over_cut_cube(Vec3 low, double edge, const std::vector<std::int32_t>& touching, int depth) const {
-    const bool small =
-        edge <= cell_per_size * _field(low + 0.5 * edge * Vec3{1, 1, 1}) || depth >= deepest_subdivision;
+    const double h = _field(low + 0.5 * edge * Vec3{1, 1, 1});
+    if (edge <= cube_per_size * h || depth >= deepest_subdivision)
+      return _boundary.share_behind(low, edge, touching) * cube(edge / h);
     const double half = 0.5 * edge;
     double sum = 0;
     for (int child = 0; child < 8; ++child) {
       const Vec3 child_low = low + half * Vec3{double(child & 1), double(child >> 1 & 1), double(child >> 2)};
-      const Vec3 center = child_low + 0.5 * half * Vec3{1, 1, 1};
-      if (!small) {
-        const std::vector<std::int32_t> inner = find_touching(child_low, half);
-        if (!inner.empty()) {
-          sum += over_cut_cube(child_low, half, inner, depth + 1);
-          continue;
-        }
+      const std::vector<std::int32_t> inner = find_touching(child_low, half);
+      if (!inner.empty()) {
+        sum += over_cut_cube(child_low, half, inner, depth + 1);
+      } else if (_boundary.share_behind(child_low, half, touching) > 0.5) {
+        sum += cube(half / _field(child_low + 0.5 * half * Vec3{1, 1, 1}));
       }
-      if (is_inside(center, touching)) sum += cube(half / _field(center));
     }
     return sum;
   }

@@ -1,9 +1,11 @@
 #include "sizing/proximity.hpp"
 
+#include "sizing/segment_tree.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace aeroloom::sizing {
 namespace {
@@ -19,23 +21,24 @@ Vec3 unit_normal(const Triangle& t) {
   return normalized(cross(t[1] - t[0], t[2] - t[0]));
 }
 
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 along = b - a;
-  const double length = dot(along, along);
-  const double share = length > 0 ? std::clamp(dot(p - a, along) / length, 0.0, 1.0) : 0;
-  return distance(p, a + share * along);
-}
-
 class GapFinder {
 public:
   GapFinder(const cad::Model& model, const cad::Facets& facets, const Walls& walls, double widest,
             double finest, double layers)
-      : _model(model),
-        _facets(facets),
+      : _facets(facets),
         _walls(walls),
         _widest(widest),
         _finest(finest),
-        _edge_per_gap(edge_per_size / std::max(1.0, layers)) {}
+        _edge_per_gap(edge_per_size / std::max(1.0, layers)) {
+    std::map<cad::FaceId, std::vector<SegmentTree::Segment>> shared;
+    for (const cad::Facets::BoundaryLine& line : facets.boundary) {
+      for (const cad::FaceId user : model.edge(line.use.edge).faces) {
+        for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i)
+          shared[user].push_back({facets.points[line.nodes[i]], facets.points[line.nodes[i + 1]], user});
+      }
+    }
+    for (auto& [user, segments] : shared) _edges.emplace(user, std::move(segments));
+  }
 
   std::vector<Gap> run() {
     for (const auto& t : _facets.triangles) {
@@ -82,20 +85,16 @@ private:
 
   /// Whether the face meets the opposite one (or itself) in an edge so near that gap and edge form a wedge.
   bool in_wedge(Vec3 point, cad::FaceId opposite, double gap) const {
-    for (const cad::Facets::BoundaryLine& line : _facets.boundary) {
-      const std::vector<cad::FaceId>& users = _model.edge(line.use.edge).faces;
-      if (!std::binary_search(users.begin(), users.end(), opposite)) continue;
-      for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
-        const Vec3 a = _facets.points[line.nodes[i]], b = _facets.points[line.nodes[i + 1]];
-        if (distance_to_segment(point, a, b) < wedge_slenderness * gap) return true;
-      }
-    }
-    return false;
+    const auto edges = _edges.find(opposite);
+    if (edges == _edges.end()) return false;
+    const double reach = wedge_slenderness * gap;
+    return edges->second.nearest(point, reach, [](std::int32_t) { return true; }) < reach;
   }
 
-  const cad::Model& _model;
   const cad::Facets& _facets;
   const Walls& _walls;
+  std::map<cad::FaceId, SegmentTree>
+      _edges;  // that the face shares with each neighbour; all of them with itself
   double _widest, _finest, _edge_per_gap;
   std::vector<Gap> _gaps;
 };

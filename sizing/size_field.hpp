@@ -27,6 +27,8 @@ struct SizingOptions {
       0;  ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
   double chordal_deviation =
       0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
+
+  friend bool operator==(const SizingOptions&, const SizingOptions&) = default;
 };
 
 /// Short edges, narrow faces and sharp corners may ask for sizes down to this.
@@ -97,11 +99,6 @@ private:
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock);
 
-/// Sizes for the impatient: a field that gives about `target_tetrahedra`, with bounds taken from the model.
-/// Collective.
-SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
-                           double target_tetrahedra, parallel::StageClock& clock);
-
 /// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface and 6 sqrt(2)/h^3
 /// over the volume.
 struct PredictedCounts {
@@ -110,5 +107,10 @@ struct PredictedCounts {
 /// Collective.
 PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,
                                const SizeField& field, parallel::StageClock& clock);
+
+/// Sizes for the impatient: those of a field that gives about `target_tetrahedra`, with bounds taken from the
+/// model (choose_sizes.hpp has the field with them). Collective.
+SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
+                           double target_tetrahedra, parallel::StageClock& clock);
 
 }  // namespace aeroloom::sizing

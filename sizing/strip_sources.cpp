@@ -1,9 +1,11 @@
 // Narrow faces: where two edges of a face come closer than its elements are large.
 #include "sizing/model_sources.hpp"
+#include "sizing/segment_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace aeroloom::sizing {
 namespace {
@@ -12,50 +14,58 @@ using cad::Facets;
 using geometry::Vec3;
 
 constexpr int deepest_bisection = 40;
-
-/// Where on the segment, from 0 to 1, the nearest point is.
-double part_along(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 along = b - a;
-  const double square = dot(along, along);
-  return square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
-}
-
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-  return distance(p, a + part_along(p, a, b) * (b - a));
-}
+constexpr int facets_per_leaf = 8;
 
 /// The boundary lines of one face, which of them lie opposite each other, and how far apart.
 class Strips {
 public:
-  Strips(const cad::Model& model, const Facets& facets, const SizingOptions& options)
-      : _model(model), _facets(facets), _options(options) {}
+  /// Widths from `reach` on do not matter.
+  Strips(const cad::Model& model, const Facets& facets, const SizingOptions& options, double reach)
+      : _model(model), _facets(facets), _options(options), _reach(reach) {}
 
   std::vector<SizeSource> run() {
-    for (const auto& [from, to] : facing_lines()) {
-      const auto& nodes = _facets.boundary[from].nodes;
+    list_lines();
+    if (_lines.size() < 2) return {};
+    join_lines();
+    for (const int line : _lines) {
+      const auto& nodes = _facets.boundary[line].nodes;
+      double width_a = width(_facets.points[nodes.front()], line, _reach);
       for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
         const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
-        cover(a, width(a, to), b, width(b, to), to, 0);
+        const double width_b = width(b, line, width_a + distance(a, b));
+        cover(a, width_a, b, width_b, line, 0);
+        width_a = width_b;
       }
     }
     return std::move(_sources);
   }
 
 private:
-  /// Pairs of lines without a common vertex that some facet joins, or the facets around a point inside, in
-  /// both orders.
-  std::set<std::pair<int, int>> facing_lines() const {
-    std::vector<std::vector<int>> lines_of(_facets.points.size());
+  /// Those that carry elements, and their segments.
+  void list_lines() {
+    std::vector<SegmentTree::Segment> segments;
     for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
-      if (_model.is_seam(_facets.boundary[line].use.edge)) continue;  // carries no elements
-      for (const std::int32_t node : _facets.boundary[line].nodes)
-        lines_of[node].push_back(static_cast<int>(line));
+      const auto& nodes = _facets.boundary[line].nodes;
+      if (nodes.size() < 2 || _model.is_seam(_facets.boundary[line].use.edge)) continue;
+      _lines.push_back(static_cast<int>(line));
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        segments.push_back(
+            {_facets.points[nodes[i]], _facets.points[nodes[i + 1]], static_cast<std::int32_t>(line)});
+      }
     }
-    std::set<std::pair<int, int>> pairs;
+    _segments = SegmentTree(std::move(segments));
+  }
+
+  /// Lines that some facet joins, or the facets around a point inside, face each other.
+  void join_lines() {
+    std::vector<std::vector<int>> lines_of(_facets.points.size());
+    for (const int line : _lines) {
+      for (const std::int32_t node : _facets.boundary[line].nodes) lines_of[node].push_back(line);
+    }
     const auto join = [&](const auto& first, const auto& second) {
       for (const int a : first) {
         for (const int b : second) {
-          if (a != b && !share_vertex(a, b)) pairs.insert({a, b}), pairs.insert({b, a});
+          if (a != b) _facing[std::minmax(a, b)] = true;
         }
       }
     };
@@ -71,40 +81,20 @@ private:
       }
     }
     for (const auto& lines : lines_around) join(lines, lines);
-    add_pairs_behind_ends(pairs);
-    return pairs;
   }
 
-  /// Where the short end of a strip has nodes of its own, no facet joins the long sides: they are facing if
-  /// facets lie between the places where they are nearest.
-  void add_pairs_behind_ends(std::set<std::pair<int, int>>& pairs) const {
-    std::vector<int> lines;
-    std::vector<geometry::Box> boxes(_facets.boundary.size());
-    for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
-      const auto& nodes = _facets.boundary[line].nodes;
-      if (nodes.size() < 2 || _model.is_seam(_facets.boundary[line].use.edge)) continue;
-      lines.push_back(static_cast<int>(line));
-      for (const std::int32_t node : nodes) boxes[line].add(_facets.points[node]);
-    }
-    for (const int a : lines) {
-      for (const int b : lines) {
-        if (a >= b || share_vertex(a, b) || pairs.count({a, b}) > 0) continue;
-        if (gap(boxes[a], boxes[b]) < _options.maximum && (is_faced(a, b) || is_faced(b, a)))
-          pairs.insert({a, b}), pairs.insert({b, a});
-      }
-    }
-  }
-
-  static double gap(const geometry::Box& a, const geometry::Box& b) {
-    Vec3 apart;
-    for (int axis = 0; axis < 3; ++axis) {
-      apart[axis] = std::max({a.low[axis] - b.high[axis], b.low[axis] - a.high[axis], 0.0});
-    }
-    return norm(apart);
+  /// Whether two lines without a common vertex lie opposite each other. Where the short end of a strip has
+  /// nodes of its own, no facet joins the long sides: they are facing if facets lie between the places where
+  /// they are nearest. Asked for lines that are near, and remembered.
+  bool are_facing(int a, int b) {
+    if (a == b || share_vertex(a, b)) return false;
+    const auto [known, is_new] = _facing.try_emplace(std::minmax(a, b), false);
+    if (is_new) known->second = is_faced(a, b) || is_faced(b, a);
+    return known->second;
   }
 
   /// Whether the face is between the node of one line that is nearest to the other, and the other.
-  bool is_faced(int from, int to) const {
+  bool is_faced(int from, int to) {
     const auto& nodes = _facets.boundary[to].nodes;
     double least = _options.maximum;
     geometry::Vec2 middle;
@@ -123,14 +113,29 @@ private:
   }
 
   /// Whether some facet holds the parameters.
-  bool lies_inside(geometry::Vec2 uv) const {
-    const auto side = [&](geometry::Vec2 a, geometry::Vec2 b) { return cross(b - a, uv - a); };
-    for (const auto& t : _facets.triangles) {
-      const geometry::Vec2 a = _facets.uv[t[0]], b = _facets.uv[t[1]], c = _facets.uv[t[2]];
-      const double first = side(a, b), second = side(b, c), third = side(c, a);
-      if (std::min({first, second, third}) >= 0 || std::max({first, second, third}) <= 0) return true;
+  bool lies_inside(geometry::Vec2 uv) {
+    if (_plane.nodes().empty()) {
+      std::vector<geometry::Box> boxes(_facets.triangles.size());
+      for (std::size_t t = 0; t < boxes.size(); ++t) {
+        for (const std::int32_t node : _facets.triangles[t])
+          boxes[t].add(Vec3{_facets.uv[node].x, _facets.uv[node].y, 0});
+      }
+      _plane = geometry::BoxTree(boxes, facets_per_leaf);
     }
-    return false;
+    const auto side = [&](geometry::Vec2 a, geometry::Vec2 b) { return cross(b - a, uv - a); };
+    bool inside = false;
+    _plane.search(
+        [&](const geometry::Box& box) {
+          return !inside && uv.x >= box.low.x && uv.x <= box.high.x && uv.y >= box.low.y &&
+                 uv.y <= box.high.y;
+        },
+        [&](std::int32_t place) {
+          const auto& t = _facets.triangles[_plane.order()[place]];
+          const geometry::Vec2 a = _facets.uv[t[0]], b = _facets.uv[t[1]], c = _facets.uv[t[2]];
+          const double first = side(a, b), second = side(b, c), third = side(c, a);
+          inside = inside || std::min({first, second, third}) >= 0 || std::max({first, second, third}) <= 0;
+        });
+    return inside;
   }
 
   bool share_vertex(int a, int b) const {
@@ -140,14 +145,10 @@ private:
            edge_a.last == edge_b.last;
   }
 
-  double width(Vec3 p, int line) const {
-    const auto& nodes = _facets.boundary[line].nodes;
-    double nearest = _options.maximum;
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      nearest =
-          std::min(nearest, distance_to_segment(p, _facets.points[nodes[i]], _facets.points[nodes[i + 1]]));
-    }
-    return nearest;
+  /// The distance to the nearest line that faces this one; `bound` where none is nearer. Widths change no
+  /// faster than the place: a width near by gives a bound.
+  double width(Vec3 p, int line, double bound) {
+    return _segments.nearest(p, std::min(bound, _reach), [&](int other) { return are_facing(line, other); });
   }
 
   double size_of(double width) const { return std::max(width, smallest_feature_size(_options)); }
@@ -156,33 +157,38 @@ private:
     const double length = distance(a, b);
     // Widths change no faster than the place: on the whole segment they are at least this.
     const double least = 0.5 * (width_a + width_b - length);
-    if (least >= _options.maximum || depth >= deepest_bisection) return;
+    if (least >= _reach || depth >= deepest_bisection) return;
     if (length <= size_of(std::min(width_a, width_b))) {
       add(a, width_a);
       add(b, width_b);
       return;
     }
     const Vec3 middle = 0.5 * (a + b);
-    const double width_middle = width(middle, line);
+    const double width_middle = width(middle, line, std::min(width_a, width_b) + 0.5 * length);
     cover(a, width_a, middle, width_middle, line, depth + 1);
     cover(middle, width_middle, b, width_b, line, depth + 1);
   }
 
   void add(Vec3 point, double width) {
-    if (width < _options.maximum) _sources.push_back({point, size_of(width)});
+    if (width < _reach) _sources.push_back({point, size_of(width)});
   }
 
   const cad::Model& _model;
   const Facets& _facets;
   const SizingOptions& _options;
+  double _reach;
+  std::vector<int> _lines;
+  SegmentTree _segments;                        // by line
+  std::map<std::pair<int, int>, bool> _facing;  // of those asked for, the lower line first
+  geometry::BoxTree _plane;                     // of the facets' parameters, when it is asked for
   std::vector<SizeSource> _sources;
 };
 
 }  // namespace
 
 std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& facets,
-                                      const SizingOptions& options) {
-  return Strips(model, facets, options).run();
+                                      const SizingOptions& options, double reach) {
+  return Strips(model, facets, options, reach).run();
 }
 
 }  // namespace aeroloom::sizing

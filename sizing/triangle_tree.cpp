@@ -128,19 +128,25 @@ bool TriangleTree::contains(Vec3 point) const {
   return votes >= 2;
 }
 
-bool TriangleTree::is_behind(Vec3 point, std::span<const std::int32_t> triangles) const {
+double TriangleTree::share_behind(Vec3 low, double edge, std::span<const std::int32_t> triangles) const {
+  const Vec3 middle = low + 0.5 * edge * Vec3{1, 1, 1};
   double nearest = 1e300, side = 0;
+  Vec3 direction;
   for (const std::int32_t i : triangles) {
     const Triangle& t = _triangles[i];
-    const double square = squared_distance(point, t);
+    const double square = squared_distance(middle, t);
+    if (square > nearest * (1 + 1e-9)) continue;
     const Vec3 normal = geometry::normalized(cross(t[1] - t[0], t[2] - t[0]));
-    const double height = dot(normal, point - t[0]);
+    const double height = dot(normal, middle - t[0]);
     // Where two facets meet at the nearest place, the one seen more directly tells the side.
-    const bool tie = square <= nearest * (1 + 1e-9) && square >= nearest * (1 - 1e-9);
-    if (tie ? std::abs(height) > std::abs(side) : square < nearest) side = height;
+    const bool tie = square >= nearest * (1 - 1e-9);
+    if (!tie || std::abs(height) > std::abs(side)) side = height, direction = normal;
     nearest = std::min(nearest, square);
   }
-  return side < 0;
+  // A facet that is seen past its border is farther away than its plane.
+  const double away = std::copysign(std::sqrt(nearest), side);
+  const double width = edge * (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
+  return std::clamp(0.5 - away / std::max(width, 1e-300), 0.0, 1.0);
 }
 
 }  // namespace aeroloom::sizing

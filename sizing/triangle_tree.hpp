@@ -22,8 +22,9 @@ public:
   void find_overlapping(geometry::Vec3 low, double edge, std::vector<std::int32_t>& found) const;
   /// Whether the point lies inside, by the parity of crossings, majority of three directions.
   bool contains(geometry::Vec3 point) const;
-  /// Whether the point lies on the inner side of the nearest of these triangles.
-  bool is_behind(geometry::Vec3 point, std::span<const std::int32_t> triangles) const;
+  /// The share of a cube that lies on the inner side of that of these triangles which is nearest to its
+  /// middle, as if that were a plane: right on average over cubes that a smooth surface cuts.
+  double share_behind(geometry::Vec3 low, double edge, std::span<const std::int32_t> triangles) const;
   /// Calls visit(triangle, distance) for the triangles that a ray crosses within `reach`, in no particular
   /// order. The direction is a unit vector.
   template <class Visit>

@@ -175,8 +175,8 @@ private:
 
 }  // namespace
 
-std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field, Support support,
-                               const ChartLimits& limits, FaceVertices& vertices) {
+std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field,
+                               const Support& support, const ChartLimits& limits, FaceVertices& vertices) {
   return ChartMaker(model, field, limits, vertices).run(support);
 }
 

@@ -65,7 +65,7 @@ struct ChartLimits {
 /// support is cut by a plane and both sides are tried again. Cuts are discretised once under the field, their
 /// vertices lie on the CAD surface, are appended to `vertices`, and join mesh vertices of the loops where
 /// they end. Deterministic. Throws SurfaceError when splitting does not end.
-std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field, Support support,
-                               const ChartLimits& limits, FaceVertices& vertices);
+std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field,
+                               const Support& support, const ChartLimits& limits, FaceVertices& vertices);
 
 }  // namespace aeroloom::surface

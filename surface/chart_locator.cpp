@@ -8,7 +8,6 @@ namespace aeroloom::surface {
 namespace {
 
 using geometry::Vec2;
-using geometry::Vec3;
 
 /// Weights above minus this count as inside: a point on an edge belongs to either triangle.
 constexpr double inside_tolerance = 1e-9;

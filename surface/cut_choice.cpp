@@ -125,6 +125,7 @@ std::vector<CutPlane> propose_planes(const Support& support) {
   std::stable_sort(rated.begin(), rated.end(),
                    [](const Rated& a, const Rated& b) { return a.rating > b.rating; });
   std::vector<CutPlane> planes;
+  planes.reserve(rated.size());
   for (const Rated& r : rated) planes.push_back(r.plane);
   return planes;
 }

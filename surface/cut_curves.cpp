@@ -69,6 +69,7 @@ public:
     for (const Chain& chain : trace_chains(_cut, _twins)) discretise(chain);
     const std::vector<std::int32_t> former = divide_edges(_support, std::move(_divisions));
     std::vector<std::int32_t> part;
+    part.reserve(former.size());
     for (const std::int32_t t : former) part.push_back(_cut.part[t]);
     _cut.part = std::move(part);
   }

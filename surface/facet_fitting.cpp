@@ -56,6 +56,7 @@ void OpenFacets::fit_to_surface() {
 
 void OpenFacets::flip(const std::vector<SurfaceFrame>& frames) {
   std::vector<SurfaceMetric> metrics;
+  metrics.reserve(frames.size());
   for (const SurfaceFrame& frame : frames) metrics.push_back(metric_of(frame));
   flip_in_parameters(_support, metrics, join_points(), parameter_orientation());
 }

@@ -95,6 +95,7 @@ parallel::Rank tester(const std::vector<Batch>& table, BatchPair pair) {
 /// Pairs of overlapping batches in which this rank has a part, ascending.
 std::vector<BatchPair> find_batch_pairs(const std::vector<Batch>& table, parallel::Rank rank) {
   std::vector<Box> boxes;
+  boxes.reserve(table.size());
   for (const Batch& batch : table) boxes.push_back(batch.box);
   const geometry::BoxTree tree(boxes, 4);
   std::vector<BatchPair> pairs;

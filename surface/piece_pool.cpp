@@ -151,6 +151,7 @@ PiecePool::Seeds PiecePool::deal_out(Seeds seeds, const std::vector<Row>& rows,
     leaving[owners[i]].array(pack_seed(at->second));
   }
   std::vector<parallel::Parcel> parcels;
+  parcels.reserve(leaving.size());
   for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
   for (const parallel::Parcel& parcel : _communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
@@ -181,6 +182,7 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& si
     return seeds;
   }
   std::vector<double> loads;
+  loads.reserve(rows.size());
   for (const Row& row : rows) {
     loads.push_back(is_to_divide(row, level) ? dividing_part * row.load : 0);
   }

@@ -8,7 +8,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec2;
 using geometry::Vec3;
 
 /// An edge is not divided closer to its ends than this part of it: a point inside moves onto the cut instead.

@@ -74,7 +74,7 @@ def violations(root):
                     uses[pattern].add(str(name))
                     if folder not in rooms:
                         found.append(f"{where}: {header} belongs to {', '.join(sorted(rooms))}/")
-            if OPENCASCADE.match(header) and folder not in {"cad", "tests"}:
+            if OPENCASCADE.match(header) and folder not in {"cad", "tests", "benchmarks"}:
                 found.append(f"{where}: OpenCASCADE ({header}) belongs to cad/")
     for pattern, _, most in ROOMS:
         if most is not None and len(uses[pattern]) > most:

@@ -76,7 +76,7 @@ Handle(Geom_BSplineCurve) interpolate_side(const LiftingSurface& surface, Side s
 /// A copy of the unit curve with its control points moved.
 template <class Place>
 Handle(Geom_BSplineCurve) placed(const Handle(Geom_BSplineCurve) & unit, const Place& place) {
-  const auto curve = Handle(Geom_BSplineCurve)::DownCast(unit->Copy());
+  Handle(Geom_BSplineCurve) curve = Handle(Geom_BSplineCurve)::DownCast(unit->Copy());
   for (int i = 1; i <= curve->NbPoles(); ++i) {
     const gp_Pnt p = curve->Pole(i);
     const Vec3 q = place(Vec2{p.X(), p.Y()});

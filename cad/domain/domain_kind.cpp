@@ -77,6 +77,7 @@ double Polytope::volume(const Box& box) const {
 
 std::vector<Facets> coarse_facets(const Model& model) {
   std::vector<Facets> facets;
+  facets.reserve(model.face_count());
   for (FaceId f = 0; f < model.face_count(); ++f) {
     facets.push_back(model.facets(f, 0.005 * model.bounds().diagonal(), 0.6));
   }

@@ -102,6 +102,7 @@ namespace {
 std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volumes) {
   constexpr int shown = 3;
   std::vector<Box> boxes;
+  boxes.reserve(group.size());
   for (const TopoDS_Solid& solid : group) boxes.push_back(tight_box(solid));
   std::string text;
   int found = 0;

@@ -165,31 +165,42 @@ double folded_share(const Facets& facets) {
   return std::min(forward, backward) / (forward + backward);
 }
 
+/// The best that the CAD library's triangulation can be made into.
+Facets make_facets(const Model& model, FaceId id, double deflection, double angle, const std::string& doing) {
+  const Model::Data& data = model.data();
+  const FaceEvaluator& evaluator = data.face_evaluators[id];
+  std::string defect;
+  for (const double share : {1.0, 0.5, 0.25, 0.1, 0.02}) {
+    Facets facets = extract(data, id, triangulate(evaluator, share * deflection, angle));
+    defect = find_defect(facets);
+    if (defect.empty() && folded_share(facets) > 1e-3) defect = "facets folded over each other";
+    if (!defect.empty()) continue;
+    settle_boundary(model, id, facets);
+    if (!evaluator.planar) refine_facets(model, id, deflection, angle, facets);
+    spread_poles(model, id, facets);
+    if (evaluator.reversed) {
+      for (auto& t : facets.triangles) std::swap(t[1], t[2]);
+    }
+    return facets;
+  }
+  throw CadError(
+      fmt::format("{}: the CAD library leaves {}; repair this face in the CAD program", doing, defect));
+}
+
 }  // namespace
 
-Facets Model::facets(FaceId id, double deflection, double angle) const {
-  if (_data->joined) return _data->joined->facets(id, deflection, angle);
+Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) const {
+  if (_data->joined) return _data->joined->facets(id, deflection, angle, keep);
   const FaceEvaluator& evaluator = _data->face_evaluators.at(id);
+  const KeptFacets* kept = evaluator.kept.get();
+  if (kept && kept->deflection == deflection && kept->angle == angle) return kept->facets;
   const std::string doing = "triangulating " + _data->describe_face(id);
   tell_step(doing);
-  return guarded(doing, [&] {
-    std::string defect;
-    for (const double share : {1.0, 0.5, 0.25, 0.1, 0.02}) {
-      Facets facets = extract(*_data, id, triangulate(evaluator, share * deflection, angle));
-      defect = find_defect(facets);
-      if (defect.empty() && folded_share(facets) > 1e-3) defect = "facets folded over each other";
-      if (!defect.empty()) continue;
-      settle_boundary(*this, id, facets);
-      if (!evaluator.planar) refine_facets(*this, id, deflection, angle, facets);
-      spread_poles(*this, id, facets);
-      if (evaluator.reversed) {
-        for (auto& t : facets.triangles) std::swap(t[1], t[2]);
-      }
-      return facets;
-    }
-    throw CadError(
-        fmt::format("{}: the CAD library leaves {}; repair this face in the CAD program", doing, defect));
-  });
+  Facets facets = guarded(doing, [&] { return make_facets(*this, id, deflection, angle, doing); });
+  if (keep == Keep::yes) {
+    evaluator.kept = std::make_shared<const KeptFacets>(KeptFacets{deflection, angle, facets});
+  }
+  return facets;
 }
 
 }  // namespace aeroloom::cad

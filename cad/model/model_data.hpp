@@ -66,6 +66,12 @@ struct ParameterRange {
   }
 };
 
+/// A triangulation that will be asked for again.
+struct KeptFacets {
+  double deflection, angle;
+  Facets facets;
+};
+
 struct FaceEvaluator {
   TopoDS_Face shape;      ///< oriented forward
   bool reversed = false;  ///< the normal out of the front region is opposite to du x dv
@@ -75,6 +81,7 @@ struct FaceEvaluator {
   Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
   std::vector<UseCurve> uses;  ///< by (edge, use)
   mutable double area = -1;    ///< computed on demand
+  mutable std::shared_ptr<const KeptFacets> kept;
 
   const UseCurve& use(const EdgeUse& wanted) const;
 };

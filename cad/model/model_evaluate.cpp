@@ -239,6 +239,10 @@ bool Model::is_seam(EdgeId id) const {
   return uses > 1;
 }
 
+/// Relative error asked of areas. Without one the CAD library takes the most points its rules have in every
+/// span of a spline, ten times as long.
+constexpr double area_precision = 1e-3;
+
 double Model::face_area(FaceId id) const {
   if (const JoinedFaces* joined = _data->joined.get()) {
     double area = 0;
@@ -249,7 +253,7 @@ double Model::face_area(FaceId id) const {
   if (face.area < 0) {
     face.area = guarded("integrating the area of " + _data->describe_face(id), [&] {
       GProp_GProps properties;
-      BRepGProp::SurfaceProperties(face.shape, properties);
+      BRepGProp::SurfaceProperties(face.shape, properties, area_precision);
       return std::abs(properties.Mass());
     });
   }

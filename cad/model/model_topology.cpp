@@ -24,7 +24,8 @@
 namespace aeroloom::cad {
 namespace {
 
-struct Maps {
+// The CAD library's maps copy when they are moved.
+struct Maps {  // NOLINT(bugprone-exception-escape)
   TopTools_IndexedMapOfShape vertices, edges, faces, solids;
 };
 

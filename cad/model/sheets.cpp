@@ -78,13 +78,13 @@ Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
   return found;
 }
 
-Facets JoinedFaces::facets(FaceId id, double deflection, double angle) const {
+Facets JoinedFaces::facets(FaceId id, double deflection, double angle, Model::Keep keep) const {
   const JoinedFace& face = faces.at(id);
-  if (face.sheets.size() == 1) return base.facets(face.sheets.front().face, deflection, angle);
+  if (face.sheets.size() == 1) return base.facets(face.sheets.front().face, deflection, angle, keep);
   Facets all;
   for (std::size_t s = 0; s < face.sheets.size(); ++s) {
     const auto sheet = static_cast<std::int32_t>(s);
-    const Facets one = base.facets(face.sheets[s].face, deflection, angle);
+    const Facets one = base.facets(face.sheets[s].face, deflection, angle, keep);
     const auto first = static_cast<std::int32_t>(all.points.size());
     all.points.insert(all.points.end(), one.points.begin(), one.points.end());
     for (const Vec2 uv : one.uv) all.uv.push_back(face.from_member(sheet, uv));

@@ -54,7 +54,7 @@ struct JoinedFaces {
 
   Place locate(FaceId id, Vec2 uv) const;
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
-  Facets facets(FaceId id, double deflection, double angle) const;
+  Facets facets(FaceId id, double deflection, double angle, Model::Keep keep) const;
 };
 
 }  // namespace aeroloom::cad

@@ -24,7 +24,7 @@ namespace aeroloom::cad {
 namespace {
 
 /// What a file's shape consists of.
-struct Parts {
+struct Parts {  // NOLINT(bugprone-exception-escape): the CAD library's maps copy when they are moved
   std::vector<TopoDS_Solid> solids;
   std::vector<TopoDS_Shell> closed_shells;  ///< outside solids
   TopTools_IndexedMapOfShape open_faces;    ///< of shells that do not close

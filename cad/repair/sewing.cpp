@@ -248,7 +248,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     sewn.share = share;
     if (!sewn.complete) continue;
     const double gap = tell_sewn(sewn, faces.Extent(), changes);
-    labels = std::move(sewn.labels);
+    labels = sewn.labels;
     return {sewn.closed, gap};
   }
   for (const Sewn& open : tried) {
@@ -258,7 +258,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     if (!capped.complete) continue;
     changes.insert(changes.end(), caps_made.begin(), caps_made.end());
     const double gap = tell_sewn(capped, faces.Extent(), changes);
-    labels = std::move(capped.labels);
+    labels = capped.labels;
     return {capped.closed, gap};
   }
   const Sewn& last = tried.back();

@@ -63,7 +63,7 @@ void expect_cap(const Domain& domain, const Expected& cap) {
 }
 
 /// Caps in the order of their places.
-void expect_capped(const Domain& domain, int faces, double volume, std::vector<Expected> caps) {
+void expect_capped(const Domain& domain, int faces, double volume, const std::vector<Expected>& caps) {
   EXPECT_EQ(domain.model.region_count(), 1);
   EXPECT_EQ(domain.model.face_count(), faces);
   checks::expect_watertight(domain.model);

@@ -107,6 +107,23 @@ TEST(FarField, CylindersEndAcrossTheirAxis) {
   }
 }
 
+TEST(FarField, MustClearTheBodyByItsOwnShape) {
+  // The body is 2 x 1 x 0.5: a cylinder along x passes it nearer than a sphere.
+  const auto refuses = [](const FarFieldOptions& far_field) {
+    try {
+      shapes::prepare(make_body(), around(far_field));
+      return false;
+    } catch (const CadError&) {
+      return true;
+    }
+  };
+  EXPECT_FALSE(refuses({.shape = FarFieldShape::cylinder, .extent = 0.53, .axis = Axis::x}));
+  EXPECT_TRUE(refuses({.shape = FarFieldShape::cylinder, .extent = 0.53, .axis = Axis::z}));
+  EXPECT_FALSE(refuses({.shape = FarFieldShape::cylinder, .extent = 0.57, .axis = Axis::z}));
+  EXPECT_TRUE(refuses({.shape = FarFieldShape::sphere, .extent = 0.57}));
+  EXPECT_FALSE(refuses({.shape = FarFieldShape::box, .extent = 0.51}));
+}
+
 TEST(FarField, CavitiesAreLeftOut) {
   const TopoDS_Shape hollow =
       BRepAlgoAPI_Cut(make_body(), BRepPrimAPI_MakeSphere(gp_Pnt(4, 5, 6), 0.2).Shape()).Shape();

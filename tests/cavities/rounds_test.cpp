@@ -15,12 +15,12 @@ using parallel::Communicator;
 constexpr int squares = 6, pieces = 7;
 
 /// Every shared vertex inside wishes for the cavity of its cell.
-CavityWishes wish_for_shared(const mesh::DistributedMesh& mesh, int shift) {
+CavityWishes wish_for_shared(const mesh::DistributedMesh& mesh, int shift, double size = 0.3) {
   CavityWishes wishes;
   for (const mesh::Piece& piece : mesh.pieces) {
     auto& mine = wishes.emplace_back(piece.vertex_count(), no_cavity);
     for (const mesh::LocalIndex v : piece.shared_vertices) {
-      if (piece.vertex_dimension[v] == 3) mine[v] = cavity_at(piece.point(v), 0.3, 1, shift);
+      if (piece.vertex_dimension[v] == 3) mine[v] = cavity_at(piece.point(v), size, 1, shift);
     }
   }
   return wishes;
@@ -190,6 +190,22 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
     refill_cavities(self, alone, wish_for_shared(alone, shift), refill, clock);
   }
   EXPECT_EQ(hash(world, together), hash(self, alone));
+}
+
+TEST(Cavities, AreDealtToTheRanksByTheirTetrahedra) {
+  const auto world = Communicator::world();
+  mesh::DistributedMesh mesh = mesh::examples::cube(world, 4 * squares, pieces);
+  parallel::StageClock clock;
+  std::int64_t tets = 0, largest = 0;
+  const auto count = [&](const Cavity& cavity) {
+    tets += static_cast<std::int64_t>(cavity.tets.size());
+    largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
+    return same(cavity);
+  };
+  refill_cavities(world, mesh, wish_for_shared(mesh, 0, 0.03), count, clock);
+  // The heaviest rank is above the mean by no more than one cavity.
+  EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
+  EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
 }
 
 TEST(Cavities, ThatAreNotRefilledStay) {

@@ -34,6 +34,30 @@ TEST(BoxTree, FindsTheBoxesThatOverlap) {
   }
 }
 
+TEST(BoxTree, FindsTheNearestBoxWithoutLookingAtMost) {
+  const std::vector<Box> boxes = random_boxes(2000, 5);
+  const BoxTree tree(boxes, 4);
+  const auto away_from = [](Vec3 p, const Box& box) {
+    Vec3 apart;
+    for (int axis = 0; axis < 3; ++axis)
+      apart[axis] = std::max({box.low[axis] - p[axis], p[axis] - box.high[axis], 0.0});
+    return norm(apart);
+  };
+  for (const Box& at : random_boxes(50, 6)) {
+    const Vec3 p = 3 * at.low - Vec3{1, 1, 1};
+    double expected = 0.5, bound = 0.5;
+    for (const Box& box : boxes) expected = std::min(expected, away_from(p, box));
+    int visited = 0;
+    tree.search_nearest([&](const Box& box) { return away_from(p, box); }, bound,
+                        [&](std::int32_t place) {
+                          ++visited;
+                          bound = std::min(bound, away_from(p, boxes[tree.order()[place]]));
+                        });
+    EXPECT_EQ(bound, expected);
+    EXPECT_LT(visited, 200);
+  }
+}
+
 TEST(BoxTree, LeavesHoldEveryBoxOnceAndAreSmall) {
   const std::vector<Box> boxes = random_boxes(333, 9);
   const BoxTree tree(boxes, 5);

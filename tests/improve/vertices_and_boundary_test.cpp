@@ -255,5 +255,42 @@ TEST(EdgeContraction, RemovesAVertexInsideButNeverOneOnACurve) {
   EXPECT_FALSE(contraction.propose(fixed, stays, vertex_at(curved, {2, 2, 2}), -1, cavity));
 }
 
+/// A regular icosahedron as twenty tetrahedra around a vertex inside.
+mesh::Piece make_icosahedron(geometry::Vec3 inside) {
+  const double golden = (1 + std::sqrt(5.0)) / 2;
+  std::vector<geometry::Vec3> points;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-golden, golden}) {
+      points.push_back({0, a, b}), points.push_back({a, b, 0}), points.push_back({b, 0, a});
+    }
+  }
+  points.push_back(inside);
+  std::vector<mesh::LocalIndex> cells;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = i + 1; j < 12; ++j) {
+      for (int k = j + 1; k < 12; ++k) {
+        const auto is_edge = [&](int a, int b) { return distance(points[a], points[b]) < 2.1; };
+        if (!is_edge(i, j) || !is_edge(j, k) || !is_edge(k, i)) continue;
+        const bool positive = geometry::volume6(points[i], points[j], points[k], inside) > 0;
+        cells.insert(cells.end(), {i, positive ? j : k, positive ? k : j, 12});
+      }
+    }
+  }
+  mesh::Piece piece = make_piece(points, cells);
+  close_boundary(piece);
+  piece.vertex_dimension[12] = 3;
+  return piece;
+}
+
+TEST(Relaxation, BringsAVertexToTheMiddle) {
+  for (const geometry::Vec3 from : {geometry::Vec3{0.7, 0, 0}, {0.3, -0.8, 0.4}, {-0.1, 0.6, 0.6}}) {
+    mesh::Piece piece = make_icosahedron(from);
+    ASSERT_EQ(piece.cell_count(), 20);
+    TetMesh mesh(piece, measure);
+    EXPECT_GT(Relaxation().run(mesh, 20), 0);
+    EXPECT_LT(norm(mesh.point(12)), 0.1 * norm(from)) << from.x << ' ' << from.y << ' ' << from.z;
+  }
+}
+
 }  // namespace
 }  // namespace aeroloom::improve

@@ -120,6 +120,17 @@ TEST(ModelField, NarrowFacesAskForTheirWidth) {
   EXPECT_NEAR(round({1, 0, 0}), 0.5, 1e-6);
 }
 
+TEST(ModelField, WidthsAreThoseBetweenTheNearestLinesThatFaceEachOther) {
+  // The top of the box is a strip of half the width of its sides: these do not face each other across it.
+  cad::PrimitiveDimensions dimensions;
+  dimensions.box = {4, 0.1, 0.2};
+  const SizeField field =
+      build(make_primitive_domain(PrimitiveKind::box, dimensions), {0.05, 1, 12, 1.3, 0, 0});
+  for (double x = -1.9; x <= 1.9; x += 0.01) {
+    EXPECT_NEAR(field({x, 0.05, 0.1}), 0.1, 1e-6) << x;
+  }
+}
+
 TEST(ModelField, IsTheSameForAnyRankCount) {
   const SizingOptions options{0.01, 1, 12, 1.3, 0.3};
   for (const PrimitiveKind kind :

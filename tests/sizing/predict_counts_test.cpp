@@ -1,5 +1,6 @@
 #include "cad/builtin/primitives.hpp"
 #include "parallel/collective_error.hpp"
+#include "sizing/choose_sizes.hpp"
 #include "sizing/size_field.hpp"
 
 #include <cmath>
@@ -93,6 +94,35 @@ TEST(ChooseSizes, HitsTheTarget) {
     EXPECT_EQ(options.minimum,
               sizing::choose_sizes(parallel::Communicator::self(), model, target, own).minimum);
   }
+}
+
+TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
+  PrimitiveDimensions dimensions;
+  dimensions.box = {20, 20, 20};
+  dimensions.radius = 0.5;
+  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  parallel::StageClock clock;
+  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1);
+  const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 5e4);
+  const SizeField field = sampler.build_field(chosen.options);
+  EXPECT_EQ(chosen.field.leaf_count(), field.leaf_count());
+  EXPECT_EQ(chosen.field({0.5, 0, 0}), field({0.5, 0, 0}));
+  EXPECT_EQ(chosen.counts.tetrahedra, sampler.predict(field).tetrahedra);
+  // From sizes near by it finds what is as good.
+  const sizing::ChosenSizes nearby = sizing::choose_sizes(sampler, 5e4, chosen.options);
+  EXPECT_EQ(nearby.options, chosen.options);
+}
+
+TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
+  PrimitiveDimensions dimensions;
+  dimensions.box = {20, 20, 20};
+  dimensions.radius = 0.001;
+  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  parallel::StageClock clock;
+  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1);
+  const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 100);
+  EXPECT_GT(chosen.counts.tetrahedra, 200);
+  EXPECT_NEAR(chosen.options.surface_maximum, 0.0004, 0.0001) << "the coarsest it tries, a fifth of the body";
 }
 
 TEST(ChooseSizes, WorksWithoutFarField) {

@@ -1,5 +1,7 @@
 #include "sizing/size_field.hpp"
 
+#include "sizing/field_builder.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -259,4 +261,15 @@ TEST(SizeField, EvaluatesInWellUnderAMicrosecond) {
 #ifdef NDEBUG
   EXPECT_LT(fastest / static_cast<double>(places.size()), 1e-6);
 #endif
+}
+
+TEST(FieldBuilder, GivesUpOnFieldsThatAreMuchTooFine) {
+  const auto sources = sphere_sources(0.1);
+  const SizeField whole = sizing::FieldBuilder(cube(2), options).build(sources);
+  const std::int64_t leaves = whole.leaf_count();
+  const auto again = sizing::FieldBuilder(cube(2), options).build_within(sources, 2 * leaves);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->leaf_count(), leaves);
+  for (const std::int64_t divisor : {10, 1000})
+    EXPECT_FALSE(sizing::FieldBuilder(cube(2), options).build_within(sources, leaves / divisor));
 }

@@ -45,7 +45,25 @@ TEST(TriangleTree, TellsInsideFromOutside) {
     const Vec3 p = random_point(random);
     if (std::abs(norm(p) - 1) < 0.01) continue;
     EXPECT_EQ(tree.contains(p), norm(p) < 1);
-    EXPECT_EQ(tree.is_behind(p, all), norm(p) < 1);
+    EXPECT_EQ(tree.share_behind(p, 1e-6, all), norm(p) < 1 ? 1 : 0);
+  }
+}
+
+TEST(TriangleTree, SharesOfCubesAddUpToTheVolume) {
+  const TriangleTree tree(sphere(60));
+  std::vector<std::int32_t> touching;
+  for (const int cubes : {10, 17, 30}) {
+    const double edge = 2.4 / cubes;
+    double volume = 0;
+    for (int i = 0; i < cubes * cubes * cubes; ++i) {
+      const Vec3 low =
+          edge * Vec3{double(i % cubes), double(i / cubes % cubes), double(i / (cubes * cubes))} -
+          Vec3{1.2, 1.2, 1.2};
+      tree.find_overlapping(low, edge, touching);
+      const bool inside = norm(low + 0.5 * edge * Vec3{1, 1, 1}) < 1;
+      volume += edge * edge * edge * (touching.empty() ? inside : tree.share_behind(low, edge, touching));
+    }
+    EXPECT_NEAR(volume, 4 * std::numbers::pi / 3, 2.5 * edge * edge) << edge;
   }
 }
 

@@ -1,0 +1,25 @@
+/// Sizes that give a wanted number of tetrahedra.
+#pragma once
+
+#include "sizing/model_sampler.hpp"
+#include "sizing/size_field.hpp"
+
+#include <optional>
+
+namespace aeroloom::sizing {
+
+/// Sizes with the field they give and the counts that field predicts.
+struct ChosenSizes {
+  SizingOptions options;
+  SizeField field;
+  PredictedCounts counts;
+};
+
+/// Searches the one size from which all bounds follow until the predicted count is within a few percent of
+/// the target. The search starts at `near`, sizes for a model that is almost the same, where there are such.
+/// The sampler must look for gaps as closely as the default options ask, or not at all. Collective. Throws
+/// std::invalid_argument for a target below one.
+ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
+                         const std::optional<SizingOptions>& near = {});
+
+}  // namespace aeroloom::sizing
