@@ -50,7 +50,8 @@ TopoDS_Shape make_plate(int holes) {
   plate.Append(BRepPrimAPI_MakeBox(pitch * columns, pitch * rows, thickness).Shape());
   for (int i = 0; i < holes; ++i) {
     const double radius = pitch * (0.1 + 0.15 * (i * 7 % 11) / 10);
-    drills.Append(drill(pitch * (i % columns + 0.5), pitch * (i / columns + 0.5), radius));
+    const int column = i % columns, row = i / columns;
+    drills.Append(drill(pitch * (column + 0.5), pitch * (row + 0.5), radius));
   }
   BRepAlgoAPI_Cut cut;
   cut.SetArguments(plate);

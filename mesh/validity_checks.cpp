@@ -104,6 +104,7 @@ std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
     boxes[part.region].add(part.box.high);
   }
   std::vector<Vec3> centers;
+  centers.reserve(boxes.size());
   for (const geometry::Box& box : boxes) centers.push_back(box.empty() ? Vec3{} : box.center());
   return centers;
 }
@@ -233,6 +234,7 @@ std::vector<double> sum_by_region(const parallel::Communicator& communicator, co
   std::vector<CompensatedSum> sums(mesh.region_count());
   for (const RegionTerm& term : all) sums[term.region].add(term.value);
   std::vector<double> values;
+  values.reserve(sums.size());
   for (const CompensatedSum& sum : sums) values.push_back(sum.value());
   return values;
 }

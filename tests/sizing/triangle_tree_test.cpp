@@ -56,9 +56,8 @@ TEST(TriangleTree, SharesOfCubesAddUpToTheVolume) {
     const double edge = 2.4 / cubes;
     double volume = 0;
     for (int i = 0; i < cubes * cubes * cubes; ++i) {
-      const Vec3 low =
-          edge * Vec3{double(i % cubes), double(i / cubes % cubes), double(i / (cubes * cubes))} -
-          Vec3{1.2, 1.2, 1.2};
+      const int column = i % cubes, row = i / cubes % cubes, layer = i / (cubes * cubes);
+      const Vec3 low = edge * Vec3{double(column), double(row), double(layer)} - Vec3{1.2, 1.2, 1.2};
       tree.find_overlapping(low, edge, touching);
       const bool inside = norm(low + 0.5 * edge * Vec3{1, 1, 1}) < 1;
       volume += edge * edge * edge * (touching.empty() ? inside : tree.share_behind(low, edge, touching));
