@@ -87,15 +87,15 @@ TEST_F(CommunicatorTest, GathersDifferentLengths) {
 }
 
 TEST_F(CommunicatorTest, GathersItemsInRankOrder) {
-  std::vector<std::int32_t> mine(static_cast<std::size_t>(rank + 1), rank), expected;
-  for (Rank r = 0; r < size; ++r) expected.insert(expected.end(), static_cast<std::size_t>(r + 1), r);
+  std::vector<std::int32_t> mine(static_cast<std::size_t>(rank) + 1, rank), expected;
+  for (Rank r = 0; r < size; ++r) expected.insert(expected.end(), static_cast<std::size_t>(r) + 1, r);
   EXPECT_EQ(world.all_gather_items(std::span<const std::int32_t>(mine)), expected);
 }
 
 TEST_F(CommunicatorTest, ExchangesWithEverybodyInAscendingOrder) {
   std::vector<Parcel> outgoing;
   for (Rank to = size - 1; to >= 0; --to)
-    outgoing.push_back({to, letter(rank, to, static_cast<std::size_t>(to * 10))});
+    outgoing.push_back({to, letter(rank, to, static_cast<std::size_t>(to) * 10)});
   const auto incoming = world.exchange(std::move(outgoing));
   ASSERT_EQ(incoming.size(), static_cast<std::size_t>(size));
   for (Rank from = 0; from < size; ++from) {

@@ -148,7 +148,7 @@ TEST(ContainedTest, BringsBackTheException) {
   EXPECT_EQ(result.message, "bad facet 5\nIt printed last:\nlast words");
   EXPECT_TRUE(result.output.empty());
   EXPECT_EQ(run("throw_number").status, ContainedStatus::threw);
-  EXPECT_NE(run("throw_number").message.find("3"), std::string::npos);
+  EXPECT_NE(run("throw_number").message.find('3'), std::string::npos);
   expect_still_working();
 }
 

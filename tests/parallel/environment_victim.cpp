@@ -55,6 +55,7 @@ void run(int argc, char** argv, const std::string& way) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): that is what is tried here
 int main(int argc, char** argv) {
   const std::string way = argc > 1 ? argv[1] : "none";
   if (way == "before") return use_before_start();

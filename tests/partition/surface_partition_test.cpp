@@ -14,8 +14,6 @@
 namespace aeroloom::partition {
 namespace {
 
-using geometry::Vec3;
-
 void link(BackgroundSurface& surface) {
   std::map<std::array<std::int32_t, 2>, geometry::HalfEdge> by_ends;
   const auto count = static_cast<geometry::HalfEdge>(3 * surface.triangles.size());

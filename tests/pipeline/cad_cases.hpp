@@ -51,7 +51,7 @@ public:
   /// Writes a shape for all ranks to read.
   std::string write(const TopoDS_Shape& shape, const std::string& name) const {
     const auto world = parallel::Communicator::world();
-    const std::string file = (_path / name).string();
+    std::string file = (_path / name).string();
     if (world.is_root()) BRepTools::Write(shape, file.c_str());
     world.barrier();
     return file;

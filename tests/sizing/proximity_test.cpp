@@ -49,7 +49,7 @@ Model wedge(double degrees) {
   cad::DomainOptions options;
   options.file = file;
   options.kind = cad::DomainKind::body;
-  const Model model = prepare_domain(options).model;
+  Model model = prepare_domain(options).model;
   std::filesystem::remove(file);
   return model;
 }
