@@ -39,7 +39,8 @@ void run(const Communicator& communicator, const pipeline::Case& input) {
   const double cpu = (points.cpu_seconds_mean + filling.cpu_seconds_mean) * communicator.size();
   const auto tetrahedra = static_cast<double>(numbering.cell_count);
   std::printf(
-      "RESULT ranks=%d zones=%d blocks=%lld lattice_points=%lld overlap=%.3f imbalance=%.3f tets=%.0f valid=%d "
+      "RESULT ranks=%d zones=%d blocks=%lld lattice_points=%lld overlap=%.3f imbalance=%.3f tets=%.0f "
+      "valid=%d "
       "decompose_wall=%.3f volume_wall=%.3f decompose_cpu=%.3f volume_cpu=%.3f volume_cpu_max=%.3f "
       "serial_seconds=%.3f tets_per_cpu_second=%.0f peak_bytes_per_tet=%.0f rounds=%d retries=%zu "
       "disagreements=%zu steiner=%lld mean_ratio=%.4f min_dihedral=%.3f hash=%s\n",

@@ -126,11 +126,12 @@ TEST_F(CommunicatorTest, ExchangesBackToBackDoNotMix) {
   // Random sparse patterns that every rank can foretell; ranks run ahead of each other freely.
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
-    std::vector<std::size_t> lengths(
-        static_cast<std::size_t>(size * size));  // 0: no parcel, else length plus one
+    std::vector<std::size_t> lengths(static_cast<std::size_t>(size) *
+                                     static_cast<std::size_t>(size));  // 0: no parcel, else length plus one
     for (auto& length : lengths) length = random() % 3 == 0 ? 1 + random() % 50 : 0;
     const auto length = [&](Rank from, Rank to) {
-      return lengths[static_cast<std::size_t>(from * size + to)];
+      return lengths[static_cast<std::size_t>(from) * static_cast<std::size_t>(size) +
+                     static_cast<std::size_t>(to)];
     };
     std::vector<Parcel> outgoing;
     for (Rank to = 0; to < size; ++to) {
