@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """How many single-line mistakes the tests catch.
 
-usage: mutations.py BUILD COUNT SEED [--folders F ...]
+usage: mutations.py BUILD COUNT SEED [--folders F ...] [--after PLACE]
 
 Chooses COUNT lines of the stages' sources by SEED and makes one mistake in each: a comparison turned, a sign or a
 term changed, a call left out, a condition negated. Builds the tests of the folder, then those of pipeline/, and runs
 them until one fails. Prints a table; mistakes that do not compile are replaced by others. Works in the tree it is in
-(commit first: the file is restored after each) and with a build folder of the Ninja generator.
+(commit first: the file is restored after each) and with a build folder of the Ninja generator. --after PLACE goes on
+after the last row of an interrupted run, for COUNT more.
 """
 import argparse
 import pathlib
@@ -98,6 +99,7 @@ def main():
     parser.add_argument("count", type=int)
     parser.add_argument("seed", type=int)
     parser.add_argument("--folders", nargs="*", default=FOLDERS)
+    parser.add_argument("--after", metavar="PLACE", help="FILE:LINE of the last row there is")
     options = parser.parse_args()
     build = options.build.resolve()
     choice = random.Random(options.seed)
@@ -105,6 +107,7 @@ def main():
     choice.shuffle(pool)
     print("| place | mistake | was | caught by |\n|---|---|---|---|", flush=True)
     caught = done = 0
+    skipping = options.after is not None
     for path, number, k in pool:
         if done == options.count:
             break
@@ -112,6 +115,10 @@ def main():
         lines = original.split("\n")
         mutated = mutate(lines[number], k, choice)
         if mutated is None:
+            continue
+        place = f"{path.relative_to(ROOT)}:{number + 1}"
+        if skipping:
+            skipping = place != options.after
             continue
         try:
             path.write_text("\n".join([*lines[:number], mutated, *lines[number + 1:]]))
@@ -124,7 +131,7 @@ def main():
         done += 1
         caught += verdict != "missed"
         was = lines[number].strip().replace("|", "\\|")
-        print(f"| {path.relative_to(ROOT)}:{number + 1} | {MISTAKES[k][2]} | `{was}` | {verdict} |", flush=True)
+        print(f"| {place} | {MISTAKES[k][2]} | `{was}` | {verdict} |", flush=True)
     print(f"\n{caught} of {done} caught")
     return 0
 

@@ -65,14 +65,14 @@ public:
         _most_leaves(std::max<std::int64_t>(
             least_limit, std::llround(std::min(1e15, leaves_per_tetrahedron * target_tetrahedra)))) {}
 
-  void run(const Preset& preset, double first_size, double close_enough) {
+  void run(const Preset& preset, double first_size, double largest_error) {
     _best.reset();
     _error = 1e300;
     const double extent = largest_extent(_sampler.body_box());
     double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
     double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
     double slope = first_slope;
-    for (int round = 0; round < most_rounds && std::abs(_error) > close_enough; ++round) {
+    for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
       const double error = judge(sizes_for(std::exp(size), preset));
       if (round > 0 && last_error < 1e300 && error < 1e300)
         slope = std::clamp((error - last_error) / (size - last_size), steepest_slope, flattest_slope);

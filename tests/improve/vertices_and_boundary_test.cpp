@@ -292,5 +292,34 @@ TEST(Relaxation, BringsAVertexToTheMiddle) {
   }
 }
 
+/// The first step goes straight down the sum of inverse mean ratios.
+TEST(Relaxation, StepsAlongTheGradient) {
+  for (const geometry::Vec3 from : {geometry::Vec3{0.7, 0, 0.1}, {0.3, -0.8, 0.4}, {-0.1, 0.2, 0.9}}) {
+    mesh::Piece piece = make_icosahedron(from);
+    // A body without symmetry, or every wrong sum would point to its middle too.
+    for (LocalIndex v = 0; v < 12; ++v) piece.set_point(v, 1.0 / (1 + 0.08 * (v % 5)) * piece.point(v));
+    const mesh::Piece before = piece;
+    TetMesh mesh(piece, measure);
+    const auto sum_at = [&](geometry::Vec3 p) {
+      double sum = 0;
+      for (LocalIndex t = 0; t < before.cell_count(); ++t) {
+        std::array<geometry::Vec3, 4> c;
+        for (int k = 0; k < 4; ++k) c[k] = before.cell(t)[k] == 12 ? p : before.point(before.cell(t)[k]);
+        sum += 1 / mesh::mean_ratio(c[0], c[1], c[2], c[3]);
+      }
+      return sum;
+    };
+    geometry::Vec3 downhill;
+    for (int axis = 0; axis < 3; ++axis) {
+      geometry::Vec3 left = from, right = from;
+      left[axis] -= 1e-5, right[axis] += 1e-5;
+      downhill[axis] = sum_at(left) - sum_at(right);
+    }
+    ASSERT_EQ(Relaxation().run(mesh, 1), 1);
+    const geometry::Vec3 step = mesh.point(12) - from;
+    EXPECT_GT(dot(step, downhill), (1 - 1e-6) * norm(step) * norm(downhill));
+  }
+}
+
 }  // namespace
 }  // namespace aeroloom::improve

@@ -242,6 +242,29 @@ TEST(RepairParts, ASpikeIsTakenBack) {
   EXPECT_GE(sharpest(surface, part), straight);
 }
 
+/// Widening one wedge makes others: repair goes on until none is left that it can widen.
+TEST(RepairParts, GoesOnUntilNothingMoves) {
+  int in_need_of_more = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    const BackgroundSurface surface = plate(24, 24, 1.5, 0.25);
+    const VertexFans fans = gather_fans(surface);
+    std::vector<PartIndex> part(surface.triangles.size());
+    // Stripes whose borders are torn.
+    for (std::size_t t = 0; t < part.size(); ++t) {
+      const double tear = 5 * std::sin(seed + 7.3 * static_cast<double>(t));
+      part[t] = std::clamp(static_cast<int>((static_cast<double>(t / 2 % 24) + tear) / 6), 0, 3);
+    }
+    std::vector<PartIndex> once = part;
+    connect_parts(surface, once);
+    widen_wedges(surface, fans, 40, once);
+    connect_parts(surface, once);
+    in_need_of_more += widen_wedges(surface, fans, 40, once) > 0;
+    repair_parts(surface, fans, 40, part);
+    EXPECT_EQ(widen_wedges(surface, fans, 40, part), 0);
+  }
+  EXPECT_GT(in_need_of_more, 0);
+}
+
 TEST(DecomposeSurface, PartsAreConnectedBalancedAndMeetAtGoodAngles) {
   for (const BackgroundSurface& surface : {plate(40, 40, 1, 0.25), sphere(4)}) {
     const SurfaceDecomposition result = decompose(surface, 16);

@@ -59,11 +59,15 @@ TEST(PredictCounts, MatchesUniformSizesInCurvedDomains) {
   expect_uniform(predict(torus, {0.05, 0.05, 12, 1.3, 0}), 0.05, 4 * pi * pi * 0.3, 2 * pi * pi * 0.09, 0.03);
 }
 
-TEST(PredictCounts, LeavesOutTheBody) {
+Model sphere_in_box(double edge, double radius) {
   PrimitiveDimensions dimensions;
-  dimensions.box = {2, 2, 2};
-  dimensions.radius = 0.9;
-  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  dimensions.box = {edge, edge, edge};
+  dimensions.radius = radius;
+  return make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+}
+
+TEST(PredictCounts, LeavesOutTheBody) {
+  const Model model = sphere_in_box(2, 0.9);
   expect_uniform(predict(model, {0.06, 0.06, 12, 1.3, 0}), 0.06, 24 + 4 * pi * 0.81, 8 - 4 * pi / 3 * 0.729,
                  0.03);
 }
@@ -78,10 +82,7 @@ TEST(PredictCounts, IsTheSameForAnyRankCount) {
 }
 
 TEST(ChooseSizes, HitsTheTarget) {
-  PrimitiveDimensions dimensions;
-  dimensions.box = {20, 20, 20};
-  dimensions.radius = 0.5;
-  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  const Model model = sphere_in_box(20, 0.5);
   const auto world = parallel::Communicator::world();
   for (const double target : {3e4, 2e5}) {
     parallel::StageClock clock;
@@ -97,10 +98,7 @@ TEST(ChooseSizes, HitsTheTarget) {
 }
 
 TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
-  PrimitiveDimensions dimensions;
-  dimensions.box = {20, 20, 20};
-  dimensions.radius = 0.5;
-  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  const Model model = sphere_in_box(20, 0.5);
   parallel::StageClock clock;
   const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 5e4);
@@ -114,10 +112,7 @@ TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
 }
 
 TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
-  PrimitiveDimensions dimensions;
-  dimensions.box = {20, 20, 20};
-  dimensions.radius = 0.001;
-  const Model model = make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+  const Model model = sphere_in_box(20, 0.001);
   parallel::StageClock clock;
   const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 100);

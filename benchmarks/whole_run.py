@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Whole runs from CAD to mesh beside Gmsh with HXT on the same CAD, as Markdown tables.
+
+usage: whole_run.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N ...] [--repeat N] [--tables DIR] [-- KEY=VALUE ...]
+
+For each case: our program on so many ranks (default 1 and 2), and Gmsh on one thread with the domain that our program
+exports as STEP, sizes from curvature with the angle and the bounds of our sizes, scaled until the numbers of
+tetrahedra are within 20 % of each other. Wall seconds are those of the processes from start to end, with reading and
+writing; the least of N (default 2) repeats taken in turn. CHECKER is an independent checker of meshes, called as
+`CHECKER mesh.pvtu --surface surface.pvtp`. The second table has the stages of both.
+
+Needs gmsh.
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def call(command, folder):
+    start = time.monotonic()
+    done = subprocess.run([str(c) for c in command], cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return time.monotonic() - start, done.stdout
+
+
+def ours(options, case, ranks, folder):
+    command = [ROOT / "scripts/mpirun_local.sh", ranks, options.program, "run", os.path.abspath(case)]
+    for setting in [f"output.directory={folder}", *options.settings]:
+        command += ["--set", setting]
+    wall, _ = call(command, ROOT)
+    report = json.loads((folder / "report.json").read_text())
+    return wall, report
+
+
+def verdict(options, folder):
+    if not options.arbiter:
+        return "–"
+    said = subprocess.run([options.arbiter, folder / "mesh.pvtu", "--surface", folder / "surface.pvtp"],
+                          capture_output=True, text=True, check=False).stdout
+    return "yes" if "VALID yes" in said else "NO"
+
+
+def theirs(folder, sizes, factor):
+    """Wall seconds, tetrahedra, least dihedral angle of none (HXT reports its own measures), seconds of 1-D, 2-D, 3-D."""
+    curvature = 360 / sizes["curvature_angle"]
+    (folder / "domain.geo").write_text(
+        'SetFactory("OpenCASCADE");\nMerge "domain.step";\n'
+        f"Mesh.MeshSizeFromCurvature = {curvature:.6g};\n"
+        f"Mesh.MeshSizeMin = {sizes['minimum'] * factor:.9g};\nMesh.MeshSizeMax = {sizes['maximum'] * factor:.9g};\n"
+        f"Mesh.MeshSizeFactor = {factor:.9g};\n")
+    wall, said = call(["gmsh", "domain.geo", "-3", "-algo", "hxt", "-nt", "1", "-format", "msh22", "-bin", "-o",
+                       "theirs.msh"], folder)
+    steps = [float(t) for t in re.findall(r"Done meshing [123]D \(Wall ([\d.e+-]+)s", said)]
+    # The log counts the triangles first, then all elements.
+    with open(folder / "theirs.msh", "rb") as file:
+        tetrahedra = count_tetrahedra(file.read())
+    return {"wall": wall, "tetrahedra": tetrahedra, "steps": steps}
+
+
+def count_tetrahedra(data):
+    """Of a binary MSH 2.2 file: blocks of (type, count, tags), then one row per element."""
+    at = data.index(b"$Elements\n") + len(b"$Elements\n")
+    end = data.index(b"\n", at)
+    left, at, found = int(data[at:end]), end + 1, 0
+    corners = {15: 1, 1: 2, 2: 3, 4: 4}
+    while left > 0:
+        kind, count, tags = (int.from_bytes(data[at + 4 * i:at + 4 * i + 4], "little") for i in range(3))
+        found += count if kind == 4 else 0
+        at += 12 + count * 4 * (1 + tags + corners[kind])
+        left -= count
+    return found
+
+
+def matched(folder, sizes, wanted):
+    """The factor for their sizes at which the counts agree within 20 %."""
+    factor, tried = 1.0, []
+    for _ in range(8):
+        found = theirs(folder, sizes, factor)
+        error = found["tetrahedra"] / wanted
+        tried.append((abs(error - 1), factor))
+        if 0.85 < error < 1.18:
+            break
+        factor *= min(max(error, 0.1), 10) ** 0.4
+    return min(tried)[1]
+
+
+def run_case(options, case):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        runs, gmsh = {}, None
+        call([options.program, "export-cad", os.path.abspath(case), folder / "domain.step"], ROOT)
+        for _ in range(options.repeat):
+            for ranks in options.ranks:
+                wall, report = ours(options, case, ranks, folder / f"ours{ranks}")
+                if ranks not in runs or wall < runs[ranks][0]:
+                    runs[ranks] = (wall, report)
+            if gmsh is None:
+                first = runs[options.ranks[0]][1]
+                factor = matched(folder, first["sizing"], first["mesh"]["tetrahedra"])
+            found = theirs(folder, first["sizing"], factor)
+            if gmsh is None or found["wall"] < gmsh["wall"]:
+                gmsh = found
+        valid = {ranks: verdict(options, folder / f"ours{ranks}") for ranks in options.ranks}
+    return runs, gmsh, valid
+
+
+def main():
+    arguments, settings = sys.argv[1:], []
+    if "--" in arguments:
+        settings = arguments[arguments.index("--") + 1:]
+        arguments = arguments[:arguments.index("--")]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("cases", nargs="+")
+    parser.add_argument("--arbiter")
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--repeat", type=int, default=2)
+    options = parser.parse_args(arguments, argparse.Namespace(settings=settings))
+    stages = []
+    print("| case | mesher | ranks | tetrahedra | wall s | µs per tetrahedron | over Gmsh | over one rank | least angle | "
+          "valid |\n" + "|---" * 10 + "|")
+    for case in options.cases:
+        runs, gmsh, valid = run_case(options, case)
+        label, theirs_each = pathlib.Path(case).stem, gmsh["wall"] / gmsh["tetrahedra"]
+        alone = runs[options.ranks[0]][0]
+        for ranks, (wall, report) in runs.items():
+            count = report["mesh"]["tetrahedra"]
+            print(f"| {label} | Aeroloom | {ranks} | {count:,} | {wall:.1f} | {1e6 * wall / count:.1f} | "
+                  f"{wall / count / theirs_each:.2f} | {wall / alone:.2f} | {report['quality']['min_dihedral_deg']:.1f} | "
+                  f"{valid[ranks]} |", flush=True)
+            stages.append(f"| {label} | Aeroloom, {ranks} | " + ", ".join(
+                f"{s['name']} {s['wall_seconds']:.2f} ({s['cpu_seconds_max']:.2f})" for s in report["stages"]) + " |")
+        print(f"| {label} | Gmsh HXT | 1 | {gmsh['tetrahedra']:,} | {gmsh['wall']:.1f} | {1e6 * theirs_each:.1f} | 1 | – | "
+              "– | – |", flush=True)
+        stages.append(f"| {label} | Gmsh HXT | " + ", ".join(
+            f"{k + 1}-D {t:.2f}" for k, t in enumerate(gmsh["steps"])) + " |")
+    print("\n| case | mesher, ranks | stages, wall s (CPU s of the busiest rank) |\n|---|---|---|\n" + "\n".join(stages))
+
+
+if __name__ == "__main__":
+    main()
