@@ -273,18 +273,19 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
                           const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
                           const std::vector<parallel::Rank>& owner_of_piece, int round,
                           parallel::StageClock& clock) {
-  const double start = parallel::cpu_seconds();
   Delivery out;
-  std::int64_t first_new = 0;
-  std::size_t next = 0;
-  for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
-    const std::int64_t first = first_new;
-    first_new += outcome.added;
-    if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
-    const OwnedCavity& owned = cavities[next++];
-    if (owned.refilling) pack_refilled(owned, round, first, out);
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    std::int64_t first_new = 0;
+    std::size_t next = 0;
+    for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
+      const std::int64_t first = first_new;
+      first_new += outcome.added;
+      if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
+      const OwnedCavity& owned = cavities[next++];
+      if (owned.refilling) pack_refilled(owned, round, first, out);
+    }
   }
-  clock.add_task_cpu(parallel::cpu_seconds() - start);
   const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
   in.tets = mesh::deliver(communicator, out.tets, taker_rank);

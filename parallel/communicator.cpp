@@ -65,6 +65,7 @@ void broadcast_content(const CommunicatorHandle& handle, Bytes& bytes, Rank root
 
 template <class T>
 T reduce(const CommunicatorHandle& handle, T value, MPI_Datatype type, MPI_Op operation) {
+  const session::MessageScope timed;
   T result{};
   check(MPI_Allreduce(&value, &result, 1, type, operation, handle.communicator), "reducing");
   return result;
@@ -194,10 +195,12 @@ int Communicator::size() const {
 }
 
 void Communicator::barrier() const {
+  const session::MessageScope timed;
   check(MPI_Barrier(usable_handle().communicator), "waiting at a barrier");
 }
 
 void Communicator::broadcast(Bytes& bytes, Rank root) const {
+  const session::MessageScope timed;
   const CommunicatorHandle& handle = usable_handle();
   std::uint64_t size = bytes.size();
   check(MPI_Bcast(&size, 1, MPI_UINT64_T, root, handle.communicator), "broadcasting a size");
@@ -206,6 +209,7 @@ void Communicator::broadcast(Bytes& bytes, Rank root) const {
 }
 
 std::vector<Bytes> Communicator::all_gather(const Bytes& mine) const {
+  const session::MessageScope timed;
   const CommunicatorHandle& handle = usable_handle();
   const auto sizes = all_values<std::uint64_t>(handle, mine.size(), MPI_UINT64_T);
   std::uint64_t total = 0;
@@ -215,6 +219,7 @@ std::vector<Bytes> Communicator::all_gather(const Bytes& mine) const {
 }
 
 std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {
+  const session::MessageScope timed;
   const CommunicatorHandle& handle = usable_handle();
   const bool receives = handle.rank == root;
   const std::uint64_t size = mine.size();
@@ -241,6 +246,7 @@ std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {
 }
 
 std::vector<Parcel> Communicator::exchange(std::vector<Parcel> outgoing) const {
+  const session::MessageScope timed;
   const CommunicatorHandle& handle = usable_handle();
   require_distinct_destinations(outgoing, handle.size);
   // A rank can leave the consensus and start the next one while another has not yet noticed the end of this
@@ -277,6 +283,7 @@ std::int64_t Communicator::maximum(std::int64_t value) const {
 }
 
 std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
+  const session::MessageScope timed;
   const CommunicatorHandle& handle = usable_handle();
   std::int64_t before = 0;
   check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, handle.communicator), "scanning");
@@ -292,6 +299,7 @@ double Communicator::maximum(double value) const {
 }
 
 double Communicator::sum(double value) const {
+  const session::MessageScope timed;
   double total = 0;
   for (const double part : all_values(usable_handle(), value, MPI_DOUBLE)) total += part;
   return total;

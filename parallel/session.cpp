@@ -1,5 +1,7 @@
 #include "parallel/session.hpp"
 
+#include "parallel/timers.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +16,11 @@ struct Session {
 
 Session& current() {
   static Session instance;
+  return instance;
+}
+
+MessageTime& spent() {
+  static MessageTime instance;
   return instance;
 }
 
@@ -79,6 +86,17 @@ std::shared_ptr<CommunicatorHandle> world() {
 std::shared_ptr<CommunicatorHandle> self() {
   if (!is_library_running()) throw std::logic_error("a communicator was asked for before MPI runs, or after");
   return duplicate(MPI_COMM_SELF);
+}
+
+const MessageTime& message_time() {
+  return spent();
+}
+
+MessageScope::MessageScope() : _start{parallel::wall_seconds(), parallel::cpu_seconds()} {}
+
+MessageScope::~MessageScope() {
+  spent().wall_seconds += parallel::wall_seconds() - _start.wall_seconds;
+  spent().cpu_seconds += parallel::cpu_seconds() - _start.cpu_seconds;
 }
 
 void make_progress() {

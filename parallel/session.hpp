@@ -38,6 +38,25 @@ std::shared_ptr<CommunicatorHandle> world();
 /// Throws std::logic_error unless the library runs.
 std::shared_ptr<CommunicatorHandle> self();
 
+/// What this process has spent in the operations of communicators so far: wall seconds, waiting for other
+/// ranks included, and CPU seconds of the calling thread.
+struct MessageTime {
+  double wall_seconds = 0, cpu_seconds = 0;
+};
+const MessageTime& message_time();
+
+/// Adds a scope to the time spent in messages. Scopes do not nest.
+class MessageScope {
+public:
+  MessageScope();
+  ~MessageScope();
+  MessageScope(const MessageScope&) = delete;
+  MessageScope& operator=(const MessageScope&) = delete;
+
+private:
+  MessageTime _start;
+};
+
 /// Lets the library work on messages under way, without waiting. Nothing when it is not running.
 void make_progress();
 

@@ -1,10 +1,15 @@
 #include "parallel/timers.hpp"
 
+#include "parallel/session.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <stdexcept>
+#include <string>
+
+#include <unistd.h>
 
 namespace aeroloom::parallel {
 
@@ -67,6 +72,23 @@ double wall_seconds() {
   return seconds_of(CLOCK_MONOTONIC);
 }
 
+double process_age_seconds() {
+  std::FILE* file = std::fopen("/proc/self/stat", "r");
+  if (!file) return 0;
+  char text[1024];
+  const std::size_t length = std::fread(text, 1, sizeof text - 1, file);
+  std::fclose(file);
+  text[length] = 0;
+  // The program's name, in parentheses, may hold anything; what follows are fields 3 and on, of which the
+  // 22nd is the start in ticks since the boot.
+  const char* field = std::strrchr(text, ')');
+  for (int i = 2; field != nullptr && i < 22; ++i) field = std::strchr(field + 1, ' ');
+  long long ticks = 0;
+  if (field == nullptr || std::sscanf(field, "%lld", &ticks) != 1) return 0;
+  const double start = static_cast<double>(ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  return std::max(0.0, seconds_of(CLOCK_BOOTTIME) - start);
+}
+
 std::int64_t peak_resident_bytes() {
   return std::max(earlier_peak, status_bytes("VmHWM"));
 }
@@ -84,14 +106,28 @@ void StageClock::begin(const std::string& name) {
   _current = static_cast<std::size_t>(known - _costs.begin());
   if (known == _costs.end()) _costs.emplace_back().name = name;
   _wall_start = wall_seconds();
+  _cpu_start = cpu_seconds();
+  _scoped_start = _scoped_cpu;
+  _message_wall_start = session::message_time().wall_seconds;
+  _message_cpu_start = session::message_time().cpu_seconds;
 }
 
 void StageClock::end() {
   if (!_open) throw std::logic_error("a stage ends that has not begun");
   StageCost& cost = current();
   cost.wall_seconds += wall_seconds() - _wall_start;
+  const session::MessageTime& messages = session::message_time();
+  cost.waiting_seconds += messages.wall_seconds - _message_wall_start;
+  const double known = _scoped_cpu - _scoped_start + messages.cpu_seconds - _message_cpu_start;
+  cost.other_cpu_seconds += std::max(0.0, cpu_seconds() - _cpu_start - known);
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, status_bytes("VmHWM"));
   _open = false;
+}
+
+void StageClock::note(const std::string& name, double wall_seconds) {
+  begin(name);
+  current().wall_seconds += wall_seconds;
+  end();
 }
 
 void StageClock::add_task_cpu(double seconds) {
@@ -124,12 +160,32 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.cpu_seconds_mean = communicator.sum(cost.task_cpu_seconds) / ranks;
     summary.cpu_seconds_max = communicator.maximum(cost.task_cpu_seconds);
     summary.serial_seconds = communicator.maximum(cost.serial_cpu_seconds);
+    summary.check_seconds = communicator.maximum(cost.check_cpu_seconds);
+    summary.other_seconds = communicator.maximum(cost.other_cpu_seconds);
+    summary.waiting_seconds_mean = communicator.sum(cost.waiting_seconds) / ranks;
+    summary.waiting_seconds_max = communicator.maximum(cost.waiting_seconds);
     summary.pieces = communicator.sum(cost.pieces);
     summary.peak_resident_bytes_max = communicator.maximum(cost.peak_resident_bytes);
     summary.peak_resident_bytes_sum = communicator.sum(cost.peak_resident_bytes);
     summaries.push_back(summary);
   }
   return summaries;
+}
+
+ScopedCpu::ScopedCpu(StageClock& clock, As as)
+    : _clock(clock),
+      _as(as),
+      _start(cpu_seconds() - session::message_time().cpu_seconds),
+      _scoped_before(clock._scoped_cpu) {}
+
+ScopedCpu::~ScopedCpu() {
+  const double all = cpu_seconds() - session::message_time().cpu_seconds - _start;
+  const double used = all - (_clock._scoped_cpu - _scoped_before);
+  _clock._scoped_cpu += used;
+  if (!_clock._open) return;
+  StageCost& cost = _clock.current();
+  (_as == As::check ? cost.check_cpu_seconds : cost.task_cpu_seconds) += used;
+  if (_as == As::serial) cost.serial_cpu_seconds += used;
 }
 
 }  // namespace aeroloom::parallel

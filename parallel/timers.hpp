@@ -13,6 +13,8 @@ namespace aeroloom::parallel {
 double cpu_seconds();
 /// Wall seconds from an arbitrary start, monotonic.
 double wall_seconds();
+/// Wall seconds since this process was started; 0 where the system does not tell.
+double process_age_seconds();
 /// Largest resident set of this process so far, bytes; children not included.
 std::int64_t peak_resident_bytes();
 /// Resident set of this process now, bytes.
@@ -24,7 +26,10 @@ struct StageCost {
   double wall_seconds = 0;
   double task_cpu_seconds = 0;  ///< CPU around task work, waiting excluded, children included
   double serial_cpu_seconds =
-      0;  ///< the part of it that does not shrink with more ranks (serial or repeated)
+      0;                         ///< the part of it that does not shrink with more ranks (serial or repeated)
+  double check_cpu_seconds = 0;  ///< CPU around checks of what was made; no task work
+  double waiting_seconds = 0;    ///< wall time in messages: until other ranks come, and on the way
+  double other_cpu_seconds = 0;  ///< CPU of this rank that is none of these
   std::int64_t pieces = 0;
   std::int64_t peak_resident_bytes = 0;  ///< this rank within the stage, children included
 };
@@ -34,8 +39,11 @@ struct StageSummary {
   std::string name;
   double wall_seconds = 0;  ///< of the slowest rank
   double cpu_seconds_min = 0, cpu_seconds_mean = 0, cpu_seconds_max = 0;
-  double serial_seconds = 0;  ///< largest over ranks
-  std::int64_t pieces = 0;    ///< sum over ranks
+  double serial_seconds = 0;                                 ///< largest over ranks
+  double check_seconds = 0;                                  ///< CPU, largest over ranks
+  double other_seconds = 0;                                  ///< CPU, largest over ranks
+  double waiting_seconds_mean = 0, waiting_seconds_max = 0;  ///< wall
+  std::int64_t pieces = 0;                                   ///< sum over ranks
   std::int64_t peak_resident_bytes_max = 0, peak_resident_bytes_sum = 0;
 };
 
@@ -45,7 +53,10 @@ public:
   /// A stage begun again goes on where it was. Throws std::logic_error when a stage is open.
   void begin(const std::string& name);
   void end();
-  /// Adds to the open stage; ignored when none is open.
+  /// Notes a stage that has ended before there was a clock. Throws std::logic_error when a stage is open.
+  void note(const std::string& name, double wall_seconds);
+  /// Adds to the open stage; ignored when none is open. CPU is that of others than the calling thread
+  /// (ScopedCpu has its own).
   void add_task_cpu(double seconds);
   void add_serial_cpu(double seconds);
   void add_pieces(std::int64_t count);
@@ -56,31 +67,32 @@ public:
   std::vector<StageSummary> summarise(const Communicator& communicator) const;
 
 private:
+  friend class ScopedCpu;
   StageCost& current() { return _costs[_current]; }
 
   std::vector<StageCost> _costs;  // in the order in which they were begun first
   std::size_t _current = 0;
   bool _open = false;
-  double _wall_start = 0;
+  double _wall_start = 0, _cpu_start = 0;
+  double _scoped_cpu = 0;  // of the calling thread that stands on a clock, since the start of the program
+  double _scoped_start = 0;
+  double _message_wall_start = 0, _message_cpu_start = 0;
 };
 
-/// Adds the CPU time of a scope to the open stage, as task time or as serial work.
+/// Adds the CPU time of a scope to the open stage, as task time, as serial work, or as a check of what was
+/// made; less what it spent in messages and in scopes within.
 class ScopedCpu {
 public:
-  enum class As { task, serial };
-  ScopedCpu(StageClock& clock, As as) : _clock(clock), _as(as), _start(cpu_seconds()) {}
-  ~ScopedCpu() {
-    const double used = cpu_seconds() - _start;
-    _clock.add_task_cpu(used);
-    if (_as == As::serial) _clock.add_serial_cpu(used);
-  }
+  enum class As { task, serial, check };
+  ScopedCpu(StageClock& clock, As as);
+  ~ScopedCpu();
   ScopedCpu(const ScopedCpu&) = delete;
   ScopedCpu& operator=(const ScopedCpu&) = delete;
 
 private:
   StageClock& _clock;
   As _as;
-  double _start;
+  double _start, _scoped_before;
 };
 
 }  // namespace aeroloom::parallel

@@ -79,6 +79,8 @@ void report(const Communicator& communicator, const Case& input, const std::stri
 int run(const Communicator& communicator, const Case& input, const std::string& improved_file) {
   RunRecord record;
   RunOutcome outcome;
+  const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
+  record.clock.note("start", age);
   try {
     if (improved_file.empty()) {
       run_case(communicator, input, record);
@@ -88,6 +90,7 @@ int run(const Communicator& communicator, const Case& input, const std::string& 
   } catch (const StageFailure& failure) {
     outcome = {failure.code(), failure.stage(), failure.what()};
   }
+  record.wall_seconds = age + parallel::wall_seconds() - begin;
   try {
     report(communicator, input, improved_file, record, outcome);
   } catch (const parallel::CollectiveError& error) {

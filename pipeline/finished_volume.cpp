@@ -74,17 +74,13 @@ void improve_volume(const Communicator& communicator, const Case& input, const i
                   record.improve.bad_after));
 }
 
-mesh::Numbering inspect_volume(const Communicator& communicator, const mesh::DistributedMesh& volume,
-                               const mesh::DistributedMesh* surface, RunRecord& record) {
-  mesh::Numbering numbering = mesh::number_mesh(communicator, volume);
+void inspect_volume(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
+                    const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
+                    RunRecord& record) {
+  const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
   record.mesh_volume =
       require_valid("the volume mesh", mesh::check_volume_mesh(communicator, volume, numbering, surface));
   record.counts = mesh::count_mesh(communicator, volume, numbering);
-  return numbering;
-}
-
-void measure_volume(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
-                    const mesh::Numbering& numbering, RunRecord& record) {
   record.regions_filled = table_of_regions(communicator, volume);
   record.quality = mesh::summarise_quality(communicator, volume, numbering);
   if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, record);

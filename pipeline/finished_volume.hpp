@@ -17,14 +17,11 @@ double require_valid(const std::string& what, const mesh::ValidityReport& report
 void improve_volume(const parallel::Communicator& communicator, const Case& input,
                     const improve::MeshSource& source, mesh::DistributedMesh& volume, RunRecord& record);
 
-/// Checks and counts the mesh that the last stage left; `surface` may be null. Collective.
-mesh::Numbering inspect_volume(const parallel::Communicator& communicator,
-                               const mesh::DistributedMesh& volume, const mesh::DistributedMesh* surface,
-                               RunRecord& record);
-
-/// Quality, pinned elements, hash and the table of regions of the finished mesh. Collective.
-void measure_volume(const parallel::Communicator& communicator, const Case& input,
-                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering, RunRecord& record);
+/// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
+/// on record; `surface` may be null. Collective. Throws as require_valid().
+void inspect_volume(const parallel::Communicator& communicator, const Case& input,
+                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                    const mesh::DistributedMesh* surface, RunRecord& record);
 
 /// Throws StageFailure when the finished mesh misses the limits.
 void require_quality(const QualityGate& gate, const RunRecord& record);

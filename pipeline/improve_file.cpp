@@ -10,18 +10,18 @@ namespace aeroloom::pipeline {
 
 void improve_file(const parallel::Communicator& communicator, const std::string& file, const Case& input,
                   RunRecord& record) {
-  const double start = parallel::wall_seconds();
   Case fixed = input;
   fixed.improve.boundary_may_change = false;
   mesh::DistributedMesh volume = run_stage(record, "input", ExitCode::files, [&] {
     return foreign::load_foreign_mesh(communicator, file, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
-  const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
-    improve_volume(communicator, fixed, {}, volume, record);
-    mesh::Numbering improved = inspect_volume(communicator, volume, nullptr, record);
-    measure_volume(communicator, fixed, volume, improved, record);
-    return improved;
+  run_stage(record, "improve", ExitCode::volume,
+            [&] { improve_volume(communicator, fixed, {}, volume, record); });
+  const mesh::Numbering numbering = run_stage(record, "inspect", ExitCode::volume, [&] {
+    mesh::Numbering finished = mesh::number_mesh(communicator, volume);
+    inspect_volume(communicator, fixed, volume, finished, nullptr, record);
+    return finished;
   });
   run_stage(record, "output", ExitCode::files, [&] {
     const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
@@ -29,7 +29,6 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
     io::write_surface(communicator, surface, mesh::number_mesh(communicator, surface), input.output.directory,
                       "surface");
   });
-  record.wall_seconds = parallel::wall_seconds() - start;
   require_quality(input.gate, record);
 }
 

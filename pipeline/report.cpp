@@ -198,6 +198,10 @@ Json stages_json(const std::vector<parallel::StageSummary>& stages) {
                     {"cpu_seconds_mean", stage.cpu_seconds_mean},
                     {"cpu_seconds_max", stage.cpu_seconds_max},
                     {"serial_seconds", stage.serial_seconds},
+                    {"check_seconds", stage.check_seconds},
+                    {"other_seconds", stage.other_seconds},
+                    {"waiting_seconds_mean", stage.waiting_seconds_mean},
+                    {"waiting_seconds_max", stage.waiting_seconds_max},
                     {"pieces", stage.pieces},
                     {"peak_rss_bytes_max", stage.peak_resident_bytes_max},
                     {"peak_rss_bytes_sum", stage.peak_resident_bytes_sum}});
@@ -268,12 +272,14 @@ std::string improve_report_json(const std::string& file, const Case& input, cons
 
 std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
                          int ranks) {
-  std::string text = fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>8} {:>11}\n", "stage", "wall s",
-                                 "cpu min", "cpu mean", "cpu max", "pieces", "memory MiB");
+  std::string text =
+      fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>11}\n", "stage", "wall s",
+                  "cpu min", "cpu mean", "cpu max", "checks", "other", "waiting", "pieces", "memory MiB");
   for (const parallel::StageSummary& s : stages) {
-    text += fmt::format("{:<10} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8} {:>11.0f}\n", s.name,
-                        s.wall_seconds, s.cpu_seconds_min, s.cpu_seconds_mean, s.cpu_seconds_max, s.pieces,
-                        double(s.peak_resident_bytes_max) / (1 << 20));
+    text += fmt::format(
+        "{:<10} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8} {:>11.0f}\n", s.name,
+        s.wall_seconds, s.cpu_seconds_min, s.cpu_seconds_mean, s.cpu_seconds_max, s.check_seconds,
+        s.other_seconds, s.waiting_seconds_mean, s.pieces, double(s.peak_resident_bytes_max) / (1 << 20));
   }
   text += fmt::format("{:<10} {:>9.2f}  on {} rank(s)\n", "total", record.wall_seconds, ranks);
   if (!record.quality) return text;

@@ -111,6 +111,14 @@ NumberedMesh number_part(const Communicator& communicator, const mesh::Distribut
   return part;
 }
 
+void inspect_surface(const Communicator& communicator, const cad::Model& model, const std::string& what,
+                     const NumberedMesh& surface, RunRecord& record) {
+  const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
+  require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
+  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
+  record.patches = table_of_patches(communicator, model, surface.mesh);
+}
+
 FinishedSurface build_surface(const Communicator& communicator, const cad::Model& model,
                               const sizing::SizeField& field, const Case& input, RunRecord& record) {
   surface::SurfaceMesh surface =
@@ -118,10 +126,7 @@ FinishedSurface build_surface(const Communicator& communicator, const cad::Model
   record.surface = surface.report;
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
-  require_valid("the surface mesh",
-                mesh::check_surface_mesh(communicator, finished.mesh, finished.numbering));
-  record.surface_quality = mesh::summarise_quality(communicator, finished.mesh, finished.numbering);
-  record.patches = table_of_patches(communicator, model, finished.mesh);
+  inspect_surface(communicator, model, "the surface mesh", finished, record);
   parallel::log_info(
       fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
                   "average",
@@ -165,14 +170,11 @@ volume::Decomposition decompose(const Communicator& communicator, const Finished
 
 /// The surface follows a volume whose boundary was improved.
 void adopt_boundary(const Communicator& communicator, const cad::Model& model,
-                    const mesh::DistributedMesh& volume, FinishedSurface& surface, RunRecord& record) {
-  const mesh::Numbering volume_numbering = mesh::number_mesh(communicator, volume);
-  surface.mesh = mesh::boundary_mesh(communicator, volume, volume_numbering);
+                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                    FinishedSurface& surface, RunRecord& record) {
+  surface.mesh = mesh::boundary_mesh(communicator, volume, numbering);
   surface.numbering = mesh::number_mesh(communicator, surface.mesh);
-  require_valid("the improved surface mesh",
-                mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
-  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
-  record.patches = table_of_patches(communicator, model, surface.mesh);
+  inspect_surface(communicator, model, "the improved surface mesh", surface, record);
 }
 
 /// Leaves the triangles at fault in a file and throws the failure with the file's name. Collective.
@@ -227,7 +229,6 @@ void write_surfaces(const Communicator& communicator, const NumberedMesh& surfac
 }  // namespace
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
-  const double start = parallel::wall_seconds();
   const std::string& directory = input.output.directory;
 
   const cad::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
@@ -247,21 +248,23 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
     return build_volume(communicator, surface, std::move(decomposition), input, record);
   });
-  const mesh::Numbering numbering = run_stage(record, "improve", ExitCode::volume, [&] {
+  run_stage(record, "improve", ExitCode::volume, [&] {
     cad::PointLocator locator(sized.model);
     improve_volume(communicator, input, {&locator, &surface.field}, volume, record);
+  });
+  const mesh::Numbering numbering = run_stage(record, "inspect", ExitCode::volume, [&] {
+    mesh::Numbering finished = mesh::number_mesh(communicator, volume);
     if (record.improve.changed_triangles > 0)
-      adopt_boundary(communicator, sized.model, volume, surface, record);
-    mesh::Numbering improved = inspect_volume(communicator, volume, &surface.mesh, record);
-    measure_volume(communicator, input, volume, improved, record);
+      adopt_boundary(communicator, sized.model, volume, finished, surface, record);
+    inspect_volume(communicator, input, volume, finished, &surface.mesh, record);
+    const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
     record.conformity = measure_conformity(communicator, volume, surface.field);
-    return improved;
+    return finished;
   });
   run_stage(record, "output", ExitCode::files, [&] {
     io::write_volume(communicator, volume, numbering, directory, "mesh");
     write_surfaces(communicator, surface, directory);
   });
-  record.wall_seconds = parallel::wall_seconds() - start;
   require_quality(input.gate, record);
 }
 

@@ -62,7 +62,7 @@ struct RunRecord {
   std::vector<PatchRow> patches;
   std::vector<RegionRow> regions_filled;
   parallel::StageClock clock;
-  double wall_seconds = 0;  ///< of the run, from the first stage to the end of the last
+  double wall_seconds = 0;  ///< of the program, from its start to the end of the last stage
 };
 
 /// Runs all stages of the case in order, with validity checks between them, and writes mesh.pvtu,

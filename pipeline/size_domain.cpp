@@ -39,21 +39,13 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   return joined;
 }
 
-/// Sizes as asked for, and the field where it was built on the way to them.
-struct ResolvedSizes {
-  sizing::SizingOptions sizes;
-  std::optional<sizing::ChosenSizes> chosen;
-};
+bool leaves_a_choice(const SizingRequest& request) {
+  return !request.minimum || !request.maximum;
+}
 
-ResolvedSizes resolve_sizes(const sizing::ModelSampler& sampler, const SizingRequest& request,
-                            const std::optional<sizing::ChosenSizes>& near) {
-  ResolvedSizes resolved;
-  if (!request.minimum || !request.maximum) {
-    const auto near_sizes = near ? std::optional(near->options) : std::nullopt;
-    resolved.chosen = sizing::choose_sizes(sampler, request.target_tetrahedra, near_sizes);
-    resolved.sizes = resolved.chosen->options;
-  }
-  sizing::SizingOptions& sizes = resolved.sizes;
+/// What was chosen, overruled by what was asked for.
+sizing::SizingOptions overrule(const sizing::SizingOptions& chosen, const SizingRequest& request) {
+  sizing::SizingOptions sizes = chosen;
   if (request.minimum) sizes.minimum = *request.minimum, sizes.feature_minimum = 0;
   if (request.feature_minimum) sizes.feature_minimum = *request.feature_minimum;
   if (request.maximum) sizes.maximum = *request.maximum;
@@ -68,17 +60,21 @@ ResolvedSizes resolve_sizes(const sizing::ModelSampler& sampler, const SizingReq
                     "the model. Remedy: give both",
                     sizes.minimum, sizes.maximum));
   }
-  return resolved;
+  return sizes;
 }
 
-/// The sized domain of a model that stays as it is.
-SizedDomain finish(const cad::Model& model, const sizing::ModelSampler& sampler, ResolvedSizes resolved,
-                   cad::Changes joined) {
-  const sizing::SizingOptions& sizes = resolved.sizes;
-  if (resolved.chosen && resolved.chosen->options == sizes) {
-    return {model, sizes, std::move(resolved.chosen->field), std::move(joined), resolved.chosen->counts};
+/// The sized domain of the sampler's model, which stays as it is.
+SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& request,
+                   const std::optional<sizing::SizingOptions>& near, cad::Changes joined) {
+  if (!leaves_a_choice(request)) {
+    const sizing::SizingOptions sizes = overrule({}, request);
+    return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}};
   }
-  return {model, sizes, sampler.build_field(sizes), std::move(joined), {}};
+  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, request.target_tetrahedra, near);
+  const sizing::SizingOptions sizes = overrule(chosen.options, request);
+  if (sizes == chosen.options)
+    return {sampler.model(), sizes, std::move(chosen.field), std::move(joined), chosen.counts};
+  return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}};
 }
 
 }  // namespace
@@ -87,19 +83,16 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const sizing::ModelSampler sampler(communicator, model, clock, layers);
-  ResolvedSizes resolved = resolve_sizes(sampler, request, {});
-  if (narrow_faces == NarrowFaces::keep) return finish(model, sampler, std::move(resolved), {});
+  if (narrow_faces == NarrowFaces::keep) return finish(sampler, request, {}, {});
+  // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
+  std::optional<sizing::SizingOptions> near;
+  if (leaves_a_choice(request)) near = sizing::estimate_sizes(sampler, request.target_tetrahedra);
+  const double width = overrule(near.value_or(sizing::SizingOptions{}), request).minimum;
   cad::Changes changes;
-  const std::optional<cad::Model> joined =
-      join_narrow_faces(communicator, model, resolved.sizes.minimum, clock, changes);
-  if (!joined) return finish(model, sampler, std::move(resolved), {});
+  const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, changes);
+  if (!joined) return finish(sampler, request, near, {});
   const sizing::ModelSampler of_joined(communicator, *joined, clock, layers);
-  // Without narrow faces, sizes that aim at a number of elements come out a little smaller.
-  if (!request.minimum)
-    resolved = resolve_sizes(of_joined, request, resolved.chosen);
-  else
-    resolved.chosen.reset();
-  return finish(*joined, of_joined, std::move(resolved), std::move(changes));
+  return finish(of_joined, request, near, std::move(changes));
 }
 
 }  // namespace aeroloom::pipeline

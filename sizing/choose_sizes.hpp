@@ -15,6 +15,10 @@ struct ChosenSizes {
   PredictedCounts counts;
 };
 
+/// Sizes that give about the target, by estimates alone (ModelSampler::try_sizes). Collective. Throws as
+/// choose_sizes().
+SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra);
+
 /// Searches the one size from which all bounds follow until the predicted count is within a few percent of
 /// the target. The search starts at `near`, sizes for a model that is almost the same, where there are such.
 /// The sampler must look for gaps as closely as the default options ask, or not at all. Collective. Throws

@@ -74,7 +74,8 @@ void check_options(const SizingOptions& options) {
   require(options.minimum > 0 && std::isfinite(options.minimum), "minimum must be positive", options.minimum);
   require(options.maximum >= options.minimum && std::isfinite(options.maximum),
           "maximum must not be below minimum", options.maximum);
-  require(options.growth > 1 && options.growth <= 10, "growth must lie in (1, 10]", options.growth);
+  require(options.growth > 1 && options.growth <= largest_growth, "growth must lie in (1, 10]",
+          options.growth);
   require(options.curvature_angle > 0 && options.curvature_angle < 180,
           "curvature_angle must lie in (0, 180)", options.curvature_angle);
   require(options.chordal_deviation >= 0, "chordal_deviation must not be negative",

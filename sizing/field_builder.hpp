@@ -11,6 +11,9 @@
 
 namespace aeroloom::sizing {
 
+/// Where neighbours differ by more, sizes are no field any more.
+inline constexpr double largest_growth = 10;
+
 /// Throws std::invalid_argument, naming the option, unless 0 < minimum <= maximum, growth > 1,
 /// 0 < curvature_angle < 180 and surface_maximum is 0 or at least the minimum.
 void check_options(const SizingOptions& options);

@@ -3,11 +3,11 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "parallel/schedule.hpp"
+#include "sizing/curvature_size.hpp"
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -97,6 +97,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
     std::sort(_faces.begin(), _faces.end());
     for (const FaceId f : _faces) {
       _facets.push_back(sampling_facets(model, f, _far_field[f]));
+      _samples.emplace_back(model, f);
       for (const cad::FaceCorner& corner : cad::corners_of(model, f)) {
         if (may_be_sharp(model, corner)) _corners.push_back(corner);
       }
@@ -154,13 +155,18 @@ void ModelSampler::measure_gaps(std::vector<Triangle> walls, std::vector<FaceId>
   });
 }
 
-std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options) const {
+std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) const {
   std::vector<SizeSource> mine;
   const auto keep = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
   };
   for (std::size_t i = 0; i < _faces.size(); ++i) {
-    keep(thin_sources(_root, face_sources(_model, _faces[i], _facets[i], _far_field[_faces[i]], options)));
+    const bool far_field = _far_field[_faces[i]];
+    std::vector<SizeSource> sources = _samples[i].sources(_model, _facets[i], far_field, options);
+    const std::vector<SizeSource> strips =
+        strip_sources(_model, _facets[i], options, largest_size(far_field, options));
+    sources.insert(sources.end(), strips.begin(), strips.end());
+    keep(thin_sources(_root, sources));
   }
   for (cad::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
     keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), options));
@@ -183,17 +189,12 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
   return mine;
 }
 
-SizeField ModelSampler::build_field(const SizingOptions& options) const {
-  return *build_field_within(options, std::numeric_limits<std::int64_t>::max());
-}
-
-std::optional<SizeField> ModelSampler::build_field_within(const SizingOptions& options,
-                                                          std::int64_t most_leaves) const {
+std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, double factor) const {
   check_options(options);
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    mine = sample(options);
+    mine = sample_own(options);
   });
   std::vector<SizeSource> all = _communicator.all_gather_items<SizeSource>(mine);
   parallel::agree(_communicator, [&] {
@@ -202,8 +203,32 @@ std::optional<SizeField> ModelSampler::build_field_within(const SizingOptions& o
   });
   const std::vector<SizeSource> behind_corners = _communicator.all_gather_items<SizeSource>(mine);
   all.insert(all.end(), behind_corners.begin(), behind_corners.end());
+  for (SizeSource& source : all) source.size *= factor;
+  return all;
+}
+
+SizeField ModelSampler::build_field(const SizingOptions& options) const {
+  const std::vector<SizeSource> sources = sample(options, 1);
   ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-  return FieldBuilder(_model.bounds(), options).build_within(all, most_leaves);
+  return FieldBuilder(_model.bounds(), options).build(sources);
+}
+
+std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, double coarser,
+                                             std::int64_t most_leaves) const {
+  const std::vector<SizeSource> sources = sample(options, coarser);
+  SizingOptions coarse = options;
+  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.surface_maximum, &coarse.maximum})
+    *size *= coarser;
+  if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
+  std::optional<SizeField> field;
+  {
+    ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+    field = FieldBuilder(_model.bounds(), coarse).build_within(sources, most_leaves);
+  }
+  if (!field) return std::nullopt;
+  const PredictedCounts counts = predict(*field);
+  return Trial{std::move(*field),
+               {std::pow(coarser, 2) * counts.triangles, std::pow(coarser, 3) * counts.tetrahedra}};
 }
 
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,

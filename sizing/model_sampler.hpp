@@ -3,6 +3,7 @@
 
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
+#include "sizing/face_samples.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/proximity.hpp"
 #include "sizing/triangle_tree.hpp"
@@ -13,6 +14,12 @@
 #include <vector>
 
 namespace aeroloom::sizing {
+
+/// A field and what it predicts.
+struct Trial {
+  SizeField field;
+  PredictedCounts counts;
+};
 
 /// Faces are dealt to ranks by area, edges one by one; each rank triangulates its faces. Whatever comes out
 /// is the same for any number of ranks.
@@ -25,10 +32,12 @@ public:
 
   /// The field under these options. Collective.
   SizeField build_field(const SizingOptions& options) const;
-  /// As above; nothing where the field has clearly more leaves. Collective.
-  std::optional<SizeField> build_field_within(const SizingOptions& options, std::int64_t most_leaves) const;
   /// As predict_counts. Collective.
   PredictedCounts predict(const SizeField& field) const;
+  /// A field whose sizes are all `coarser` times as large as those under these options, and about what these
+  /// would predict: with one, exactly. Nothing where the field has clearly more leaves. Collective.
+  std::optional<Trial> try_sizes(const SizingOptions& options, double coarser,
+                                 std::int64_t most_leaves) const;
 
   const cad::Model& model() const { return _model; }
   /// The box of all faces that are not far field; of everything where there are none.
@@ -37,7 +46,10 @@ public:
 private:
   void gather_triangles();
   void measure_gaps(std::vector<Triangle> walls, std::vector<cad::FaceId> faces);
-  std::vector<SizeSource> sample(const SizingOptions& options) const;
+  /// What the faces and edges of this rank ask for.
+  std::vector<SizeSource> sample_own(const SizingOptions& options) const;
+  /// What all ask for, corners included, sizes multiplied by `factor`. Collective.
+  std::vector<SizeSource> sample(const SizingOptions& options, double factor) const;
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources,
                                          const SizingOptions& options) const;
   double count_triangles(const SizeField& field) const;
@@ -50,8 +62,10 @@ private:
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;
-  std::vector<cad::FaceId> _faces;        // of this rank, ascending
-  std::vector<cad::Facets> _facets;       // of those
+  std::vector<cad::FaceId> _faces;   // of this rank, ascending
+  std::vector<cad::Facets> _facets;  // of those
+  mutable std::vector<FaceSamples>
+      _samples;                           // of those; they grow with what is asked for, answers do not change
   std::vector<cad::FaceCorner> _corners;  // of those, where may_be_sharp
   std::vector<Triangle> _boundary;        // facets of all faces that bound the domain, in the order of faces
   std::vector<Gap> _gaps;                 // seen from the faces of this rank

@@ -8,9 +8,6 @@
 
 namespace aeroloom::sizing {
 
-/// Degrees an element may turn on the far field where curvature_angle asks for less: enough to stay round.
-inline constexpr double far_field_angle = 20;
-
 /// Whether each face bounds the far field: as the model says or, in a model that flags none, a planar face on
 /// the box around everything (the side of a wind tunnel).
 std::vector<bool> find_far_field(const cad::Model& model);
@@ -18,12 +15,7 @@ std::vector<bool> find_far_field(const cad::Model& model);
 /// The triangulation of a face that samples and predictions start from.
 cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field);
 
-/// Sources that cover the face about as densely as the sizes they ask for: curvature, surface_maximum off the
-/// far field, and the width where opposite edges come close. Nowhere the maximum or more. Throws CadError.
-std::vector<SizeSource> face_sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
-                                     bool far_field, const SizingOptions& options);
-
-/// The part of face_sources that comes from narrow strips: between two edges of the face that share no
+/// What narrow strips of a face ask for: between two edges of the face that share no
 /// vertex, elements are at most as large as the distance; down to smallest_feature_size(). Distances from
 /// `reach` on ask for nothing.
 std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,

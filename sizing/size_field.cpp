@@ -78,4 +78,13 @@ SizeField::Leaf SizeField::leaf(std::int64_t i) const {
           unit * (grid_size >> _leaf_levels[i]), std::min(sum / 8, _options.maximum)};
 }
 
+SizeField::Leaf SizeField::ancestor(std::int64_t i, int levels) const {
+  const int level = std::max(0, _leaf_levels[i] - levels);
+  const std::uint32_t edge = grid_size >> level, mask = ~(edge - 1);
+  const GridPoint low = grid_point(_leaf_keys[i]);
+  const double unit = _root_edge / grid_size;
+  return {_low + unit * geometry::Vec3{double(low.x & mask), double(low.y & mask), double(low.z & mask)},
+          unit * edge, 0};
+}
+
 }  // namespace aeroloom::sizing

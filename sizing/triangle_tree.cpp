@@ -12,6 +12,7 @@ using geometry::Box;
 using geometry::Vec3;
 
 constexpr std::int32_t triangles_per_leaf = 4;
+constexpr std::size_t most_candidates = 64;  // that are looked at one by one
 
 Box box_of(const Triangle& t) {
   Box box;
@@ -85,19 +86,34 @@ TriangleTree::TriangleTree(std::vector<Triangle> triangles) {
   for (const Triangle& t : triangles) boxes.push_back(box_of(t));
   _tree = geometry::BoxTree(boxes, triangles_per_leaf);
   _triangles.reserve(triangles.size());
-  for (const std::int32_t t : _tree.order()) _triangles.push_back(triangles[t]);
+  _boxes.reserve(triangles.size());
+  for (const std::int32_t t : _tree.order()) {
+    _triangles.push_back(triangles[t]);
+    _boxes.push_back(boxes[t]);
+  }
+}
+
+bool TriangleTree::overlaps_inside(std::int32_t triangle, Vec3 low, double edge) const {
+  return boxes_overlap_inside(_boxes[triangle], low, edge) &&
+         plane_cuts(_triangles[triangle], low + 0.5 * edge * Vec3{1, 1, 1}, 0.5 * edge);
 }
 
 void TriangleTree::find_overlapping(Vec3 low, double edge, std::vector<std::int32_t>& found) const {
   found.clear();
-  const Vec3 center = low + 0.5 * edge * Vec3{1, 1, 1};
   _tree.search([&](const Box& box) { return boxes_overlap_inside(box, low, edge); },
                [&](std::int32_t t) {
-                 if (boxes_overlap_inside(box_of(_triangles[t]), low, edge) &&
-                     plane_cuts(_triangles[t], center, 0.5 * edge)) {
-                   found.push_back(t);
-                 }
+                 if (overlaps_inside(t, low, edge)) found.push_back(t);
                });
+}
+
+void TriangleTree::keep_overlapping(Vec3 low, double edge, std::span<const std::int32_t> candidates,
+                                    std::vector<std::int32_t>& found) const {
+  // Of many, few are likely to be near.
+  if (candidates.size() > most_candidates) return find_overlapping(low, edge, found);
+  found.clear();
+  for (const std::int32_t t : candidates) {
+    if (overlaps_inside(t, low, edge)) found.push_back(t);
+  }
 }
 
 bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {

@@ -20,6 +20,9 @@ public:
 
   /// The triangles that meet the inside of the cube (a few that only come close included).
   void find_overlapping(geometry::Vec3 low, double edge, std::vector<std::int32_t>& found) const;
+  /// As find_overlapping(), given those of a cube around this one.
+  void keep_overlapping(geometry::Vec3 low, double edge, std::span<const std::int32_t> candidates,
+                        std::vector<std::int32_t>& found) const;
   /// Whether the point lies inside, by the parity of crossings, majority of three directions.
   bool contains(geometry::Vec3 point) const;
   /// The share of a cube that lies on the inner side of that of these triangles which is nearest to its
@@ -42,8 +45,10 @@ private:
   void find_crossings(geometry::Vec3 point, geometry::Vec3 direction, double reach,
                       std::vector<Crossing>& found) const;
   bool odd_crossings(geometry::Vec3 point, geometry::Vec3 direction) const;
+  bool overlaps_inside(std::int32_t triangle, geometry::Vec3 low, double edge) const;
 
-  std::vector<Triangle> _triangles;  // in the order of the tree
+  std::vector<Triangle> _triangles;   // in the order of the tree
+  std::vector<geometry::Box> _boxes;  // of those
   geometry::BoxTree _tree;
 };
 

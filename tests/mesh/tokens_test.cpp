@@ -1,5 +1,6 @@
 #include "mesh/tokens.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@ namespace aeroloom::mesh {
 namespace {
 
 TEST(Tokens, OfSurfacesAscendByVertexCurveAndCut) {
-  const std::int32_t most = (std::int32_t{1} << 31) - 1;
+  const std::int32_t most = std::numeric_limits<std::int32_t>::max();
   EXPECT_LT(vertex_token(3), vertex_token(4));
   EXPECT_LT(vertex_token(most), curve_token(0, 0));
   EXPECT_LT(curve_token(0, most), curve_token(1, 0));

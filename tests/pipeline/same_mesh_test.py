@@ -29,7 +29,8 @@ def main():
     walls = sum(s["wall_seconds"] for s in report["stages"])
     assert abs(walls - report["wall_seconds"]) < 0.02 * report["wall_seconds"] + 0.05, "stages do not add up to the run"
     names = [s["name"] for s in report["stages"]]
-    assert names == ["geometry", "sizing", "surface", "decompose", "volume", "improve", "output"], names
+    assert names == ["start", "geometry", "sizing", "surface", "decompose", "volume", "improve", "inspect",
+                         "output"], names
 
 
 if __name__ == "__main__":

@@ -29,8 +29,7 @@ PredictedCounts predict(const Model& model, const SizingOptions& options,
 
 /// The prediction for one size everywhere, with the constants of the integrals.
 void expect_uniform(const PredictedCounts& counts, double h, double area, double volume, double tolerance) {
-  const double triangles = 4 / std::sqrt(3.0) * area / (h * h),
-               tetrahedra = 6 * std::sqrt(2.0) * volume / (h * h * h);
+  const double triangles = 4 / std::sqrt(3.0) * area / (h * h), tetrahedra = 11.3 * volume / (h * h * h);
   EXPECT_NEAR(counts.triangles, triangles, tolerance * triangles);
   EXPECT_NEAR(counts.tetrahedra, tetrahedra, tolerance * tetrahedra);
 }
@@ -84,7 +83,7 @@ TEST(PredictCounts, IsTheSameForAnyRankCount) {
 TEST(ChooseSizes, HitsTheTarget) {
   const Model model = sphere_in_box(20, 0.5);
   const auto world = parallel::Communicator::world();
-  for (const double target : {3e4, 2e5}) {
+  for (const double target : {6e4, 2e5, 6e5}) {
     parallel::StageClock clock;
     const SizingOptions options = sizing::choose_sizes(world, model, target, clock);
     EXPECT_NEAR(predict(model, options).tetrahedra, target, 0.1 * target);

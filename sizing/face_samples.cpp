@@ -1,0 +1,95 @@
+#include "sizing/face_samples.hpp"
+
+#include "sizing/curvature_size.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Vec2;
+using geometry::Vec3;
+
+/// Distance of a sensible middle of two points from both, at most, over their distance.
+constexpr double farthest_middle = 0.9;
+
+}  // namespace
+
+std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, const cad::Facets& facets,
+                                             bool far_field, const SizingOptions& options) {
+  Demand demand{model, options, radians_per_element(far_field, options), largest_size(far_field, options),
+                {},    {}};
+  if (_planar && demand.largest >= options.maximum) return {};
+  if (_points.empty()) start(model, facets);
+  demand.sizes.resize(_points.size(), -1);
+  for (std::size_t p = 0; p < facets.points.size(); ++p) ask(static_cast<std::int32_t>(p), demand);
+  for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
+    const auto& [a, b, c] = facets.triangles[t];
+    cover(static_cast<std::int32_t>(t), {a, b, c}, 0, demand);
+  }
+  return std::move(demand.sources);
+}
+
+void FaceSamples::start(const cad::Model& model, const cad::Facets& facets) {
+  for (std::size_t p = 0; p < facets.points.size(); ++p) add(model, facets.uv[p], facets.points[p]);
+  _parts.resize(facets.triangles.size());
+}
+
+std::int32_t FaceSamples::add(const cad::Model& model, Vec2 uv, Vec3 point) {
+  double curvature = 0;
+  if (!_planar) {
+    const auto curvatures = model.face_curvatures(_face, uv);
+    if (curvatures.defined) curvature = std::abs(curvatures.largest);
+  }
+  _points.push_back({uv, point, curvature, {-1, -1}});
+  return static_cast<std::int32_t>(_points.size()) - 1;
+}
+
+std::int32_t FaceSamples::add_between(const cad::Model& model, std::int32_t a, std::int32_t b,
+                                      double length) {
+  const Vec3 from = _points[a].point, to = _points[b].point;
+  const Vec2 uv = 0.5 * (_points[a].uv + _points[b].uv);
+  const Vec3 point = model.face_point(_face, uv);
+  if (std::max(distance(point, from), distance(point, to)) < farthest_middle * length)
+    return add(model, uv, point);
+  // The parameters jump or are singular between the two: follow the facet instead.
+  _points.push_back({_points[a].uv, 0.5 * (from + to), 0, {a, b}});
+  return static_cast<std::int32_t>(_points.size()) - 1;
+}
+
+double FaceSamples::size_of(const Point& point, const Demand& demand) const {
+  if (point.like[0] >= 0) return std::min(demand.sizes[point.like[0]], demand.sizes[point.like[1]]);
+  return size_for_curvature(point.curvature, demand.angle, demand.largest, demand.options);
+}
+
+void FaceSamples::ask(std::int32_t point, Demand& demand) const {
+  if (static_cast<std::size_t>(point) >= demand.sizes.size()) demand.sizes.resize(_points.size(), -1);
+  demand.sizes[point] = size_of(_points[point], demand);
+  if (demand.sizes[point] < demand.options.maximum)
+    demand.sources.push_back({_points[point].point, demand.sizes[point]});
+}
+
+void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& corners, int depth,
+                        Demand& demand) {
+  int longest = 0;
+  double length = 0, size = demand.largest;
+  for (int i = 0; i < 3; ++i) {
+    const double edge = distance(_points[corners[i]].point, _points[corners[(i + 1) % 3]].point);
+    if (edge > length) length = edge, longest = i;
+    size = std::min(size, demand.sizes[corners[i]]);
+  }
+  if (length <= spacing * size || depth >= deepest_bisection) return;
+  const std::int32_t a = corners[longest], b = corners[(longest + 1) % 3], c = corners[(longest + 2) % 3];
+  if (_parts[part].middle < 0) {
+    const std::int32_t middle = add_between(demand.model, a, b, length);
+    _parts[part] = {middle, static_cast<std::int32_t>(_parts.size())};
+    _parts.resize(_parts.size() + 2);
+  }
+  const auto [middle, halves] = _parts[part];
+  ask(middle, demand);
+  cover(halves, {a, middle, c}, depth + 1, demand);
+  cover(halves + 1, {middle, b, c}, depth + 1, demand);
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,61 @@
+/// Samples of a face that serve all sizes.
+#pragma once
+
+#include "cad/model/model.hpp"
+#include "sizing/sources.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// Points of a face with the curvature there, found by bisecting the longest edges of its facets as finely as
+/// sizes have asked for so far: what was evaluated once serves all sizes that come later. What comes out does
+/// not depend on what was asked before.
+class FaceSamples {
+public:
+  FaceSamples(const cad::Model& model, cad::FaceId face) : _face(face), _planar(model.is_planar(face)) {}
+
+  /// Sources that cover the face about as densely as the sizes they ask for: curvature, and surface_maximum
+  /// off the far field. Nowhere the maximum or more. Always called with the same facets, those of the face.
+  /// Throws CadError.
+  std::vector<SizeSource> sources(const cad::Model& model, const cad::Facets& facets, bool far_field,
+                                  const SizingOptions& options);
+
+private:
+  /// Where the parameters jump between two points, the one in their middle asks for what they ask for.
+  struct Point {
+    geometry::Vec2 uv;
+    geometry::Vec3 point;
+    double curvature;                  // the largest, absolute; 0 where there is none
+    std::array<std::int32_t, 2> like;  // those two, or -1
+  };
+  /// A facet or a part of one: the point in the middle of its longest edge and the first of its halves; -1:
+  /// unknown.
+  struct Part {
+    std::int32_t middle = -1, halves = -1;
+  };
+  /// What one call asks for.
+  struct Demand {
+    const cad::Model& model;
+    const SizingOptions& options;
+    double angle, largest;
+    std::vector<double> sizes;  // per point, those before `sizes.size()`
+    std::vector<SizeSource> sources;
+  };
+
+  void start(const cad::Model& model, const cad::Facets& facets);
+  std::int32_t add(const cad::Model& model, geometry::Vec2 uv, geometry::Vec3 point);
+  std::int32_t add_between(const cad::Model& model, std::int32_t a, std::int32_t b, double length);
+  double size_of(const Point& point, const Demand& demand) const;
+  void ask(std::int32_t point, Demand& demand) const;
+  void cover(std::int32_t part, const std::array<std::int32_t, 3>& corners, int depth, Demand& demand);
+
+  cad::FaceId _face;
+  bool _planar;
+  std::vector<Point> _points;  // those of the facets first
+  std::vector<Part> _parts;    // the facets first
+};
+
+}  // namespace aeroloom::sizing
