@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whole runs from CAD to mesh beside Gmsh with HXT on the same CAD, as Markdown tables.
 
-usage: whole_run.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N ...] [--repeat N] [--tables DIR] [-- KEY=VALUE ...]
+usage: whole_run.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N ...] [--repeat N] [-- KEY=VALUE ...]
 
 For each case: our program on so many ranks (default 1 and 2), and Gmsh on one thread with the domain that our program
 exports as STEP, sizes from curvature with the angle and the bounds of our sizes, scaled until the numbers of
@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -50,33 +51,31 @@ def verdict(options, folder):
 
 
 def theirs(folder, sizes, factor):
-    """Wall seconds, tetrahedra, least dihedral angle of none (HXT reports its own measures), seconds of 1-D, 2-D, 3-D."""
+    """Wall seconds, tetrahedra, and seconds of 1-D, 2-D, 3-D."""
     curvature = 360 / sizes["curvature_angle"]
     (folder / "domain.geo").write_text(
         'SetFactory("OpenCASCADE");\nMerge "domain.step";\n'
         f"Mesh.MeshSizeFromCurvature = {curvature:.6g};\n"
         f"Mesh.MeshSizeMin = {sizes['minimum'] * factor:.9g};\nMesh.MeshSizeMax = {sizes['maximum'] * factor:.9g};\n"
         f"Mesh.MeshSizeFactor = {factor:.9g};\n")
-    wall, said = call(["gmsh", "domain.geo", "-3", "-algo", "hxt", "-nt", "1", "-format", "msh22", "-bin", "-o",
+    wall, said = call(["gmsh", "domain.geo", "-3", "-algo", "hxt", "-nt", "1", "-format", "msh41", "-bin", "-o",
                        "theirs.msh"], folder)
     steps = [float(t) for t in re.findall(r"Done meshing [123]D \(Wall ([\d.e+-]+)s", said)]
-    # The log counts the triangles first, then all elements.
     with open(folder / "theirs.msh", "rb") as file:
         tetrahedra = count_tetrahedra(file.read())
     return {"wall": wall, "tetrahedra": tetrahedra, "steps": steps}
 
 
 def count_tetrahedra(data):
-    """Of a binary MSH 2.2 file: blocks of (type, count, tags), then one row per element."""
+    """Of a binary MSH 4.1 file: blocks of elements of one type, each under its entity."""
     at = data.index(b"$Elements\n") + len(b"$Elements\n")
-    end = data.index(b"\n", at)
-    left, at, found = int(data[at:end]), end + 1, 0
+    blocks, _, _, _ = struct.unpack_from("<4Q", data, at)
+    at, found = at + 32, 0
     corners = {15: 1, 1: 2, 2: 3, 4: 4}
-    while left > 0:
-        kind, count, tags = (int.from_bytes(data[at + 4 * i:at + 4 * i + 4], "little") for i in range(3))
+    for _ in range(blocks):
+        _, _, kind, count = struct.unpack_from("<3iQ", data, at)
         found += count if kind == 4 else 0
-        at += 12 + count * 4 * (1 + tags + corners[kind])
-        left -= count
+        at += 20 + count * 8 * (1 + corners[kind])
     return found
 
 

@@ -1,6 +1,7 @@
 #include "geometry/half_edges.hpp"
 
 #include "geometry/runs.hpp"
+#include "geometry/sort_by_number.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -21,10 +22,11 @@ std::vector<HalfEdge> match_half_edges(const std::vector<TriangleCorners>& trian
       sides.push_back({std::min(a, b), std::max(a, b), a > b, static_cast<HalfEdge>(3 * t + i)});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.backward, a.half_edge) <
-           std::tie(b.low, b.high, b.backward, b.half_edge);
-  });
+  sort_by_number(
+      sides, [](const Side& side) { return side.low; },
+      [](const Side& a, const Side& b) {
+        return std::tie(a.high, a.backward, a.half_edge) < std::tie(b.high, b.backward, b.half_edge);
+      });
   std::vector<HalfEdge> twins(3 * triangles.size(), -1);
   const auto same = [](const Side& a, const Side& b) { return a.low == b.low && a.high == b.high; };
   for_each_run(std::span<const Side>(sides), same, [&](std::size_t begin, std::size_t end) {

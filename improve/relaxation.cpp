@@ -29,28 +29,47 @@ double squared(Vec3 v) {
 double Relaxation::minus_inverse_ratios(Vec3 p) const {
   double sum = 0;
   for (const Cone& k : _cones) {
-    const double squares = squared(k.b - k.a) + squared(k.c - k.b) + squared(k.a - k.c) + squared(p - k.a) +
-                           squared(p - k.b) + squared(p - k.c);
-    const double each = ratio(geometry::volume6(k.a, k.b, k.c, p), squares);
+    const double squares = k.squares + squared(p - k.a) + squared(p - k.b) + squared(p - k.c);
+    const double each = ratio(dot(k.normal, p - k.a), squares);
     if (!(each > 0)) return -std::numeric_limits<double>::max();
     sum -= 1 / each;
   }
   return sum;
 }
 
-Vec3 Relaxation::ascent(Vec3 p) const {
-  Vec3 sum;
+double Relaxation::minus_inverse_ratios(Vec3 p, Vec3& ascent) const {
+  double sum = 0;
+  ascent = {};
   for (const Cone& k : _cones) {
-    const double squares = squared(k.b - k.a) + squared(k.c - k.b) + squared(k.a - k.c) + squared(p - k.a) +
-                           squared(p - k.b) + squared(p - k.c);
-    const Vec3 normal = cross(k.b - k.a, k.c - k.a);
-    const double volume6 = dot(normal, p - k.a);
-    const double value = ratio(volume6, squares);
-    if (value <= 0) continue;
+    const double squares = k.squares + squared(p - k.a) + squared(p - k.b) + squared(p - k.c);
+    const double volume6 = dot(k.normal, p - k.a);
+    const double each = ratio(volume6, squares);
+    if (!(each > 0)) {
+      sum = -std::numeric_limits<double>::max();
+      continue;
+    }
+    sum -= 1 / each;
     const Vec3 outward = 3 * p - k.a - k.b - k.c;
-    sum += 1 / value * ((2 / (3 * volume6)) * normal - (2 / squares) * outward);
+    ascent += 1 / each * ((2 / (3 * volume6)) * k.normal - (2 / squares) * outward);
   }
   return sum;
+}
+
+bool Relaxation::move(TetMesh& mesh, LocalIndex v, Vec3 to, double least) {
+  _after.clear();
+  for (const LocalIndex t : _star) {
+    std::array<Vec3, 4> p = mesh.points(t);
+    p[mesh.local_vertex(t, v)] = to;
+    _after.push_back(mesh.measure()(p[0], p[1], p[2], p[3]));
+    if (_after.back() < least) return false;
+  }
+  const Vec3 origin = mesh.point(v);
+  mesh.move_vertex(v, to, _star, _after);
+  if (std::all_of(_star.begin(), _star.end(),
+                  [&](LocalIndex t) { return mesh.is_positive(mesh.corners(t)); }))
+    return true;
+  mesh.move_vertex(v, origin, _star);
+  return false;
 }
 
 void Relaxation::score_vertices(const TetMesh& mesh) {
@@ -78,25 +97,21 @@ bool Relaxation::relax(TetMesh& mesh, LocalIndex v) {
   for (const LocalIndex t : _star) {
     const auto& face = mesh::tetrahedron_faces[mesh.local_vertex(t, v)];
     const Corners& c = mesh.corners(t);
-    _cones.push_back({mesh.point(c[face[0]]), mesh.point(c[face[2]]), mesh.point(c[face[1]])});
+    const Vec3 a = mesh.point(c[face[0]]), b = mesh.point(c[face[2]]), d = mesh.point(c[face[1]]);
+    _cones.push_back({a, b, d, cross(b - a, d - a), squared(b - a) + squared(d - b) + squared(a - d)});
     worst = std::min(worst, mesh.quality(t));
-    reach += distance(origin, _cones.back().a) / static_cast<double>(_star.size());
+    reach += distance(origin, a) / static_cast<double>(_star.size());
   }
-  const Vec3 direction = ascent(origin);
+  Vec3 direction;
+  const double before = minus_inverse_ratios(origin, direction);
   const double slope = norm(direction);
   if (!(slope > 0)) return false;
-  const double wanted = minus_inverse_ratios(origin) + least_gain * static_cast<double>(_star.size());
+  const double wanted = before + least_gain * static_cast<double>(_star.size());
   double length = first_step * reach;
   for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
     const Vec3 candidate = origin + (length / slope) * direction;
-    if (minus_inverse_ratios(candidate) < wanted) continue;
-    mesh.move_vertex(v, candidate, _star);
-    const bool holds = std::all_of(_star.begin(), _star.end(), [&](LocalIndex t) {
-      return mesh.quality(t) >= worst && mesh.is_positive(mesh.corners(t));
-    });
-    if (holds) return true;
+    if (minus_inverse_ratios(candidate) >= wanted && move(mesh, v, candidate, worst)) return true;
   }
-  mesh.move_vertex(v, origin, _star);
   return false;
 }
 

@@ -25,16 +25,21 @@ private:
   /// A tetrahedron at the vertex: the face opposite to it, counter-clockwise seen from the vertex.
   struct Cone {
     Vec3 a, b, c;
+    Vec3 normal;     ///< of that face, twice its area long
+    double squares;  ///< of its edges, summed
   };
   void score_vertices(const TetMesh& mesh);
   bool relax(TetMesh& mesh, LocalIndex v);
   /// The sum over the cones with their tips at p, negated; very small where one is not positive.
   double minus_inverse_ratios(Vec3 p) const;
-  /// Its gradient.
-  Vec3 ascent(Vec3 p) const;
+  /// The same with its gradient.
+  double minus_inverse_ratios(Vec3 p, Vec3& ascent) const;
+  /// Moves the vertex of _star unless a quality falls below `least`.
+  bool move(TetMesh& mesh, LocalIndex v, Vec3 to, double least);
 
   std::vector<float> _mean;  ///< mean ratio around each vertex
   std::vector<LocalIndex> _star;
+  std::vector<double> _after;  ///< qualities of _star where it moves to
   std::vector<Cone> _cones;
 };
 

@@ -193,6 +193,12 @@ void TetMesh::move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star
   for (const LocalIndex t : star) _quality[t] = quality_of(_cells[t]);
 }
 
+void TetMesh::move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star,
+                          std::span<const double> qualities) {
+  _piece.set_point(v, p);
+  for (std::size_t i = 0; i < star.size(); ++i) _quality[star[i]] = qualities[i];
+}
+
 LocalIndex TetMesh::add_vertex(Vec3 p, LocalIndex like) {
   const LocalIndex v = vertex_count();
   _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});

@@ -1,5 +1,7 @@
 #include "mesh/tet_faces.hpp"
 
+#include "geometry/sort_by_number.hpp"
+
 #include <algorithm>
 
 namespace aeroloom::mesh {
@@ -16,9 +18,9 @@ std::vector<TetFace> sorted_faces(const std::vector<std::array<LocalIndex, 4>>& 
       std::sort(face.key.begin(), face.key.end());
     }
   }
-  std::sort(faces.begin(), faces.end(), [](const TetFace& a, const TetFace& b) {
-    return a.key != b.key ? a.key < b.key : a.tet < b.tet;
-  });
+  geometry::sort_by_number(
+      faces, [](const TetFace& face) { return face.key[0]; },
+      [](const TetFace& a, const TetFace& b) { return a.key != b.key ? a.key < b.key : a.tet < b.tet; });
   return faces;
 }
 

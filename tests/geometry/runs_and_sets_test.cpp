@@ -1,8 +1,12 @@
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/runs.hpp"
+#include "geometry/sort_by_number.hpp"
 
+#include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -29,6 +33,26 @@ TEST(DisjointSets, AUnionWithinASetChangesNothing) {
   sets.unite(1, 0);
   EXPECT_EQ(sets.root(1), 0);
   EXPECT_EQ(sets.root(2), 2);
+}
+
+TEST(SortByNumber, IsASortByBoth) {
+  struct Item {
+    int number, rest;
+    auto operator<=>(const Item&) const = default;
+  };
+  std::mt19937 random(5);
+  for (const int numbers : {1, 7, 1000, 1000000}) {
+    for (const std::size_t count : {0U, 1U, 500U}) {
+      std::vector<Item> items(count);
+      for (Item& item : items) item = {static_cast<int>(random() % numbers), static_cast<int>(random() % 20)};
+      std::vector<Item> expected = items;
+      std::sort(expected.begin(), expected.end());
+      sort_by_number(
+          items, [](const Item& item) { return item.number; },
+          [](const Item& a, const Item& b) { return a.rest < b.rest; });
+      EXPECT_EQ(items, expected) << numbers << ' ' << count;
+    }
+  }
 }
 
 using Runs = std::vector<std::pair<std::size_t, std::size_t>>;

@@ -81,6 +81,41 @@ TEST(StageClockTest, AddsToTheOpenStageOnly) {
   EXPECT_GT(cost.peak_resident_bytes, 0);
 }
 
+TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
+  const auto world = Communicator::world();
+  StageClock clock;
+  clock.begin("volume");
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    work(0.06);
+    // What lies within is no task, and neither is waiting.
+    const ScopedCpu check(clock, ScopedCpu::As::check);
+    work(0.02);
+    if (world.is_root()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    world.barrier();
+  }
+  work(0.04);
+  clock.end();
+  const StageCost& cost = clock.costs()[0];
+  EXPECT_NEAR(cost.task_cpu_seconds, 0.06, 0.01);
+  EXPECT_NEAR(cost.check_cpu_seconds, 0.02, 0.01);
+  EXPECT_NEAR(cost.other_cpu_seconds, 0.04, 0.01);
+  if (world.is_root())
+    EXPECT_LT(cost.waiting_seconds, cost.wall_seconds - 0.2);
+  else
+    EXPECT_GT(cost.waiting_seconds, 0.01);
+}
+
+TEST(StageClockTest, NotesWhatWasBefore) {
+  StageClock clock;
+  clock.note("start", 2.5);
+  EXPECT_NEAR(clock.costs()[0].wall_seconds, 2.5, 0.01);
+  const double age = process_age_seconds();
+  EXPECT_GT(age, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_NEAR(process_age_seconds() - age, 0.05, 0.03);
+}
+
 TEST(StageClockTest, GoesOnWithAStageBegunAgain) {
   StageClock clock;
   for (const char* name : {"decompose", "surface", "decompose"}) {

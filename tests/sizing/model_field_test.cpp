@@ -1,4 +1,5 @@
 #include "cad/builtin/primitives.hpp"
+#include "sizing/face_samples.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/size_field.hpp"
 
@@ -48,6 +49,30 @@ std::int64_t hash(const SizeField& field) {
 }
 
 }  // namespace
+
+/// What was sampled for other sizes, finer or coarser, does not show.
+TEST(FaceSamples, AnswerAsIfAskedForTheFirstTime) {
+  cad::PrimitiveDimensions dimensions;
+  dimensions.radius = 0.3;
+  dimensions.major_radius = 1;
+  const Model torus = make_primitive_domain(PrimitiveKind::torus, dimensions);
+  const cad::Facets facets = sizing::sampling_facets(torus, 0, false);
+  sizing::FaceSamples kept(torus, 0);
+  int finer = 0;
+  for (const double minimum : {0.05, 0.01, 0.2, 0.02}) {
+    const SizingOptions options{minimum, 2, 300 * minimum, 1.3, 2 * minimum};
+    sizing::FaceSamples fresh(torus, 0);
+    const auto expected = fresh.sources(torus, facets, false, options);
+    const auto sources = kept.sources(torus, facets, false, options);
+    finer += expected.size() > facets.points.size();
+    ASSERT_EQ(sources.size(), expected.size()) << minimum;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      EXPECT_EQ(sources[i].size, expected[i].size);
+      EXPECT_EQ(distance(sources[i].point, expected[i].point), 0);
+    }
+  }
+  EXPECT_EQ(finer, 2) << "sizes below those of the facets";
+}
 
 TEST(ModelField, SphereGetsTheCurvatureAngle) {
   const SizingOptions options{0.001, 2, 12, 1.3, 0};

@@ -96,3 +96,24 @@ TEST(TriangleTree, EmptyContainsNothing) {
   EXPECT_TRUE(found.empty());
   EXPECT_FALSE(tree.contains({0, 0, 0}));
 }
+
+/// Facets of a cube within another are found among those of the other, few or many.
+TEST(TriangleTree, KeepsWhatASmallerCubeMeets) {
+  const TriangleTree tree(sphere(60));
+  std::mt19937_64 random(3);
+  std::vector<std::int32_t> outer, found, kept;
+  int few = 0, many = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double edge = i % 2 == 0 ? 0.1 : 1;
+    const Vec3 low = random_point(random);
+    tree.find_overlapping(low, edge, outer);
+    const Vec3 inner = low + 0.5 * edge * Vec3{double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)};
+    tree.find_overlapping(inner, 0.5 * edge, found);
+    tree.keep_overlapping(inner, 0.5 * edge, outer, kept);
+    EXPECT_EQ(kept, found);
+    few += !outer.empty() && outer.size() < 30;
+    many += outer.size() > 100;
+  }
+  EXPECT_GT(few, 20);
+  EXPECT_GT(many, 20);
+}
