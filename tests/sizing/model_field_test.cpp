@@ -71,7 +71,7 @@ TEST(FaceSamples, AnswerAsIfAskedForTheFirstTime) {
       EXPECT_EQ(distance(sources[i].point, expected[i].point), 0);
     }
   }
-  EXPECT_EQ(finer, 2) << "sizes below those of the facets";
+  EXPECT_EQ(finer, 3) << "all but the coarsest ask for more than the facets have";
 }
 
 TEST(ModelField, SphereGetsTheCurvatureAngle) {
