@@ -137,7 +137,12 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   const auto refill = [&](CavityImprover& improver) {
     const auto improve = [&](const cavities::Cavity& cavity) {
       const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-      return improver.improve(cavity, total);
+      const double begin = parallel::cpu_seconds();
+      auto refilling = improver.improve(cavity, total);
+      clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id),
+                       static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
+                       static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
+      return refilling;
     };
     cavities::refill_cavities(communicator, mesh, wishes, improve, clock);
   };
@@ -188,7 +193,11 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     for (mesh::Piece& piece : mesh.pieces) {
+      const double begin = parallel::cpu_seconds();
+      const auto cells = static_cast<double>(piece.cell_count());
       const ImproveReport mine = improve_piece(piece, options, source);
+      clock.note_task(
+          {"improved piece", piece.id, cells, parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
       total.bad_before += mine.bad_before;
       total.bad_after += mine.bad_after;
       total.smoothed += mine.smoothed;

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <unistd.h>
 
@@ -140,6 +141,12 @@ void StageClock::add_serial_cpu(double seconds) {
 
 void StageClock::add_pieces(std::int64_t count) {
   if (_open) current().pieces += count;
+}
+
+void StageClock::note_task(TaskRecord task) {
+  if (!_open) return;
+  task.stage = current().name;
+  _tasks.push_back(std::move(task));
 }
 
 void StageClock::note_child_memory(std::int64_t bytes) {

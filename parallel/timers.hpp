@@ -20,6 +20,17 @@ std::int64_t peak_resident_bytes();
 /// Resident set of this process now, bytes.
 std::int64_t resident_bytes();
 
+/// One task as it was dealt out and what it cost: what a replay of the run on other numbers of ranks needs.
+struct TaskRecord {
+  std::string kind;         ///< what it makes: "face", "surface piece", "zone", "improved piece", "cavity"
+  std::int64_t number = 0;  ///< of that face, the piece's face, zone, piece or cavity
+  double predicted = 0;     ///< the load it was dealt out by, in the unit of its kind
+  double cpu_seconds = 0;   ///< children included
+  std::int64_t bytes = 0;   ///< of what it made, at rest
+  std::int64_t child_bytes = 0;  ///< peak of the child it ran in; 0 where it ran in the rank
+  std::string stage = {};        ///< filled in by the clock
+};
+
 /// What one stage cost on this rank.
 struct StageCost {
   std::string name;
@@ -60,6 +71,10 @@ public:
   void add_task_cpu(double seconds);
   void add_serial_cpu(double seconds);
   void add_pieces(std::int64_t count);
+  /// Puts a task of the open stage on record; ignored when none is open.
+  void note_task(TaskRecord task);
+  /// Those of this rank, in their order.
+  const std::vector<TaskRecord>& tasks() const { return _tasks; }
   /// Memory of a child that ran for this stage while this process held what it holds now.
   void note_child_memory(std::int64_t bytes);
   const std::vector<StageCost>& costs() const { return _costs; }
@@ -71,6 +86,7 @@ private:
   StageCost& current() { return _costs[_current]; }
 
   std::vector<StageCost> _costs;  // in the order in which they were begun first
+  std::vector<TaskRecord> _tasks;
   std::size_t _current = 0;
   bool _open = false;
   double _wall_start = 0, _cpu_start = 0;

@@ -141,6 +141,7 @@ void declare_stages(KeyTable& root, Case& result) {
   gate.number("mean_mean_ratio", result.gate.mean_mean_ratio, ratio);
   KeyTable& output = root.section("output");
   output.text("directory", result.output.directory);
+  output.flag("tasks", result.output.tasks);
   output.choice<parallel::LogLevel>("log", result.output.log,
                                     {{"quiet", parallel::LogLevel::quiet},
                                      {"normal", parallel::LogLevel::normal},

@@ -34,6 +34,7 @@ enum class NarrowFaces { join, keep };
 struct OutputOptions {
   std::string directory = "out";                        ///< relative to the working directory
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
+  bool tasks = false;                                   ///< writes tasks.csv, a row for each task
 };
 
 struct Case {

@@ -6,6 +6,7 @@
 #include "pipeline/improve_file.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
+#include "pipeline/task_table.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -64,8 +65,10 @@ void write_text(const std::string& file, const std::string& text) {
 void report(const Communicator& communicator, const Case& input, const std::string& improved_file,
             const RunRecord& record, const RunOutcome& outcome) {
   const auto stages = record.clock.summarise(communicator);
+  const std::string tasks = input.output.tasks ? task_table(communicator, record.clock) : "";
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
+    if (input.output.tasks) write_text(input.output.directory + "/tasks.csv", tasks);
     write_text(input.output.directory + "/report.json",
                improved_file.empty()
                    ? report_json(input, record, stages, outcome, communicator.size())

@@ -107,7 +107,9 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
     }
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
+      const double begin = parallel::cpu_seconds();
       seeds.emplace(Key{faces[task], 0, 0}, seed_of_face(_model, faces[task], curves, field, _options));
+      _clock.note_task({"face", faces[task], loads[task], parallel::cpu_seconds() - begin});
     }
     _divide_seconds += parallel::cpu_seconds() - start;
   });
@@ -231,6 +233,7 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
   parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()));
   for (const auto& [key, seed] : seeds) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const double begin = parallel::cpu_seconds();
     try {
       Meshed meshed{mesh_piece(_model, seed, field, _options),
                     {},
@@ -238,6 +241,8 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
                     seed.load,
                     places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
+      _clock.note_task({"surface piece", key[0], seed.load, parallel::cpu_seconds() - begin,
+                        mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
       if (conflicts.complaint.empty()) conflicts.complaint = conflict.what();

@@ -85,6 +85,7 @@ private:
 
   void fill_one(ZoneContent& content) {
     const ScopedCpu task(_clock, ScopedCpu::As::task);
+    const double begin = parallel::cpu_seconds();
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
     ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone));
@@ -96,7 +97,12 @@ private:
         filling.owned.cells.size(), filling.cpu_seconds));
     if (filling.filled) {
       _clock.add_pieces(1);
-      _results[content.zone] = make_pieces(content, filling, _finder);
+      const ZoneResult& made = _results[content.zone] = make_pieces(content, filling, _finder);
+      std::int64_t bytes = 0;
+      for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
+      _clock.note_task({"zone", content.zone, static_cast<double>(predict_tetrahedra(content.problem)),
+                        parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
+                        filling.child_peak_bytes});
       return;
     }
     _failures.push_back({content.zone, filling.failure});

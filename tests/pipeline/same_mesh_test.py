@@ -1,13 +1,33 @@
 #!/usr/bin/env python3
 """The first law: one mesh, whatever the rank count. usage: same_mesh_test.py PROGRAM"""
+import csv
 import filecmp
 import sys
 
 from program import COARSE_TRANSPORT, Run
 
 
+def check_tasks(runs):
+    """The same tasks on any number of ranks, and all of their work on a clock."""
+    tables = {}
+    for ranks, run in runs.items():
+        with open(run.output / "tasks.csv", encoding="utf-8") as file:
+            tables[ranks] = list(csv.DictReader(file))
+        assert {int(row["rank"]) for row in tables[ranks]} == set(range(ranks))
+    tasks = {ranks: sorted((r["stage"], r["kind"], r["number"], r["predicted"]) for r in rows if r["kind"] != "face")
+             for ranks, rows in tables.items()}
+    assert tasks[1] == tasks[2] == tasks[3], "tasks depend on the number of ranks"
+    assert {kind for _, kind, _, _ in tasks[1]} == {"surface piece", "zone", "improved piece", "cavity"}
+    zones = [row for row in tables[1] if row["kind"] == "zone"]
+    assert len(zones) >= runs[1].report["volume"]["zones"]
+    assert all(int(row["bytes"]) > 0 and int(row["child_bytes"]) > 0 for row in zones), zones
+    volume = next(s for s in runs[1].report["stages"] if s["name"] == "volume")
+    filling = sum(float(row["cpu_seconds"]) for row in zones)
+    assert 0.5 * volume["cpu_seconds_mean"] < filling < 1.01 * volume["cpu_seconds_mean"] + 0.1, (filling, volume)
+
+
 def main():
-    pieces = ("volume.piece_tets=30000", "surface.piece_triangles=1500")
+    pieces = ("volume.piece_tets=30000", "surface.piece_triangles=1500", "output.tasks=true")
     runs = {ranks: Run(sys.argv[1], COARSE_TRANSPORT, ranks, pieces) for ranks in (1, 2, 3)}
     for ranks, run in runs.items():
         assert run.code == 0, f"{ranks} ranks ended with {run.code}:\n{run.text}"
@@ -26,6 +46,7 @@ def main():
     for key in ("zones", "blocks", "lattice_points", "steiner_points", "retries", "disagreements"):
         values = [runs[ranks].report["volume"][key] for ranks in runs]
         assert values.count(values[0]) == len(values), f"volume.{key} depends on the number of ranks: {values}"
+    check_tasks(runs)
     walls = sum(s["wall_seconds"] for s in report["stages"])
     assert abs(walls - report["wall_seconds"]) < 0.02 * report["wall_seconds"] + 0.05, "stages do not add up to the run"
     names = [s["name"] for s in report["stages"]]

@@ -1,0 +1,23 @@
+#include "pipeline/task_table.hpp"
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+std::string task_table(const parallel::Communicator& communicator, const parallel::StageClock& clock) {
+  std::string mine;
+  for (const parallel::TaskRecord& task : clock.tasks()) {
+    mine += fmt::format("{},{},{},{},{:.6g},{:.6f},{},{}\n", communicator.rank(), task.stage, task.kind,
+                        task.number, task.predicted, task.cpu_seconds, task.bytes, task.child_bytes);
+  }
+  parallel::Packer packer;
+  packer.text(mine);
+  std::string table;
+  for (const parallel::Bytes& rows : communicator.gather(packer.take())) {
+    if (table.empty()) table = "rank,stage,kind,number,predicted,cpu_seconds,bytes,child_bytes\n";
+    table += parallel::Unpacker(rows).text();
+  }
+  return table;
+}
+
+}  // namespace aeroloom::pipeline
