@@ -56,7 +56,7 @@ def theirs(folder, sizes, factor):
     (folder / "domain.geo").write_text(
         'SetFactory("OpenCASCADE");\nMerge "domain.step";\n'
         f"Mesh.MeshSizeFromCurvature = {curvature:.6g};\n"
-        f"Mesh.MeshSizeMin = {sizes['minimum'] * factor:.9g};\nMesh.MeshSizeMax = {sizes['maximum'] * factor:.9g};\n"
+        f"Mesh.MeshSizeMin = {sizes['minimum']:.9g};\nMesh.MeshSizeMax = {sizes['maximum']:.9g};\n"
         f"Mesh.MeshSizeFactor = {factor:.9g};\n")
     wall, said = call(["gmsh", "domain.geo", "-3", "-algo", "hxt", "-nt", "1", "-format", "msh41", "-bin", "-o",
                        "theirs.msh"], folder)

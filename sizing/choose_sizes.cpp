@@ -29,9 +29,9 @@ constexpr int most_rounds = 8;
 // features do.
 constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
 constexpr double largest_step = 1.4;  // of the logarithm of the size
-// Of the target; sizes for a model that is almost the same are taken over when they come as near as the
-// second.
-constexpr double close_enough = 0.04, near_enough = 0.1;
+// Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
+// over when they come as near as the second; sizes that only tell which faces are narrow, the third.
+constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
 // A field with more leaves than this gives several times the count: it is not built to the end.
 constexpr double leaves_per_tetrahedron = 0.5;
 constexpr std::int64_t least_limit = 100'000;
@@ -172,7 +172,7 @@ void check_target(double target_tetrahedra) {
 SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra) {
   check_target(target_tetrahedra);
   Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra));
-  search.run(first_start(sampler), close_enough);
+  search.run(first_start(sampler), good_enough_to_start);
   return search.options();
 }
 

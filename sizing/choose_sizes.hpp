@@ -15,8 +15,8 @@ struct ChosenSizes {
   PredictedCounts counts;
 };
 
-/// Sizes that give about the target, by estimates alone (ModelSampler::try_sizes). Collective. Throws as
-/// choose_sizes().
+/// Sizes that give the target within some twenty percent, by estimates alone (ModelSampler::try_sizes).
+/// Collective. Throws as choose_sizes().
 SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra);
 
 /// Searches the one size from which all bounds follow until the predicted count is within a few percent of

@@ -79,7 +79,8 @@ def main():
         assert report["quality"]["mean_mean_ratio"] > raw.report["quality"]["mean_mean_ratio"]
         assert report["mesh"]["boundary_triangles"] == raw.report["mesh"]["boundary_triangles"]
         assert abs(report["mesh"]["volume"] / raw.report["mesh"]["volume"] - 1) < 1e-10
-        assert [s["name"] for s in report["stages"]] == ["input", "improve", "output"], report["stages"]
+        assert [s["name"] for s in report["stages"]] == ["start", "input", "improve", "inspect", "output"], \
+            report["stages"]
     assert len(hashes) == 1, f"the mesh depends on the number of ranks: {hashes}"
 
     # Our own files, whose parts repeat the points between them.
