@@ -271,20 +271,16 @@ void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added
 
 Delivery deliver_refilled(const parallel::Communicator& communicator,
                           const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
-                          const std::vector<parallel::Rank>& owner_of_piece, int round,
-                          parallel::StageClock& clock) {
+                          const std::vector<parallel::Rank>& owner_of_piece, int round) {
   Delivery out;
-  {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    std::int64_t first_new = 0;
-    std::size_t next = 0;
-    for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
-      const std::int64_t first = first_new;
-      first_new += outcome.added;
-      if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
-      const OwnedCavity& owned = cavities[next++];
-      if (owned.refilling) pack_refilled(owned, round, first, out);
-    }
+  std::int64_t first_new = 0;
+  std::size_t next = 0;
+  for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
+    const std::int64_t first = first_new;
+    first_new += outcome.added;
+    if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
+    const OwnedCavity& owned = cavities[next++];
+    if (owned.refilling) pack_refilled(owned, round, first, out);
   }
   const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
@@ -352,17 +348,14 @@ bool is_placed_by_last_round(const mesh::DistributedMesh& mesh, mesh::SharedToke
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                             const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock) {
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_token_rounds) throw std::logic_error("refill_cavities: too many rounds");
   CavityWishes settled = wishes;
   spread_wishes(communicator, mesh, settled);
   settle_wishes(communicator, mesh, settled);
-  Contribution mine;
-  {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    for (std::size_t p = 0; p < mesh.pieces.size(); ++p) widen(mesh.pieces[p], settled[p]);
-    mine = collect(mesh, settled, round);
-  }
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) widen(mesh.pieces[p], settled[p]);
+  Contribution mine = collect(mesh, settled, round);
   const CavityTable table = list_cavities(communicator, mine);
   std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);
   std::vector<Outcome> outcomes;
@@ -379,11 +372,8 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
             [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
   const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(communicator, mesh, here);
-  const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round, clock);
-  {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    update_pieces(mesh, mine, outcomes, delivery);
-  }
+  const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
+  update_pieces(mesh, mine, outcomes, delivery);
   CavityRound result;
   result.cavities = static_cast<std::int64_t>(outcomes.size());
   for (const Outcome& outcome : outcomes) result.refilled += outcome.refilled;

@@ -132,11 +132,11 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                     const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
                     parallel::StageClock& clock) {
   if (!options.enabled) return;
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   cavities::CavityWishes wishes;
   const std::int32_t rounds_before = mesh.cavity_rounds;
   const auto refill = [&](CavityImprover& improver) {
     const auto improve = [&](const cavities::Cavity& cavity) {
-      const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
       const double begin = parallel::cpu_seconds();
       auto refilling = improver.improve(cavity, total);
       clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id),

@@ -5,8 +5,6 @@
 #include "mesh/validity.hpp"
 #include "parallel/log.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 namespace aeroloom::pipeline {
@@ -15,32 +13,16 @@ using parallel::Communicator;
 
 namespace {
 
-/// Tetrahedra and volume by region; sums run in the order of the pieces.
-std::vector<RegionRow> table_of_regions(const Communicator& communicator,
-                                        const mesh::DistributedMesh& volume) {
-  struct PieceRow {
-    mesh::PieceId piece;
-    std::int32_t region;
-    std::int64_t tetrahedra;
-    double volume;
-  };
-  std::vector<PieceRow> mine;
-  for (const mesh::Piece& piece : volume.pieces) {
-    double sum = 0;
-    for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
-      const mesh::LocalIndex* v = piece.cell(c);
-      sum +=
-          geometry::volume6(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])) / 6;
-    }
-    mine.push_back({piece.id, piece.region, piece.cell_count(), sum});
-  }
-  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+/// Tetrahedra by region, with the volumes that the check has found.
+std::vector<RegionRow> table_of_regions(const Communicator& communicator, const mesh::DistributedMesh& volume,
+                                        const std::vector<double>& volumes) {
   std::vector<RegionRow> regions;
-  for (const std::string& name : volume.regions) regions.push_back({.name = name});
-  for (const PieceRow& row : rows) {
-    regions[row.region].tetrahedra += row.tetrahedra;
-    regions[row.region].volume += row.volume;
+  for (std::size_t r = 0; r < volume.regions.size(); ++r) {
+    std::int64_t count = 0;
+    for (const mesh::Piece& piece : volume.pieces) {
+      if (static_cast<std::size_t>(piece.region) == r) count += piece.cell_count();
+    }
+    regions.push_back({volume.regions[r], volumes[r], communicator.sum(count)});
   }
   return regions;
 }
@@ -57,8 +39,8 @@ void list_pinned(const Communicator& communicator, const Case& input, const mesh
 
 }  // namespace
 
-double require_valid(const std::string& what, const mesh::ValidityReport& report) {
-  if (report.valid()) return report.volume;
+void require_valid(const std::string& what, const mesh::ValidityReport& report) {
+  if (report.valid()) return;
   std::string text = what + " is not valid:";
   for (const std::string& violation : report.violations) text += "\n  " + violation;
   throw std::runtime_error(text);
@@ -78,10 +60,11 @@ void inspect_volume(const Communicator& communicator, const Case& input, const m
                     const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
                     RunRecord& record) {
   const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
-  record.mesh_volume =
-      require_valid("the volume mesh", mesh::check_volume_mesh(communicator, volume, numbering, surface));
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(communicator, volume, numbering, surface);
+  require_valid("the volume mesh", validity);
+  record.mesh_volume = validity.volume;
   record.counts = mesh::count_mesh(communicator, volume, numbering);
-  record.regions_filled = table_of_regions(communicator, volume);
+  record.regions_filled = table_of_regions(communicator, volume, validity.region_volumes);
   record.quality = mesh::summarise_quality(communicator, volume, numbering);
   if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, record);
   record.hash = mesh::hash_mesh(communicator, volume, numbering);

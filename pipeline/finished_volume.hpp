@@ -9,9 +9,9 @@
 
 namespace aeroloom::pipeline {
 
-/// The volume of a mesh that was checked. An invalid one is a defect of the program that must not reach a
-/// file unnoticed: throws std::runtime_error with the violations.
-double require_valid(const std::string& what, const mesh::ValidityReport& report);
+/// An invalid mesh is a defect of the program that must not reach a file unnoticed: throws std::runtime_error
+/// with the violations.
+void require_valid(const std::string& what, const mesh::ValidityReport& report);
 
 /// Improves the mesh as the case asks for. Collective.
 void improve_volume(const parallel::Communicator& communicator, const Case& input,

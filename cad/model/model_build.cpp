@@ -66,10 +66,11 @@ private:
 Box body_box(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>& tags, const Box& all) {
   const bool any = std::any_of(tags.begin(), tags.end(), [](const FaceTag& tag) { return tag.far_field; });
   if (!any) return all;
-  Box box;
+  std::vector<TopoDS_Shape> body;
   for (int i = 1; i <= faces.Extent(); ++i) {
-    if (!tags[i - 1].far_field) box.add(tight_box(faces(i)));
+    if (!tags[i - 1].far_field) body.push_back(faces(i));
   }
+  const Box box = tight_box(body);
   return box.empty() ? all : box;
 }
 

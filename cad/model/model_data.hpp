@@ -36,6 +36,8 @@ Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags);
 
 /// The box of a shape's geometry, without the gaps that tolerances and control points would add.
 Box tight_box(const TopoDS_Shape& shape);
+/// Of all of them: faces within the box of the others' edges and faces cost next to nothing.
+Box tight_box(const std::vector<TopoDS_Shape>& shapes);
 
 /// The parameter curve of one passage along an edge.
 struct UseCurve {

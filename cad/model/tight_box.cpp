@@ -149,10 +149,16 @@ private:
 }  // namespace
 
 Box tight_box(const TopoDS_Shape& shape) {
+  return tight_box(std::vector<TopoDS_Shape>{shape});
+}
+
+Box tight_box(const std::vector<TopoDS_Shape>& shapes) {
   Box box;
   TopTools_IndexedMapOfShape edges, faces;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  for (const TopoDS_Shape& shape : shapes) {
+    TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  }
   for (int i = 1; i <= edges.Extent(); ++i) add_edge(box, TopoDS::Edge(edges(i)));
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD));

@@ -238,8 +238,7 @@ std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
 
 SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
                Changes& changes) {
-  Box box;
-  for (int i = 1; i <= faces.Extent(); ++i) box.add(tight_box(faces(i)));
+  const Box box = tight_box(std::vector<TopoDS_Shape>(faces.cbegin(), faces.cend()));
   const double diagonal = box.diagonal();
   std::vector<Sewn> tried;
   for (const double share : shares) {
