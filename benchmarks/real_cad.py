@@ -20,7 +20,7 @@ import time
 SUFFIXES = {".step", ".stp", ".igs", ".iges", ".brep"}
 LIMIT_S = 300
 
-Row = collections.namedtuple("Row", "name kind code valid tetrahedra angle seconds memory hash message")
+Row = collections.namedtuple("Row", "name kind code valid tetrahedra angle seconds sizing memory hash message")
 
 
 def read_classes(folder):
@@ -67,21 +67,22 @@ def mesh_file(options, file, kind):
         case.write_text(json.dumps({"geometry": {"file": str(file)}, "output": {"directory": str(output)}}))
         code, log, seconds = launch(options, case)
         if code != 0:
-            return Row(file.name, kind, code, None, 0, 0, seconds, 0, "", first_error(log))
+            return Row(file.name, kind, code, None, 0, 0, seconds, 0, 0, "", first_error(log))
         report = json.loads((output / "report.json").read_text())
         valid = judge(options, output)
         if options.keep:
             shutil.copytree(output, pathlib.Path(options.keep) / file.name, dirs_exist_ok=True)
         memory = max(stage["peak_rss_bytes_sum"] for stage in report["stages"])
+        sizing = next(stage["wall_seconds"] for stage in report["stages"] if stage["name"] == "sizing")
         return Row(file.name, kind, code, valid, report["mesh"]["tetrahedra"],
-                   report["quality"]["min_dihedral_deg"], seconds, memory, report["mesh"]["hash"], "")
+                   report["quality"]["min_dihedral_deg"], seconds, sizing, memory, report["mesh"]["hash"], "")
 
 
 def print_row(row, folder):
     outcome = {True: "valid", None: "mesh", False: "INVALID"}[row.valid] if row.code == 0 else f"exit {row.code}"
-    figures = f"{row.tetrahedra:,} | {row.angle:.1f} | {row.seconds:.0f} | {row.memory / 2**30:.1f} | {row.hash[:8]}"
+    figures = f"{row.tetrahedra:,} | {row.angle:.1f} | {row.seconds:.0f} | {row.sizing:.1f} | {row.memory / 2**30:.1f} | {row.hash[:8]}"
     if row.code != 0:
-        figures = f"| | {row.seconds:.0f} | |"
+        figures = f"| | {row.seconds:.0f} | | |"
     message = row.message.replace(f"{folder}/", "").replace("|", "/")
     print(f"| {row.name} | {row.kind} | {outcome} | {figures} | {message} |", flush=True)
 
@@ -104,8 +105,8 @@ def main():
     files = sorted(f for f in options.folder.rglob("*") if f.suffix.lower() in SUFFIXES)
     files = [f for f in files if not options.only or f.name in options.only]
     files = [f for f in files if classes.get(f.name, options.classes[0]) in options.classes]
-    print("| file | class | outcome | tetrahedra | smallest dihedral | s | GiB | hash | message |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| file | class | outcome | tetrahedra | smallest dihedral | s | of it sizing | GiB | hash | message |")
+    print("|---" * 10 + "|")
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         work = [pool.submit(mesh_file, options, f, classes.get(f.name, "")) for f in files]
         rows = [None] * len(work)
