@@ -22,6 +22,7 @@ import sys
 import tempfile
 import time
 
+LIMIT_S = 180
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -29,7 +30,7 @@ def call(command, folder):
     start = time.monotonic()
     done = subprocess.run([str(c) for c in command], cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+        raise RuntimeError(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
     return time.monotonic() - start, done.stdout
 
 
@@ -51,15 +52,19 @@ def verdict(options, folder):
 
 
 def theirs(folder, sizes, factor):
-    """Wall seconds, tetrahedra, and seconds of 1-D, 2-D, 3-D."""
+    """Wall seconds, tetrahedra, and seconds of 1-D, 2-D, 3-D; None where Gmsh fails or takes more than LIMIT_S."""
     curvature = 360 / sizes["curvature_angle"]
     (folder / "domain.geo").write_text(
         'SetFactory("OpenCASCADE");\nMerge "domain.step";\n'
         f"Mesh.MeshSizeFromCurvature = {curvature:.6g};\n"
         f"Mesh.MeshSizeMin = {sizes['minimum']:.9g};\nMesh.MeshSizeMax = {sizes['maximum']:.9g};\n"
         f"Mesh.MeshSizeFactor = {factor:.9g};\n")
-    wall, said = call(["gmsh", "domain.geo", "-3", "-algo", "hxt", "-nt", "1", "-format", "msh41", "-bin", "-o",
-                       "theirs.msh"], folder)
+    command = ["timeout", LIMIT_S, "gmsh", "domain.geo", "-3", "-algo", "hxt", "-nt", "1", "-format", "msh41", "-bin", "-o",
+               "theirs.msh"]
+    try:
+        wall, said = call(command, folder)
+    except RuntimeError:
+        return None
     steps = [float(t) for t in re.findall(r"Done meshing [123]D \(Wall ([\d.e+-]+)s", said)]
     with open(folder / "theirs.msh", "rb") as file:
         tetrahedra = count_tetrahedra(file.read())
@@ -84,6 +89,8 @@ def matched(folder, sizes, wanted):
     factor, tried = 1.0, []
     for _ in range(8):
         found = theirs(folder, sizes, factor)
+        if found is None:
+            return None
         error = found["tetrahedra"] / wanted
         tried.append((abs(error - 1), factor))
         if 0.85 < error < 1.18:
@@ -95,18 +102,18 @@ def matched(folder, sizes, wanted):
 def run_case(options, case):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        runs, gmsh = {}, None
+        runs, gmsh, factor = {}, None, 0
         call([options.program, "export-cad", os.path.abspath(case), folder / "domain.step"], ROOT)
         for _ in range(options.repeat):
             for ranks in options.ranks:
                 wall, report = ours(options, case, ranks, folder / f"ours{ranks}")
                 if ranks not in runs or wall < runs[ranks][0]:
                     runs[ranks] = (wall, report)
-            if gmsh is None:
-                first = runs[options.ranks[0]][1]
+            first = runs[options.ranks[0]][1]
+            if factor == 0:
                 factor = matched(folder, first["sizing"], first["mesh"]["tetrahedra"])
-            found = theirs(folder, first["sizing"], factor)
-            if gmsh is None or found["wall"] < gmsh["wall"]:
+            found = theirs(folder, first["sizing"], factor) if factor else None
+            if found and (gmsh is None or found["wall"] < gmsh["wall"]):
                 gmsh = found
         valid = {ranks: verdict(options, folder / f"ours{ranks}") for ranks in options.ranks}
     return runs, gmsh, valid
@@ -129,15 +136,19 @@ def main():
           "valid |\n" + "|---" * 10 + "|")
     for case in options.cases:
         runs, gmsh, valid = run_case(options, case)
-        label, theirs_each = pathlib.Path(case).stem, gmsh["wall"] / gmsh["tetrahedra"]
+        label = pathlib.Path(case).stem
+        theirs_each = gmsh["wall"] / gmsh["tetrahedra"] if gmsh else None
         alone = runs[options.ranks[0]][0]
         for ranks, (wall, report) in runs.items():
             count = report["mesh"]["tetrahedra"]
             print(f"| {label} | Aeroloom | {ranks} | {count:,} | {wall:.1f} | {1e6 * wall / count:.1f} | "
-                  f"{wall / count / theirs_each:.2f} | {wall / alone:.2f} | {report['quality']['min_dihedral_deg']:.1f} | "
+                  f"{f'{wall / count / theirs_each:.2f}' if gmsh else '–'} | {wall / alone:.2f} | {report['quality']['min_dihedral_deg']:.1f} | "
                   f"{valid[ranks]} |", flush=True)
             stages.append(f"| {label} | Aeroloom, {ranks} | " + ", ".join(
                 f"{s['name']} {s['wall_seconds']:.2f} ({s['cpu_seconds_max']:.2f})" for s in report["stages"]) + " |")
+        if not gmsh:
+            print(f"| {label} | Gmsh HXT | 1 | none, or not within {LIMIT_S} s | – | – | – | – | – | – |", flush=True)
+            continue
         print(f"| {label} | Gmsh HXT | 1 | {gmsh['tetrahedra']:,} | {gmsh['wall']:.1f} | {1e6 * theirs_each:.1f} | 1 | – | "
               "– | – |", flush=True)
         stages.append(f"| {label} | Gmsh HXT | " + ", ".join(
