@@ -42,7 +42,7 @@ double coarsening(double target_tetrahedra) {
   return target_tetrahedra < 300'000 ? 1 : 4;
 }
 
-/// What a field predicts over what a coarser one does (median of twelve models; all but one within 12 %).
+/// What a field predicts over what a coarser one does (median of eleven models, nine within 12 %).
 double usual_bias(double coarser) {
   return coarser > 1 ? 0.52 : 1;
 }

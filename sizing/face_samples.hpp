@@ -41,7 +41,7 @@ private:
     const cad::Model& model;
     const SizingOptions& options;
     double angle, largest;
-    std::vector<double> sizes;  // per point, those before `sizes.size()`
+    std::vector<double> sizes;  // per point; -1 where none is asked for yet
     std::vector<SizeSource> sources;
   };
 

@@ -102,7 +102,7 @@ SizeField build_size_field(const parallel::Communicator& communicator, const cad
                            const SizingOptions& options, parallel::StageClock& clock);
 
 /// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface, and of 11.3/h^3,
-/// what meshes of aircraft have on average, over the volume.
+/// what meshes of ten models have on average, over the volume.
 struct PredictedCounts {
   double triangles = 0, tetrahedra = 0;
 };
