@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace aeroloom::cavities {
 namespace {
@@ -177,12 +178,9 @@ struct OwnedCavity {
 std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
                                   Contribution& mine) {
   const auto owner = [&](const auto& item) { return table.owner(item.cavity); };
-  auto tets = mesh::deliver(communicator, mine.tets, owner);
-  auto vertices = mesh::deliver(communicator, mine.vertices, owner);
-  auto triangles = mesh::deliver(communicator, mine.triangles, owner);
-  mine.tets = {};
-  mine.vertices = {};
-  mine.triangles = {};
+  auto tets = mesh::deliver(communicator, std::move(mine.tets), owner);
+  auto vertices = mesh::deliver(communicator, std::move(mine.vertices), owner);
+  auto triangles = mesh::deliver(communicator, std::move(mine.triangles), owner);
   // Within a piece the order of tetrahedra is kept: it depends on no rank.
   std::stable_sort(tets.begin(), tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.piece < b.piece;
@@ -284,9 +282,9 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
   }
   const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
-  in.tets = mesh::deliver(communicator, out.tets, taker_rank);
-  in.vertices = mesh::deliver(communicator, out.vertices, taker_rank);
-  in.triangles = mesh::deliver(communicator, out.triangles, taker_rank);
+  in.tets = mesh::deliver(communicator, std::move(out.tets), taker_rank);
+  in.vertices = mesh::deliver(communicator, std::move(out.vertices), taker_rank);
+  in.triangles = mesh::deliver(communicator, std::move(out.triangles), taker_rank);
   std::stable_sort(in.tets.begin(), in.tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.piece != b.piece ? a.piece < b.piece : a.cavity < b.cavity;
   });

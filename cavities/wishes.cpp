@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aeroloom::cavities {
 namespace {
@@ -23,8 +24,8 @@ struct Voice {
 /// Brings together what the pieces say of each shared vertex: `mine` has a row per piece and vertex. The
 /// answers are for the vertices on this rank that anyone has a wish or a refusal for, by token: the highest
 /// wish, and whether anyone refused.
-std::vector<Voice> agree_on(const parallel::Communicator& communicator, const std::vector<Voice>& mine) {
-  std::vector<Voice> met = mesh::deliver(communicator, mine, [&](const Voice& v) {
+std::vector<Voice> agree_on(const parallel::Communicator& communicator, std::vector<Voice> mine) {
+  std::vector<Voice> met = mesh::deliver(communicator, std::move(mine), [&](const Voice& v) {
     return mesh::meeting_rank(mesh::mix_in(0, v.token), communicator.size());
   });
   std::sort(met.begin(), met.end(), [](const Voice& a, const Voice& b) {
@@ -44,7 +45,8 @@ std::vector<Voice> agree_on(const parallel::Communicator& communicator, const st
       answers.push_back(all);
     }
   }
-  std::vector<Voice> arrived = mesh::deliver(communicator, answers, [](const Voice& v) { return v.rank; });
+  std::vector<Voice> arrived =
+      mesh::deliver(communicator, std::move(answers), [](const Voice& v) { return v.rank; });
   std::sort(arrived.begin(), arrived.end(), [](const Voice& a, const Voice& b) { return a.token < b.token; });
   return arrived;
 }
@@ -94,7 +96,7 @@ void spread_wishes(const parallel::Communicator& communicator, const mesh::Distr
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
       voices.push_back({piece.shared_tokens[s], wishes[p][piece.shared_vertices[s]], communicator.rank(), 0});
   }
-  const std::vector<Voice> answers = agree_on(communicator, voices);
+  const std::vector<Voice> answers = agree_on(communicator, std::move(voices));
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const mesh::Piece& piece = mesh.pieces[p];
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
@@ -119,7 +121,7 @@ void settle_wishes(const parallel::Communicator& communicator, const mesh::Distr
       if (contested[v]) wishes[p][v] = no_cavity;
     }
   }
-  const std::vector<Voice> answers = agree_on(communicator, voices);
+  const std::vector<Voice> answers = agree_on(communicator, std::move(voices));
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const mesh::Piece& piece = mesh.pieces[p];
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {

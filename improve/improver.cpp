@@ -162,6 +162,7 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
     refill(for_bad);
   }
   if (mesh.cavity_rounds == rounds_before) return;
+  mesh::forget_unshared(communicator, mesh);  // cavities name more than borders
   const TetQuality measure(options.target_angle);
   total.bad_after = 0;
   total.min_angle_after = 180;

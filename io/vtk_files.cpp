@@ -1,6 +1,7 @@
 #include "io/vtk_files.hpp"
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -9,7 +10,7 @@
 #include <vtkDataObject.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
-#include <vtkTypeInt64Array.h>
+#include <vtkTypeInt32Array.h>
 
 namespace aeroloom::io {
 
@@ -48,7 +49,8 @@ std::string array_lines(std::span<const IndexArray> arrays) {
 
 }  // namespace
 
-void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path) {
+void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path,
+                    Compression compression) {
   vtkNew<vtkCallbackCommand> silence;
   silence->SetCallback(keep_silent);
   writer.AddObserver("ErrorEvent", silence);
@@ -57,9 +59,18 @@ void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string
   writer.SetDataModeToAppended();
   writer.EncodeAppendedDataOff();
   writer.SetHeaderTypeToUInt64();
-  writer.SetIdTypeToInt64();
   writer.SetByteOrderToLittleEndian();
-  writer.SetCompressorTypeToNone();
+  switch (compression) {
+    case Compression::none:
+      writer.SetCompressorTypeToNone();
+      break;
+    case Compression::lz4:
+      writer.SetCompressorTypeToLZ4();
+      break;
+    case Compression::zlib:
+      writer.SetCompressorTypeToZLib();
+      break;
+  }
   errno = 0;
   if (writer.Write() == 1 && writer.GetErrorCode() == vtkErrorCode::NoError) return;
   const int reason = errno != 0 ? errno : EIO;
@@ -73,20 +84,20 @@ vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates) {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(static_cast<vtkIdType>(coordinates.size() / 3));
-  for (std::size_t i = 0; i < coordinates.size() / 3; ++i) {
-    points->SetPoint(static_cast<vtkIdType>(i), coordinates.data() + 3 * i);
-  }
+  if (!coordinates.empty())
+    std::memcpy(points->GetVoidPointer(0), coordinates.data(), coordinates.size() * sizeof(double));
   return points;
 }
 
-vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int64_t>& connectivity,
+vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int32_t>& connectivity,
                                          int vertices_per_cell) {
   const auto cell_count = static_cast<vtkIdType>(connectivity.size()) / vertices_per_cell;
-  vtkNew<vtkTypeInt64Array> offsets;
+  vtkNew<vtkTypeInt32Array> offsets;
   offsets->SetNumberOfValues(cell_count + 1);
-  for (vtkIdType i = 0; i <= cell_count; ++i) offsets->SetValue(i, i * vertices_per_cell);
+  for (vtkIdType i = 0; i <= cell_count; ++i)
+    offsets->SetValue(i, static_cast<std::int32_t>(i * vertices_per_cell));
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, make_array<vtkTypeInt64Array>("connectivity", connectivity));
+  cells->SetData(offsets, make_array<vtkTypeInt32Array>("connectivity", connectivity));
   return cells;
 }
 

@@ -1,9 +1,13 @@
 /// What the writers of VTK files share. Included by io/vtk_*.cpp alone: it names VTK.
 #pragma once
 
+#include "io/vtk_writer.hpp"
+
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -13,13 +17,15 @@
 
 namespace aeroloom::io {
 
-/// Sets binary appended form, 64-bit, and writes. Throws std::filesystem::filesystem_error with the reason.
-void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path);
+/// Sets binary appended form, the file's own offsets in 64 bits, and writes. Throws
+/// std::filesystem::filesystem_error with the reason.
+void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path,
+                    Compression compression);
 
 /// Points in double precision from (n,3) coordinates.
 vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates);
-/// Cells of equal size from their connectivity.
-vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int64_t>& connectivity,
+/// Cells of equal size from their connectivity; its offsets, too, must fit 32 bits.
+vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int32_t>& connectivity,
                                          int vertices_per_cell);
 
 /// A VTK array of type `Array` that holds a copy of `values`.
@@ -28,7 +34,12 @@ vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& va
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), values[i]);
+  if constexpr (std::is_arithmetic_v<Value>) {
+    static_assert(sizeof(Value) == sizeof(typename Array::ValueType));
+    if (!values.empty()) std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(Value));
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), values[i]);
+  }
   return array;
 }
 

@@ -7,8 +7,9 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
-#include <span>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -43,91 +44,142 @@ void prepare_folder(const PartFiles& files) {
   for (const fs::path& file : stale) fs::remove(file);
 }
 
-/// The part of each piece, from one row per piece: a function of the mesh alone.
-std::vector<std::size_t> assign_parts(const parallel::Communicator& communicator,
-                                      const mesh::DistributedMesh& mesh, mesh::GlobalIndex cells_per_part) {
-  std::vector<mesh::GlobalIndex> counts;
-  for (const mesh::Piece& piece : mesh.pieces) counts.push_back(piece.cell_count());
-  std::vector<std::size_t> part_of;
-  std::size_t part = 0;
+/// What becomes of a part, the same on every rank.
+struct PartPlan {
+  parallel::Rank writer = 0;
+  std::size_t turn = 0;  ///< the parts of this writer before it
+};
+
+/// Which piece goes into which part, a function of the mesh alone, and who writes that.
+struct Plan {
+  std::vector<std::size_t> part_of;  ///< per piece
+  std::vector<PartPlan> parts;
+  std::size_t turns = 0;  ///< that the busiest writer takes
+};
+
+Plan plan_parts(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                mesh::GlobalIndex cells_per_part) {
+  struct Row {
+    mesh::GlobalIndex cells;
+    std::int64_t rank;
+  };
+  std::vector<Row> mine;
+  for (const mesh::Piece& piece : mesh.pieces) mine.push_back({piece.cell_count(), communicator.rank()});
+  Plan plan;
+  std::vector<std::size_t> turns(communicator.size(), 0);
+  std::map<parallel::Rank, mesh::GlobalIndex> held;  // of the part that is being filled
   mesh::GlobalIndex filled = 0;
-  for (const mesh::GlobalIndex count : mesh::gather_by_piece(communicator, mesh, counts)) {
-    part_of.push_back(part);
-    filled += count;
-    if (filled >= cells_per_part) ++part, filled = 0;
+  const auto close = [&] {
+    const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const parallel::Rank writer = std::max_element(held.begin(), held.end(), less)->first;
+    plan.parts.push_back({writer, turns[writer]++});
+    plan.turns = std::max(plan.turns, turns[writer]);
+    held.clear();
+    filled = 0;
+  };
+  for (const Row& row : mesh::gather_by_piece(communicator, mesh, mine)) {
+    plan.part_of.push_back(plan.parts.size());
+    held[static_cast<parallel::Rank>(row.rank)] += row.cells;
+    filled += row.cells;
+    if (filled >= cells_per_part) close();
   }
-  return part_of;
+  if (!held.empty()) close();
+  return plan;
 }
 
-void pack(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& numbers, parallel::Packer& packer) {
-  packer.value(piece.id);
-  packer.value(piece.region);
-  packer.array(piece.coordinates);
-  packer.array(numbers);
-  packer.array(piece.cells);
-  const bool labelled = piece.kind == mesh::CellKind::triangle;
-  packer.array(labelled ? piece.triangle_face : std::vector<std::int32_t>{});
-  packer.array(labelled ? piece.triangle_patch : std::vector<std::int32_t>{});
+PartPiece view(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& numbers) {
+  PartPiece result{piece.id, piece.region, piece.coordinates, numbers, piece.cells, {}, {}};
+  if (piece.kind != mesh::CellKind::triangle) return result;
+  result.triangle_face = piece.triangle_face;
+  result.triangle_patch = piece.triangle_patch;
+  return result;
 }
 
-PartPiece unpack(parallel::Unpacker& unpacker) {
-  PartPiece piece;
-  piece.id = unpacker.value<mesh::PieceId>();
-  piece.region = unpacker.value<std::int32_t>();
-  piece.coordinates = unpacker.array<double>();
-  piece.numbers = unpacker.array<mesh::GlobalIndex>();
-  piece.cells = unpacker.array<mesh::LocalIndex>();
-  piece.triangle_face = unpacker.array<std::int32_t>();
-  piece.triangle_patch = unpacker.array<std::int32_t>();
-  return piece;
-}
+/// A piece that came from another rank.
+struct BroughtPiece {
+  mesh::Piece piece;
+  std::vector<mesh::GlobalIndex> numbers;
+};
 
-/// Brings the pieces of parts [first, first + ranks) to their writers: at most one part per rank.
-std::vector<PartPiece> bring_parts(const parallel::Communicator& communicator,
-                                   const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                   const std::vector<std::size_t>& part_of, std::size_t first) {
+/// Brings the pieces that the parts of this turn lack on their writers.
+std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicator,
+                                       const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                       const Plan& plan, std::size_t turn) {
   std::map<parallel::Rank, parallel::Packer> packers;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    const std::size_t part = part_of[mesh.pieces[i].id];
-    if (part < first || part >= first + communicator.size()) continue;
-    pack(mesh.pieces[i], numbering.vertices[i], packers[static_cast<parallel::Rank>(part - first)]);
+    const PartPlan& part = plan.parts[plan.part_of[mesh.pieces[i].id]];
+    if (part.turn != turn || part.writer == communicator.rank()) continue;
+    packers[part.writer].array(mesh::pack_piece(mesh.pieces[i]));
+    packers[part.writer].array(numbering.vertices[i]);
   }
   std::vector<parallel::Parcel> parcels;
   parcels.reserve(packers.size());
   for (auto& [rank, packer] : packers) parcels.push_back({rank, packer.take()});
-  std::vector<PartPiece> pieces;
+  std::vector<BroughtPiece> pieces;
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) pieces.push_back(unpack(unpacker));
+    while (!unpacker.at_end()) {
+      BroughtPiece& brought = pieces.emplace_back();
+      brought.piece = mesh::unpack_piece(unpacker.array<std::byte>());
+      brought.numbers = unpacker.array<mesh::GlobalIndex>();
+    }
     parcel.content = {};
   }
+  return pieces;
+}
+
+/// The pieces of this rank's part of a turn, ascending; none where its parts are written.
+std::vector<PartPiece> pieces_of_turn(const parallel::Communicator& communicator,
+                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                      const Plan& plan, std::size_t turn,
+                                      const std::vector<BroughtPiece>& brought) {
+  std::vector<PartPiece> pieces;
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const PartPlan& part = plan.parts[plan.part_of[mesh.pieces[i].id]];
+    if (part.turn == turn && part.writer == communicator.rank())
+      pieces.push_back(view(mesh.pieces[i], numbering.vertices[i]));
+  }
+  for (const BroughtPiece& other : brought) pieces.push_back(view(other.piece, other.numbers));
   std::sort(pieces.begin(), pieces.end(), [](const PartPiece& a, const PartPiece& b) { return a.id < b.id; });
   return pieces;
 }
 
 }  // namespace
 
+// Only what several pieces know can come twice; numbers tell.
 PartPoints merge_points(const std::vector<PartPiece>& pieces) {
   PartPoints points;
+  std::size_t count = 0;
   for (const PartPiece& piece : pieces) {
     auto& places = points.of_piece.emplace_back(piece.numbers.size(), -1);
     for (const mesh::LocalIndex v : piece.cells) places[v] = 0;
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      if (places[v] == 0) points.numbers.push_back(piece.numbers[v]);
-    }
+    count += static_cast<std::size_t>(std::count(places.begin(), places.end(), 0));
   }
-  std::sort(points.numbers.begin(), points.numbers.end());
-  points.numbers.erase(std::unique(points.numbers.begin(), points.numbers.end()), points.numbers.end());
-  points.coordinates.resize(3 * points.numbers.size());
+  if (count > static_cast<std::size_t>(std::numeric_limits<PartIndex>::max()))
+    throw std::length_error("a file would get more points than its 32-bit numbers can count");
+  points.numbers.reserve(count);
+  points.coordinates.reserve(3 * count);
+  std::vector<std::pair<mesh::GlobalIndex, PartIndex>> known;  // of the pieces before, by number
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    auto& places = points.of_piece[p];
+    const PartPiece& piece = pieces[p];
+    std::vector<PartIndex>& places = points.of_piece[p];
+    const std::size_t known_before = known.size();
     for (std::size_t v = 0; v < places.size(); ++v) {
-      if (places[v] != 0) continue;
-      const auto found = std::lower_bound(points.numbers.begin(), points.numbers.end(), pieces[p].numbers[v]);
-      places[v] = found - points.numbers.begin();
-      std::copy_n(pieces[p].coordinates.begin() + static_cast<std::ptrdiff_t>(3 * v), 3,
-                  points.coordinates.begin() + 3 * places[v]);
+      if (places[v] < 0) continue;
+      const std::pair<mesh::GlobalIndex, PartIndex> wanted{piece.numbers[v], 0};
+      const auto end = known.begin() + static_cast<std::ptrdiff_t>(known_before);
+      const auto at = std::lower_bound(known.begin(), end, wanted);
+      if (at != end && at->first == wanted.first) {
+        places[v] = at->second;
+        continue;
+      }
+      places[v] = static_cast<PartIndex>(points.numbers.size());
+      points.numbers.push_back(piece.numbers[v]);
+      points.coordinates.insert(points.coordinates.end(), piece.coordinates.begin() + 3 * v,
+                                piece.coordinates.begin() + 3 * v + 3);
+      if (p + 1 < pieces.size()) known.push_back({piece.numbers[v], places[v]});
     }
+    if (p + 1 < pieces.size()) std::sort(known.begin(), known.end());
   }
   return points;
 }
@@ -148,15 +200,15 @@ std::size_t write_parts(const parallel::Communicator& communicator, const mesh::
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) prepare_folder(files);
   });
-  const std::vector<std::size_t> part_of = assign_parts(communicator, mesh, cells_per_part);
-  const std::size_t parts = part_of.empty() ? 0 : part_of.back() + 1;
-  for (std::size_t first = 0; first < parts; first += communicator.size()) {
-    const std::vector<PartPiece> pieces = bring_parts(communicator, mesh, numbering, part_of, first);
+  const Plan plan = plan_parts(communicator, mesh, cells_per_part);
+  for (std::size_t turn = 0; turn < plan.turns; ++turn) {
+    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mesh, numbering, plan, turn);
+    const std::vector<PartPiece> pieces = pieces_of_turn(communicator, mesh, numbering, plan, turn, brought);
     parallel::agree(communicator, [&] {
-      if (!pieces.empty()) write(pieces, files.part_path(part_of[pieces[0].id]));
+      if (!pieces.empty()) write(pieces, files.part_path(plan.part_of[pieces[0].id]));
     });
   }
-  return parts;
+  return plan.parts.size();
 }
 
 void write_index(const parallel::Communicator& communicator, const std::string& path,

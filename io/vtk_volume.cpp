@@ -23,25 +23,26 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Enough for a viewer to load parts side by side, little enough for the memory of one rank.
-constexpr mesh::GlobalIndex tetrahedra_per_part = 1'000'000;
+/// Enough for a viewer to load parts side by side, few enough that all ranks write.
+constexpr mesh::GlobalIndex tetrahedra_per_part = 200'000;
 
 /// The cell arrays of a part.
 struct TetrahedronArrays {
-  std::vector<std::int64_t> connectivity;
+  std::vector<PartIndex> connectivity;
   std::vector<std::int32_t> piece, region;
   std::vector<float> mean_ratio, min_dihedral;
+
+  void reserve(std::size_t cells) {
+    connectivity.reserve(4 * cells);
+    piece.reserve(cells), region.reserve(cells);
+    mean_ratio.reserve(cells), min_dihedral.reserve(cells);
+  }
 };
 
-void append_cells(const PartPiece& piece, const std::vector<std::int64_t>& places,
-                  TetrahedronArrays& arrays) {
-  const auto point = [&](mesh::LocalIndex v) {
-    const double* p = piece.coordinates.data() + 3 * static_cast<std::size_t>(v);
-    return geometry::Vec3{p[0], p[1], p[2]};
-  };
+void append_cells(const PartPiece& piece, const std::vector<PartIndex>& places, TetrahedronArrays& arrays) {
   for (std::size_t c = 0; c + 3 < piece.cells.size(); c += 4) {
     const mesh::LocalIndex* v = piece.cells.data() + c;
-    const geometry::Vec3 p[4] = {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
+    const geometry::Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
     for (int k = 0; k < 4; ++k) arrays.connectivity.push_back(places[v[k]]);
     arrays.piece.push_back(piece.id);
     arrays.region.push_back(piece.region);
@@ -51,9 +52,12 @@ void append_cells(const PartPiece& piece, const std::vector<std::int64_t>& place
 }
 
 void write_part(const std::vector<PartPiece>& pieces, const std::vector<std::string>& regions,
-                const std::string& path) {
+                const std::string& path, Compression compression) {
   const PartPoints points = merge_points(pieces);
   TetrahedronArrays arrays;
+  std::size_t cells = 0;
+  for (const PartPiece& piece : pieces) cells += piece.cells.size() / 4;
+  arrays.reserve(cells);
   for (std::size_t i = 0; i < pieces.size(); ++i) append_cells(pieces[i], points.of_piece[i], arrays);
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(make_points(points.coordinates));
@@ -65,19 +69,19 @@ void write_part(const std::vector<PartPiece>& pieces, const std::vector<std::str
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("min_dihedral", arrays.min_dihedral));
   grid->GetFieldData()->AddArray(make_array<vtkStringArray>("region_names", regions));
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  write_vtk_file(*writer, *grid, path);
+  write_vtk_file(*writer, *grid, path, compression);
 }
 
 }  // namespace
 
 void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                  const mesh::Numbering& numbering, const std::string& directory, const std::string& name) {
+                  const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
+                  Compression compression) {
   const PartFiles files{directory, name, "pvtu", "vtu"};
-  const std::size_t parts =
-      write_parts(communicator, mesh, numbering, tetrahedra_per_part, files,
-                  [&mesh](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_part(pieces, mesh.regions, path);
-                  });
+  const std::size_t parts = write_parts(communicator, mesh, numbering, tetrahedra_per_part, files,
+                                        [&](const std::vector<PartPiece>& pieces, const std::string& path) {
+                                          write_part(pieces, mesh.regions, path, compression);
+                                        });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {
       {"Int32", "piece"}, {"Int32", "region"}, {"Float32", "mean_ratio"}, {"Float32", "min_dihedral"}};

@@ -14,33 +14,53 @@ namespace aeroloom::mesh {
 
 /// Sends each item to the rank `destination(item)` and returns what arrives here, in ascending rank of the
 /// sender and in the sender's order. Whoever uses the result sorts it by content: the order depends on ranks.
-/// Collective.
+/// What stays on its rank is not packed, and what was sent is freed before the result is put together: move
+/// the items in where they are not needed any more. Collective.
 template <parallel::Transferable T, class Destination>
-std::vector<T> deliver(const parallel::Communicator& communicator, const std::vector<T>& items,
+std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T> items,
                        const Destination& destination) {
+  if (communicator.size() == 1) return items;
+  const parallel::Rank here = communicator.rank();
   std::vector<std::size_t> counts(communicator.size(), 0);
   for (const T& item : items) ++counts[destination(item)];
   std::vector<parallel::Parcel> parcels;
   std::vector<std::size_t> parcel_of(counts.size(), 0);
   for (std::size_t rank = 0; rank < counts.size(); ++rank) {
-    if (counts[rank] == 0) continue;
+    if (counts[rank] == 0 || static_cast<parallel::Rank>(rank) == here) continue;
     parcel_of[rank] = parcels.size();
     parcels.push_back({static_cast<parallel::Rank>(rank), parallel::Bytes(counts[rank] * sizeof(T))});
   }
   std::fill(counts.begin(), counts.end(), 0);
+  std::size_t kept = 0;
   for (const T& item : items) {
     const auto rank = destination(item);
-    std::memcpy(parcels[parcel_of[rank]].content.data() + counts[rank]++ * sizeof(T), &item, sizeof(T));
+    if (rank == here) {
+      items[kept++] = item;
+    } else {
+      std::memcpy(parcels[parcel_of[rank]].content.data() + counts[rank]++ * sizeof(T), &item, sizeof(T));
+    }
   }
-  const std::vector<parallel::Parcel> arrived = communicator.exchange(std::move(parcels));
-  std::size_t bytes = 0;
-  for (const auto& parcel : arrived) bytes += parcel.content.size();
-  std::vector<T> result(bytes / sizeof(T));
+  items.resize(kept);
+  items.shrink_to_fit();
+  std::vector<parallel::Parcel> arrived = communicator.exchange(std::move(parcels));
+  std::size_t total = kept;
+  for (const auto& parcel : arrived) total += parcel.content.size() / sizeof(T);
+  std::vector<T> result(total);
   auto* to = reinterpret_cast<std::byte*>(result.data());
-  for (const auto& parcel : arrived) {
-    std::memcpy(to, parcel.content.data(), parcel.content.size());
-    to += parcel.content.size();
-  }
+  const auto append = [&to](const void* from, std::size_t bytes) {
+    if (bytes > 0) std::memcpy(to, from, bytes);
+    to += bytes;
+  };
+  std::size_t next = 0;
+  const auto append_parcels = [&](parallel::Rank end) {
+    for (; next < arrived.size() && arrived[next].rank < end; ++next) {
+      append(arrived[next].content.data(), arrived[next].content.size());
+      arrived[next].content = {};
+    }
+  };
+  append_parcels(here);
+  append(items.data(), kept * sizeof(T));
+  append_parcels(communicator.size());
   return result;
 }
 

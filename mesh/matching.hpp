@@ -149,12 +149,11 @@ private:
   }
 
   void match_across(const parallel::Communicator& communicator) {
-    std::vector<Across> met = deliver(communicator, _across, [&](const Across& item) {
+    std::vector<Across> met = deliver(communicator, std::exchange(_across, {}), [&](const Across& item) {
       std::uint64_t mixed = 0;
       for (const GlobalIndex v : item.vertices) mixed = mix_in(mixed, static_cast<std::uint64_t>(v));
       return meeting_rank(mixed, communicator.size());
     });
-    _across = {};
     std::sort(met.begin(), met.end());
     for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
       _members.clear();

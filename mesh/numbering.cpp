@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ std::vector<Sharer> meet_by_token(const parallel::Communicator& communicator, co
       mine.push_back({piece.shared_tokens[i], {p.x, p.y, p.z}, piece.id, v, communicator.rank()});
     }
   }
-  auto met = deliver(communicator, mine, [&](const Sharer& sharer) {
+  auto met = deliver(communicator, std::move(mine), [&](const Sharer& sharer) {
     return meeting_rank(mix_bits(sharer.token), communicator.size());
   });
   std::sort(met.begin(), met.end(), [](const Sharer& a, const Sharer& b) {
@@ -109,7 +110,7 @@ std::vector<Link> announce_sharers(const parallel::Communicator& communicator,
     links.push_back({owner.piece, owner.vertex, other.piece, other.vertex, owner_rank, other_rank});
     links.push_back({other.piece, other.vertex, owner.piece, owner.vertex, other_rank, owner_rank});
   }
-  return deliver(communicator, links, [](const Link& link) { return link.to; });
+  return deliver(communicator, std::move(links), [](const Link& link) { return link.to; });
 }
 
 /// Position in mesh.pieces of a piece that lives here.
@@ -173,7 +174,7 @@ void spread_numbers(const parallel::Communicator& communicator, const Distribute
     const GlobalIndex number = numbering.vertices[position_of(mesh, link.piece)][link.vertex];
     outgoing.push_back({{number, link.other_piece, link.other_vertex}, link.other_rank});
   }
-  const auto arrived = deliver(communicator, outgoing,
+  const auto arrived = deliver(communicator, std::move(outgoing),
                                [](const Addressed& item) { return static_cast<parallel::Rank>(item.to); });
   for (const auto& [number, to] : arrived) {
     numbering.vertices[position_of(mesh, number.piece)][number.vertex] = number.number;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -134,7 +135,7 @@ std::vector<std::int64_t> sum_bins(const parallel::Communicator& communicator,
   for (std::size_t b = 0; b < bins.size(); ++b) {
     if (bins[b] != 0) filled.push_back({static_cast<std::int64_t>(b), bins[b]});
   }
-  const auto arrived = deliver(communicator, filled, [per_rank](const Entry& entry) {
+  const auto arrived = deliver(communicator, std::move(filled), [per_rank](const Entry& entry) {
     return static_cast<parallel::Rank>(entry.bin / per_rank);
   });
   std::vector<std::int64_t> stretch(per_rank, 0);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::mesh {
 
@@ -20,7 +21,7 @@ std::int64_t forget_unshared(const parallel::Communicator& communicator, Distrib
     for (const SharedToken token : piece.shared_tokens)
       mine.push_back({token, piece.id, communicator.rank()});
   }
-  std::vector<Share> met = deliver(communicator, mine, [&](const Share& s) {
+  std::vector<Share> met = deliver(communicator, std::move(mine), [&](const Share& s) {
     return meeting_rank(mix_in(0, s.token), communicator.size());
   });
   std::sort(met.begin(), met.end(), [](const Share& a, const Share& b) {
@@ -31,7 +32,7 @@ std::int64_t forget_unshared(const parallel::Communicator& communicator, Distrib
   geometry::for_each_run(std::span<const Share>(met), same, [&](std::size_t first, std::size_t last) {
     if (last == first + 1) alone.push_back(met[first]);
   });
-  std::vector<Share> arrived = deliver(communicator, alone, [](const Share& s) { return s.rank; });
+  std::vector<Share> arrived = deliver(communicator, std::move(alone), [](const Share& s) { return s.rank; });
   const auto less = [](const Share& a, const Share& b) {
     return std::tie(a.piece, a.token) < std::tie(b.piece, b.token);
   };

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -67,9 +68,9 @@ void check_same_triangles(const parallel::Communicator& communicator, const Dist
   std::vector<BitTriangle> triangles;
   add_triangles(mesh, Side::mesh, triangles);
   add_triangles(surface, Side::surface, triangles);
-  std::vector<BitTriangle> met = deliver(communicator, triangles, [&](const BitTriangle& triangle) {
-    return meeting_rank(mixed_bits(triangle), communicator.size());
-  });
+  std::vector<BitTriangle> met = deliver(
+      communicator, std::move(triangles),
+      [&](const BitTriangle& triangle) { return meeting_rank(mixed_bits(triangle), communicator.size()); });
   const auto place = [](const BitTriangle& t) { return std::tuple(t.side, t.piece, t.triangle); };
   std::sort(met.begin(), met.end(), [&](const BitTriangle& a, const BitTriangle& b) {
     return a.corners != b.corners ? a.corners < b.corners : place(a) < place(b);

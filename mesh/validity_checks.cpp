@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::mesh {
 
@@ -181,7 +182,7 @@ void check_shared_coordinates(const parallel::Communicator& communicator, const 
       mine.push_back({numbering.vertices[i][v], {p.x, p.y, p.z}, piece.id, v});
     }
   }
-  std::vector<SharedPoint> met = deliver(communicator, mine, [&](const SharedPoint& point) {
+  std::vector<SharedPoint> met = deliver(communicator, std::move(mine), [&](const SharedPoint& point) {
     return meeting_rank(mix_bits(static_cast<std::uint64_t>(point.number)), communicator.size());
   });
   std::sort(met.begin(), met.end(), [](const SharedPoint& a, const SharedPoint& b) {

@@ -150,7 +150,8 @@ std::vector<Parcel> announce(const CommunicatorHandle& handle, int tag, const st
     if (arrived) {
       std::uint64_t size = 0;
       check(MPI_Mrecv(&size, 1, MPI_UINT64_T, &message, MPI_STATUS_IGNORE), "receiving an announcement");
-      incoming.push_back({status.MPI_SOURCE, Bytes(size)});
+      // What a rank sends itself is handed over, not received.
+      incoming.push_back({status.MPI_SOURCE, Bytes(status.MPI_SOURCE == handle.rank ? 0 : size)});
     }
     if (in_barrier) {
       check(MPI_Test(&barrier, &complete, MPI_STATUS_IGNORE), "testing the barrier");

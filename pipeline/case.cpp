@@ -142,6 +142,9 @@ void declare_stages(KeyTable& root, Case& result) {
   KeyTable& output = root.section("output");
   output.text("directory", result.output.directory);
   output.flag("tasks", result.output.tasks);
+  output.choice<io::Compression>(
+      "compression", result.output.compression,
+      {{"none", io::Compression::none}, {"lz4", io::Compression::lz4}, {"zlib", io::Compression::zlib}});
   output.choice<parallel::LogLevel>("log", result.output.log,
                                     {{"quiet", parallel::LogLevel::quiet},
                                      {"normal", parallel::LogLevel::normal},

@@ -3,6 +3,7 @@
 
 #include "cad/domain/domain.hpp"
 #include "improve/improve_options.hpp"
+#include "io/vtk_writer.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
 #include "pipeline/quality_gate.hpp"
@@ -35,6 +36,7 @@ struct OutputOptions {
   std::string directory = "out";                        ///< relative to the working directory
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
   bool tasks = false;                                   ///< writes tasks.csv, a row for each task
+  io::Compression compression = io::Compression::none;  ///< of mesh.pvtu and its like
 };
 
 struct Case {

@@ -25,9 +25,10 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   });
   run_stage(record, "output", ExitCode::files, [&] {
     const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
-    io::write_volume(communicator, volume, numbering, input.output.directory, "mesh");
+    io::write_volume(communicator, volume, numbering, input.output.directory, "mesh",
+                     input.output.compression);
     io::write_surface(communicator, surface, mesh::number_mesh(communicator, surface), input.output.directory,
-                      "surface");
+                      "surface", input.output.compression);
   });
   require_quality(input.gate, record);
 }

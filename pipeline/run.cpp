@@ -215,22 +215,22 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
 
 /// The boundary of the domain, and what lies between regions in a file of its own.
 void write_surfaces(const Communicator& communicator, const NumberedMesh& surface,
-                    const std::string& directory) {
+                    const OutputOptions& output) {
   if (!surface.mesh.has_inner_faces()) {
-    io::write_surface(communicator, surface.mesh, surface.numbering, directory, "surface");
+    io::write_surface(communicator, surface.mesh, surface.numbering, output.directory, "surface",
+                      output.compression);
     return;
   }
   for (const bool inner : {false, true}) {
     const NumberedMesh part = number_part(communicator, surface.mesh, inner);
-    io::write_surface(communicator, part.mesh, part.numbering, directory, inner ? "interfaces" : "surface");
+    io::write_surface(communicator, part.mesh, part.numbering, output.directory,
+                      inner ? "interfaces" : "surface", output.compression);
   }
 }
 
 }  // namespace
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
-  const std::string& directory = input.output.directory;
-
   const cad::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
     cad::Model model =
         load_domain(communicator, input.domain, record.clock, record.domain, input.geometry_sabotage);
@@ -262,8 +262,9 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     return finished;
   });
   run_stage(record, "output", ExitCode::files, [&] {
-    io::write_volume(communicator, volume, numbering, directory, "mesh");
-    write_surfaces(communicator, surface, directory);
+    io::write_volume(communicator, volume, numbering, input.output.directory, "mesh",
+                     input.output.compression);
+    write_surfaces(communicator, surface, input.output);
   });
   require_quality(input.gate, record);
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace aeroloom::volume {
 
@@ -38,12 +39,11 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
     outgoing.push_back({face.vertices, face.zone, face.region, communicator.rank(),
                         static_cast<std::int32_t>(2 * i) + face.odd});
   }
-  std::vector<WireFace> met = mesh::deliver(communicator, outgoing, [&](const WireFace& face) {
+  std::vector<WireFace> met = mesh::deliver(communicator, std::move(outgoing), [&](const WireFace& face) {
     std::uint64_t mixed = 0;
     for (const mesh::SharedToken v : face.vertices) mixed = mesh::mix_in(mixed, v);
     return mesh::meeting_rank(mixed, communicator.size());
   });
-  outgoing = {};
   std::vector<WireFace> alone;
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
@@ -58,7 +58,8 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
     });
   }
   std::vector<ZoneFace> mine;
-  for (const WireFace& face : mesh::deliver(communicator, alone, [](const WireFace& f) { return f.rank; }))
+  for (const WireFace& face :
+       mesh::deliver(communicator, std::move(alone), [](const WireFace& f) { return f.rank; }))
     mine.push_back(faces[face.index / 2]);
   std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);
   std::sort(all.begin(), all.end(), [](const ZoneFace& a, const ZoneFace& b) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace aeroloom::volume {
 
@@ -207,7 +208,8 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
     }
   }
   std::vector<SurfaceTriangle> result;
-  for (const Parcel& parcel : mesh::deliver(communicator, outgoing, [](const Parcel& q) { return q.rank; }))
+  for (const Parcel& parcel :
+       mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; }))
     result.push_back(parcel.triangle);
   std::sort(result.begin(), result.end(),
             [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });

@@ -3,6 +3,7 @@
 #include "mesh/delivery.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace aeroloom::volume {
 
@@ -200,11 +201,9 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
   }
   // Ranks have ascending blocks, so what arrives is by number within each zone.
   std::vector<PointOfZone> points =
-      mesh::deliver(communicator, answer.points, [](const PointOfZone& p) { return p.rank; });
-  answer.points = {};
-  std::vector<TriangleOfZone> triangles =
-      mesh::deliver(communicator, answer.triangles, [](const TriangleOfZone& t) { return t.rank; });
-  answer.triangles = {};
+      mesh::deliver(communicator, std::move(answer.points), [](const PointOfZone& p) { return p.rank; });
+  std::vector<TriangleOfZone> triangles = mesh::deliver(communicator, std::move(answer.triangles),
+                                                        [](const TriangleOfZone& t) { return t.rank; });
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   sort_by_zone(points);
   std::sort(triangles.begin(), triangles.end(), [](const TriangleOfZone& a, const TriangleOfZone& b) {

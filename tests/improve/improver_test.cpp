@@ -1,5 +1,6 @@
 #include "improve/improver.hpp"
 
+#include "mesh/sharing.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,7 @@ TEST(ImproveMesh, DependsOnThePiecesAlone) {
     parallel::StageClock clock;
     report = improve_mesh(communicator, mesh, {}, clock);
     expect_valid(communicator, mesh);
+    EXPECT_EQ(mesh::forget_unshared(communicator, mesh), 0) << "vertices of one piece listed as shared";
     return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
   };
   ImproveReport spread, alone, again;

@@ -12,6 +12,8 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -83,6 +85,11 @@ TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
   auto& angle = *grid.GetCellData()->GetArray("min_dihedral");
   EXPECT_EQ(ids.GetDataTypeSize(), 8);
   EXPECT_EQ(grid.GetPoints()->GetDataType(), VTK_DOUBLE);
+  if (world.is_root()) {
+    const std::string part = contents(folder / "here")["mesh/mesh_000000.vtu"];
+    EXPECT_NE(part.find("type=\"Int32\" Name=\"connectivity\""), std::string::npos);
+    EXPECT_EQ(part.find("compressor"), std::string::npos);
+  }
   const auto mesh = mesh::examples::cube(Communicator::self(), 4, 7);
   const auto numbering = mesh::number_mesh(Communicator::self(), mesh);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -105,6 +112,43 @@ TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
       EXPECT_EQ(angle.GetTuple1(cell),
                 static_cast<float>(mesh::dihedral_range(p(0), p(1), p(2), p(3)).smallest));
     }
+  }
+}
+
+TEST_F(VtkWriter, CompressedFilesAreSmallerAndHoldTheSame) {
+  const auto mesh = mesh::examples::cube(world, 12, 3);
+  const auto numbering = mesh::number_mesh(world, mesh);
+  struct Read {
+    std::uintmax_t bytes = 0;
+    std::vector<double> coordinates, ids, connectivity;
+  };
+  const auto read = [&](Compression compression, const char* name) {
+    write_volume(world, mesh, numbering, folder, name, compression);
+    vtkNew<vtkXMLPUnstructuredGridReader> reader;
+    reader->SetFileName((folder / (std::string(name) + ".pvtu")).c_str());
+    reader->Update();
+    vtkUnstructuredGrid& grid = *reader->GetOutput();
+    Read result;
+    for (const auto& [file, bytes] : contents(folder / name)) result.bytes += bytes.size();
+    for (vtkIdType i = 0; i < grid.GetNumberOfPoints(); ++i) {
+      for (int axis = 0; axis < 3; ++axis) result.coordinates.push_back(grid.GetPoint(i)[axis]);
+      result.ids.push_back(grid.GetPointData()->GetArray("global_id")->GetTuple1(i));
+    }
+    for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
+      vtkNew<vtkIdList> corners;
+      grid.GetCellPoints(c, corners);
+      for (int k = 0; k < 4; ++k) result.connectivity.push_back(static_cast<double>(corners->GetId(k)));
+    }
+    return result;
+  };
+  const Read plain = read(Compression::none, "plain");
+  ASSERT_EQ(plain.connectivity.size(), 4U * 6 * 12 * 12 * 12);
+  for (const auto& [compression, name] : {std::pair(Compression::lz4, "lz4"), {Compression::zlib, "zlib"}}) {
+    const Read packed = read(compression, name);
+    EXPECT_LT(4 * packed.bytes, 3 * plain.bytes) << name;
+    EXPECT_EQ(packed.coordinates, plain.coordinates) << name;
+    EXPECT_EQ(packed.ids, plain.ids) << name;
+    EXPECT_EQ(packed.connectivity, plain.connectivity) << name;
   }
 }
 
@@ -178,7 +222,7 @@ mesh::Piece sheet(mesh::PieceId id, int n) {
 }
 
 TEST_F(VtkWriter, CutsALargeSurfaceIntoPartsThatReadTogether) {
-  constexpr int n = 230, pieces = 5;  // 105,800 triangles each: parts of two pieces, the last of one
+  constexpr int n = 115, pieces = 5;  // 26,450 triangles each: parts of two pieces, the last of one
   mesh::DistributedMesh surface;
   surface.kind = mesh::CellKind::triangle;
   surface.piece_count = pieces;

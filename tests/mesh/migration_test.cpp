@@ -1,3 +1,4 @@
+#include "mesh/delivery.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
@@ -27,6 +28,30 @@ TEST(Piece, RefusesBytesThatAreTooFewOrTooMany) {
   EXPECT_THROW(unpack_piece(bytes), std::logic_error);
   bytes.resize(bytes.size() - 2);
   EXPECT_THROW(unpack_piece(bytes), std::logic_error);
+}
+
+TEST(Delivery, ArrivesByAscendingSenderInTheSendersOrder) {
+  struct Item {
+    std::int32_t from, to, number;
+    bool operator==(const Item&) const = default;
+  };
+  const auto world = Communicator::world();
+  const auto to = [](const Item& item) { return static_cast<parallel::Rank>(item.to); };
+  const auto written_by = [&](int rank) {
+    std::vector<Item> items;
+    for (int i = 0; i < 40 + rank; ++i) items.push_back({rank, (i * i + rank) % world.size(), i});
+    return items;
+  };
+  std::vector<Item> expected;
+  for (int rank = 0; rank < world.size(); ++rank) {
+    for (const Item& item : written_by(rank)) {
+      if (item.to == world.rank()) expected.push_back(item);
+    }
+  }
+  const std::vector<Item> mine = written_by(world.rank());
+  EXPECT_EQ(deliver(world, mine, to), expected);
+  EXPECT_EQ(mine, written_by(world.rank()));
+  EXPECT_TRUE(deliver(world, std::vector<Item>{}, to).empty());
 }
 
 TEST(Migration, PutsEveryPieceWhereItsOwnerSays) {

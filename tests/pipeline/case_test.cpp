@@ -183,7 +183,7 @@ TEST_F(CaseTest, UnknownKeysOfAnotherSectionNameIt) {
 
 TEST_F(CaseTest, UnknownKeysWithNothingNearListTheValidOnes) {
   EXPECT_EQ(error_of(transport + "output: {quux: 1}\n"),
-            "case.yaml:2:10: unknown key 'quux' in 'output'; valid keys: directory, tasks, log");
+            "case.yaml:2:10: unknown key 'quux' in 'output'; valid keys: directory, tasks, compression, log");
 }
 
 TEST_F(CaseTest, RetiredKeysSayWhyTheyAre) {
