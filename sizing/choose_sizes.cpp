@@ -25,6 +25,7 @@ constexpr double body_over_coarsest = 5;    // largest extent of the body over t
 constexpr double body_over_finest = 5000;
 constexpr double body_over_first = 60;
 constexpr int most_rounds = 8;
+constexpr int rounds_out_of_reach = 2;  // of full fields, where coarse ones found nothing near the target
 // Of the logarithm of the count over that of the size: near -2 where the surface rules, flatter where small
 // features do.
 constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
@@ -92,7 +93,8 @@ public:
             least_limit, std::llround(std::min(1e15, leaves_per_tetrahedron * target_tetrahedra)))) {}
 
   /// Runs, and again with coarser features where those alone need too many.
-  void run(const Start& start, double largest_error) {
+  void run(const Start& start, double largest_error, int rounds = most_rounds) {
+    _most_rounds = rounds;
     const cad::Model& model = _sampler.model();
     Preset preset{model.bounds().diagonal() / domain_over_maximum, model.sewn_gap(), start.feature_part};
     run(preset, start.body_size, largest_error);
@@ -102,6 +104,7 @@ public:
     }
   }
 
+  bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
   /// What came nearest to the target; the coarsest tried where all were far too fine.
   const SizingOptions& options() const { return _options; }
   /// As options(), with the field: of a search by fields that are as fine as asked for.
@@ -120,7 +123,7 @@ private:
     double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
     double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
     double slope = first_slope;
-    for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
+    for (int round = 0; round < _most_rounds && std::abs(_error) > largest_error; ++round) {
       const double error = judge(sizes_for(std::exp(size), preset));
       if (round > 0 && last_error < 1e300 && error < 1e300)
         slope = std::clamp((error - last_error) / (size - last_size), steepest_slope, flattest_slope);
@@ -156,6 +159,7 @@ private:
   const ModelSampler& _sampler;
   double _coarser, _target;
   std::int64_t _most_leaves;
+  int _most_rounds = most_rounds;
   double _error = 1e300;
   SizingOptions _options;
   std::optional<Trial> _best;
@@ -183,13 +187,15 @@ ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
   // Joined faces, or none that are sewn, may allow for features that were out of reach.
   start.feature_part = fine_features;
   const double coarser = coarsening(target_tetrahedra);
+  int rounds = most_rounds;
   if (coarser > 1) {
     Search rough(sampler, target_tetrahedra, coarser);
     rough.run(start, near ? near_enough : close_enough);
     start = start_at(rough.options());
+    if (rough.is_out_of_reach()) rounds = rounds_out_of_reach;
   }
   Search search(sampler, target_tetrahedra, 1);
-  search.run(start, coarser > 1 || near ? near_enough : close_enough);
+  search.run(start, coarser > 1 || near ? near_enough : close_enough, rounds);
   return search.best();
 }
 

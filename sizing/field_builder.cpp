@@ -1,14 +1,19 @@
 #include "sizing/field_builder.hpp"
 
+#include "parallel/collective_error.hpp"
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace aeroloom::sizing {
+
+using parallel::ScopedCpu;
+
 namespace {
 
 /// Edge of a leaf over the size at its centre, at most, where no source lies in it: there h is a cone or a
@@ -24,49 +29,6 @@ float round_up(double value) {
   const auto rounded = static_cast<float>(value);
   return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
-
-/// The nodes the front has still to leave, in buckets of about a tenth in size; within a bucket in the order
-/// they came, so that neighbours in memory mostly stay together. A node whose size falls again simply comes
-/// again.
-class Front {
-public:
-  void push(double size, std::int32_t node) {
-    const std::uint64_t i = bucket(size);
-    if (_buckets.empty()) _buckets.resize(1), _first = i;
-    if (i < _first) {
-      _buckets.insert(_buckets.begin(), _first - i, {});
-      _first = i;
-    } else if (i - _first >= _buckets.size()) {
-      _buckets.resize(i - _first + 1);
-    }
-    _buckets[i - _first].push_back({size, node});
-  }
-
-  /// Calls leave(size, node) for all, ascending by bucket; it may push sizes that are no smaller than its
-  /// own.
-  template <class Leave>
-  void run(const Leave& leave) {
-    for (std::size_t b = 0; b < _buckets.size(); ++b) {
-      for (std::size_t i = 0; i < _buckets[b].size(); ++i) {
-        const Entry entry = _buckets[b][i];
-        leave(entry.size, entry.node);
-      }
-      _buckets[b] = {};
-    }
-  }
-
-private:
-  struct Entry {
-    double size;
-    std::int32_t node;
-  };
-
-  /// Exponent and three bits of the mantissa: ascending with the (positive) size.
-  static std::uint64_t bucket(double size) { return std::bit_cast<std::uint64_t>(size) >> 49; }
-
-  std::uint64_t _first = 0;
-  std::vector<std::vector<Entry>> _buckets;
-};
 
 }  // namespace
 
@@ -84,14 +46,22 @@ void check_options(const SizingOptions& options) {
           "surface_maximum must be 0 or at least minimum", options.surface_maximum);
 }
 
-FieldBuilder::FieldBuilder(const geometry::Box& domain, const SizingOptions& options)
-    : _domain(domain), _options(options), _root(domain), _slope(std::log(options.growth)) {
+FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
+                           const geometry::Box& domain, const SizingOptions& options)
+    : _communicator(communicator),
+      _clock(clock),
+      _domain(domain),
+      _options(options),
+      _root(domain),
+      _slope(std::log(options.growth) * _root.edge / grid_size) {
   check_options(options);
   require(!domain.empty() && _root.edge > 0 && std::isfinite(_root.edge), "the domain must not be empty",
           domain.diagonal());
 }
 
-FieldBuilder::FieldBuilder(const SizeField& previous) : FieldBuilder(previous._domain, previous._options) {
+FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
+                           const SizeField& previous)
+    : FieldBuilder(communicator, clock, previous._domain, previous._options) {
   _previous = &previous;
   for (std::size_t leaf = 0; leaf < previous._leaf_keys.size(); ++leaf) {
     if (previous._leaf_levels[leaf] > 0)
@@ -105,6 +75,7 @@ SizeField FieldBuilder::build(std::span<const SizeSource> sources) {
 
 std::optional<SizeField> FieldBuilder::build_within(std::span<const SizeSource> sources,
                                                     std::int64_t most_leaves) {
+  const ScopedCpu repeated(_clock, ScopedCpu::As::serial);
   for (const SizeSource& source : sources) {
     require(source.size > 0 && std::isfinite(source.size), "a source must have a positive size", source.size);
     if (source.size < _options.maximum) _sources.push_back(source);
@@ -113,142 +84,139 @@ std::optional<SizeField> FieldBuilder::build_within(std::span<const SizeSource> 
   split_at_sources();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  if (!split_where_coarse(solve(), most_leaves / 8)) return std::nullopt;
-  return finish(solve());
+  if (!split_where_coarse(grow_octree(), SeedTree(seeds_at_sources(), _slope), most_leaves / 8))
+    return std::nullopt;
+  _cells.balance();
+  Octree octree = grow_octree();
+  const SeedTree seeds = plant_seeds(octree);
+  std::vector<float> mine;
+  parallel::agree(_communicator, [&] {
+    const ScopedCpu own(_clock, ScopedCpu::As::task);
+    mine = sizes_at_corners(octree, seeds, own_range(octree));
+  });
+  return finish(std::move(octree), _communicator.all_gather_items<float>(mine));
+}
+
+FieldBuilder::Cell FieldBuilder::cell_of(const SizeSource& source) const {
+  const int level = _root.level(source.size), below = 3 * (finest_level - level);
+  return {morton_key(_root.cell(source.point)) >> below << below, level};
 }
 
 void FieldBuilder::split_at_sources() {
   for (const SizeSource& source : _sources) {
-    const std::uint64_t key = morton_key(_root.cell(source.point));
-    const int level = _root.level(source.size);
-    if (level > 0) _cells.split(key, level - 1);
+    const Cell cell = cell_of(source);
+    if (cell.level > 0) _cells.split(cell.key, cell.level - 1);
   }
 }
 
-FieldBuilder::Sizes FieldBuilder::solve() {
-  _cells.balance();
-  Sizes sizes;
-  sizes.leaves = _cells.leaves();
-  sizes.table = LeafTable(sizes.leaves);
-  sizes.nodes = collect_nodes(sizes.leaves, sizes.table);
-  bound_sizes(sizes);
-  plant_seeds(sizes);
-  run_front(sizes);
-  return sizes;
-}
-
-void FieldBuilder::bound_sizes(Sizes& sizes) const {
-  sizes.size.assign(sizes.nodes.points.size(), _options.maximum);
-  if (_previous == nullptr) return;
-  const double unit = _root.edge / grid_size;
-  for (std::size_t n = 0; n < sizes.size.size(); ++n) {
-    const GridPoint p = sizes.nodes.points[n];
-    sizes.size[n] = _previous->interpolate(unit * p.x, unit * p.y, unit * p.z);
-  }
-}
-
-void FieldBuilder::plant_seeds(Sizes& sizes) const {
-  sizes.seed_size.assign(sizes.nodes.points.size(), _options.maximum);
+std::vector<SizeSeed> FieldBuilder::seeds_at_sources() const {
+  std::vector<SizeSeed> seeds;
+  seeds.reserve(_sources.size());
   for (const SizeSource& source : _sources) {
-    const std::int32_t leaf = sizes.table.find(morton_key(_root.cell(source.point)));
-    for (int corner = 0; corner < 8; ++corner) {
-      double& size = sizes.seed_size[sizes.nodes.corners[8 * static_cast<std::size_t>(leaf) + corner]];
-      size = std::min(size, source.size);
-    }
+    const Cell cell = cell_of(source);
+    seeds.push_back({grid_point(cell.key), grid_size >> cell.level, source.size});
   }
-  // A hanging node takes the mean of its masters in the end: they must ask for its size too.
-  for (const OctreeNodes::Hanging& hanging : sizes.nodes.hanging) {
-    for (int i = 0; i < hanging.count; ++i) {
-      double& size = sizes.seed_size[hanging.masters[i]];
-      size = std::min(size, sizes.seed_size[hanging.node]);
-    }
-  }
+  return seeds;
 }
 
-double FieldBuilder::distance(GridPoint a, GridPoint b) const {
-  const double dx = static_cast<double>(a.x) - b.x, dy = static_cast<double>(a.y) - b.y,
-               dz = static_cast<double>(a.z) - b.z;
-  return std::sqrt(dx * dx + dy * dy + dz * dz) * (_root.edge / grid_size);
-}
-
-void FieldBuilder::run_front(Sizes& sizes) const {
-  const OctreeNodes& nodes = sizes.nodes;
-  sizes.seed.assign(nodes.points.size(), -1);
-  Front front;
-  for (std::size_t n = 0; n < nodes.points.size(); ++n) {
-    if (sizes.seed_size[n] >= sizes.size[n]) continue;
-    sizes.size[n] = sizes.seed_size[n];
-    sizes.seed[n] = static_cast<std::int32_t>(n);
-    front.push(sizes.size[n], static_cast<std::int32_t>(n));
+// A hanging node takes the mean of its masters in the end: where a source asks for its size they must, too.
+SeedTree FieldBuilder::plant_seeds(const Octree& octree) const {
+  std::vector<SizeSeed> seeds = seeds_at_sources();
+  for (const SizeSource& source : _sources) {
+    const Cell cell = cell_of(source);
+    const std::int32_t leaf = octree.table.find(cell.key);
+    if (octree.leaves.levels[leaf] != cell.level) continue;  // of smaller leaves none hangs outside the cell
+    for (const GridPoint master : masters_of_corners(octree.leaves, octree.table, leaf))
+      seeds.push_back({master, 0, source.size});
   }
-  front.run([&](double size, std::int32_t node) {
-    if (size > sizes.size[node]) return;
-    const std::int32_t seed = sizes.seed[node];
-    const double seed_size = sizes.seed_size[seed];
-    const GridPoint seed_point = nodes.points[seed];
-    const std::int32_t* around = nodes.leaf_around.data() + 8 * static_cast<std::size_t>(node);
-    for (int octant = 0; octant < 8; ++octant) {
-      if (around[octant] < 0 || (octant > 0 && around[octant] == around[octant - 1])) continue;
-      const std::int32_t* corners = nodes.corners.data() + 8 * static_cast<std::size_t>(around[octant]);
-      for (int corner = 0; corner < 8; ++corner) {
-        const std::int32_t other = corners[corner];
-        if (sizes.size[other] <= size) continue;
-        const double offer = seed_size + _slope * distance(seed_point, nodes.points[other]);
-        if (offer >= sizes.size[other]) continue;
-        sizes.size[other] = offer;
-        sizes.seed[other] = seed;
-        front.push(offer, other);
-      }
-    }
-  });
+  return SeedTree(std::move(seeds), _slope);
 }
 
-bool FieldBuilder::split_where_coarse(const Sizes& sizes, std::int64_t most_cubes) {
-  std::array<std::int32_t, 8> seeds{};
-  std::int64_t split = 0;
+FieldBuilder::Octree FieldBuilder::grow_octree() {
+  Octree octree{_cells.leaves(), {}};
+  octree.table = LeafTable(octree.leaves);
+  return octree;
+}
+
+FieldBuilder::Range FieldBuilder::own_range(const Octree& octree) const {
+  const std::size_t count = octree.leaves.keys.size();
+  const auto rank = static_cast<std::size_t>(_communicator.rank());
+  const auto ranks = static_cast<std::size_t>(_communicator.size());
+  return {count * rank / ranks, count * (rank + 1) / ranks};
+}
+
+double FieldBuilder::bound_at(GridPoint p) const {
+  if (_previous == nullptr) return _options.maximum;
+  const double unit = _root.edge / grid_size;
+  return _previous->interpolate(unit * p.x, unit * p.y, unit * p.z);
+}
+
+bool FieldBuilder::split_where_coarse(const Octree& octree, const SeedTree& seeds, std::int64_t most_cubes) {
+  struct Cube {
+    std::uint64_t key;
+    std::int64_t level;
+  };
+  std::vector<Cube> mine;
   const auto visit = [&](auto&& self, std::uint64_t key, int level) -> void {
+    if (level >= finest_level || static_cast<std::int64_t>(mine.size()) > most_cubes) return;
     const std::uint32_t half = grid_size >> level >> 1;
     const GridPoint low = grid_point(key), center{low.x + half, low.y + half, low.z + half};
-    double size = _options.maximum;
-    for (const std::int32_t seed : seeds) {
-      if (seed >= 0)
-        size = std::min(size, sizes.seed_size[seed] + _slope * distance(sizes.nodes.points[seed], center));
-    }
-    if (level >= finest_level || std::ldexp(_root.edge, -level) <= leaf_edge_per_size * size) return;
-    if (++split > most_cubes) return;
-    _cells.split(key, level);
-    for (std::uint64_t child = 0; child < 8; ++child) {
+    const double too_small = std::ldexp(_root.edge, -level) / leaf_edge_per_size;
+    if (!seeds.offers_less(center, std::min(too_small, bound_at(center)))) return;
+    mine.push_back({key, level});
+    for (std::uint64_t child = 0; child < 8; ++child)
       self(self, key | child << 3 * (finest_level - level - 1), level + 1);
-    }
   };
-  for (std::size_t leaf = 0; leaf < sizes.leaves.keys.size(); ++leaf) {
-    for (int corner = 0; corner < 8; ++corner)
-      seeds[corner] = sizes.seed[sizes.nodes.corners[8 * leaf + corner]];
-    // Without a seed the leaf lies at the maximum, or where the previous field rules.
-    if (std::all_of(seeds.begin(), seeds.end(), [](std::int32_t seed) { return seed < 0; })) continue;
-    visit(visit, sizes.leaves.keys[leaf], sizes.leaves.levels[leaf]);
-    if (split > most_cubes) return false;
-  }
+  parallel::agree(_communicator, [&] {
+    const ScopedCpu own(_clock, ScopedCpu::As::task);
+    const Range range = own_range(octree);
+    for (std::size_t leaf = range.first; leaf < range.last; ++leaf)
+      visit(visit, octree.leaves.keys[leaf], octree.leaves.levels[leaf]);
+  });
+  if (_communicator.sum(static_cast<std::int64_t>(mine.size())) > most_cubes) return false;
+  for (const Cube& cube : _communicator.all_gather_items<Cube>(mine))
+    _cells.split(cube.key, static_cast<int>(cube.level));
   return true;
 }
 
-SizeField FieldBuilder::finish(Sizes sizes) const {
-  for (const OctreeNodes::Hanging& hanging : sizes.nodes.hanging) {
-    double sum = 0;
-    for (int i = 0; i < hanging.count; ++i) sum += sizes.size[hanging.masters[i]];
-    sizes.size[hanging.node] = sum / hanging.count;
+std::vector<float> FieldBuilder::sizes_at_corners(const Octree& octree, const SeedTree& seeds,
+                                                  Range range) const {
+  const OctreeNodes nodes = collect_nodes(octree.leaves, octree.table, range.first, range.last);
+  std::int32_t near = -1;
+  const auto size_at = [&](GridPoint p) { return seeds.cheapest(p, bound_at(p), near); };
+  std::vector<double> sizes(nodes.points.size());
+  auto next = nodes.hanging.begin();
+  for (std::size_t n = 0; n < nodes.points.size(); ++n) {
+    if (next != nodes.hanging.end() && next->node == static_cast<std::int32_t>(n)) {
+      ++next;
+    } else {
+      sizes[n] = size_at(nodes.points[n]);
+    }
   }
+  for (const OctreeNodes::Hanging& hanging : nodes.hanging) {
+    double sum = 0;
+    for (int i = 0; i < hanging.count; ++i) {
+      const std::int32_t node = hanging.master_nodes[i];
+      sum += node >= 0 ? sizes[node] : size_at(hanging.masters[i]);
+    }
+    sizes[hanging.node] = sum / hanging.count;
+  }
+  std::vector<float> corner_sizes;
+  corner_sizes.reserve(nodes.corners.size());
+  for (const std::int32_t node : nodes.corners) corner_sizes.push_back(round_up(sizes[node]));
+  return corner_sizes;
+}
+
+SizeField FieldBuilder::finish(Octree octree, std::vector<float> corner_sizes) const {
   SizeField field;
   field._options = _options;
   field._domain = _domain;
   field._low = _root.low;
   field._root_edge = _root.edge;
-  field._corner_sizes.reserve(sizes.nodes.corners.size());
-  for (const std::int32_t node : sizes.nodes.corners)
-    field._corner_sizes.push_back(round_up(sizes.size[node]));
-  field._leaf_keys = std::move(sizes.leaves.keys);
-  field._leaf_levels = std::move(sizes.leaves.levels);
-  field._leaf_table = std::move(sizes.table);
+  field._corner_sizes = std::move(corner_sizes);
+  field._leaf_keys = std::move(octree.leaves.keys);
+  field._leaf_levels = std::move(octree.leaves.levels);
+  field._leaf_table = std::move(octree.table);
   return field;
 }
 

@@ -1,6 +1,9 @@
 /// Builds size fields: octree, sizes at its nodes, hanging nodes.
 #pragma once
 
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+#include "sizing/seed_tree.hpp"
 #include "sizing/size_field.hpp"
 #include "sizing/sources.hpp"
 
@@ -18,48 +21,61 @@ inline constexpr double largest_growth = 10;
 /// 0 < curvature_angle < 180 and surface_maximum is 0 or at least the minimum.
 void check_options(const SizingOptions& options);
 
-/// One build of a field. Sizes are those of the cheapest source, size + ln(growth) * distance; they are found
-/// by a front that runs over the octree's nodes in ascending size and carries along which source each node
-/// obeys (Dijkstra, Numer. Math. 1, 1959, doi:10.1007/BF01386390, with distances to the source, not along the
-/// path).
+/// One build of a field by all ranks, the same on each and for any number of them. A source asks for its size
+/// in the whole cell around it whose edge is at most that size; elsewhere the size is that of the cheapest
+/// source, size + ln(growth) * distance from that cell. Leaves are looked at, and sizes at their corners
+/// found, by the ranks in ranges of the Morton curve; the octree itself is made by all alike.
 class FieldBuilder {
 public:
-  FieldBuilder(const geometry::Box& domain, const SizingOptions& options);
+  /// Collective, as all that follows.
+  FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
+               const geometry::Box& domain, const SizingOptions& options);
   /// Starts from a field that the new one must nowhere exceed.
-  explicit FieldBuilder(const SizeField& previous);
+  FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
+               const SizeField& previous);
 
-  /// The field under these sources, whose sizes may lie below the minimum. Called once.
+  /// The field under these sources, the same on every rank, whose sizes may lie below the minimum. Called
+  /// once.
   SizeField build(std::span<const SizeSource> sources);
   /// As above; nothing, at less cost, where the field has clearly more than `most_leaves`.
   std::optional<SizeField> build_within(std::span<const SizeSource> sources, std::int64_t most_leaves);
 
 private:
-  /// The octree of the present split cells with, per node, the size and the node whose seed it obeys.
-  struct Sizes {
+  /// A source's cell.
+  struct Cell {
+    std::uint64_t key;  ///< of its low corner
+    int level;
+  };
+  struct Octree {
     SplitCubes::Leaves leaves;
     LeafTable table;
-    OctreeNodes nodes;
-    std::vector<double> size;
-    std::vector<std::int32_t> seed;  // -1 where none asks for less than the bound
-    std::vector<double> seed_size;   // of the node itself; the maximum where it is no seed
+  };
+  /// A range of leaves.
+  struct Range {
+    std::size_t first, last;
   };
 
+  Cell cell_of(const SizeSource& source) const;
   void split_at_sources();
-  Sizes solve();
-  void bound_sizes(Sizes& sizes) const;
-  void plant_seeds(Sizes& sizes) const;
-  void run_front(Sizes& sizes) const;
-  /// False where that would take more cubes than that; some are split then.
-  bool split_where_coarse(const Sizes& sizes, std::int64_t most_cubes);
-  SizeField finish(Sizes sizes) const;
+  std::vector<SizeSeed> seeds_at_sources() const;
+  /// The tree of the sources' cells and of what hanging corners of such leaves hang on.
+  SeedTree plant_seeds(const Octree& octree) const;
+  Octree grow_octree();
+  Range own_range(const Octree& octree) const;
+  /// False where that would take more cubes than that; then nothing is split.
+  bool split_where_coarse(const Octree& octree, const SeedTree& seeds, std::int64_t most_cubes);
+  /// What no size may exceed at a point.
+  double bound_at(GridPoint p) const;
+  std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;
+  SizeField finish(Octree octree, std::vector<float> corner_sizes) const;
 
-  double distance(GridPoint a, GridPoint b) const;
-
+  const parallel::Communicator& _communicator;
+  parallel::StageClock& _clock;
   geometry::Box _domain;
   SizingOptions _options;
   const SizeField* _previous = nullptr;
   RootCube _root;
-  double _slope;
+  double _slope;  ///< in size per finest cell
   SplitCubes _cells;
   std::vector<SizeSource> _sources;
 };

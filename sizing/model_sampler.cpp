@@ -209,8 +209,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
 
 SizeField ModelSampler::build_field(const SizingOptions& options) const {
   const std::vector<SizeSource> sources = sample(options, 1);
-  ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-  return FieldBuilder(_model.bounds(), options).build(sources);
+  return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sources);
 }
 
 std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, double coarser,
@@ -220,11 +219,8 @@ std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, doubl
   for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
-  std::optional<SizeField> field;
-  {
-    ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-    field = FieldBuilder(_model.bounds(), coarse).build_within(sources, most_leaves);
-  }
+  std::optional<SizeField> field =
+      FieldBuilder(_communicator, _clock, _model.bounds(), coarse).build_within(sources, most_leaves);
   if (!field) return std::nullopt;
   const PredictedCounts counts = predict(*field);
   return Trial{std::move(*field),

@@ -20,36 +20,46 @@ bool is_corner(GridPoint p, std::uint32_t edge) {
   return ((p.x | p.y | p.z) & (edge - 1)) == 0;
 }
 
-/// Finds the leaves in the eight octants around a corner of `leaf`, -1 outside, until an earlier leaf turns
-/// up that has the node as a corner too: then returns that octant, else -1.
-int find_leaves_around(GridPoint p, std::int32_t leaf, const SplitCubes::Leaves& leaves,
+/// Finds the leaves in the eight octants around a corner of `leaf`, -1 outside, until a leaf before it, but
+/// not before `first`, turns up that has the node as a corner too: then returns that octant, else -1.
+int find_leaves_around(GridPoint p, std::int32_t leaf, std::int32_t first, const SplitCubes::Leaves& leaves,
                        const LeafTable& table, std::array<std::int32_t, 8>& around) {
   for (int octant = 0; octant < 8; ++octant) {
     const GridPoint cell{p.x - (octant & 1 ? 0 : 1), p.y - (octant & 2 ? 0 : 1), p.z - (octant & 4 ? 0 : 1)};
     const bool inside = cell.x < grid_size && cell.y < grid_size && cell.z < grid_size;
     const std::int32_t found = inside ? table.find(morton_key(cell)) : -1;
     around[octant] = found;
-    if (found >= 0 && found < leaf && is_corner(p, grid_size >> leaves.levels[found])) return octant;
+    if (found >= first && found < leaf && is_corner(p, grid_size >> leaves.levels[found])) return octant;
   }
   return -1;
 }
 
-/// Appends the masters of a node that lies on an edge or face of the given leaf.
-void hang(std::int32_t node, GridPoint p, std::int32_t leaf, const SplitCubes::Leaves& leaves,
-          OctreeNodes& nodes) {
+/// The masters of a node that lies on an edge or face of the given leaf: its corners that agree with the node
+/// on every axis where the node is no middle; `master_nodes` says which corners.
+OctreeNodes::Hanging hang(std::int32_t node, GridPoint p, std::int32_t leaf,
+                          const SplitCubes::Leaves& leaves) {
   const std::uint32_t edge = grid_size >> leaves.levels[leaf], inside = edge - 1;
   const GridPoint low = grid_point(leaves.keys[leaf]);
-  // Corners of the leaf that agree with the node on every axis where the node is no middle.
   const auto agrees = [&](std::uint32_t at, std::uint32_t from, bool high) {
     return (at & inside) != 0 || at == from + (high ? edge : 0);
   };
-  OctreeNodes::Hanging hanging{node, 0, {}};
+  OctreeNodes::Hanging hanging{node, 0, {}, {-1, -1, -1, -1}};
   for (int corner = 0; corner < 8; ++corner) {
-    if (agrees(p.x, low.x, corner & 1) && agrees(p.y, low.y, corner & 2) && agrees(p.z, low.z, corner & 4)) {
-      hanging.masters[hanging.count++] = nodes.corners[8 * static_cast<std::size_t>(leaf) + corner];
-    }
+    if (!agrees(p.x, low.x, corner & 1) || !agrees(p.y, low.y, corner & 2) || !agrees(p.z, low.z, corner & 4))
+      continue;
+    hanging.masters[hanging.count] = corner_point(low, edge, corner);
+    hanging.master_nodes[hanging.count++] = corner;
   }
-  nodes.hanging.push_back(hanging);
+  return hanging;
+}
+
+/// The octant of a leaf around a node that has the node on an edge or face, -1 where none does.
+int octant_to_hang_on(GridPoint p, const std::array<std::int32_t, 8>& around,
+                      const SplitCubes::Leaves& leaves) {
+  for (int octant = 0; octant < 8; ++octant) {
+    if (around[octant] >= 0 && !is_corner(p, grid_size >> leaves.levels[around[octant]])) return octant;
+  }
+  return -1;
 }
 
 }  // namespace
@@ -112,35 +122,75 @@ LeafTable::LeafTable(const SplitCubes::Leaves& leaves) : _entries(64, 0) {
   }
 }
 
-OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table) {
+OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table, std::size_t first,
+                          std::size_t last) {
   OctreeNodes nodes;
-  nodes.corners.resize(8 * leaves.keys.size());
-  for (std::size_t leaf = 0; leaf < leaves.keys.size(); ++leaf) {
+  std::vector<std::int32_t> hung_on;  // per hanging node
+  nodes.corners.resize(8 * (last - first));
+  for (std::size_t leaf = first; leaf < last; ++leaf) {
     const GridPoint low = grid_point(leaves.keys[leaf]);
     for (int corner = 0; corner < 8; ++corner) {
       const GridPoint p = corner_point(low, grid_size >> leaves.levels[leaf], corner);
       std::array<std::int32_t, 8> around{};
-      const int earlier = find_leaves_around(p, static_cast<std::int32_t>(leaf), leaves, table, around);
-      std::int32_t& node = nodes.corners[8 * leaf + corner];
+      const int earlier = find_leaves_around(p, static_cast<std::int32_t>(leaf),
+                                             static_cast<std::int32_t>(first), leaves, table, around);
+      std::int32_t& node = nodes.corners[8 * (leaf - first) + corner];
       if (earlier >= 0) {
-        node = nodes.corners[8 * static_cast<std::size_t>(around[earlier]) + (7 ^ earlier)];
+        node = nodes.corners[8 * (static_cast<std::size_t>(around[earlier]) - first) + (7 ^ earlier)];
         continue;
       }
       node = static_cast<std::int32_t>(nodes.points.size());
       nodes.points.push_back(p);
-      nodes.leaf_around.insert(nodes.leaf_around.end(), around.begin(), around.end());
+      const int octant = octant_to_hang_on(p, around, leaves);
+      if (octant < 0) continue;
+      nodes.hanging.push_back(hang(node, p, around[octant], leaves));
+      hung_on.push_back(around[octant]);
     }
   }
-  for (std::size_t n = 0; n < nodes.points.size(); ++n) {
-    const std::int32_t* around = nodes.leaf_around.data() + 8 * n;
-    for (int octant = 0; octant < 8; ++octant) {
-      if (around[octant] < 0 || is_corner(nodes.points[n], grid_size >> leaves.levels[around[octant]]))
-        continue;
-      hang(static_cast<std::int32_t>(n), nodes.points[n], around[octant], leaves, nodes);
-      break;
+  // Which of their corners are nodes is known when all are.
+  for (std::size_t h = 0; h < hung_on.size(); ++h) {
+    const auto leaf = static_cast<std::size_t>(hung_on[h]);
+    OctreeNodes::Hanging& hanging = nodes.hanging[h];
+    for (int i = 0; i < hanging.count; ++i) {
+      std::int32_t& node = hanging.master_nodes[i];
+      node = leaf >= first && leaf < last ? nodes.corners[8 * (leaf - first) + node] : -1;
     }
   }
   return nodes;
+}
+
+std::vector<GridPoint> masters_of_corners(const SplitCubes::Leaves& leaves, const LeafTable& table,
+                                          std::int32_t leaf) {
+  std::vector<GridPoint> masters;
+  if (leaves.levels[leaf] == 0) return masters;
+  const GridPoint low = grid_point(leaves.keys[leaf]);
+  const std::uint32_t edge = grid_size >> leaves.levels[leaf];
+  // Within its parent all leaves are as small; only what the parent touches on the leaf's side may be larger.
+  const auto beside = [&](int sides) -> std::int32_t {
+    const auto step = [&](std::uint32_t at, bool towards) {
+      return towards ? ((at & edge) != 0 ? at + edge : at - 1) : at;
+    };
+    const GridPoint cell{step(low.x, sides & 1), step(low.y, sides & 2), step(low.z, sides & 4)};
+    const bool inside = cell.x < grid_size && cell.y < grid_size && cell.z < grid_size;
+    const std::int32_t found = inside ? table.find(morton_key(cell)) : -1;
+    return found >= 0 && leaves.levels[found] < leaves.levels[leaf] ? found : -1;
+  };
+  std::array<std::int32_t, 8> larger{};
+  for (int sides = 1; sides < 7; ++sides) larger[sides] = beside(sides);
+  for (int corner = 0; corner < 8; ++corner) {
+    const GridPoint p = corner_point(low, edge, corner);
+    // The sides of the parent that this corner lies on.
+    const int sides = (is_corner({p.x, 0, 0}, 2 * edge) ? 1 : 0) |
+                      (is_corner({0, p.y, 0}, 2 * edge) ? 2 : 0) | (is_corner({0, 0, p.z}, 2 * edge) ? 4 : 0);
+    if (sides == 0 || sides == 7) continue;
+    for (int some = sides; some > 0; some = (some - 1) & sides) {
+      if (larger[some] < 0) continue;
+      const OctreeNodes::Hanging hanging = hang(0, p, larger[some], leaves);
+      masters.insert(masters.end(), hanging.masters.begin(), hanging.masters.begin() + hanging.count);
+      break;
+    }
+  }
+  return masters;
 }
 
 }  // namespace aeroloom::sizing

@@ -58,21 +58,27 @@ private:
   std::vector<std::int32_t> _entries;  // (nodes,64): a leaf where >= 0, else minus the node one step down
 };
 
-/// The distinct corners of all leaves.
+/// The distinct corners of a range of leaves.
 struct OctreeNodes {
   std::vector<GridPoint> points;
-  std::vector<std::int32_t> corners;  ///< (leaves,8) node per leaf and corner, corners in Morton order
+  std::vector<std::int32_t> corners;  ///< (leaves of the range,8) node per corner, corners in Morton order
 
   /// A node in the middle of an edge or face of a leaf next to it. Its masters are that edge's or face's
   /// corners, which in a balanced octree hang nowhere themselves.
   struct Hanging {
     std::int32_t node;
     std::int32_t count;  ///< of masters: 2 or 4
-    std::array<std::int32_t, 4> masters;
+    std::array<GridPoint, 4> masters;
+    std::array<std::int32_t, 4> master_nodes;  ///< -1 where that is no corner in the range
   };
-  std::vector<Hanging> hanging;           ///< ascending node
-  std::vector<std::int32_t> leaf_around;  ///< (nodes,8) leaf in each octant, -1 outside the root cube
+  std::vector<Hanging> hanging;  ///< ascending node
 };
-OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table);
+/// Of the leaves [first, last).
+OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table, std::size_t first,
+                          std::size_t last);
+
+/// The corners of a leaf that hang on larger leaves beside it: their masters, some more than once.
+std::vector<GridPoint> masters_of_corners(const SplitCubes::Leaves& leaves, const LeafTable& table,
+                                          std::int32_t leaf);
 
 }  // namespace aeroloom::sizing

@@ -32,11 +32,13 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
   for (SizeSource& source : bounded) {
     if (source.size > 0) source.size = std::max(source.size, options.minimum);
   }
-  return FieldBuilder(domain, options).build(bounded);
+  parallel::StageClock unused;
+  return FieldBuilder(parallel::Communicator::self(), unused, domain, options).build(bounded);
 }
 
 SizeField SizeField::refined(std::span<const SizeSource> more) const {
-  return FieldBuilder(*this).build(more);
+  parallel::StageClock unused;
+  return FieldBuilder(parallel::Communicator::self(), unused, *this).build(more);
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {

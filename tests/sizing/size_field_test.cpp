@@ -1,5 +1,7 @@
 #include "sizing/size_field.hpp"
 
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>
@@ -264,12 +266,56 @@ TEST(SizeField, EvaluatesInWellUnderAMicrosecond) {
 }
 
 TEST(FieldBuilder, GivesUpOnFieldsThatAreMuchTooFine) {
+  const auto world = parallel::Communicator::world();
+  parallel::StageClock clock;
+  const auto builder = [&] { return sizing::FieldBuilder(world, clock, cube(2), options); };
   const auto sources = sphere_sources(0.1);
-  const SizeField whole = sizing::FieldBuilder(cube(2), options).build(sources);
+  const SizeField whole = builder().build(sources);
   const std::int64_t leaves = whole.leaf_count();
-  const auto again = sizing::FieldBuilder(cube(2), options).build_within(sources, 2 * leaves);
+  const auto again = builder().build_within(sources, 2 * leaves);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->leaf_count(), leaves);
   for (const std::int64_t divisor : {10, 1000})
-    EXPECT_FALSE(sizing::FieldBuilder(cube(2), options).build_within(sources, leaves / divisor));
+    EXPECT_FALSE(builder().build_within(sources, leaves / divisor));
+}
+
+TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
+  const auto world = parallel::Communicator::world();
+  parallel::StageClock clock;
+  const auto sources = sphere_sources(0.08);
+  const SizeField together = sizing::FieldBuilder(world, clock, cube(5), options).build(sources);
+  const SizeField alone = SizeField::build(cube(5), sources, options);
+  const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{0, 2, 0}, 0.03}};
+  const SizeField refined = sizing::FieldBuilder(world, clock, together).build(more);
+  const SizeField refined_alone = alone.refined(more);
+  ASSERT_EQ(together.leaf_count(), alone.leaf_count());
+  ASSERT_EQ(refined.leaf_count(), refined_alone.leaf_count());
+  Points points(21);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p = points.around_sphere();
+    ASSERT_EQ(together(p), alone(p));
+    ASSERT_EQ(refined(p), refined_alone(p));
+  }
+}
+
+TEST(FieldBuilder, SizesAreThoseOfTheCheapestSource) {
+  // A source's cell is at most as wide as its size; what its corners hang on is as far again.
+  const auto sources = sphere_sources(0.15);
+  const SizeField field = SizeField::build(cube(4), sources, options);
+  const double slope = std::log(options.growth);
+  Points points(22);
+  for (int i = 0; i < 2000; ++i) {
+    const SizeField::Leaf leaf =
+        field.leaf(static_cast<std::int64_t>(points.uniform(0, 1) * static_cast<double>(field.leaf_count())));
+    double nearest = options.maximum, farthest = options.maximum;
+    for (const SizeSource& source : sources) {
+      const double size = std::max(source.size, options.minimum);
+      const double away = distance(source.point, leaf.low);
+      nearest = std::min(nearest, size + slope * std::max(0.0, away - 3.2 * size));
+      farthest = std::min(farthest, size + slope * away);
+    }
+    const double h = field(leaf.low);
+    ASSERT_GE(h, (1 - 1e-6) * nearest);
+    ASSERT_LE(h, 1.05 * farthest) << "hanging ones lie on chords of a cone";
+  }
 }

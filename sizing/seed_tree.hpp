@@ -1,0 +1,63 @@
+/// Cubes that ask for sizes, searched for what counts at a point.
+#pragma once
+
+#include "sizing/morton.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// A cube of the finest grid, or a point of it, in which a size is asked for.
+struct SizeSeed {
+  GridPoint low;
+  std::uint32_t edge = 0;  ///< in finest cells; 0: the point alone
+  double size = 0;
+};
+
+/// The lower envelope of cones over seeds: at a point, the least of size + slope * distance over all seeds.
+/// Seeds are grouped by eights along the Morton curve, those groups by eights, and so on; a group is passed
+/// by where even its smallest size at its nearest point would be too much. The answer is the exact minimum,
+/// to the last bit, whatever order the search takes.
+class SeedTree {
+public:
+  SeedTree() = default;
+  /// `slope` counts in size per finest cell.
+  SeedTree(std::vector<SizeSeed> seeds, double slope);
+
+  /// The least offer at a point, `bound` where none is below it. `near` makes the search quick where the last
+  /// point was close by: the seed whose offer won there, -1 none. The result does not depend on it.
+  double cheapest(GridPoint p, double bound, std::int32_t& near) const;
+  /// Whether a seed offers less than `bound` at a point.
+  bool offers_less(GridPoint p, double bound) const;
+
+private:
+  static constexpr int group = 8;
+  struct Group {
+    std::array<double, 3> low, high;
+    double size;  ///< the smallest
+  };
+  struct Best {
+    double size;
+    std::int32_t seed;
+  };
+
+  struct Point {
+    double x, y, z;
+  };
+  double offer(std::size_t seed, const Point& p) const;
+  /// False only where no seed in the group offers less than `best`.
+  bool may_offer_less(const Group& of, const Point& p, double best) const;
+  /// Lowers `best` to what the groups [first, last) of a level offer; ends at the first lower offer where any
+  /// will do.
+  template <bool any>
+  bool search(std::size_t level, std::size_t first, std::size_t last, const Point& p, Best& best) const;
+
+  /// The seeds along the Morton curve, as groups of one; groups of eight of those, and so on up to one of at
+  /// most eight.
+  std::vector<std::vector<Group>> _levels;
+  double _slope = 0, _steps_per_size = 0;
+};
+
+}  // namespace aeroloom::sizing
