@@ -3,9 +3,7 @@
 #include "improve/pinned.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
-#include "parallel/log.hpp"
-
-#include <fmt/format.h>
+#include "pipeline/stage_log.hpp"
 
 namespace aeroloom::pipeline {
 
@@ -31,10 +29,7 @@ std::vector<RegionRow> table_of_regions(const Communicator& communicator, const 
 void list_pinned(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
                  const mesh::Numbering& numbering, RunRecord& record) {
   record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle);
-  if (record.pinned.entities.empty()) return;
-  parallel::log_info(
-      fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
-                  record.pinned.tetrahedra, record.pinned.entities.size()));
+  log_pinned(record);
 }
 
 }  // namespace
@@ -50,10 +45,7 @@ void improve_volume(const Communicator& communicator, const Case& input, const i
                     mesh::DistributedMesh& volume, RunRecord& record) {
   if (!input.improve.enabled) return;
   record.improve = improve::improve_mesh(communicator, volume, input.improve, record.clock, source);
-  parallel::log_info(
-      fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
-                  record.improve.min_angle_before, record.improve.min_angle_after, record.improve.bad_before,
-                  record.improve.bad_after));
+  log_improve(record);
 }
 
 void inspect_volume(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,

@@ -5,11 +5,11 @@
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
+#include "pipeline/stage_log.hpp"
 
 #include <algorithm>
 
@@ -27,15 +27,7 @@ void describe_domain(const cad::Model& model, RunRecord& record) {
   record.regions = model.region_count();
   record.faces = model.face_count();
   record.edges = model.edge_count();
-  const geometry::Vec3 size = model.body_bounds().size();
-  parallel::log_info(
-      fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",
-                  record.regions, record.faces, record.edges, size.x, size.y, size.z,
-                  record.unit.empty() ? "(no unit declared)" : record.unit));
-  if (!record.domain.reason.empty()) parallel::log_info("geometry: " + record.domain.reason);
-  for (const cad::Change& change : record.domain.changes) {
-    parallel::log_info("geometry: " + cad::describe(change));
-  }
+  log_geometry(model, record);
 }
 
 /// Sizes, and the model they are for.
@@ -49,11 +41,7 @@ SizedDomain build_sizes(const Communicator& communicator, const cad::Model& mode
     record.face_names.push_back(sized.model.face(f).name);
   }
   record.joined_faces = sized.joined;
-  for (const cad::Change& change : sized.joined) parallel::log_info("sizing: " + cad::describe(change));
-  parallel::log_info(
-      fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
-                  record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
-                  record.sizes.growth, record.size_field_leaves));
+  log_sizing(record);
   return sized;
 }
 
@@ -127,11 +115,7 @@ FinishedSurface build_surface(const Communicator& communicator, const cad::Model
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
   inspect_surface(communicator, model, "the surface mesh", finished, record);
-  parallel::log_info(
-      fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
-                  "average",
-                  record.surface.triangles, record.surface.pieces,
-                  record.surface_quality->min_dihedral.minimum, record.surface_quality->mean_ratio.mean));
+  log_surface(record);
   return finished;
 }
 
@@ -144,9 +128,9 @@ FinishedSurface build_surface(const Communicator& communicator, const cad::Model
     return build_surface(communicator, sized.model, sized.field, input, record);
   } catch (const parallel::CollectiveError& error) {
     if (error.kind() != parallel::FailureKind::input) throw;
-    parallel::log_info(fmt::format("surface: with joined faces: {}; again without", error.what()));
+    log_surface_again(error.what());
   } catch (const surface::SurfaceError& error) {
-    parallel::log_info(fmt::format("surface: with joined faces: {}; again without", error.what()));
+    log_surface_again(error.what());
   }
   sized = build_sizes(communicator, model, input, NarrowFaces::keep, record);
   return build_surface(communicator, sized.model, sized.field, input, record);
@@ -161,10 +145,7 @@ volume::Decomposition decompose(const Communicator& communicator, const Finished
   volume::Decomposition decomposition =
       volume::decompose(communicator, volume_input(surface, input), record.clock);
   record.decomposition = decomposition.report();
-  const volume::DecompositionReport& report = record.decomposition;
-  parallel::log_info(
-      fmt::format("decompose: {} zone(s) of {} blocks, {} lattice points; heaviest {:.2f} of the mean",
-                  report.zones, report.blocks, report.lattice_points, report.imbalance));
+  log_decompose(record);
   return decomposition;
 }
 
@@ -205,11 +186,7 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
                                    volume::Decomposition decomposition, const Case& input,
                                    RunRecord& record) {
   mesh::DistributedMesh filled = fill_volume(communicator, surface, std::move(decomposition), input, record);
-  parallel::log_info(fmt::format(
-      "volume: {} tetrahedra; zones knew {:.2f} times the points there are; {} round(s), {} retries, "
-      "{} places where zones disagreed",
-      record.volume.tetrahedra, record.volume.overlap, record.volume.rounds, record.volume.retries.size(),
-      record.volume.disagreements.size()));
+  log_volume(record);
   return filled;
 }
 

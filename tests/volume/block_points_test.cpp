@@ -186,7 +186,8 @@ surfaces::Surface uneven() {
         return Vec3{graded(p.x), graded(p.y), graded(p.z)};
       });
   for (int k = 0; k < 27; ++k) {
-    const Vec3 center{0.71 * (k % 3 - 1), 0.67 * (k / 3 % 3 - 1), 0.73 * (k / 9 - 1)};
+    const int column = k % 3 - 1, row = k / 3 % 3 - 1, layer = k / 9 - 1;
+    const Vec3 center{0.71 * column, 0.67 * row, 0.73 * layer};
     surfaces::append(surface, surfaces::cube(center, 0.08, k % 2 ? 1 : 4), surfaces::Turn::inward);
   }
   return surface;

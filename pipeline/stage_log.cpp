@@ -1,0 +1,66 @@
+#include "pipeline/stage_log.hpp"
+
+#include "parallel/log.hpp"
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+using parallel::log_info;
+
+void log_geometry(const cad::Model& model, const RunRecord& record) {
+  const geometry::Vec3 size = model.body_bounds().size();
+  log_info(fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",
+                       record.regions, record.faces, record.edges, size.x, size.y, size.z,
+                       record.unit.empty() ? "(no unit declared)" : record.unit));
+  if (!record.domain.reason.empty()) log_info("geometry: " + record.domain.reason);
+  for (const cad::Change& change : record.domain.changes) log_info("geometry: " + cad::describe(change));
+}
+
+void log_sizing(const RunRecord& record) {
+  for (const cad::Change& change : record.joined_faces) log_info("sizing: " + cad::describe(change));
+  log_info(
+      fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
+                  record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
+                  record.sizes.growth, record.size_field_leaves));
+}
+
+void log_surface(const RunRecord& record) {
+  log_info(
+      fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
+                  "average",
+                  record.surface.triangles, record.surface.pieces,
+                  record.surface_quality->min_dihedral.minimum, record.surface_quality->mean_ratio.mean));
+}
+
+void log_surface_again(const std::string& reason) {
+  log_info(fmt::format("surface: with joined faces: {}; again without", reason));
+}
+
+void log_decompose(const RunRecord& record) {
+  const volume::DecompositionReport& report = record.decomposition;
+  log_info(fmt::format("decompose: {} zone(s) of {} blocks, {} lattice points; heaviest {:.2f} of the mean",
+                       report.zones, report.blocks, report.lattice_points, report.imbalance));
+}
+
+void log_volume(const RunRecord& record) {
+  const volume::VolumeReport& report = record.volume;
+  log_info(fmt::format(
+      "volume: {} tetrahedra; zones knew {:.2f} times the points there are; {} round(s), {} retries, "
+      "{} places where zones disagreed",
+      report.tetrahedra, report.overlap, report.rounds, report.retries.size(), report.disagreements.size()));
+}
+
+void log_improve(const RunRecord& record) {
+  const improve::ImproveReport& report = record.improve;
+  log_info(fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
+                       report.min_angle_before, report.min_angle_after, report.bad_before, report.bad_after));
+}
+
+void log_pinned(const RunRecord& record) {
+  if (record.pinned.entities.empty()) return;
+  log_info(fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
+                       record.pinned.tetrahedra, record.pinned.entities.size()));
+}
+
+}  // namespace aeroloom::pipeline
