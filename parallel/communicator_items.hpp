@@ -1,6 +1,8 @@
 /// Bodies of the communicator's templates. Included by communicator.hpp alone.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
 
@@ -19,10 +21,18 @@ std::vector<T> from_bytes(std::span<const std::byte> bytes) {
 
 template <Transferable T>
 std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
-  std::vector<T> all;
-  for (const Bytes& part : all_gather(to_bytes(mine))) {
-    const std::vector<T> items = from_bytes<T>(part);
-    all.insert(all.end(), items.begin(), items.end());
+  std::vector<Bytes> parts = all_gather(to_bytes(mine));
+  std::size_t bytes = 0;
+  for (const Bytes& part : parts) {
+    if (part.size() % sizeof(T) != 0) throw std::logic_error("all_gather_items: a part of an item");
+    bytes += part.size();
+  }
+  std::vector<T> all(bytes / sizeof(T));
+  auto* to = reinterpret_cast<std::byte*>(all.data());
+  for (Bytes& part : parts) {
+    std::copy(part.begin(), part.end(), to);
+    to += part.size();
+    part = {};  // what is large is not held twice
   }
   return all;
 }

@@ -69,18 +69,18 @@ FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel:
   }
 }
 
-SizeField FieldBuilder::build(std::span<const SizeSource> sources) {
-  return *build_within(sources, std::numeric_limits<std::int64_t>::max());
+SizeField FieldBuilder::build(std::vector<SizeSource> sources) {
+  return *build_within(std::move(sources), std::numeric_limits<std::int64_t>::max());
 }
 
-std::optional<SizeField> FieldBuilder::build_within(std::span<const SizeSource> sources,
+std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sources,
                                                     std::int64_t most_leaves) {
   const ScopedCpu repeated(_clock, ScopedCpu::As::serial);
-  for (const SizeSource& source : sources) {
+  for (const SizeSource& source : sources)
     require(source.size > 0 && std::isfinite(source.size), "a source must have a positive size", source.size);
-    if (source.size < _options.maximum) _sources.push_back(source);
-  }
-  _sources = thin_sources(_root, _sources);
+  std::erase_if(sources, [&](const SizeSource& source) { return source.size >= _options.maximum; });
+  _sources = thin_sources(_root, sources);
+  sources = {};
   split_at_sources();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;

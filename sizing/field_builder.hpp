@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -36,9 +35,9 @@ public:
 
   /// The field under these sources, the same on every rank, whose sizes may lie below the minimum. Called
   /// once.
-  SizeField build(std::span<const SizeSource> sources);
+  SizeField build(std::vector<SizeSource> sources);
   /// As above; nothing, at less cost, where the field has clearly more than `most_leaves`.
-  std::optional<SizeField> build_within(std::span<const SizeSource> sources, std::int64_t most_leaves);
+  std::optional<SizeField> build_within(std::vector<SizeSource> sources, std::int64_t most_leaves);
 
 private:
   /// A source's cell.

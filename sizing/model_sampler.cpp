@@ -208,19 +208,17 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
 }
 
 SizeField ModelSampler::build_field(const SizingOptions& options) const {
-  const std::vector<SizeSource> sources = sample(options, 1);
-  return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sources);
+  return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
 }
 
 std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, double coarser,
                                              std::int64_t most_leaves) const {
-  const std::vector<SizeSource> sources = sample(options, coarser);
   SizingOptions coarse = options;
   for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
-  std::optional<SizeField> field =
-      FieldBuilder(_communicator, _clock, _model.bounds(), coarse).build_within(sources, most_leaves);
+  std::optional<SizeField> field = FieldBuilder(_communicator, _clock, _model.bounds(), coarse)
+                                       .build_within(sample(options, coarser), most_leaves);
   if (!field) return std::nullopt;
   const PredictedCounts counts = predict(*field);
   return Trial{std::move(*field),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aeroloom::sizing {
 namespace {
@@ -33,12 +34,12 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
     if (source.size > 0) source.size = std::max(source.size, options.minimum);
   }
   parallel::StageClock unused;
-  return FieldBuilder(parallel::Communicator::self(), unused, domain, options).build(bounded);
+  return FieldBuilder(parallel::Communicator::self(), unused, domain, options).build(std::move(bounded));
 }
 
 SizeField SizeField::refined(std::span<const SizeSource> more) const {
   parallel::StageClock unused;
-  return FieldBuilder(parallel::Communicator::self(), unused, *this).build(more);
+  return FieldBuilder(parallel::Communicator::self(), unused, *this).build({more.begin(), more.end()});
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {

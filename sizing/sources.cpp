@@ -1,8 +1,12 @@
 #include "sizing/sources.hpp"
 
+#include "geometry/runs.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::sizing {
 namespace {
@@ -13,15 +17,15 @@ std::uint32_t cell_along(double offset, double cells_per_length) {
   return t < grid_size - 1 ? static_cast<std::uint32_t>(t) : grid_size - 1;
 }
 
-struct KeyedSource {
-  int level;
-  std::uint64_t key;
-  SizeSource source;
+/// A source's cell: a one before the three bits per level of its path from the root.
+std::uint64_t path_of(const RootCube& root, const SizeSource& source) {
+  const int level = root.level(source.size);
+  return 1ULL << 3 * level | morton_key(root.cell(source.point)) >> 3 * (finest_level - level);
+}
 
-  auto rank() const {
-    return std::tie(level, key, source.size, source.point.x, source.point.y, source.point.z);
-  }
-};
+auto rank_of(const SizeSource& source) {
+  return std::tie(source.size, source.point.x, source.point.y, source.point.z);
+}
 
 }  // namespace
 
@@ -44,20 +48,21 @@ int RootCube::level(double edge_length) const {
 }
 
 std::vector<SizeSource> thin_sources(const RootCube& root, std::span<const SizeSource> sources) {
-  std::vector<KeyedSource> keyed;
-  keyed.reserve(sources.size());
-  for (const SizeSource& source : sources) {
-    const int level = root.level(source.size);
-    keyed.push_back({level, morton_key(root.cell(source.point)) >> 3 * (finest_level - level), source});
-  }
-  std::sort(keyed.begin(), keyed.end(),
-            [](const KeyedSource& a, const KeyedSource& b) { return a.rank() < b.rank(); });
+  std::vector<std::pair<std::uint64_t, std::size_t>> paths;
+  paths.reserve(sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) paths.emplace_back(path_of(root, sources[i]), i);
+  std::sort(paths.begin(), paths.end());
   std::vector<SizeSource> kept;
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    if (i == 0 || keyed[i].level != keyed[i - 1].level || keyed[i].key != keyed[i - 1].key) {
-      kept.push_back(keyed[i].source);
-    }
-  }
+  const auto same_cell = [](const auto& a, const auto& b) { return a.first == b.first; };
+  geometry::for_each_run(std::span<const std::pair<std::uint64_t, std::size_t>>(paths), same_cell,
+                         [&](std::size_t first, std::size_t last) {
+                           std::size_t smallest = paths[first].second;
+                           for (std::size_t i = first + 1; i < last; ++i) {
+                             const std::size_t other = paths[i].second;
+                             if (rank_of(sources[other]) < rank_of(sources[smallest])) smallest = other;
+                           }
+                           kept.push_back(sources[smallest]);
+                         });
   return kept;
 }
 

@@ -263,6 +263,22 @@ inline double volume(const Surface& surface, RegionId region = 0) {
   return sum;
 }
 
+/// Triangles of one face each, so many together.
+inline std::vector<std::vector<std::size_t>> parts_of_faces(const Surface& surface,
+                                                            std::size_t triangles_per_part) {
+  std::vector<std::vector<std::size_t>> parts;
+  for (std::size_t f = 0; f < surface.sides.size(); ++f) {
+    std::vector<std::size_t> part;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      if (surface.face[t] != static_cast<std::int32_t>(f)) continue;
+      part.push_back(t);
+      if (part.size() == triangles_per_part) parts.push_back(std::move(part)), part = {};
+    }
+    if (!part.empty()) parts.push_back(part);
+  }
+  return parts;
+}
+
 /// A surface as pieces of triangles of one CAD face each, piece p on rank p % size, its vertices classified
 /// by the number of faces they lie on. The whole mesh is the same for any number of ranks.
 inline mesh::DistributedMesh spread(const parallel::Communicator& communicator, const Surface& surface,
@@ -275,16 +291,7 @@ inline mesh::DistributedMesh spread(const parallel::Communicator& communicator, 
   for (const auto& faces : faces_at) {
     if (faces.size() == 2) curves.emplace(faces, static_cast<std::int32_t>(curves.size()));
   }
-  std::vector<std::vector<std::size_t>> parts;
-  for (std::size_t f = 0; f < surface.sides.size(); ++f) {
-    std::vector<std::size_t> part;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-      if (surface.face[t] != static_cast<std::int32_t>(f)) continue;
-      part.push_back(t);
-      if (part.size() == triangles_per_piece) parts.push_back(std::move(part)), part = {};
-    }
-    if (!part.empty()) parts.push_back(part);
-  }
+  const std::vector<std::vector<std::size_t>> parts = parts_of_faces(surface, triangles_per_piece);
   std::vector<std::set<std::size_t>> parts_at(surface.points.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (const std::size_t t : parts[p]) {
