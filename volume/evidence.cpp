@@ -89,6 +89,7 @@ void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& sur
                             "resolved, or repair the geometry"
                       : reason;
   std::vector<std::int32_t> faces;
+  faces.reserve(triangles.size());
   for (const std::int32_t t : triangles) faces.push_back(content.face[t]);
   item.message += name_faces(std::move(faces), surface);
   if (triangles.empty()) {

@@ -12,6 +12,7 @@ template <class Visit>
 void for_each_zone(const LatticeTree& tree, const Zones& zones, BlockIndex b, const Visit& visit) {
   if (zones.is_whole(b)) return visit(zones.of(b, 0));
   std::vector<ZoneIndex> found;
+  found.reserve(tree.leaf_count(b));
   for (int child = 0; child < tree.leaf_count(b); ++child) found.push_back(zones.of(b, child));
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -22,6 +23,7 @@ void for_each_zone(const LatticeTree& tree, const Zones& zones, BlockIndex b, co
 
 std::vector<TakenBlock> take_all(const LatticeTree& tree) {
   std::vector<TakenBlock> taken;
+  taken.reserve(tree.block_count());
   for (BlockIndex b = 0; b < tree.block_count(); ++b) taken.push_back({b, tree.all_leaves(b)});
   return taken;
 }

@@ -33,6 +33,7 @@ struct Turn {
 
 std::vector<Turn> deal_out(const std::vector<ZoneLoad>& loads, int ranks, ZoneIndex zones) {
   std::vector<double> work;
+  work.reserve(loads.size());
   for (const ZoneLoad& load : loads) work.push_back(load.work());
   const std::vector<parallel::Rank> owners = parallel::assign_largest_first(work, ranks);
   std::vector<Turn> turns(zones);

@@ -47,7 +47,8 @@ private:
     }
     double total = 0;
     for (std::size_t i = first; i < last; ++i) total += _loads[_items[_orders[0][i]].block];
-    const double share = total * (count / 2) / count;
+    const ZoneIndex half = count / 2;
+    const double share = total * half / count;
     int best = 0;
     std::size_t place = first;
     double least = 1e300;

@@ -96,7 +96,8 @@ TEST(FillZone, makes_the_same_cells_anywhere_and_of_any_scale) {
   };
   std::erase_if(problem.points, is_near);
   for (int k = 0; k < 72; ++k) {
-    const Vec3 center{0.5 * (k / 8 % 3 - 1), 0.5 * (k / 24 - 1), 0.25};
+    const int column = k / 8 % 3 - 1, row = k / 24 - 1;
+    const Vec3 center{0.5 * column, 0.5 * row, 0.25};
     problem.points.push_back(center +
                              0.0625 * Vec3{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0});
   }
