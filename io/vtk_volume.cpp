@@ -23,8 +23,9 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Enough for a viewer to load parts side by side, few enough that all ranks write.
-constexpr mesh::GlobalIndex tetrahedra_per_part = 200'000;
+/// Enough for a viewer to load parts side by side, little enough for the memory of one rank. Viewers see
+/// faces between parts as boundary: meshes of common size are one or two parts.
+constexpr mesh::GlobalIndex tetrahedra_per_part = 1'000'000;
 
 /// The cell arrays of a part.
 struct TetrahedronArrays {
