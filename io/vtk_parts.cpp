@@ -146,40 +146,39 @@ std::vector<PartPiece> pieces_of_turn(const parallel::Communicator& communicator
 
 }  // namespace
 
-// Only what several pieces know can come twice; numbers tell.
+// Numbers tell which vertices of several pieces are one: the first use of each makes the point.
 PartPoints merge_points(const std::vector<PartPiece>& pieces) {
   PartPoints points;
-  std::size_t count = 0;
+  std::vector<std::pair<mesh::GlobalIndex, std::size_t>> uses;
   for (const PartPiece& piece : pieces) {
     auto& places = points.of_piece.emplace_back(piece.numbers.size(), -1);
     for (const mesh::LocalIndex v : piece.cells) places[v] = 0;
-    count += static_cast<std::size_t>(std::count(places.begin(), places.end(), 0));
-  }
-  if (count > static_cast<std::size_t>(std::numeric_limits<PartIndex>::max()))
-    throw std::length_error("a file would get more points than its 32-bit numbers can count");
-  points.numbers.reserve(count);
-  points.coordinates.reserve(3 * count);
-  std::vector<std::pair<mesh::GlobalIndex, PartIndex>> known;  // of the pieces before, by number
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const PartPiece& piece = pieces[p];
-    std::vector<PartIndex>& places = points.of_piece[p];
-    const std::size_t known_before = known.size();
     for (std::size_t v = 0; v < places.size(); ++v) {
-      if (places[v] < 0) continue;
-      const std::pair<mesh::GlobalIndex, PartIndex> wanted{piece.numbers[v], 0};
-      const auto end = known.begin() + static_cast<std::ptrdiff_t>(known_before);
-      const auto at = std::lower_bound(known.begin(), end, wanted);
-      if (at != end && at->first == wanted.first) {
-        places[v] = at->second;
-        continue;
-      }
-      places[v] = static_cast<PartIndex>(points.numbers.size());
-      points.numbers.push_back(piece.numbers[v]);
-      points.coordinates.insert(points.coordinates.end(), piece.coordinates.begin() + 3 * v,
-                                piece.coordinates.begin() + 3 * v + 3);
-      if (p + 1 < pieces.size()) known.push_back({piece.numbers[v], places[v]});
+      if (places[v] == 0) uses.emplace_back(piece.numbers[v], uses.size());
     }
-    if (p + 1 < pieces.size()) std::sort(known.begin(), known.end());
+  }
+  if (uses.size() > static_cast<std::size_t>(std::numeric_limits<PartIndex>::max()))
+    throw std::length_error("a file would get more points than its 32-bit numbers can count");
+  std::sort(uses.begin(), uses.end());
+  std::vector<std::size_t> first_use(uses.size());
+  for (std::size_t i = 0, first = 0; i < uses.size(); ++i) {
+    if (uses[i].first != uses[first].first) first = i;
+    first_use[uses[i].second] = uses[first].second;
+  }
+  std::vector<PartIndex> place_of(uses.size());
+  std::size_t use = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (std::size_t v = 0; v < points.of_piece[p].size(); ++v) {
+      PartIndex& place = points.of_piece[p][v];
+      if (place < 0) continue;
+      if (first_use[use] == use) {
+        place_of[use] = static_cast<PartIndex>(points.numbers.size());
+        points.numbers.push_back(pieces[p].numbers[v]);
+        const auto point = pieces[p].coordinates.begin() + static_cast<std::ptrdiff_t>(3 * v);
+        points.coordinates.insert(points.coordinates.end(), point, point + 3);
+      }
+      place = place_of[first_use[use++]];
+    }
   }
   return points;
 }
