@@ -3,6 +3,7 @@
 #include "parallel/session.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 namespace aeroloom::parallel {
@@ -57,7 +58,7 @@ private:
   std::vector<MPI_Request> _requests;
 };
 
-void broadcast_content(const CommunicatorHandle& handle, Bytes& bytes, Rank root) {
+void broadcast_content(const CommunicatorHandle& handle, std::span<std::byte> bytes, Rank root) {
   for_each_part(bytes.size(), [&](std::size_t offset, int count) {
     check(MPI_Bcast(bytes.data() + offset, count, MPI_BYTE, root, handle.communicator), "broadcasting");
   });
@@ -79,39 +80,28 @@ std::vector<T> all_values(const CommunicatorHandle& handle, T value, MPI_Datatyp
   return values;
 }
 
-/// all_gather of at most largest_part bytes in total.
-std::vector<Bytes> all_gather_small(const CommunicatorHandle& handle, const Bytes& mine,
-                                    const std::vector<std::uint64_t>& sizes) {
+/// Of at most largest_part bytes in total.
+void all_gather_small(const CommunicatorHandle& handle, std::span<const std::byte> mine,
+                      const std::vector<std::uint64_t>& sizes, std::byte* to) {
   std::vector<int> counts(sizes.begin(), sizes.end()), starts(sizes.size());
   int total = 0;
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     starts[r] = total;
     total += counts[r];
   }
-  Bytes joint(static_cast<std::size_t>(total));
-  check(MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_BYTE, joint.data(), counts.data(),
-                       starts.data(), MPI_BYTE, handle.communicator),
+  check(MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_BYTE, to, counts.data(), starts.data(),
+                       MPI_BYTE, handle.communicator),
         "gathering on all ranks");
-  std::vector<Bytes> all(sizes.size());
-  for (std::size_t r = 0; r < sizes.size(); ++r) {
-    all[r].assign(joint.begin() + starts[r], joint.begin() + starts[r] + counts[r]);
-  }
-  return all;
 }
 
-/// all_gather of any size: every rank broadcasts in turn.
-std::vector<Bytes> all_gather_large(const CommunicatorHandle& handle, const Bytes& mine,
-                                    const std::vector<std::uint64_t>& sizes) {
-  std::vector<Bytes> all(sizes.size());
+/// Of any size: every rank broadcasts in turn.
+void all_gather_large(const CommunicatorHandle& handle, std::span<const std::byte> mine,
+                      const std::vector<std::uint64_t>& sizes, std::byte* to) {
   for (std::size_t r = 0; r < sizes.size(); ++r) {
-    if (static_cast<Rank>(r) == handle.rank) {
-      all[r] = mine;
-    } else {
-      all[r].resize(sizes[r]);
-    }
-    broadcast_content(handle, all[r], static_cast<Rank>(r));
+    if (static_cast<Rank>(r) == handle.rank) std::copy(mine.begin(), mine.end(), to);
+    broadcast_content(handle, {to, sizes[r]}, static_cast<Rank>(r));
+    to += sizes[r];
   }
-  return all;
 }
 
 void require_distinct_destinations(const std::vector<Parcel>& outgoing, int ranks) {
@@ -209,14 +199,31 @@ void Communicator::broadcast(Bytes& bytes, Rank root) const {
   broadcast_content(handle, bytes, root);
 }
 
-std::vector<Bytes> Communicator::all_gather(const Bytes& mine) const {
+std::vector<std::uint64_t> Communicator::all_sizes(std::uint64_t mine) const {
+  const session::MessageScope timed;
+  return all_values<std::uint64_t>(usable_handle(), mine, MPI_UINT64_T);
+}
+
+void Communicator::all_gather_into(std::span<const std::byte> mine, const std::vector<std::uint64_t>& sizes,
+                                   std::byte* to) const {
   const session::MessageScope timed;
   const CommunicatorHandle& handle = usable_handle();
-  const auto sizes = all_values<std::uint64_t>(handle, mine.size(), MPI_UINT64_T);
-  std::uint64_t total = 0;
-  for (const std::uint64_t size : sizes) total += size;
-  return total <= largest_part ? all_gather_small(handle, mine, sizes)
-                               : all_gather_large(handle, mine, sizes);
+  const std::uint64_t total = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
+  total <= largest_part ? all_gather_small(handle, mine, sizes, to)
+                        : all_gather_large(handle, mine, sizes, to);
+}
+
+std::vector<Bytes> Communicator::all_gather(const Bytes& mine) const {
+  const std::vector<std::uint64_t> sizes = all_sizes(mine.size());
+  Bytes joint(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0}));
+  all_gather_into(mine, sizes, joint.data());
+  std::vector<Bytes> all;
+  const std::byte* next = joint.data();
+  for (const std::uint64_t size : sizes) {
+    all.emplace_back(next, next + size);
+    next += size;
+  }
+  return all;
 }
 
 std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {

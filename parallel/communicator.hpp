@@ -74,7 +74,13 @@ public:
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 
 private:
+  friend class NodeMemory;
   const CommunicatorHandle& usable_handle() const;
+  /// The number of bytes of every rank.
+  std::vector<std::uint64_t> all_sizes(std::uint64_t mine) const;
+  /// The bytes of all ranks one after another at `to`, which has room for these sizes.
+  void all_gather_into(std::span<const std::byte> mine, const std::vector<std::uint64_t>& sizes,
+                       std::byte* to) const;
   std::shared_ptr<CommunicatorHandle> _handle;
 };
 

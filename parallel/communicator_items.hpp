@@ -21,19 +21,14 @@ std::vector<T> from_bytes(std::span<const std::byte> bytes) {
 
 template <Transferable T>
 std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
-  std::vector<Bytes> parts = all_gather(to_bytes(mine));
-  std::size_t bytes = 0;
-  for (const Bytes& part : parts) {
-    if (part.size() % sizeof(T) != 0) throw std::logic_error("all_gather_items: a part of an item");
-    bytes += part.size();
+  const std::vector<std::uint64_t> sizes = all_sizes(mine.size_bytes());
+  std::uint64_t bytes = 0;
+  for (const std::uint64_t size : sizes) {
+    if (size % sizeof(T) != 0) throw std::logic_error("all_gather_items: a part of an item");
+    bytes += size;
   }
   std::vector<T> all(bytes / sizeof(T));
-  auto* to = reinterpret_cast<std::byte*>(all.data());
-  for (Bytes& part : parts) {
-    std::copy(part.begin(), part.end(), to);
-    to += part.size();
-    part = {};  // what is large is not held twice
-  }
+  all_gather_into(std::as_bytes(mine), sizes, reinterpret_cast<std::byte*>(all.data()));
   return all;
 }
 

@@ -1,0 +1,60 @@
+/// Arrays that are the same on every rank, held once per node.
+#pragma once
+
+#include "parallel/communicator.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace aeroloom::parallel {
+
+/// Memory that the ranks of a node read together. Internal to this header.
+class NodeMemory {
+public:
+  /// The bytes, which are the same on every rank, in memory of the node; nothing where each rank has to keep
+  /// its own, because it is alone on its node or the system refuses. Kept until the last copy of the result
+  /// is gone on the last rank, which may let it go whenever it likes. Collective.
+  static std::shared_ptr<const std::byte> share(const Communicator& communicator,
+                                                std::span<const std::byte> bytes);
+};
+
+/// An array that does not change. Cheap to copy: copies refer to the same memory.
+template <Transferable T>
+class NodeArray {
+public:
+  NodeArray() = default;
+  /// Memory of this rank alone.
+  explicit NodeArray(std::vector<T> items) {
+    auto own = std::make_shared<const std::vector<T>>(std::move(items));
+    _items = *own;
+    _owner = std::move(own);
+  }
+  /// Memory of the node where that can be had. Every rank gives the same items. Collective.
+  NodeArray(const Communicator& communicator, std::vector<T> items) {
+    *this = NodeArray(std::move(items)).shared(communicator);
+  }
+  /// The same items in memory of the node, where that can be had. They are the same on every rank.
+  /// Collective.
+  NodeArray shared(const Communicator& communicator) const {
+    NodeArray result;
+    result._owner = NodeMemory::share(communicator, std::as_bytes(_items));
+    if (!result._owner) return *this;
+    result._items = {static_cast<const T*>(result._owner.get()), _items.size()};
+    return result;
+  }
+
+  const T& operator[](std::size_t i) const { return _items[i]; }
+  const T* data() const { return _items.data(); }
+  std::size_t size() const { return _items.size(); }
+  std::span<const T> items() const { return _items; }
+
+private:
+  std::shared_ptr<const void> _owner;
+  std::span<const T> _items;
+};
+
+}  // namespace aeroloom::parallel
