@@ -214,6 +214,8 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (meshable) {
     const cad::Model model = share_model(communicator, std::move(bytes), clock);
+    // One model alone: areas and facets that the forecast needs are not made again.
+    if (communicator.is_root()) record.diagnosis.domain->model = model;
     record.forecast = forecast_run(communicator, model, input);
     parallel::agree(communicator, [&] {
       if (communicator.is_root())

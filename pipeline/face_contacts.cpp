@@ -1,5 +1,6 @@
 #include "geometry/box_tree.hpp"
 #include "pipeline/check.hpp"
+#include "sizing/model_sources.hpp"
 #include "surface/triangle_contact.hpp"
 
 #include <algorithm>
@@ -9,20 +10,17 @@
 namespace aeroloom::pipeline {
 namespace {
 
-constexpr double deflection_share = 1e-3;  // of the body's diagonal
-constexpr double facet_angle = 0.35;       // radians
-
 struct Facet {
   geometry::Vec3 corners[3];
   cad::FaceId face;
 };
 
+/// Of the body, those that sizes were sampled on.
 std::vector<Facet> collect_facets(const cad::Model& model) {
   std::vector<Facet> facets;
-  const double deflection = deflection_share * model.body_bounds().diagonal();
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (model.is_far_field(f)) continue;
-    const cad::Facets of_face = model.facets(f, deflection, facet_angle);
+    const cad::Facets of_face = sizing::sampling_facets(model, f, false);
     for (const auto& t : of_face.triangles) {
       facets.push_back({{of_face.points[t[0]], of_face.points[t[1]], of_face.points[t[2]]}, f});
     }
