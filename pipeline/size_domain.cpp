@@ -82,7 +82,8 @@ SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& req
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
-  const sizing::ModelSampler sampler(communicator, model, clock, layers);
+  const auto fields = leaves_a_choice(request) ? sizing::Fields::several : sizing::Fields::one;
+  const sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
   if (narrow_faces == NarrowFaces::keep) return finish(sampler, request, {}, {});
   // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
   std::optional<sizing::SizingOptions> near;
@@ -91,7 +92,7 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   cad::Changes changes;
   const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, changes);
   if (!joined) return finish(sampler, request, near, {});
-  const sizing::ModelSampler of_joined(communicator, *joined, clock, layers);
+  const sizing::ModelSampler of_joined(communicator, *joined, clock, layers, fields);
   return finish(of_joined, request, near, std::move(changes));
 }
 

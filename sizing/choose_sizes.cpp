@@ -201,7 +201,7 @@ ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock) {
-  const ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity);
+  const ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity, Fields::several);
   return choose_sizes(sampler, target_tetrahedra, std::nullopt).options;
 }
 

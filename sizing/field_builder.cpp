@@ -213,10 +213,10 @@ SizeField FieldBuilder::finish(Octree octree, std::vector<float> corner_sizes) c
   field._domain = _domain;
   field._low = _root.low;
   field._root_edge = _root.edge;
-  field._corner_sizes = std::move(corner_sizes);
-  field._leaf_keys = std::move(octree.leaves.keys);
-  field._leaf_levels = std::move(octree.leaves.levels);
-  field._leaf_table = std::move(octree.table);
+  field._corner_sizes = {_communicator, std::move(corner_sizes)};
+  field._leaf_keys = {_communicator, std::move(octree.leaves.keys)};
+  field._leaf_levels = {_communicator, std::move(octree.leaves.levels)};
+  field._leaf_table = octree.table.shared(_communicator);
   return field;
 }
 

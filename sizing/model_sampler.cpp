@@ -81,11 +81,12 @@ std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOp
 }  // namespace
 
 ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
-                           parallel::StageClock& clock, double layers)
+                           parallel::StageClock& clock, double layers, Fields fields)
     : _communicator(communicator),
       _model(model),
       _clock(clock),
       _layers(layers),
+      _fields(fields),
       _root(model.bounds()),
       _areas(measure_faces(communicator, model)) {
   parallel::agree(communicator, [&] {
@@ -162,7 +163,9 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) c
   };
   for (std::size_t i = 0; i < _faces.size(); ++i) {
     const bool far_field = _far_field[_faces[i]];
-    std::vector<SizeSource> sources = _samples[i].sources(_model, _facets[i], far_field, options);
+    FaceSamples once(_model, _faces[i]);
+    FaceSamples& samples = _fields == Fields::several ? _samples[i] : once;
+    std::vector<SizeSource> sources = samples.sources(_model, _facets[i], far_field, options);
     const std::vector<SizeSource> strips =
         strip_sources(_model, _facets[i], options, largest_size(far_field, options));
     sources.insert(sources.end(), strips.begin(), strips.end());
@@ -228,7 +231,7 @@ std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, doubl
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock) {
   check_options(options);
-  return ModelSampler(communicator, model, clock, options.proximity).build_field(options);
+  return ModelSampler(communicator, model, clock, options.proximity, Fields::one).build_field(options);
 }
 
 }  // namespace aeroloom::sizing

@@ -21,14 +21,17 @@ struct Trial {
   PredictedCounts counts;
 };
 
+/// Whether samples of faces are kept: those that serve once only are not worth their memory.
+enum class Fields : bool { one, several };
+
 /// Faces are dealt to ranks by area, edges one by one; each rank triangulates its faces. Whatever comes out
 /// is the same for any number of ranks.
 class ModelSampler {
 public:
-  /// `layers`: elements across a gap that the fields to come may ask for, at most. Collective. Throws
-  /// parallel::CollectiveError where the CAD library fails on a face.
+  /// `layers`: elements across a gap that the fields to come may ask for, at most; `fields`: how many those
+  /// will be. Collective. Throws parallel::CollectiveError where the CAD library fails on a face.
   ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
-               parallel::StageClock& clock, double layers);
+               parallel::StageClock& clock, double layers, Fields fields);
 
   /// The field under these options. Collective.
   SizeField build_field(const SizingOptions& options) const;
@@ -59,6 +62,7 @@ private:
   cad::Model _model;
   parallel::StageClock& _clock;
   double _layers;
+  Fields _fields;
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;

@@ -100,26 +100,34 @@ SplitCubes::Leaves SplitCubes::leaves() const {
   return result;
 }
 
-LeafTable::LeafTable(const SplitCubes::Leaves& leaves) : _entries(64, 0) {
+LeafTable::LeafTable(const SplitCubes::Leaves& leaves) {
+  std::vector<std::int32_t> entries(64, 0);
   for (std::size_t leaf = 0; leaf < leaves.keys.size(); ++leaf) {
     const std::uint64_t key = leaves.keys[leaf];
     const int level = leaves.levels[leaf];
     std::size_t node = 0;
     int shift = top_shift, depth = 2;
     for (; depth < level; depth += 2, shift -= 6) {
-      std::int32_t& entry = _entries[node * 64 + (key >> shift & 63)];
+      std::int32_t& entry = entries[node * 64 + (key >> shift & 63)];
       if (entry >= 0) {
-        entry = -static_cast<std::int32_t>(_entries.size() / 64);
+        entry = -static_cast<std::int32_t>(entries.size() / 64);
         node = static_cast<std::size_t>(-entry);
-        _entries.resize(_entries.size() + 64, 0);
+        entries.resize(entries.size() + 64, 0);
       } else {
         node = static_cast<std::size_t>(-entry);
       }
     }
     const std::size_t first = node * 64 + (key >> shift & 63);
-    std::fill_n(_entries.begin() + static_cast<std::ptrdiff_t>(first), 1ULL << 3 * (depth - level),
+    std::fill_n(entries.begin() + static_cast<std::ptrdiff_t>(first), 1ULL << 3 * (depth - level),
                 static_cast<std::int32_t>(leaf));
   }
+  _entries = parallel::NodeArray<std::int32_t>(std::move(entries));
+}
+
+LeafTable LeafTable::shared(const parallel::Communicator& communicator) const {
+  LeafTable result;
+  result._entries = _entries.shared(communicator);
+  return result;
 }
 
 OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table, std::size_t first,

@@ -2,6 +2,7 @@
 /// its leaf.
 #pragma once
 
+#include "parallel/node_array.hpp"
 #include "sizing/morton.hpp"
 
 #include <array>
@@ -52,10 +53,12 @@ public:
       entry = -entry;
     }
   }
+  /// The same table, which is the same on every rank, held once per node. Collective.
+  LeafTable shared(const parallel::Communicator& communicator) const;
 
 private:
   static constexpr int top_shift = 3 * finest_level - 6;
-  std::vector<std::int32_t> _entries;  // (nodes,64): a leaf where >= 0, else minus the node one step down
+  parallel::NodeArray<std::int32_t> _entries;  // (nodes,64): a leaf where >= 0, else minus the node below
 };
 
 /// The distinct corners of a range of leaves.

@@ -193,7 +193,7 @@ PredictedCounts ModelSampler::predict(const SizeField& field) const {
 
 PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,
                                const SizeField& field, parallel::StageClock& clock) {
-  return ModelSampler(communicator, model, clock, 0).predict(field);
+  return ModelSampler(communicator, model, clock, 0, Fields::one).predict(field);
 }
 
 }  // namespace aeroloom::sizing

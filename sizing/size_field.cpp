@@ -37,9 +37,9 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
   return FieldBuilder(parallel::Communicator::self(), unused, domain, options).build(std::move(bounded));
 }
 
-SizeField SizeField::refined(std::span<const SizeSource> more) const {
-  parallel::StageClock unused;
-  return FieldBuilder(parallel::Communicator::self(), unused, *this).build({more.begin(), more.end()});
+SizeField SizeField::refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
+                             parallel::StageClock& clock) const {
+  return FieldBuilder(communicator, clock, *this).build({more.begin(), more.end()});
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {
@@ -58,7 +58,7 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
   const float* h = _corner_sizes.data() + 8 * leaf;
   const double low = blend(blend(h[0], h[1], u), blend(h[2], h[3], u), v);
   const double high = blend(blend(h[4], h[5], u), blend(h[6], h[7], u), v);
-  return std::min(blend(low, high, w), _options.maximum);
+  return std::min(_factor * blend(low, high, w), _options.maximum);
 }
 
 SizeField SizeField::scaled(double factor) const {
@@ -67,7 +67,7 @@ SizeField SizeField::scaled(double factor) const {
                         &result._options.feature_minimum}) {
     *bound *= factor;
   }
-  for (float& size : result._corner_sizes) size = static_cast<float>(size * factor);
+  result._factor *= factor;
   return result;
 }
 
@@ -78,7 +78,7 @@ SizeField::Leaf SizeField::leaf(std::int64_t i) const {
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) sum += h[corner];
   return {_low + unit * geometry::Vec3{double(low.x), double(low.y), double(low.z)},
-          unit * (grid_size >> _leaf_levels[i]), std::min(sum / 8, _options.maximum)};
+          unit * (grid_size >> _leaf_levels[i]), std::min(_factor * sum / 8, _options.maximum)};
 }
 
 SizeField::Leaf SizeField::ancestor(std::int64_t i, int levels) const {

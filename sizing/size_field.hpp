@@ -3,6 +3,7 @@
 
 #include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/node_array.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/octree.hpp"
 
@@ -46,7 +47,8 @@ struct SizeSource {
 /// most the size asked for there (to single precision) and less only where a neighbour asks for less: a
 /// source asks for its size in the whole leaf around it, whose edge is at most that size. From there h grows
 /// by ln(growth) per length. minimum <= h <= maximum, except that `minimum` does not bind against short
-/// edges, narrow faces, sharp corners and what refined() asks for. Immutable and identical on every rank.
+/// edges, narrow faces, sharp corners and what refined() asks for. Immutable and identical on every rank,
+/// held once per node where ranks built it together; cheap to copy.
 class SizeField {
 public:
   /// Builds the field over `domain` from sources, their sizes raised to the minimum; sources outside count at
@@ -73,10 +75,11 @@ public:
   /// The cube so many levels above that leaf, or the root; without a size.
   Leaf ancestor(std::int64_t i, int levels) const;
 
-  /// The field with further sources: sizes can only fall, below the minimum too. Used where surfaces come too
-  /// close.
-  SizeField refined(std::span<const SizeSource> more) const;
-  /// The field with all sizes and bounds `factor` times as large.
+  /// The field with further sources, the same on every rank: sizes can only fall, below the minimum too. Used
+  /// where surfaces come too close. Collective.
+  SizeField refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
+                    parallel::StageClock& clock) const;
+  /// The field with all sizes and bounds `factor` times as large, in the memory of this one.
   SizeField scaled(double factor) const;
 
 private:
@@ -85,13 +88,14 @@ private:
   double interpolate(double dx, double dy, double dz) const;
 
   SizingOptions _options;
-  geometry::Box _domain;                   // as asked for
-  geometry::Vec3 _low;                     // corner of the root cube
-  double _root_edge = 1;                   // of the root cube
-  std::vector<std::uint64_t> _leaf_keys;   // Morton keys of the leaves' low corners, ascending
-  std::vector<std::uint8_t> _leaf_levels;  // 0 is the root
+  geometry::Box _domain;                           // as asked for
+  geometry::Vec3 _low;                             // corner of the root cube
+  double _root_edge = 1;                           // of the root cube
+  double _factor = 1;                              // of the sizes
+  parallel::NodeArray<std::uint64_t> _leaf_keys;   // Morton keys of the leaves' low corners, ascending
+  parallel::NodeArray<std::uint8_t> _leaf_levels;  // 0 is the root
   LeafTable _leaf_table;
-  std::vector<float> _corner_sizes;  // (leaves,8), corners in Morton order
+  parallel::NodeArray<float> _corner_sizes;  // (leaves,8), corners in Morton order; times the factor
 };
 
 /// The field of a model: curvature and chordal deviation of faces and edges, proximity, narrow strips, sharp

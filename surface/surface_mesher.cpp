@@ -102,7 +102,8 @@ SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::
                                       conflicts.complaint, conflicts.remedies.size(),
                                       conflicts.undivided.size()));
     pool.leave_whole(conflicts.undivided);
-    if (!conflicts.remedies.empty()) result.field = result.field.refined(conflicts.remedies);
+    if (!conflicts.remedies.empty())
+      result.field = result.field.refined(communicator, conflicts.remedies, clock);
   }
   for (const mesh::Piece& piece : result.mesh.pieces) result.report.triangles += piece.cell_count();
   result.report.triangles = communicator.sum(result.report.triangles);

@@ -167,7 +167,8 @@ TEST(SizeField, IsTheSameOnEveryRank) {
 TEST(SizeField, RefinedOnlyLowers) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
   const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{3, 3, 3}, 0.05}, {{-5, 0, 0}, 9}};
-  const SizeField refined = field.refined(more);
+  parallel::StageClock clock;
+  const SizeField refined = field.refined(parallel::Communicator::world(), more, clock);
   EXPECT_LE(refined({1, 0, 0}), 0.004 * (1 + 1e-6));
   EXPECT_LE(refined({3, 3, 3}), 0.05 * (1 + 1e-6));
   EXPECT_NEAR(refined({-5, 0, 0}), field({-5, 0, 0}), 0.05 * field({-5, 0, 0}));
@@ -185,9 +186,24 @@ TEST(SizeField, RefinedOnlyLowers) {
   }
 }
 
+TEST(SizeField, ScaledMultipliesEverySize) {
+  const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
+  const SizeField scaled = field.scaled(2).scaled(4);
+  EXPECT_EQ(scaled.minimum(), 8 * field.minimum());
+  EXPECT_EQ(scaled.maximum(), 8 * field.maximum());
+  EXPECT_EQ(scaled.leaf(7).size, 8 * field.leaf(7).size);
+  Points points(10);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = points.around_sphere();
+    ASSERT_EQ(scaled(p), 8 * field(p));
+  }
+}
+
 TEST(SizeField, RefinedKeepsTheGrowthLimit) {
-  const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options)
-                              .refined(std::vector<SizeSource>{{{1, 0, 0}, 0.001}});
+  parallel::StageClock clock;
+  const SizeField field =
+      SizeField::build(cube(10), sphere_sources(0.05), options)
+          .refined(parallel::Communicator::world(), std::vector<SizeSource>{{{1, 0, 0}, 0.001}}, clock);
   Points points(9);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = Vec3{1, 0, 0} + points.on_sphere(std::exp(points.uniform(-8, 0)));
@@ -286,8 +302,8 @@ TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
   const SizeField together = sizing::FieldBuilder(world, clock, cube(5), options).build(sources);
   const SizeField alone = SizeField::build(cube(5), sources, options);
   const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{0, 2, 0}, 0.03}};
-  const SizeField refined = sizing::FieldBuilder(world, clock, together).build(more);
-  const SizeField refined_alone = alone.refined(more);
+  const SizeField refined = together.refined(world, more, clock);
+  const SizeField refined_alone = alone.refined(parallel::Communicator::self(), more, clock);
   ASSERT_EQ(together.leaf_count(), alone.leaf_count());
   ASSERT_EQ(refined.leaf_count(), refined_alone.leaf_count());
   Points points(21);
