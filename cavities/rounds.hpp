@@ -75,13 +75,16 @@ struct CavityRound {
 /// Whether a vertex with this token was placed by the last round on the mesh.
 bool is_placed_by_last_round(const mesh::DistributedMesh& mesh, mesh::SharedToken token);
 
+/// Whether cavities consist of the stars of vertices that were wished for alone, or of those of their
+/// neighbours too, where these lie inside a piece and near one cavity only.
+enum class Reach : bool { stars, neighbours };
+
 /// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
 /// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
-/// another round with other wishes. Then the stars of their neighbours are taken as well, where these lie
-/// inside a piece and near one cavity only. Deals cavities out by size. At most 255 rounds on one mesh.
+/// another round with other wishes. Deals cavities out by size. At most 255 rounds on one mesh.
 /// Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, const RefillCavity& refill,
+                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
                             parallel::StageClock& clock);
 
 }  // namespace aeroloom::cavities

@@ -6,6 +6,7 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "partition/graph_partition.hpp"
+#include "partition/piece_size.hpp"
 
 #include <algorithm>
 #include <map>
@@ -21,13 +22,16 @@ using mesh::Piece;
 using mesh::PieceId;
 using mesh::RegionId;
 
+constexpr std::int64_t least_piece = 40'000, most_piece = 500'000;
+
 /// Cuts regions into pieces and builds them on the rank that read the file.
 class ForeignMesh {
 public:
-  ForeignMesh(io::TetrahedraFile file, const std::string& path, std::int64_t piece_tets)
+  ForeignMesh(io::TetrahedraFile file, const std::string& path, std::optional<std::int64_t> piece_tets)
       : _file(std::move(file)),
         _path(path),
-        _piece_tets(piece_tets),
+        _piece_tets(piece_tets.value_or(
+            partition::suitable_piece_size(static_cast<double>(_file.tets.size()), least_piece, most_piece))),
         _faces(mesh::sorted_faces(_file.tets)) {}
 
   mesh::DistributedMesh build() {
@@ -231,7 +235,7 @@ void broadcast_names(const parallel::Communicator& communicator, std::vector<std
 }  // namespace
 
 mesh::DistributedMesh load_foreign_mesh(const parallel::Communicator& communicator, const std::string& path,
-                                        std::int64_t piece_tets) {
+                                        std::optional<std::int64_t> piece_tets) {
   mesh::DistributedMesh mesh;
   std::vector<std::int64_t> sizes;
   parallel::agree(communicator, [&] {

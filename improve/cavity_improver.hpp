@@ -27,10 +27,9 @@ std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOp
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.
 class CavityImprover {
 public:
-  /// All must outlive it. Whatever the options aim at, no cavity gets worse by the measure of `target_angle`.
-  CavityImprover(const mesh::DistributedMesh& mesh, const ImproveOptions& options, double target_angle,
-                 const MeshSource& source)
-      : _mesh(mesh), _options(options), _measure(target_angle), _source(source) {}
+  /// All must outlive it.
+  CavityImprover(const mesh::DistributedMesh& mesh, const ImproveOptions& options, const MeshSource& source)
+      : _mesh(mesh), _options(options), _measure(options.target_angle), _source(source) {}
 
   /// Nothing where improvement changes nothing. Adds to the report.
   std::optional<cavities::Refilling> improve(const cavities::Cavity& cavity, ImproveReport& report);

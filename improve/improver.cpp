@@ -123,9 +123,6 @@ namespace {
 /// Rounds for the average across borders. Those that two cavities wanted in one are inside of one in the
 /// next.
 constexpr int border_rounds = 2;
-/// In these, what is far from the surface is held to more than the target: the lattice around it is better.
-constexpr double border_ambition = 1.1;
-constexpr int border_relaxation = 2;  // passes
 
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
@@ -135,7 +132,8 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   cavities::CavityWishes wishes;
   const std::int32_t rounds_before = mesh.cavity_rounds;
-  const auto refill = [&](CavityImprover& improver) {
+  CavityImprover improver(mesh, options, source);
+  const auto refill = [&](cavities::Reach reach) {
     const auto improve = [&](const cavities::Cavity& cavity) {
       const double begin = parallel::cpu_seconds();
       auto refilling = improver.improve(cavity, total);
@@ -144,22 +142,17 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                        static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
       return refilling;
     };
-    cavities::refill_cavities(communicator, mesh, wishes, improve, clock);
+    cavities::refill_cavities(communicator, mesh, wishes, reach, improve, clock);
   };
-  ImproveOptions ambitious = options;
-  ambitious.target_angle = std::min(border_ambition * options.target_angle, TetQuality::largest_target);
-  ambitious.relaxation = border_relaxation;
-  CavityImprover for_borders(mesh, ambitious, options.target_angle, source);
-  CavityImprover for_bad(mesh, options, options.target_angle, source);
   for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
-    if (communicator.sum(wish_for_borders(mesh, ambitious, shift, wishes)) == 0) break;
-    refill(for_borders);
+    if (communicator.sum(wish_for_borders(mesh, options, shift, wishes)) == 0) break;
+    refill(cavities::Reach::stars);
   }
   // In a single piece all are known already.
   const bool look = mesh.cavity_rounds > rounds_before || communicator.sum(total.bad_after) > 0;
   for (int shift = 0; shift < (look ? options.shifted_rounds : 0); ++shift) {
     if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
-    refill(for_bad);
+    refill(cavities::Reach::neighbours);
   }
   if (mesh.cavity_rounds == rounds_before) return;
   mesh::forget_unshared(communicator, mesh);  // cavities name more than borders

@@ -182,6 +182,12 @@ void KeyTable::integer(const std::string& name, std::int64_t& target, const Rang
       [&target] { return std::to_string(target); });
 }
 
+void KeyTable::integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range) {
+  add(
+      name, [&target, range](const YamlValue& value) { target = value.integer(range); },
+      [&target] { return target ? std::optional(std::to_string(*target)) : std::nullopt; });
+}
+
 void KeyTable::integer(const std::string& name, int& target, const Range& range) {
   add(
       name, [&target, range](const YamlValue& value) { target = static_cast<int>(value.integer(range)); },

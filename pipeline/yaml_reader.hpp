@@ -70,6 +70,7 @@ public:
   /// An empty optional is not written.
   void number(const std::string& name, std::optional<double>& target, const Range& range);
   void integer(const std::string& name, std::int64_t& target, const Range& range);
+  void integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range);
   void integer(const std::string& name, int& target, const Range& range);
   void flag(const std::string& name, bool& target);
   /// Empty text is not accepted, and not written.

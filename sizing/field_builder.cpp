@@ -19,6 +19,8 @@ namespace {
 /// Edge of a leaf over the size at its centre, at most, where no source lies in it: there h is a cone or a
 /// plane, which trilinear interpolation follows within a few percent.
 constexpr double leaf_edge_per_size = 2.0;
+/// Masters are not looked through for equal ones before there are so many.
+constexpr std::size_t least_masters = 1 << 20;
 
 void require(bool holds, const char* what, double value) {
   if (!holds) throw std::invalid_argument(fmt::format("sizing: {}, but it is {}", what, value));
@@ -92,7 +94,7 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   std::vector<float> mine;
   parallel::agree(_communicator, [&] {
     const ScopedCpu own(_clock, ScopedCpu::As::task);
-    mine = sizes_at_corners(octree, seeds, own_range(octree));
+    mine = sizes_at_corners(octree, seeds, own_range(octree.leaves.keys.size()));
   });
   return finish(std::move(octree), _communicator.all_gather_items<float>(mine));
 }
@@ -119,16 +121,38 @@ std::vector<SizeSeed> FieldBuilder::seeds_at_sources() const {
   return seeds;
 }
 
-// A hanging node takes the mean of its masters in the end: where a source asks for its size they must, too.
-SeedTree FieldBuilder::plant_seeds(const Octree& octree) const {
-  std::vector<SizeSeed> seeds = seeds_at_sources();
-  for (const SizeSource& source : _sources) {
-    const Cell cell = cell_of(source);
+std::vector<FieldBuilder::PointSize> FieldBuilder::sizes_at_masters(const Octree& octree,
+                                                                    Range sources) const {
+  std::vector<PointSize> at_masters;
+  std::size_t room = least_masters;
+  const auto keep_smallest = [&] {
+    std::sort(at_masters.begin(), at_masters.end());
+    const auto same_point = [](const PointSize& a, const PointSize& b) { return a.key == b.key; };
+    at_masters.erase(std::unique(at_masters.begin(), at_masters.end(), same_point), at_masters.end());
+    room = std::max(least_masters, 2 * at_masters.size());
+  };
+  for (std::size_t s = sources.first; s < sources.last; ++s) {
+    const Cell cell = cell_of(_sources[s]);
     const std::int32_t leaf = octree.table.find(cell.key);
     if (octree.leaves.levels[leaf] != cell.level) continue;  // of smaller leaves none hangs outside the cell
     for (const GridPoint master : masters_of_corners(octree.leaves, octree.table, leaf))
-      seeds.push_back({master, 0, source.size});
+      at_masters.push_back({morton_key(master), _sources[s].size});
+    if (at_masters.size() > room) keep_smallest();
   }
+  keep_smallest();
+  return at_masters;
+}
+
+// A hanging node takes the mean of its masters in the end: where a source asks for its size they must, too.
+SeedTree FieldBuilder::plant_seeds(const Octree& octree) const {
+  std::vector<PointSize> mine;
+  parallel::agree(_communicator, [&] {
+    const ScopedCpu own(_clock, ScopedCpu::As::task);
+    mine = sizes_at_masters(octree, own_range(_sources.size()));
+  });
+  std::vector<SizeSeed> seeds = seeds_at_sources();
+  for (const PointSize& at : _communicator.all_gather_items<PointSize>(mine))
+    seeds.push_back({grid_point(at.key), 0, at.size});
   return SeedTree(std::move(seeds), _slope);
 }
 
@@ -138,8 +162,7 @@ FieldBuilder::Octree FieldBuilder::grow_octree() {
   return octree;
 }
 
-FieldBuilder::Range FieldBuilder::own_range(const Octree& octree) const {
-  const std::size_t count = octree.leaves.keys.size();
+FieldBuilder::Range FieldBuilder::own_range(std::size_t count) const {
   const auto rank = static_cast<std::size_t>(_communicator.rank());
   const auto ranks = static_cast<std::size_t>(_communicator.size());
   return {count * rank / ranks, count * (rank + 1) / ranks};
@@ -169,7 +192,7 @@ bool FieldBuilder::split_where_coarse(const Octree& octree, const SeedTree& seed
   };
   parallel::agree(_communicator, [&] {
     const ScopedCpu own(_clock, ScopedCpu::As::task);
-    const Range range = own_range(octree);
+    const Range range = own_range(octree.leaves.keys.size());
     for (std::size_t leaf = range.first; leaf < range.last; ++leaf)
       visit(visit, octree.leaves.keys[leaf], octree.leaves.levels[leaf]);
   });

@@ -7,6 +7,7 @@
 #include "sizing/size_field.hpp"
 #include "sizing/sources.hpp"
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -49,7 +50,14 @@ private:
     SplitCubes::Leaves leaves;
     LeafTable table;
   };
-  /// A range of leaves.
+  /// A point of the finest grid, by its key, with a size asked for there.
+  struct PointSize {
+    std::uint64_t key;
+    double size;
+
+    friend auto operator<=>(const PointSize&, const PointSize&) = default;
+  };
+  /// A range of leaves or sources.
   struct Range {
     std::size_t first, last;
   };
@@ -57,10 +65,13 @@ private:
   Cell cell_of(const SizeSource& source) const;
   void split_at_sources();
   std::vector<SizeSeed> seeds_at_sources() const;
-  /// The tree of the sources' cells and of what hanging corners of such leaves hang on.
+  /// What hanging corners of leaves hang on, with the smallest size that these sources ask for in such
+  /// leaves.
+  std::vector<PointSize> sizes_at_masters(const Octree& octree, Range sources) const;
+  /// The tree of the sources' cells and of those.
   SeedTree plant_seeds(const Octree& octree) const;
   Octree grow_octree();
-  Range own_range(const Octree& octree) const;
+  Range own_range(std::size_t count) const;
   /// False where that would take more cubes than that; then nothing is split.
   bool split_where_coarse(const Octree& octree, const SeedTree& seeds, std::int64_t most_cubes);
   /// What no size may exceed at a point.

@@ -117,11 +117,16 @@ void ModelSampler::gather_triangles() {
   }
   std::vector<FaceTriangle> all = _communicator.all_gather_items<FaceTriangle>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
+  std::vector<Triangle> boundary;
   for (const FaceTriangle& t : all) {
     if (!_far_field[t.face]) {
       for (const geometry::Vec3 p : t.corners) _body_box.add(p);
     }
-    if (_model.face(t.face).back == cad::no_entity) _boundary.push_back(t.corners);
+    if (_model.face(t.face).back == cad::no_entity) boundary.push_back(t.corners);
+  }
+  {
+    ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+    _boundary.emplace(std::move(boundary));
   }
   if (_body_box.empty()) _body_box = _model.bounds();
   std::vector<Triangle> walls;

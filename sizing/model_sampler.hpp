@@ -71,7 +71,7 @@ private:
   mutable std::vector<FaceSamples>
       _samples;                           // of those; they grow with what is asked for, answers do not change
   std::vector<cad::FaceCorner> _corners;  // of those, where may_be_sharp
-  std::vector<Triangle> _boundary;        // facets of all faces that bound the domain, in the order of faces
+  std::optional<TriangleTree> _boundary;  // facets of all faces that bound the domain, in the order of faces
   std::vector<Gap> _gaps;                 // seen from the faces of this rank
   geometry::Box _body_box;
 };

@@ -7,8 +7,10 @@
 namespace aeroloom::sizing {
 namespace {
 
-double squared_distance(const std::array<double, 3>& low, const std::array<double, 3>& high, double x,
-                        double y, double z) {
+static_assert(grid_size <= 1U << 24, "coordinates must be exact in single precision");
+
+double squared_distance(const std::array<float, 3>& low, const std::array<float, 3>& high, double x, double y,
+                        double z) {
   const double dx = std::max({0.0, low[0] - x, x - high[0]});
   const double dy = std::max({0.0, low[1] - y, y - high[1]});
   const double dz = std::max({0.0, low[2] - z, z - high[2]});
@@ -26,9 +28,12 @@ SeedTree::SeedTree(std::vector<SizeSeed> seeds, double slope) : _slope(slope), _
   single.reserve(seeds.size());
   for (const auto& [key, i] : order) {
     const SizeSeed& s = seeds[i];
-    const double x = s.low.x, y = s.low.y, z = s.low.z, edge = s.edge;
-    single.push_back({{x, y, z}, {x + edge, y + edge, z + edge}, s.size});
+    const auto at = [](std::uint32_t coordinate) { return static_cast<float>(coordinate); };
+    single.push_back({{at(s.low.x), at(s.low.y), at(s.low.z)},
+                      {at(s.low.x + s.edge), at(s.low.y + s.edge), at(s.low.z + s.edge)},
+                      s.size});
   }
+  seeds = {}, order = {};
   while (_levels.back().size() > group) {
     const std::vector<Group>& below = _levels.back();
     std::vector<Group> above;

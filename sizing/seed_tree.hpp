@@ -34,8 +34,9 @@ public:
 
 private:
   static constexpr int group = 8;
+  /// Two fit into a line of the cache; coordinates of the grid are exact in single precision.
   struct Group {
-    std::array<double, 3> low, high;
+    std::array<float, 3> low, high;
     double size;  ///< the smallest
   };
   struct Best {

@@ -48,7 +48,9 @@ void divide(const VolumeInput& input, Decomposition::Data& data, parallel::Stage
   const ScopedCpu repeated(clock, ScopedCpu::As::serial);
   const std::vector<double> loads = block_loads(data.table, data.counts);
   data.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
-  const ZoneIndex count = wanted_zones(data.report.expected_tetrahedra, input.options.piece_tets);
+  const double expected = data.report.expected_tetrahedra;
+  const ZoneIndex count =
+      wanted_zones(expected, input.options.piece_tets.value_or(suitable_piece_tets(expected)));
   data.zones = std::make_unique<Zones>(bisect(*data.tree, loads, count));
   data.expected.assign(count, 0);
   for (BlockIndex b = 0; b < data.tree->block_count(); ++b) data.expected[data.zones->of(b, 0)] += loads[b];

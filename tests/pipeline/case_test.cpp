@@ -57,8 +57,7 @@ TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   EXPECT_EQ(input.domain.kind, cad::DomainKind::automatic);
   EXPECT_FALSE(input.sizing.minimum || input.sizing.maximum || input.sizing.surface_maximum);
   EXPECT_FALSE(input.sizing.curvature_angle || input.sizing.growth);
-  EXPECT_EQ(input.surface.piece_triangles, 50'000);
-  EXPECT_EQ(input.volume.piece_tets, 250'000);
+  EXPECT_FALSE(input.surface.piece_triangles || input.volume.piece_tets);
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::pieces);
   EXPECT_TRUE(input.improve.enabled);
   EXPECT_EQ(input.output.directory, "out");
@@ -152,7 +151,8 @@ TEST_F(CaseTest, ResolvedCaseReadsBackTheSame) {
             "sizing: {minimum: 1e-7, growth: 1.1}\nimprove: {enabled: false}\nvolume: {inject: hangs}\n")}) {
     const std::string resolved = resolved_yaml(read(yaml));
     EXPECT_EQ(resolved_yaml(read(resolved)), resolved);
-    EXPECT_NE(resolved.find("piece_tets: 250000"), std::string::npos) << resolved;
+    EXPECT_NE(resolved.find("halo: 1.2"), std::string::npos) << resolved;
+    EXPECT_EQ(resolved.find("piece_tets"), std::string::npos) << resolved;
   }
   const std::string resolved = resolved_yaml(read(transport + "sizing: {minimum: 0.1}\n"));
   EXPECT_NE(resolved.find("minimum: 0.1\n"), std::string::npos) << resolved;
