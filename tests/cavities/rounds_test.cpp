@@ -114,7 +114,7 @@ TEST(Cavities, OfStarsAloneAreSmaller) {
   const auto world = Communicator::world();
   std::int64_t taken[2] = {};
   for (const Reach reach : {Reach::stars, Reach::neighbours}) {
-    mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
+    mesh::DistributedMesh mesh = mesh::examples::cube(world, 4 * squares, pieces);
     const CavityWishes wishes = wish_for_shared(mesh, 0);
     parallel::StageClock clock;
     std::int64_t& tets = taken[static_cast<int>(reach)];
