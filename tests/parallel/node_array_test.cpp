@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -50,13 +50,12 @@ TEST(NodeArrayTest, LiesInMemoryOfTheNodeWhereThereAreOthers) {
 TEST(NodeArrayTest, IsLetGoByRanksOneByOne) {
   const Communicator world = Communicator::world();
   for (Rank first = 0; first < world.size(); ++first) {
-    std::optional<NodeArray<std::int64_t>> shared;
-    shared.emplace(world, squares(5000));
-    if (world.rank() == first) shared.reset();
+    NodeArray<std::int64_t> shared(world, squares(5000));
+    if (world.rank() == first) shared = {};
     world.barrier();
-    if (shared) {
-      const NodeArray<std::int64_t> copy = *shared;
-      shared.reset();
+    const NodeArray<std::int64_t> copy = std::exchange(shared, {});
+    EXPECT_EQ(copy.size(), world.rank() == first ? 0u : 5000u);
+    if (copy.size() > 0) {
       EXPECT_EQ(copy[4999], 4999 * 4999);
     }
   }
