@@ -30,6 +30,8 @@ constexpr int rounds_out_of_reach = 2;  // of full fields, where coarse ones fou
 // features do.
 constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
 constexpr double largest_step = 1.4;  // of the logarithm of the size
+// Over a shorter step counts may jump by more than they change: a flat slope says nothing then.
+constexpr double least_telling_step = 0.2;
 // Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
 // over when they come as near as the second; sizes that only tell which faces are narrow, the third.
 constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
@@ -125,8 +127,11 @@ private:
     double slope = first_slope;
     for (int round = 0; round < _most_rounds && std::abs(_error) > largest_error; ++round) {
       const double error = judge(sizes_for(std::exp(size), preset));
-      if (round > 0 && last_error < 1e300 && error < 1e300)
-        slope = std::clamp((error - last_error) / (size - last_size), steepest_slope, flattest_slope);
+      if (round > 0 && last_error < 1e300 && error < 1e300) {
+        const double measured = (error - last_error) / (size - last_size);
+        const bool tells = measured <= flattest_slope || std::abs(size - last_size) >= least_telling_step;
+        if (tells) slope = std::clamp(measured, steepest_slope, flattest_slope);
+      }
       (error > 0 ? finest : coarsest) = size;
       last_size = size, last_error = error;
       size -= std::clamp(error / slope, -largest_step, largest_step);
