@@ -2,7 +2,6 @@
 
 #include "mesh/tokens.hpp"
 #include "partition/partition_clusters.hpp"
-#include "partition/piece_size.hpp"
 #include "partition/repair_parts.hpp"
 #include "partition/simplify_dual_graph.hpp"
 #include "surface/background.hpp"
@@ -34,8 +33,7 @@ constexpr double most_pieces_at_once = 24;
 
 /// The pieces that a seed is cut into at once.
 double count_parts(const PieceSeed& seed, const SurfaceOptions& options) {
-  const double pieces =
-      std::max(1.0, std::round(seed.load / static_cast<double>(options.piece_triangles.value())));
+  const double pieces = std::max(1.0, std::round(seed.load / static_cast<double>(options.piece_triangles)));
   return pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
 }
 
@@ -153,15 +151,9 @@ const sizing::SizeField& CoarseSizes::field(int power) {
   return _fields[power];
 }
 
-std::int64_t suitable_piece_triangles(double triangles) {
-  // Cutting a face that fills a rank for less than a third of a second costs more than it gains.
-  constexpr std::int64_t least = 10'000, most = 50'000;
-  return partition::suitable_piece_size(triangles, least, most);
-}
-
 bool is_heavy(double load, const SurfaceOptions& options) {
   return options.decomposition == SurfaceDecomposition::pieces &&
-         load >= 1.5 * static_cast<double>(options.piece_triangles.value());
+         load >= 1.5 * static_cast<double>(options.piece_triangles);
 }
 
 SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,

@@ -33,10 +33,7 @@ struct SeedPieces {
   std::vector<CutAngle> angles;  ///< where cuts end: on loops and where they meet
 };
 
-/// The piece size for a surface of so many triangles where none is asked for.
-std::int64_t suitable_piece_triangles(double triangles);
-
-/// Whether a seed of this load is to be divided. The piece size is set here and below.
+/// Whether a seed of this load is to be divided.
 bool is_heavy(double load, const SurfaceOptions& options);
 
 /// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,

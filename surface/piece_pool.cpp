@@ -177,13 +177,6 @@ void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
   }
 }
 
-void PiecePool::choose_piece_size(const Seeds& seeds) {
-  if (_options.piece_triangles) return;
-  double triangles = 0;
-  for (const Row& row : tabulate(seeds)) triangles += row.load;
-  _options.piece_triangles = suitable_piece_triangles(triangles);
-}
-
 /// Deals out the seeds and divides those that are too heavy; the parts stay where they were made.
 PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& sizes) {
   const std::vector<Row> rows = tabulate(seeds);
@@ -229,7 +222,6 @@ PiecePool::Seeds PiecePool::divide(const std::vector<FaceId>& faces, const Curve
                                    const SizeField& field) {
   _divide_seconds = 0;
   Seeds seeds = make_face_seeds(faces, curves, field);
-  choose_piece_size(seeds);
   CoarseSizes sizes(field);
   for (const int level : {1, 2}) seeds = divide_heavy(std::move(seeds), level, sizes);
   return seeds;

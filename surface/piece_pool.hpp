@@ -69,8 +69,6 @@ private:
                const sizing::SizeField& field);
   Seeds make_face_seeds(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                         const sizing::SizeField& field);
-  /// Of all faces, where none is asked for.
-  void choose_piece_size(const Seeds& seeds);
   Seeds divide_heavy(Seeds seeds, int level, CoarseSizes& sizes);
   bool is_to_divide(const Row& row, int level) const;
   std::vector<Row> tabulate(const Seeds& seeds) const;
@@ -81,7 +79,7 @@ private:
 
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
-  SurfaceOptions _options;  // with a piece size, once faces are seeds
+  const SurfaceOptions& _options;
   parallel::StageClock& _clock;
   bool _started = false;
   std::vector<std::int32_t> _parts;              // per face: pieces, 0 before it is divided

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -21,8 +20,7 @@ using FaceDivider =
 
 struct SurfaceOptions {
   SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
-  /// Wanted triangles of a piece; empty: what suits their number.
-  std::optional<std::int64_t> piece_triangles = {};
+  std::int64_t piece_triangles = 50'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
   FaceDivider divider = {};   ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
