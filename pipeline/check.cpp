@@ -23,7 +23,7 @@ constexpr int pieces_per_rank = 4;
 
 // What a run costs on one core, from runs at a million tetrahedra (docs/status.md).
 constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
-constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 220;
+constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 120;
 
 Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
                       const Case& input) {
