@@ -22,16 +22,14 @@ using mesh::Piece;
 using mesh::PieceId;
 using mesh::RegionId;
 
-constexpr std::int64_t least_piece = 40'000, most_piece = 500'000;
-
 /// Cuts regions into pieces and builds them on the rank that read the file.
 class ForeignMesh {
 public:
   ForeignMesh(io::TetrahedraFile file, const std::string& path, std::optional<std::int64_t> piece_tets)
       : _file(std::move(file)),
         _path(path),
-        _piece_tets(piece_tets.value_or(
-            partition::suitable_piece_size(static_cast<double>(_file.tets.size()), least_piece, most_piece))),
+        _piece_tets(
+            piece_tets.value_or(partition::suitable_piece_tets(static_cast<double>(_file.tets.size())))),
         _faces(mesh::sorted_faces(_file.tets)) {}
 
   mesh::DistributedMesh build() {

@@ -20,8 +20,6 @@ namespace {
 /// the process that made it, is the right one if it begins with what was told.
 struct Header {
   std::int64_t process = 0, descriptor = -1, size = 0, made_at = 0;
-
-  friend bool operator==(const Header&, const Header&) = default;
 };
 static_assert(sizeof(Header) % alignof(std::max_align_t) == 0);
 

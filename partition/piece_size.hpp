@@ -1,4 +1,4 @@
-/// How large pieces are where nobody asks for a size.
+/// How large pieces of a volume are where nobody asks for a size.
 #pragma once
 
 #include <algorithm>
@@ -7,13 +7,12 @@
 
 namespace aeroloom::partition {
 
-/// Pieces of a whole that is neither small nor large: two for each of eight ranks.
-inline constexpr double usual_pieces = 16;
-
-/// The size of pieces of a whole of so many elements, no smaller than `least` and no larger than `most`.
-inline std::int64_t suitable_piece_size(double total, std::int64_t least, std::int64_t most) {
-  const double size = std::clamp(total / usual_pieces, static_cast<double>(least), static_cast<double>(most));
-  return std::llround(size);
+/// A sixteenth of so many tetrahedra: two pieces for each of eight ranks. No fewer than 40,000: around
+/// smaller pieces halos and borders cost as much as the pieces; no more than 500,000, for the memory of one
+/// filling.
+inline std::int64_t suitable_piece_tets(double tetrahedra) {
+  constexpr double usual_pieces = 16, least = 40'000, most = 500'000;
+  return std::llround(std::clamp(tetrahedra / usual_pieces, least, most));
 }
 
 }  // namespace aeroloom::partition

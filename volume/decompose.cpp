@@ -1,4 +1,5 @@
 #include "parallel/collective_error.hpp"
+#include "partition/piece_size.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
 
@@ -50,7 +51,7 @@ void divide(const VolumeInput& input, Decomposition::Data& data, parallel::Stage
   data.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
   const double expected = data.report.expected_tetrahedra;
   const ZoneIndex count =
-      wanted_zones(expected, input.options.piece_tets.value_or(suitable_piece_tets(expected)));
+      wanted_zones(expected, input.options.piece_tets.value_or(partition::suitable_piece_tets(expected)));
   data.zones = std::make_unique<Zones>(bisect(*data.tree, loads, count));
   data.expected.assign(count, 0);
   for (BlockIndex b = 0; b < data.tree->block_count(); ++b) data.expected[data.zones->of(b, 0)] += loads[b];

@@ -1,7 +1,5 @@
 #include "volume/zones.hpp"
 
-#include "partition/piece_size.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -135,12 +133,6 @@ std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::
   for (std::size_t b = 0; b < points.size(); ++b)
     loads[b] = tetrahedra_per_point * points[b] + tetrahedra_per_triangle * table.triangles[b];
   return loads;
-}
-
-std::int64_t suitable_piece_tets(double expected_tetrahedra) {
-  // Around smaller zones halos cost as much as the zones; larger ones take too much memory at once.
-  constexpr std::int64_t least = 40'000, most = 500'000;
-  return partition::suitable_piece_size(expected_tetrahedra, least, most);
 }
 
 ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets) {

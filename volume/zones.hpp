@@ -48,9 +48,6 @@ private:
 /// Expected tetrahedra of each block from its points and triangles.
 std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points);
 
-/// The piece size for so many tetrahedra where none is asked for.
-std::int64_t suitable_piece_tets(double expected_tetrahedra);
-
 /// How many zones of about `piece_tets` tetrahedra: a volume of less than one and a half is one zone, and
 /// others are rounded to three leading binary digits, so that zones of equal load divide well among ranks.
 ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets);
