@@ -103,6 +103,7 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   keys.number("growth", sizing.growth, Range::above(1, 3));
   keys.number("proximity", sizing.proximity, Range::between(0, 20, "elements"));
   keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10));
+  keys.number("feature_budget", sizing.feature_budget, Range::between(1, 1000));
 }
 
 void declare_stages(KeyTable& root, Case& result) {

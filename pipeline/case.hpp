@@ -7,6 +7,7 @@
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
 #include "pipeline/quality_gate.hpp"
+#include "sizing/feature_share.hpp"
 #include "surface/surface_options.hpp"
 #include "volume/volume_options.hpp"
 
@@ -27,6 +28,9 @@ struct SizingRequest {
   std::optional<double> growth;             ///< ratio of neighbouring sizes
   std::optional<double> proximity;          ///< elements across thin parts and gaps; 0: any
   double target_tetrahedra = 1'000'000;     ///< what sizes chosen from the model aim at
+  /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
+  /// minimum come on top.
+  double feature_budget = sizing::default_feature_budget;
 };
 
 /// What happens to faces narrower than the smallest size that go on smoothly in a neighbour.

@@ -32,6 +32,7 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   const SizedDomain sized = size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined;
+  forecast.features = sized.features;
   forecast.counts =
       sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
@@ -110,6 +111,8 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
   for (const cad::Change& change : forecast.joined) {
     text += "would be joined: " + cad::describe(change) + "\n";
   }
+  const std::string features = forecast.features ? describe(*forecast.features) : std::string();
+  if (!features.empty()) text += "features: " + features + "\n";
   return text + fmt::format(
                     "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
                     "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
@@ -152,10 +155,15 @@ Json domain_json(const cad::Domain& domain) {
 }
 
 Json forecast_json(const Forecast& forecast) {
-  return {{"minimum", forecast.sizes.minimum},           {"maximum", forecast.sizes.maximum},
-          {"triangles", forecast.counts.triangles},      {"tetrahedra", forecast.counts.tetrahedra},
-          {"seconds_on_one_core", forecast.seconds},     {"bytes", forecast.bytes},
-          {"piece_triangles", forecast.piece_triangles}, {"piece_tets", forecast.piece_tets},
+  return {{"minimum", forecast.sizes.minimum},
+          {"maximum", forecast.sizes.maximum},
+          {"triangles", forecast.counts.triangles},
+          {"tetrahedra", forecast.counts.tetrahedra},
+          {"seconds_on_one_core", forecast.seconds},
+          {"bytes", forecast.bytes},
+          {"piece_triangles", forecast.piece_triangles},
+          {"piece_tets", forecast.piece_tets},
+          {"features", forecast.features ? to_json(*forecast.features) : Json()},
           {"joined_faces", to_json(forecast.joined)}};
 }
 

@@ -5,9 +5,11 @@
 #include "parallel/communicator.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
+#include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct FaceContact {
 /// What a run would cost, from the prediction and the constants in docs/usage.md.
 struct Forecast {
   sizing::SizingOptions sizes;
+  std::optional<FeatureReport> features;
   cad::Changes joined;  ///< narrow faces that would vanish in their neighbours
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core

@@ -30,7 +30,8 @@ Json geometry_json(const RunRecord& record) {
 }
 
 Json sizing_json(const RunRecord& record) {
-  return {{"minimum", record.sizes.minimum},
+  return {{"features", record.features ? to_json(*record.features) : Json()},
+          {"minimum", record.sizes.minimum},
           {"feature_minimum", sizing::smallest_feature_size(record.sizes)},
           {"maximum", record.sizes.maximum},
           {"surface_maximum", record.sizes.surface_maximum},

@@ -41,6 +41,7 @@ SizedDomain build_sizes(const Communicator& communicator, const cad::Model& mode
     record.face_names.push_back(sized.model.face(f).name);
   }
   record.joined_faces = sized.joined;
+  record.features = sized.features;
   log_sizing(record);
   return sized;
 }

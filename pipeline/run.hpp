@@ -11,6 +11,7 @@
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/size_conformity.hpp"
+#include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
 #include "surface/surface_mesher.hpp"
 #include "volume/volume_mesher.hpp"
@@ -48,6 +49,7 @@ struct RunRecord {
   std::vector<std::string> face_names;  ///< by face id
   cad::Changes joined_faces;            ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
+  std::optional<FeatureReport> features;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
   volume::DecompositionReport decomposition;

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -68,13 +69,16 @@ SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& req
                    const std::optional<sizing::SizingOptions>& near, cad::Changes joined) {
   if (!leaves_a_choice(request)) {
     const sizing::SizingOptions sizes = overrule({}, request);
-    return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}};
+    return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
   }
-  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, request.target_tetrahedra, near);
+  sizing::ChosenSizes chosen =
+      sizing::choose_sizes(sampler, request.target_tetrahedra, request.feature_budget, near);
   const sizing::SizingOptions sizes = overrule(chosen.options, request);
-  if (sizes == chosen.options)
-    return {sampler.model(), sizes, std::move(chosen.field), std::move(joined), chosen.counts};
-  return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}};
+  if (sizes != chosen.options)
+    return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
+  FeatureReport features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
+  return {sampler.model(),   sizes,         std::move(chosen.field),
+          std::move(joined), chosen.counts, std::move(features)};
 }
 
 }  // namespace
@@ -83,7 +87,7 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const auto fields = leaves_a_choice(request) ? sizing::Fields::several : sizing::Fields::one;
-  const sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
+  sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
   if (narrow_faces == NarrowFaces::keep) return finish(sampler, request, {}, {});
   // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
   std::optional<sizing::SizingOptions> near;
@@ -92,7 +96,7 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   cad::Changes changes;
   const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, changes);
   if (!joined) return finish(sampler, request, near, {});
-  const sizing::ModelSampler of_joined(communicator, *joined, clock, layers, fields);
+  const sizing::ModelSampler of_joined(std::move(sampler), *joined);
   return finish(of_joined, request, near, std::move(changes));
 }
 

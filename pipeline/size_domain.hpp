@@ -6,6 +6,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "pipeline/case.hpp"
+#include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
 
 #include <optional>
@@ -18,6 +19,7 @@ struct SizedDomain {
   sizing::SizeField field;
   cad::Changes joined;                            ///< one for each face that vanished
   std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
+  std::optional<FeatureReport> features;          ///< where sizes at features were chosen
 };
 
 /// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. What the user did not

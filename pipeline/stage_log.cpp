@@ -23,6 +23,8 @@ void log_sizing(const RunRecord& record) {
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
                   record.sizes.growth, record.size_field_leaves));
+  if (const std::string text = record.features ? describe(*record.features) : std::string(); !text.empty())
+    parallel::log_warning("sizing: " + text);
 }
 
 void log_surface(const RunRecord& record) {

@@ -16,9 +16,6 @@ constexpr double preset_curvature_angle = 15;
 constexpr double preset_growth = 1.3;
 constexpr double size_over_gap = 10;  // the smallest size over the widest gap that was sewn
 constexpr double body_size_over_minimum = 10;
-// Short edges and narrow faces may ask for this part of the minimum; for the larger part where they alone
-// would use up the elements asked for.
-constexpr double fine_features = 0.05, coarse_features = 0.25;
 constexpr double out_of_reach = 0.2;        // logarithm of the count over the target
 constexpr double domain_over_maximum = 20;  // diagonal of everything
 constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
@@ -35,9 +32,16 @@ constexpr double least_telling_step = 0.2;
 // Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
 // over when they come as near as the second; sizes that only tell which faces are narrow, the third.
 constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
+// Where features take more than a twentieth on top of what is aimed at, their share is no better known.
+constexpr double little_share = 1.05, near_enough_with_features = 0.2;
 // A field with more leaves than this gives several times the count: it is not built to the end.
 constexpr double leaves_per_tetrahedron = 0.5;
 constexpr std::int64_t least_limit = 100'000;
+
+std::int64_t leaves_for(double tetrahedra) {
+  return std::max<std::int64_t>(least_limit,
+                                std::llround(std::min(1e15, leaves_per_tetrahedron * tetrahedra)));
+}
 
 /// How much larger sizes are than those wanted in fields that only show the way: with few elements every leaf
 /// counts.
@@ -52,13 +56,13 @@ double usual_bias(double coarser) {
 
 struct Preset {
   double maximum, gap;
-  double feature_part;  // the smallest size at features over the minimum
 };
 
+/// Where no feature is finer than the minimum.
 SizingOptions sizes_for(double body_size, const Preset& preset) {
   SizingOptions options;
   options.minimum = std::max(body_size / body_size_over_minimum, size_over_gap * preset.gap);
-  options.feature_minimum = preset.feature_part * options.minimum;
+  options.feature_minimum = options.minimum;
   options.surface_maximum = std::max(body_size, options.minimum);
   options.maximum = std::max(preset.maximum, options.surface_maximum);
   options.curvature_angle = preset_curvature_angle;
@@ -70,62 +74,29 @@ double largest_extent(const geometry::Box& box) {
   return std::max({box.size().x, box.size().y, box.size().z});
 }
 
-/// Where a search starts: a size on the body, and what part of the minimum features may ask for.
-struct Start {
-  double body_size;
-  double feature_part = fine_features;
-};
-
-Start start_at(const SizingOptions& near) {
-  return {near.surface_maximum, near.feature_minimum / near.minimum};
+double first_size(const ModelSampler& sampler) {
+  return largest_extent(sampler.body_box()) / body_over_first;
 }
 
-Start first_start(const ModelSampler& sampler) {
-  return {largest_extent(sampler.body_box()) / body_over_first};
-}
-
-/// Searches the size on the body, by fields whose sizes are `coarser` times as large.
+/// Searches the size on the body, by fields whose sizes are `coarser` times as large, where features bring
+/// `share` times the elements that there would be without them.
 class Search {
 public:
-  Search(const ModelSampler& sampler, double target_tetrahedra, double coarser)
+  Search(const ModelSampler& sampler, double target_tetrahedra, double coarser, const FeatureShare& features)
       : _sampler(sampler),
         _coarser(coarser),
+        _features(features),
         _target(std::log(target_tetrahedra)),
-        _most_leaves(std::max<std::int64_t>(
-            least_limit, std::llround(std::min(1e15, leaves_per_tetrahedron * target_tetrahedra)))) {}
+        _most_leaves(leaves_for(target_tetrahedra * features.share)) {}
 
-  /// Runs, and again with coarser features where those alone need too many.
-  void run(const Start& start, double largest_error, int rounds = most_rounds) {
-    _most_rounds = rounds;
+  void run(double first_size, double largest_error, int most_rounds) {
     const cad::Model& model = _sampler.model();
-    Preset preset{model.bounds().diagonal() / domain_over_maximum, model.sewn_gap(), start.feature_part};
-    run(preset, start.body_size, largest_error);
-    if (_error > out_of_reach && preset.feature_part < coarse_features) {
-      preset.feature_part = coarse_features;
-      run(preset, _options.surface_maximum, close_enough);
-    }
-  }
-
-  bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
-  /// What came nearest to the target; the coarsest tried where all were far too fine.
-  const SizingOptions& options() const { return _options; }
-  /// As options(), with the field: of a search by fields that are as fine as asked for.
-  ChosenSizes best() {
-    if (_best) return {_options, std::move(_best->field), _best->counts};
-    SizeField field = _sampler.build_field(_options);
-    const PredictedCounts counts = _sampler.predict(field);
-    return {_options, std::move(field), counts};
-  }
-
-private:
-  void run(const Preset& preset, double first_size, double largest_error) {
-    _best.reset();
-    _error = 1e300;
+    const Preset preset{model.bounds().diagonal() / domain_over_maximum, model.sewn_gap()};
     const double extent = largest_extent(_sampler.body_box());
     double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
     double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
     double slope = first_slope;
-    for (int round = 0; round < _most_rounds && std::abs(_error) > largest_error; ++round) {
+    for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
       const double error = judge(sizes_for(std::exp(size), preset));
       if (round > 0 && last_error < 1e300 && error < 1e300) {
         const double measured = (error - last_error) / (size - last_size);
@@ -140,19 +111,31 @@ private:
     if (_error == 1e300) _options = sizes_for(std::exp(finest), preset);
   }
 
+  bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
+  /// What came nearest to the target; the coarsest tried where all were far too fine.
+  const SizingOptions& options() const { return _options; }
+  /// As options(), with the field: of a search by fields that are as fine as asked for.
+  ChosenSizes best() {
+    if (_best) return {_options, std::move(_best->field), _best->counts, _features};
+    SizeField field = _sampler.build_field(_options);
+    const PredictedCounts counts = _sampler.predict(field);
+    return {_options, std::move(field), counts, _features};
+  }
+
+private:
   /// The logarithm of the count over the target; 1e300 where there are far too many. What comes nearest is
   /// kept.
-  double judge(const SizingOptions& options) {
+  double judge(SizingOptions options) {
+    if (_features.floor > 0) options.feature_minimum = std::min(_features.floor, options.minimum);
     std::optional<Trial> trial = _sampler.try_sizes(options, _coarser, _most_leaves);
     if (!trial) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", options.surface_maximum));
       return 1e300;
     }
-    const double error =
-        std::log(std::max(trial->counts.tetrahedra, 1.0)) + std::log(usual_bias(_coarser)) - _target;
+    const double count = std::max(trial->counts.tetrahedra, 1.0) * usual_bias(_coarser);
     parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra",
-                                      options.surface_maximum, _coarser > 1 ? "about " : "",
-                                      std::exp(error + _target)));
+                                      options.surface_maximum, _coarser > 1 ? "about " : "", count));
+    const double error = std::log(count / _features.share) - _target;
     if (std::abs(error) < std::abs(_error)) {
       _error = error;
       _options = options;
@@ -162,9 +145,10 @@ private:
   }
 
   const ModelSampler& _sampler;
-  double _coarser, _target;
+  double _coarser;
+  FeatureShare _features;
+  double _target;
   std::int64_t _most_leaves;
-  int _most_rounds = most_rounds;
   double _error = 1e300;
   SizingOptions _options;
   std::optional<Trial> _best;
@@ -180,34 +164,31 @@ void check_target(double target_tetrahedra) {
 
 SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra) {
   check_target(target_tetrahedra);
-  Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra));
-  search.run(first_start(sampler), good_enough_to_start);
+  Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra), {});
+  search.run(first_size(sampler), good_enough_to_start, most_rounds);
   return search.options();
 }
 
-ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
+ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                          const std::optional<SizingOptions>& near) {
   check_target(target_tetrahedra);
-  Start start = near ? start_at(*near) : first_start(sampler);
-  // Joined faces, or none that are sewn, may allow for features that were out of reach.
-  start.feature_part = fine_features;
   const double coarser = coarsening(target_tetrahedra);
-  int rounds = most_rounds;
-  if (coarser > 1) {
-    Search rough(sampler, target_tetrahedra, coarser);
-    rough.run(start, near ? near_enough : close_enough);
-    start = start_at(rough.options());
-    if (rough.is_out_of_reach()) rounds = rounds_out_of_reach;
-  }
-  Search search(sampler, target_tetrahedra, 1);
-  search.run(start, coarser > 1 || near ? near_enough : close_enough, rounds);
+  Search base(sampler, target_tetrahedra, coarser, {});
+  const double start = near ? near->surface_maximum : first_size(sampler);
+  base.run(start, near ? near_enough : close_enough, most_rounds);
+  const FeatureShare features = share_of_features(sampler, base.options(), feature_budget, coarser,
+                                                  leaves_for(target_tetrahedra * feature_budget));
+  Search search(sampler, target_tetrahedra, 1, features);
+  search.run(base.options().surface_maximum,
+             features.share > little_share ? near_enough_with_features : near_enough,
+             base.is_out_of_reach() ? rounds_out_of_reach : most_rounds);
   return search.best();
 }
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock) {
   const ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity, Fields::several);
-  return choose_sizes(sampler, target_tetrahedra, std::nullopt).options;
+  return choose_sizes(sampler, target_tetrahedra).options;
 }
 
 }  // namespace aeroloom::sizing

@@ -16,12 +16,14 @@ constexpr double farthest_middle = 0.9;
 
 }  // namespace
 
-std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, const cad::Facets& facets,
-                                             bool far_field, const SizingOptions& options) {
-  Demand demand{model, options, radians_per_element(far_field, options), largest_size(far_field, options),
-                {},    {}};
+std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceId face,
+                                             const cad::Facets& facets, bool far_field,
+                                             const SizingOptions& options) {
+  Demand demand{
+      model, face, options, radians_per_element(far_field, options), largest_size(far_field, options),
+      {},    {}};
   if (_planar && demand.largest >= options.maximum) return {};
-  if (_points.empty()) start(model, facets);
+  if (_points.empty()) start(demand, facets);
   demand.sizes.resize(_points.size(), -1);
   for (std::size_t p = 0; p < facets.points.size(); ++p) ask(static_cast<std::int32_t>(p), demand);
   for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
@@ -31,28 +33,27 @@ std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, const cad:
   return std::move(demand.sources);
 }
 
-void FaceSamples::start(const cad::Model& model, const cad::Facets& facets) {
-  for (std::size_t p = 0; p < facets.points.size(); ++p) add(model, facets.uv[p], facets.points[p]);
+void FaceSamples::start(const Demand& demand, const cad::Facets& facets) {
+  for (std::size_t p = 0; p < facets.points.size(); ++p) add(demand, facets.uv[p], facets.points[p]);
   _parts.resize(facets.triangles.size());
 }
 
-std::int32_t FaceSamples::add(const cad::Model& model, Vec2 uv, Vec3 point) {
+std::int32_t FaceSamples::add(const Demand& demand, Vec2 uv, Vec3 point) {
   double curvature = 0;
   if (!_planar) {
-    const auto curvatures = model.face_curvatures(_face, uv);
+    const auto curvatures = demand.model.face_curvatures(demand.face, uv);
     if (curvatures.defined) curvature = std::abs(curvatures.largest);
   }
   _points.push_back({uv, point, curvature, {-1, -1}});
   return static_cast<std::int32_t>(_points.size()) - 1;
 }
 
-std::int32_t FaceSamples::add_between(const cad::Model& model, std::int32_t a, std::int32_t b,
-                                      double length) {
+std::int32_t FaceSamples::add_between(const Demand& demand, std::int32_t a, std::int32_t b, double length) {
   const Vec3 from = _points[a].point, to = _points[b].point;
   const Vec2 uv = 0.5 * (_points[a].uv + _points[b].uv);
-  const Vec3 point = model.face_point(_face, uv);
+  const Vec3 point = demand.model.face_point(demand.face, uv);
   if (std::max(distance(point, from), distance(point, to)) < farthest_middle * length)
-    return add(model, uv, point);
+    return add(demand, uv, point);
   // The parameters jump or are singular between the two: follow the facet instead.
   _points.push_back({_points[a].uv, 0.5 * (from + to), 0, {a, b}});
   return static_cast<std::int32_t>(_points.size()) - 1;
@@ -82,7 +83,7 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
   if (length <= spacing * size || depth >= deepest_bisection) return;
   const std::int32_t a = corners[longest], b = corners[(longest + 1) % 3], c = corners[(longest + 2) % 3];
   if (_parts[part].middle < 0) {
-    const std::int32_t middle = add_between(demand.model, a, b, length);
+    const std::int32_t middle = add_between(demand, a, b, length);
     _parts[part] = {middle, static_cast<std::int32_t>(_parts.size())};
     _parts.resize(_parts.size() + 2);
   }

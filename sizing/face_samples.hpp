@@ -15,13 +15,13 @@ namespace aeroloom::sizing {
 /// not depend on what was asked before.
 class FaceSamples {
 public:
-  FaceSamples(const cad::Model& model, cad::FaceId face) : _face(face), _planar(model.is_planar(face)) {}
+  explicit FaceSamples(bool planar) : _planar(planar) {}
 
   /// Sources that cover the face about as densely as the sizes they ask for: curvature, and surface_maximum
-  /// off the far field. Nowhere the maximum or more. Always called with the same facets, those of the face.
-  /// Throws CadError.
-  std::vector<SizeSource> sources(const cad::Model& model, const cad::Facets& facets, bool far_field,
-                                  const SizingOptions& options);
+  /// off the far field. Nowhere the maximum or more. Always called with the same face, whatever its number in
+  /// the model, and its facets. Throws CadError.
+  std::vector<SizeSource> sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
+                                  bool far_field, const SizingOptions& options);
 
 private:
   /// Where the parameters jump between two points, the one in their middle asks for what they ask for.
@@ -39,20 +39,20 @@ private:
   /// What one call asks for.
   struct Demand {
     const cad::Model& model;
+    cad::FaceId face;
     const SizingOptions& options;
     double angle, largest;
     std::vector<double> sizes;  // per point; -1 where none is asked for yet
     std::vector<SizeSource> sources;
   };
 
-  void start(const cad::Model& model, const cad::Facets& facets);
-  std::int32_t add(const cad::Model& model, geometry::Vec2 uv, geometry::Vec3 point);
-  std::int32_t add_between(const cad::Model& model, std::int32_t a, std::int32_t b, double length);
+  void start(const Demand& demand, const cad::Facets& facets);
+  std::int32_t add(const Demand& demand, geometry::Vec2 uv, geometry::Vec3 point);
+  std::int32_t add_between(const Demand& demand, std::int32_t a, std::int32_t b, double length);
   double size_of(const Point& point, const Demand& demand) const;
   void ask(std::int32_t point, Demand& demand) const;
   void cover(std::int32_t part, const std::array<std::int32_t, 3>& corners, int depth, Demand& demand);
 
-  cad::FaceId _face;
   bool _planar;
   std::vector<Point> _points;  // those of the facets first
   std::vector<Part> _parts;    // the facets first

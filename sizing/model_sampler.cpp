@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -68,6 +69,9 @@ double finest_facet(double extent, double area) {
   return std::max(extent / finest_gap, std::sqrt(rays_per_area * area / most_rays));
 }
 
+/// Widths that are told apart, over the widest.
+constexpr double finest_strip = 0.01;
+
 /// What walls opposite to each other ask for.
 std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOptions& options) {
   std::vector<SizeSource> sources;
@@ -93,27 +97,84 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     _far_field = find_far_field(model);
     const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
-    const auto owners = parallel::assign_largest_first(loads, communicator.size());
-    _faces = parallel::tasks_of_rank(owners, loads, communicator.rank());
-    std::sort(_faces.begin(), _faces.end());
-    for (const FaceId f : _faces) {
-      _facets.push_back(sampling_facets(model, f, _far_field[f]));
-      _samples.emplace_back(model, f);
-      for (const cad::FaceCorner& corner : cad::corners_of(model, f)) {
-        if (may_be_sharp(model, corner)) _corners.push_back(corner);
-      }
+    _owners = parallel::assign_largest_first(loads, communicator.size());
+    for (FaceId f = 0; f < model.face_count(); ++f) {
+      if (_owners[f] == communicator.rank()) add_face(f);
     }
+    list_corners();
   });
   gather_triangles();
+  measure_gaps();
+}
+
+ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
+    : _communicator(before._communicator),
+      _model(joined),
+      _clock(before._clock),
+      _layers(before._layers),
+      _fields(before._fields),
+      _root(before._root),
+      _boundary(std::move(before._boundary)),
+      _walls(std::move(before._walls)),
+      _body_box(before._body_box) {
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    std::vector<FaceId> number(before._model.face_count());
+    for (FaceId f = 0; f < joined.face_count(); ++f) {
+      const std::vector<FaceId> members = joined.members(f);
+      _far_field.push_back(before._far_field[members.front()]);
+      _owners.push_back(before._owners[members.front()]);
+      _areas.push_back(0);
+      for (const FaceId member : members) _areas[f] += before._areas[member], number[member] = f;
+    }
+    for (FaceId& face : _walls->faces) face = number[face];
+    take_faces(std::move(before._faces), number);
+    list_corners();
+  });
+  measure_gaps();
+}
+
+void ModelSampler::add_face(FaceId id) {
+  _faces.push_back(
+      {id, sampling_facets(_model, id, _far_field[id]), FaceSamples(_model.is_planar(id)), std::nullopt});
+}
+
+void ModelSampler::take_faces(std::vector<OwnFace> before, const std::vector<FaceId>& number) {
+  for (OwnFace& face : before) {
+    const FaceId now = number[face.id];
+    if (_model.sheet_count(now) > 1) continue;
+    face.id = now;
+    // Between walls that meet in an edge there is no gap: neighbours that were joined share more edges.
+    const auto is_joined = [&](FaceId other) { return _model.sheet_count(other) > 1; };
+    const bool neighbours_joined =
+        std::any_of(face.facets.boundary.begin(), face.facets.boundary.end(), [&](const auto& line) {
+          const std::vector<FaceId>& users = _model.edge(line.use.edge).faces;
+          return std::any_of(users.begin(), users.end(), is_joined);
+        });
+    if (neighbours_joined) face.gaps.reset();
+    _faces.push_back(std::move(face));
+  }
+  for (FaceId f = 0; f < _model.face_count(); ++f) {
+    if (_model.sheet_count(f) > 1 && _owners[f] == _communicator.rank()) add_face(f);
+  }
+  std::sort(_faces.begin(), _faces.end(), [](const OwnFace& a, const OwnFace& b) { return a.id < b.id; });
+}
+
+void ModelSampler::list_corners() {
+  for (const OwnFace& face : _faces) {
+    for (const cad::FaceCorner& corner : cad::corners_of(_model, face.id)) {
+      if (may_be_sharp(_model, corner)) _corners.push_back(corner);
+    }
+  }
 }
 
 void ModelSampler::gather_triangles() {
   std::vector<FaceTriangle> mine;
-  for (std::size_t i = 0; i < _faces.size(); ++i) {
-    if (_model.face(_faces[i]).back != cad::no_entity && !_far_field[_faces[i]]) continue;
-    const auto& points = _facets[i].points;
-    for (const auto& t : _facets[i].triangles)
-      mine.push_back({_faces[i], {points[t[0]], points[t[1]], points[t[2]]}});
+  for (const OwnFace& face : _faces) {
+    if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
+    const auto& points = face.facets.points;
+    for (const auto& t : face.facets.triangles)
+      mine.push_back({face.id, {points[t[0]], points[t[1]], points[t[2]]}});
   }
   std::vector<FaceTriangle> all = _communicator.all_gather_items<FaceTriangle>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
@@ -124,26 +185,19 @@ void ModelSampler::gather_triangles() {
     }
     if (_model.face(t.face).back == cad::no_entity) boundary.push_back(t.corners);
   }
-  {
-    ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-    _boundary.emplace(std::move(boundary));
-  }
-  if (_body_box.empty()) _body_box = _model.bounds();
   std::vector<Triangle> walls;
   std::vector<FaceId> faces;
   for (const FaceTriangle& t : all) walls.push_back(t.corners), faces.push_back(t.face);
-  measure_gaps(std::move(walls), std::move(faces));
+  ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+  _boundary.emplace(std::move(boundary));
+  _walls.emplace(std::move(walls), std::move(faces));
+  if (_body_box.empty()) _body_box = _model.bounds();
 }
 
-void ModelSampler::measure_gaps(std::vector<Triangle> walls, std::vector<FaceId> faces) {
+void ModelSampler::measure_gaps() {
   parallel::agree(_communicator, [&] {
     const geometry::Vec3 size = _body_box.size();
     const double extent = std::max({size.x, size.y, size.z});
-    std::optional<Walls> walls_tree;
-    {
-      ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-      walls_tree.emplace(std::move(walls), std::move(faces));
-    }
     double area = 0;
     for (FaceId f = 0; f < _model.face_count(); ++f) area += _model.is_far_field(f) ? 0 : _areas[f];
     const double finest = finest_facet(extent, area);
@@ -152,11 +206,9 @@ void ModelSampler::measure_gaps(std::vector<Triangle> walls, std::vector<FaceId>
           fmt::format("sizing: so much surface that gaps are looked for every {:.3g} only", finest));
     }
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    for (std::size_t i = 0; i < _faces.size() && _layers > 0; ++i) {
-      if (_model.is_far_field(_faces[i])) continue;
-      const std::vector<Gap> gaps =
-          find_gaps(_model, _facets[i], *walls_tree, extent / narrow_gap, finest, _layers);
-      _gaps.insert(_gaps.end(), gaps.begin(), gaps.end());
+    for (OwnFace& face : _faces) {
+      if (_layers <= 0 || face.gaps || _model.is_far_field(face.id)) continue;
+      face.gaps = find_gaps(_model, face.facets, *_walls, extent / narrow_gap, finest, _layers);
     }
   });
 }
@@ -166,20 +218,20 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) c
   const auto keep = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
   };
-  for (std::size_t i = 0; i < _faces.size(); ++i) {
-    const bool far_field = _far_field[_faces[i]];
-    FaceSamples once(_model, _faces[i]);
-    FaceSamples& samples = _fields == Fields::several ? _samples[i] : once;
-    std::vector<SizeSource> sources = samples.sources(_model, _facets[i], far_field, options);
+  for (OwnFace& face : _faces) {
+    const bool far_field = _far_field[face.id];
+    FaceSamples once(_model.is_planar(face.id));
+    FaceSamples& samples = _fields == Fields::several ? face.samples : once;
+    std::vector<SizeSource> sources = samples.sources(_model, face.id, face.facets, far_field, options);
     const std::vector<SizeSource> strips =
-        strip_sources(_model, _facets[i], options, largest_size(far_field, options));
+        strip_sources(_model, face.facets, options, largest_size(far_field, options));
     sources.insert(sources.end(), strips.begin(), strips.end());
     keep(thin_sources(_root, sources));
+    if (options.proximity > 0 && face.gaps) keep(gap_sources(*face.gaps, options));
   }
   for (cad::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
     keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), options));
   }
-  if (options.proximity > 0) keep(gap_sources(_gaps, options));
   return mine;
 }
 
@@ -212,6 +264,27 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   const std::vector<SizeSource> behind_corners = _communicator.all_gather_items<SizeSource>(mine);
   all.insert(all.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : all) source.size *= factor;
+  return all;
+}
+
+std::vector<Strip> ModelSampler::strips_narrower_than(double width) const {
+  SizingOptions options;
+  options.minimum = options.maximum = width;
+  options.feature_minimum = finest_strip * width;
+  std::vector<Strip> mine;
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (const OwnFace& face : _faces) {
+      const auto sources = strip_sources(_model, face.facets, options, width);
+      const auto narrowest = std::min_element(sources.begin(), sources.end(),
+                                              [](const auto& a, const auto& b) { return a.size < b.size; });
+      if (narrowest != sources.end()) mine.push_back({face.id, narrowest->size, narrowest->point});
+    }
+  });
+  std::vector<Strip> all = _communicator.all_gather_items<Strip>(mine);
+  std::sort(all.begin(), all.end(), [](const Strip& a, const Strip& b) {
+    return std::pair(a.width, a.face) < std::pair(b.width, b.face);
+  });
   return all;
 }
 

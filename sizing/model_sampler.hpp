@@ -21,6 +21,13 @@ struct Trial {
   PredictedCounts counts;
 };
 
+/// The narrowest place of a face between two of its edges that share no vertex.
+struct Strip {
+  cad::FaceId face;
+  double width;
+  geometry::Vec3 place;
+};
+
 /// Whether samples of faces are kept: those that serve once only are not worth their memory.
 enum class Fields : bool { one, several };
 
@@ -33,6 +40,9 @@ public:
   ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
                parallel::StageClock& clock, double layers, Fields fields);
 
+  /// For the model with some faces joined: what belongs to all others is taken over. Collective.
+  ModelSampler(ModelSampler&& before, const cad::Model& joined);
+
   /// The field under these options. Collective.
   SizeField build_field(const SizingOptions& options) const;
   /// As predict_counts. Collective.
@@ -42,13 +52,28 @@ public:
   std::optional<Trial> try_sizes(const SizingOptions& options, double coarser,
                                  std::int64_t most_leaves) const;
 
+  /// One for each face with strips narrower than that, by width; widths below a hundredth of it count as
+  /// that. Collective.
+  std::vector<Strip> strips_narrower_than(double width) const;
+
   const cad::Model& model() const { return _model; }
   /// The box of all faces that are not far field; of everything where there are none.
   const geometry::Box& body_box() const { return _body_box; }
 
 private:
+  /// What this rank knows of one of its faces.
+  struct OwnFace {
+    cad::FaceId id;
+    cad::Facets facets;
+    FaceSamples samples;
+    std::optional<std::vector<Gap>> gaps;  // seen from the face; nothing: not looked for yet
+  };
+  /// Those of the model before; `number` tells which face has become of each.
+  void take_faces(std::vector<OwnFace> before, const std::vector<cad::FaceId>& number);
+  void add_face(cad::FaceId id);
+  void list_corners();
   void gather_triangles();
-  void measure_gaps(std::vector<Triangle> walls, std::vector<cad::FaceId> faces);
+  void measure_gaps();
   /// What the faces and edges of this rank ask for.
   std::vector<SizeSource> sample_own(const SizingOptions& options) const;
   /// What all ask for, corners included, sizes multiplied by `factor`. Collective.
@@ -66,13 +91,12 @@ private:
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;
-  std::vector<cad::FaceId> _faces;   // of this rank, ascending
-  std::vector<cad::Facets> _facets;  // of those
-  mutable std::vector<FaceSamples>
-      _samples;                           // of those; they grow with what is asked for, answers do not change
+  std::vector<int> _owners;  // ranks, by face
+  mutable std::vector<OwnFace>
+      _faces;  // ascending; their samples grow with what is asked for, answers do not change
   std::vector<cad::FaceCorner> _corners;  // of those, where may_be_sharp
-  std::optional<TriangleTree> _boundary;  // facets of all faces that bound the domain, in the order of faces
-  std::vector<Gap> _gaps;                 // seen from the faces of this rank
+  std::optional<TriangleTree> _boundary;  // facets of all faces that bound the domain
+  std::optional<Walls> _walls;            // facets of all faces
   geometry::Box _body_box;
 };
 

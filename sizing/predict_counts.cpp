@@ -144,16 +144,16 @@ double ModelSampler::count_triangles(const SizeField& field) const {
   std::vector<FaceCount> mine;
   {
     const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
-    for (std::size_t i = 0; i < _faces.size(); ++i) {
+    for (const OwnFace& face : _faces) {
       double sum = 0, area = 0;
-      const auto& points = _facets[i].points;
-      for (const auto& t : _facets[i].triangles) {
+      const auto& points = face.facets.points;
+      for (const auto& t : face.facets.triangles) {
         const Triangle corners{points[t[0]], points[t[1]], points[t[2]]};
         area += 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
         sum += integrate(field, corners, 0);
       }
       // Facets cut corners: the exact area makes up for it.
-      if (area > 0) mine.push_back({_faces[i], triangles_per_area * sum * _areas[_faces[i]] / area});
+      if (area > 0) mine.push_back({face.id, triangles_per_area * sum * _areas[face.id] / area});
     }
   }
   std::vector<FaceCount> all = _communicator.all_gather_items<FaceCount>(mine);

@@ -139,6 +139,8 @@ public:
   bool is_exact_plane(FaceId id) const;
   /// CAD faces that this one consists of; more than one where narrow faces were joined (joined_faces.hpp).
   std::int32_t sheet_count(FaceId id) const;
+  /// Their ids in the model before faces were joined; the face itself where none were.
+  std::vector<FaceId> members(FaceId id) const;
   /// Which of them a point of the parameter plane belongs to. Between points of different sheets nothing can
   /// be interpolated.
   std::int32_t sheet(FaceId id, Vec2 uv) const;

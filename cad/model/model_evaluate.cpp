@@ -221,6 +221,13 @@ bool Model::is_exact_plane(FaceId id) const {
   return fixed[0] || fixed[1] || fixed[2];
 }
 
+std::vector<FaceId> Model::members(FaceId id) const {
+  if (!_data->joined) return {id};
+  std::vector<FaceId> faces;
+  for (const Sheet& sheet : _data->joined->faces.at(id).sheets) faces.push_back(sheet.face);
+  return faces;
+}
+
 std::int32_t Model::sheet_count(FaceId id) const {
   return _data->joined ? static_cast<std::int32_t>(_data->joined->faces.at(id).sheets.size()) : 1;
 }

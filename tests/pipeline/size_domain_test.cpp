@@ -2,6 +2,10 @@
 
 #include "tests/cad/strip_shapes.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace aeroloom::pipeline {
@@ -49,6 +53,38 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   const double predicted = sizing::predict_counts(world, sized.model, sized.field, clock).tetrahedra;
   EXPECT_GT(predicted, 14'000);
   EXPECT_LT(predicted, 28'000);
+}
+
+// What the budget cannot resolve is told with its face, width and place, and what it would take.
+TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
+  const Model model = cad::shapes::blunt_wedge(0.0005);
+  SizingRequest request;
+  request.target_tetrahedra = 20'000;
+  parallel::StageClock clock;
+  const auto size_within = [&](double budget) {
+    request.feature_budget = budget;
+    return size_domain(parallel::Communicator::world(), model, request, NarrowFaces::join, clock);
+  };
+  const SizedDomain small = size_within(2);
+  ASSERT_TRUE(small.features);
+  ASSERT_EQ(small.features->strips.size(), 3u) << "the blunt end, and the sides beside it";
+  EXPECT_NEAR(small.features->strips[0].width, 0.0005, 1e-6);
+  EXPECT_NEAR(small.features->strips[0].place.x, 1, 1e-9);
+  const double floor = small.features->share.floor;
+  EXPECT_GT(floor, 0.0005);
+  EXPECT_NEAR(std::tan(small.features->strips[0].surface_degrees * std::numbers::pi / 180), 0.0005 / floor,
+              1e-6);
+  EXPECT_GT(small.features->wanted_tetrahedra(), 2 * 20'000);
+  const std::string text = describe(*small.features);
+  EXPECT_NE(text.find("'" + small.features->strips[0].face + "'"), std::string::npos) << text;
+  EXPECT_NE(text.find("sizing.feature_budget"), std::string::npos) << text;
+  const SizedDomain large = size_within(500);
+  ASSERT_TRUE(large.features);
+  EXPECT_TRUE(large.features->strips.empty());
+  EXPECT_TRUE(describe(*large.features).empty());
+  EXPECT_LT(large.sizes.feature_minimum, 0.0005);
+  EXPECT_NEAR(large.counts->tetrahedra, small.features->wanted_tetrahedra(),
+              0.4 * small.features->wanted_tetrahedra());
 }
 
 }  // namespace

@@ -107,7 +107,8 @@ TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
   EXPECT_EQ(chosen.field({0.5, 0, 0}), field({0.5, 0, 0}));
   EXPECT_EQ(chosen.counts.tetrahedra, sampler.predict(field).tetrahedra);
   // From sizes near by it finds what is as good.
-  const sizing::ChosenSizes nearby = sizing::choose_sizes(sampler, 5e4, chosen.options);
+  const sizing::ChosenSizes nearby =
+      sizing::choose_sizes(sampler, 5e4, sizing::default_feature_budget, chosen.options);
   EXPECT_EQ(nearby.options, chosen.options);
 }
 

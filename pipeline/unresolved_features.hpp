@@ -1,0 +1,40 @@
+/// Features that are finer than the elements which the budget has for them.
+#pragma once
+
+#include "pipeline/change_json.hpp"
+#include "sizing/feature_share.hpp"
+#include "sizing/model_sampler.hpp"
+
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// A strip of a face across which elements are shorter than along it.
+struct UnresolvedStrip {
+  std::string face;
+  double width;            ///< at the narrowest place, in the model's unit
+  geometry::Vec3 place;    ///< there
+  double surface_degrees;  ///< the angle of triangles to expect: one side is the width, one the floor
+};
+
+/// What came of features finer than the smallest size, where sizes were chosen from the model.
+struct FeatureReport {
+  sizing::FeatureShare share;
+  double tetrahedra = 0;                ///< predicted in all
+  std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty where everything is resolved
+
+  /// Predicted tetrahedra with every strip resolved; about that.
+  double wanted_tetrahedra() const;
+};
+
+/// Lists the strips. Collective.
+FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
+                              double tetrahedra);
+
+/// What is not resolved, what it would take, what to expect, and the remedies; empty where there is nothing.
+std::string describe(const FeatureReport& report);
+
+nlohmann::ordered_json to_json(const FeatureReport& report);
+
+}  // namespace aeroloom::pipeline

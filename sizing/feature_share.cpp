@@ -1,0 +1,91 @@
+#include "sizing/feature_share.hpp"
+
+#include "parallel/log.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::sizing {
+namespace {
+
+constexpr double finest_over_minimum = 1e-3;
+constexpr double finest_over_gap = 0.5;  // of the widest gap that was sewn
+// Of the budget: what is aimed at, and what is near enough to it.
+constexpr double aim = 0.93, well_used = 0.85;
+constexpr int most_rounds = 8;
+constexpr double same_floor = 0.05;  // logarithm of two floors that are as good as equal
+// Fields that are coarser have so many times fewer leaves, at most.
+constexpr double slack = 4;
+
+/// Tries floors between one that is certainly within the budget and one that is not.
+class FloorSearch {
+public:
+  FloorSearch(const ModelSampler& sampler, const SizingOptions& options, double budget, double coarser,
+              std::int64_t most_leaves)
+      : _sampler(sampler),
+        _options(options),
+        _budget(budget),
+        _coarser(coarser),
+        _most_leaves(
+            std::llround(std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves))) {}
+
+  FeatureShare run() {
+    FeatureShare found{_options.minimum, 1, false, _options.minimum, 1};
+    const double lowest = std::min(_options.minimum, std::max(finest_over_minimum * _options.minimum,
+                                                              finest_over_gap * _sampler.model().sewn_gap()));
+    const std::optional<double> base = count(_options.minimum);
+    if (!base || lowest == _options.minimum) return found;
+    double low = lowest, high = _options.minimum, floor = lowest;
+    for (int round = 0; round < most_rounds && std::log(high / low) > same_floor; ++round) {
+      const std::optional<double> tetrahedra = count(floor);
+      const double share = tetrahedra ? *tetrahedra / *base : 0;
+      if (tetrahedra && floor < found.tried_floor) found.tried_floor = floor, found.tried_share = share;
+      if (tetrahedra && share <= _budget) {
+        found.floor = high = floor;
+        found.share = share;
+        if (floor == lowest || share >= well_used * _budget) break;
+      } else {
+        low = floor;
+      }
+      // Strips ask for elements in proportion to 1 / floor.
+      floor = tetrahedra ? floor * (share - 1) / (aim * _budget - 1) : 0;
+      if (!(floor > low && floor < high)) floor = std::sqrt(low * high);
+    }
+    found.limited = found.floor > lowest;
+    return found;
+  }
+
+private:
+  std::optional<double> count(double floor) const {
+    SizingOptions options = _options;
+    options.feature_minimum = floor;
+    const std::optional<Trial> trial = _sampler.try_sizes(options, _coarser, _most_leaves);
+    parallel::log_verbose(trial ? fmt::format("sizing: features down to {:.3g}: {:.3g} tetrahedra", floor,
+                                              trial->counts.tetrahedra)
+                                : fmt::format("sizing: features down to {:.3g}: far too many", floor));
+    if (!trial) return std::nullopt;
+    return std::max(1.0, trial->counts.tetrahedra);
+  }
+
+  const ModelSampler& _sampler;
+  SizingOptions _options;
+  double _budget, _coarser;
+  std::int64_t _most_leaves;
+};
+
+}  // namespace
+
+FeatureShare share_of_features(const ModelSampler& sampler, const SizingOptions& options, double budget,
+                               double coarser, std::int64_t most_leaves) {
+  if (!(budget >= 1)) {
+    throw std::invalid_argument(
+        fmt::format("sizing: feature_budget must be at least 1, but it is {}", budget));
+  }
+  return FloorSearch(sampler, options, budget, coarser, most_leaves).run();
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,36 @@
+/// What features finer than the smallest size cost, and how fine they may be for a budget.
+#pragma once
+
+#include "sizing/model_sampler.hpp"
+#include "sizing/size_field.hpp"
+
+#include <cstdint>
+
+namespace aeroloom::sizing {
+
+/// Predicted elements over those without features finer than the minimum, at most, where nobody asks for
+/// more.
+inline constexpr double default_feature_budget = 5;
+
+/// What strips, short edges and sharp corners bring that are finer than the minimum of some sizes.
+struct FeatureShare {
+  double floor = 0;                         ///< the smallest size that they may ask for; 0: the minimum
+  double share = 1;                         ///< predicted tetrahedra over those with the minimum as floor
+  bool limited = false;                     ///< by the budget: the floor is not the lowest
+  double tried_floor = 0, tried_share = 1;  ///< the lowest for which tetrahedra were predicted
+
+  /// The share, about, were all resolved down to a width: strips ask for elements in proportion to one over
+  /// theirs.
+  double share_down_to(double width) const {
+    return tried_floor <= width ? tried_share : 1 + (tried_share - 1) * tried_floor / width;
+  }
+};
+
+/// The lowest floor, down to a thousandth of the minimum, with which the share is within the budget, under
+/// `options`, whose features ask for no less than their minimum. By fields whose sizes are `coarser` times as
+/// large; those with clearly more leaves than `most_leaves` count as far beyond the budget. Collective.
+/// Throws std::invalid_argument for a budget below one.
+FeatureShare share_of_features(const ModelSampler& sampler, const SizingOptions& options, double budget,
+                               double coarser, std::int64_t most_leaves);
+
+}  // namespace aeroloom::sizing
