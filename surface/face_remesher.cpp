@@ -37,6 +37,7 @@ FaceRemesher::FaceRemesher(const cad::Model& model, const sizing::SizeField& fie
   _active.assign(count, 1);
   _next.assign(count, 0);
   measure_vertices();
+  _most_vertices = bound_vertices();
 }
 
 void FaceRemesher::measure_vertices() {

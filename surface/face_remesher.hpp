@@ -31,6 +31,7 @@ public:
   FaceRemesher(const cad::Model& model, const sizing::SizeField& field, FaceMesh& mesh);
 
   void contract_short_edges();
+  /// Ends after a number of divisions that follows from the sizes, however the surface answers.
   void divide_long_edges();
   void flip_edges();
   void smooth();
@@ -85,6 +86,7 @@ private:
   bool contract(geometry::LinkedEdge edge);
   bool try_contraction(geometry::LinkedEdge edge, const Place& place);
   bool keeps_topology(geometry::LinkedEdge edge);
+  std::size_t bound_vertices() const;
   void divide(geometry::LinkedEdge edge);
   void plan_star(geometry::LinkedEdge edge, const Place& middle, TriangleShapes& before,
                  TriangleShapes& after);
@@ -107,6 +109,7 @@ private:
   std::vector<double> _sizes;                // per vertex
   std::vector<std::uint8_t> _movable;        // per vertex
   std::vector<std::uint8_t> _active, _next;  // per vertex: looked at in this sweep, in the next
+  std::size_t _most_vertices;                // nothing is divided then
   std::vector<std::int32_t> _fan, _other_fan, _borders;
   std::vector<double> _fan_sines;
   std::vector<geometry::LinkedEdge> _stack;

@@ -1,6 +1,8 @@
 #include "surface/face_remesher.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace aeroloom::surface {
 namespace {
@@ -98,11 +100,25 @@ bool FaceRemesher::keeps_topology(geometry::LinkedEdge edge) {
   return true;
 }
 
+/// Those there are, and for each edge the square of its length in sizes: seven times as many where all edges
+/// have the length they should.
+std::size_t FaceRemesher::bound_vertices() const {
+  double bound = static_cast<double>(_mesh.points.size());
+  for (const auto& [a, b, c] : _mesh.triangles) {
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      const double length = distance(_mesh.points[from], _mesh.points[to]);
+      bound += std::pow(length / std::min(_sizes[from], _sizes[to]), 2);
+    }
+  }
+  return static_cast<std::size_t>(std::min(bound, 1e9));
+}
+
 void FaceRemesher::divide_long_edges() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
     for (int i = 0; i < 3 && is_live(t); ++i) {
       const geometry::LinkedEdge edge = geometry::linked_edge(t, i);
       if (_links.mate(edge) == geometry::no_linked_edge || !is_edge_active(edge)) continue;
+      if (_mesh.points.size() >= _most_vertices) return;
       if (edge_length(edge) > longest_edge * edge_size(edge)) divide(edge);
     }
   }

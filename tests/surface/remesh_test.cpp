@@ -2,6 +2,7 @@
 
 #include "cad/builtin/primitives.hpp"
 #include "mesh/quality.hpp"
+#include "surface/face_remesher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -259,6 +260,23 @@ TEST(Remesh, FollowsAGradedField) {
     }
   }
   EXPECT_EQ(fine, 0u) << "edges longer than asked for are left";
+}
+
+// What a surface that answers wrongly could do to a mesh: its triangles get far larger than they were.
+TEST(Remesh, DividesNoMoreThanTheSizesAskFor) {
+  const Model model = cad::make_primitive_domain(PrimitiveKind::box);
+  const Vec3 normal = model.face_frame(0, {0, 0}).normal;
+  const Vec3 u = std::abs(normal.x) > 0.5 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, v = cross(normal, u);
+  FaceMesh mesh =
+      grid_mesh(model, 0, {10, 10, false, false},
+                [&](double s, double t) { return 0.5 * normal + (s - 0.5) * u + (t - 0.5) * v; }, {});
+  const std::size_t count = mesh.points.size();
+  const auto field = uniform_field(model, 0.1);
+  FaceRemesher remesher(model, field, mesh);
+  for (Vec3& point : mesh.points) point = point + 19.0 * (point - dot(point, normal) * normal);
+  remesher.divide_long_edges();
+  EXPECT_GT(mesh.points.size(), 5 * count);
+  EXPECT_LT(mesh.points.size(), 12 * count);
 }
 
 TEST(Remesh, GivesTheSameBitsEveryTime) {
