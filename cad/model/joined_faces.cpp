@@ -1,13 +1,13 @@
 #include "cad/model/joined_faces.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/sheet_interior.hpp"
 #include "cad/model/sheets.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -50,8 +50,7 @@ std::vector<Sheet> lay_out(const Model& base, const std::vector<FaceId>& members
       sheet.low = low + sheet.shift;
       sheet.high = high + sheet.shift;
       next = sheet.high + 0.5 * width;
-      constexpr double tolerance = 1e-9;  // of points on the loops, in parameters
-      sheet.inside = std::make_shared<BRepTopAdaptor_FClass2d>(evaluator.shape, tolerance);
+      sheet.interior = std::make_shared<const SheetInterior>(evaluator);
     }
     sheets.push_back(std::move(sheet));
   }

@@ -1,19 +1,21 @@
 #include "cad/model/sheets.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/sheet_interior.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include <BRepTopAdaptor_FClass2d.hxx>
-#include <gp_Pnt2d.hxx>
-
 namespace aeroloom::cad {
 namespace {
 
-bool lies_inside(const Sheet& sheet, Vec2 uv) {
-  return sheet.inside->Perform(gp_Pnt2d(uv.x, uv.y)) != TopAbs_OUT;
+/// Whether a parameter is where the surface ends.
+bool is_at_end(const FaceEvaluator& face, Vec2 uv) {
+  const auto ends = [](const ParameterRange& range, double parameter) {
+    return range.period == 0 && (parameter <= range.low || parameter >= range.high);
+  };
+  return ends(face.u, uv.x) || ends(face.v, uv.y);
 }
 
 }  // namespace
@@ -41,6 +43,20 @@ const JoinedFace::Use& JoinedFace::use(const EdgeUse& wanted) const {
   return *found;
 }
 
+std::optional<JoinedFace::Entry> JoinedFace::cross_border(std::int32_t sheet, Vec3 point,
+                                                          const std::vector<char>& seen) const {
+  std::optional<Entry> entry;
+  double least = std::numeric_limits<double>::max();
+  for (const SheetBorder& border : borders) {
+    if (border.sheets[0] != sheet && border.sheets[1] != sheet) continue;
+    const int side = border.sheets[0] == sheet ? 1 : 0;
+    if (seen[border.sheets[side]]) continue;
+    const double away = distance(border.point, point);
+    if (away < least) least = away, entry = Entry{border.sheets[side], border.uv[side]};
+  }
+  return entry;
+}
+
 JoinedFaces::Place JoinedFaces::locate(FaceId id, Vec2 uv) const {
   const JoinedFace& face = faces.at(id);
   if (face.sheets.size() == 1) return {face.sheets.front().face, 0, uv};
@@ -48,34 +64,34 @@ JoinedFaces::Place JoinedFaces::locate(FaceId id, Vec2 uv) const {
   return {face.sheets[sheet].face, sheet, face.to_member(sheet, uv)};
 }
 
-/// The nearest point of the guess's sheet; where that lies beyond the sheet's loops, the point of the sheet
-/// on the other side of the nearest border.
+/// Goes from the guess's sheet to the next across the border nearest to the point, until the point's nearest
+/// one on a sheet is a foot of a perpendicular inside its loops. A surface that ends where its loops do holds
+/// points beyond at its end: those are no feet.
 Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
   const JoinedFace& face = faces.at(id);
   const Place start = locate(id, guess);
-  Projection found = base.project(start.face, point, start.uv);
-  if (face.sheets.size() == 1) return found;
-  std::int32_t sheet = start.sheet;
-  if (!found.converged || !lies_inside(face.sheets[sheet], found.uv)) {
-    const SheetBorder* nearest = nullptr;
-    double least = std::numeric_limits<double>::max();
-    for (const SheetBorder& border : face.borders) {
-      if (border.sheets[0] != sheet && border.sheets[1] != sheet) continue;
-      const double away = distance(border.point, point);
-      if (away < least) least = away, nearest = &border;
-    }
-    if (nearest != nullptr) {
-      const int side = nearest->sheets[0] == sheet ? 1 : 0;
-      const std::int32_t other = nearest->sheets[side];
-      const Projection beyond = base.project(face.sheets[other].face, point, nearest->uv[side]);
-      if (beyond.converged && (!found.converged || lies_inside(face.sheets[other], beyond.uv))) {
-        found = beyond;
-        sheet = other;
-      }
-    }
+  Projection found = base.project(start.face, point, start.uv), best = found;
+  if (face.sheets.size() == 1) return best;
+  const double tolerance = 1e-11 * base.bounds().diagonal();  // that of Newton's method
+  std::int32_t sheet = start.sheet, best_sheet = sheet;
+  bool best_inside = false;
+  std::vector<char> seen(face.sheets.size(), 0);
+  while (true) {
+    seen[sheet] = 1;
+    const bool inside = found.converged && face.sheets[sheet].interior->contains(found.uv);
+    const double away = distance(found.point, point);
+    const bool better = best_inside ? inside && away < distance(best.point, point) - tolerance
+                                    : inside || (found.converged && !best.converged);
+    if (better) best = found, best_sheet = sheet, best_inside = inside;
+    const bool held = is_at_end(base.data().face_evaluators[face.sheets[sheet].face], found.uv);
+    if (inside && (!held || away <= tolerance)) break;
+    const auto beyond = face.cross_border(sheet, point, seen);
+    if (!beyond) break;
+    sheet = beyond->sheet;
+    found = base.project(face.sheets[sheet].face, point, beyond->uv);
   }
-  found.uv = face.from_member(sheet, found.uv);
-  return found;
+  best.uv = face.from_member(best_sheet, best.uv);
+  return best;
 }
 
 Facets JoinedFaces::facets(FaceId id, double deflection, double angle, Model::Keep keep) const {

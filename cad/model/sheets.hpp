@@ -4,18 +4,19 @@
 #include "cad/model/model.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
-class BRepTopAdaptor_FClass2d;
-
 namespace aeroloom::cad {
+
+class SheetInterior;
 
 /// A face of the base model in the parameter plane of a joined one.
 struct Sheet {
   FaceId face = no_entity;
-  double low = 0, high = 0;                              ///< of u in the joined plane
-  double shift = 0;                                      ///< of u from the member's plane to the joined one
-  std::shared_ptr<BRepTopAdaptor_FClass2d> inside = {};  ///< of the member's loops; where there are several
+  double low = 0, high = 0;                            ///< of u in the joined plane
+  double shift = 0;                                    ///< of u from the member's plane to the joined one
+  std::shared_ptr<const SheetInterior> interior = {};  ///< in the member's plane; where there are several
 };
 
 /// A point on an edge between two sheets.
@@ -38,6 +39,13 @@ struct JoinedFace {
   Vec2 to_member(std::int32_t sheet, Vec2 uv) const { return {uv.x - sheets[sheet].shift, uv.y}; }
   Vec2 from_member(std::int32_t sheet, Vec2 uv) const;
   const Use& use(const EdgeUse& wanted) const;
+  /// A sheet and where it is entered, in its own plane.
+  struct Entry {
+    std::int32_t sheet;
+    Vec2 uv;
+  };
+  /// Across the border of a sheet nearest to a point, of those with sheets not yet seen.
+  std::optional<Entry> cross_border(std::int32_t sheet, Vec3 point, const std::vector<char>& seen) const;
 };
 
 /// The faces of a model that has joined ones.

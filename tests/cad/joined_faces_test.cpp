@@ -98,6 +98,48 @@ TEST(JoinedFaces, ProjectsAcrossBorders) {
   EXPECT_TRUE(seen[0] && seen[1]);
 }
 
+Vec3 on_cylinder(double degrees, double z) {
+  const double a = degrees * std::numbers::pi / 180;
+  return {std::cos(a), std::sin(a), z};
+}
+
+// Splines hold points beyond their end there: the nearest point is on another sheet, next to it or beyond.
+TEST(JoinedFaces, ProjectsPastTheEndsOfSurfaces) {
+  const Model apart = shapes::spline_cylinder(strip_degrees, height);
+  const Model model = join_faces(apart, {curved_faces(apart)});
+  ASSERT_EQ(model.face_count(), 3);
+  const FaceId side = curved_faces(model).front();
+  ASSERT_EQ(model.sheet_count(side), 3);
+  const Vec2 somewhere = model.facets(side, 0.1, 0.5).uv[0];
+  Vec2 start = somewhere;
+  for (double degrees = 179; degrees > -30; degrees -= 1)
+    start = model.project(side, on_cylinder(degrees, 1), start).uv;
+  for (const double from :
+       {-29.0, -3.0, -0.01, 0.01, 1.0, strip_degrees - 0.01, strip_degrees + 0.01, 12.0}) {
+    start = model.project(side, on_cylinder(from, 1), start).uv;
+    for (const double to : {-20.0, -1.0, 0.5, 3.0, strip_degrees + 1, 25.0}) {
+      const Projection found = model.project(side, 0.98 * on_cylinder(to, 1.1), start);
+      ASSERT_TRUE(found.converged);
+      EXPECT_LT(distance(found.point, on_cylinder(to, 0.98 * 1.1)), 1e-9) << from << " to " << to;
+      EXPECT_LT(distance(model.face_point(side, found.uv), found.point), 1e-9);
+    }
+  }
+}
+
+// The corner of a strip is nearest to what lies beyond the strip's end alone.
+TEST(JoinedFaces, KeepsPointsOnTheRim) {
+  const Model apart = shapes::spline_cylinder(strip_degrees, height);
+  const Model model = join_faces(apart, {curved_faces(apart)});
+  const FaceId side = curved_faces(model).front();
+  Vec2 start = model.facets(side, 0.1, 0.5).uv[0];
+  for (double degrees = 179; degrees > -5; degrees -= 1) {
+    const Projection found = model.project(side, on_cylinder(degrees, height + 0.3), start);
+    ASSERT_TRUE(found.converged);
+    EXPECT_LT(distance(found.point, on_cylinder(degrees, height)), 1e-7) << degrees;
+    start = found.uv;
+  }
+}
+
 TEST(JoinedFaces, FacetsCoverAllSheets) {
   const Joined joined;
   const Facets facets = joined.model.facets(joined.side, 0.01, 0.2);

@@ -10,6 +10,7 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
@@ -25,6 +26,19 @@ inline Model split_cylinder(double degrees, double height) {
   return prepare_fluid(
              BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, height)).Shape())
       .model;
+}
+
+/// A cylinder of radius 1 about z, its side in three faces: one of them `degrees` wide, between the others.
+/// Each is a spline that ends where its face does.
+inline Model spline_cylinder(double degrees, double height) {
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
+  const double cut = degrees * std::numbers::pi / 180;
+  BRepBuilderAPI_MakeWire wire(
+      BRepBuilderAPI_MakeEdge(circle, 0, cut).Edge(),
+      BRepBuilderAPI_MakeEdge(circle, cut, std::numbers::pi).Edge(),
+      BRepBuilderAPI_MakeEdge(circle, std::numbers::pi, 2 * std::numbers::pi).Edge());
+  BRepPrimAPI_MakePrism prism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, height));
+  return prepare_fluid(BRepBuilderAPI_NurbsConvert(prism.Shape()).Shape()).model;
 }
 
 /// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.

@@ -27,6 +27,16 @@ Model joined_cylinder(const Communicator& communicator) {
   return cad::join_faces(apart, sizing::group_narrow_faces(apart, narrow, 0.05 * size));
 }
 
+/// The side in three faces, joined: a strip between two wide ones, splines that end where the faces do.
+Model joined_spline_cylinder() {
+  const Model apart = cad::shapes::spline_cylinder(strip_degrees, 2);
+  std::vector<cad::FaceId> side;
+  for (cad::FaceId f = 0; f < apart.face_count(); ++f) {
+    if (!apart.is_planar(f)) side.push_back(f);
+  }
+  return cad::join_faces(apart, {side});
+}
+
 struct Meshed {
   SurfaceMesh surface;
   mesh::Numbering numbering;
@@ -68,9 +78,7 @@ void expect_sound(const Communicator& communicator, const Meshed& meshed) {
   EXPECT_EQ(communicator.sum(small), 0);
 }
 
-TEST(JoinedFacesMesh, StripsLeaveNoTrace) {
-  const Communicator communicator = Communicator::world();
-  const Model model = joined_cylinder(communicator);
+void expect_no_trace(const Communicator& communicator, const Model& model) {
   ASSERT_EQ(model.face_count(), 3);
   for (const std::int64_t piece_triangles : {50'000, 150}) {
     const Meshed meshed = mesh_model(communicator, model, {.piece_triangles = piece_triangles});
@@ -82,6 +90,15 @@ TEST(JoinedFacesMesh, StripsLeaveNoTrace) {
     const Meshed again = mesh_model(alone, model, {.piece_triangles = piece_triangles});
     EXPECT_EQ(together, mesh::hash_mesh(alone, again.surface.mesh, again.numbering));
   }
+}
+
+TEST(JoinedFacesMesh, StripsLeaveNoTrace) {
+  const Communicator communicator = Communicator::world();
+  expect_no_trace(communicator, joined_cylinder(communicator));
+}
+
+TEST(JoinedFacesMesh, StripsThatEndWithTheirSurfaceLeaveNoTrace) {
+  expect_no_trace(Communicator::world(), joined_spline_cylinder());
 }
 
 // The same solid as it is: the strip's long edges are in the mesh.
