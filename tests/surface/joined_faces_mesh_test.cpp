@@ -83,7 +83,8 @@ void expect_no_trace(const Communicator& communicator, const Model& model) {
   for (const std::int64_t piece_triangles : {50'000, 150}) {
     const Meshed meshed = mesh_model(communicator, model, {.piece_triangles = piece_triangles});
     expect_sound(communicator, meshed);
-    EXPECT_EQ(meshed.surface.report.divided_faces > 0, piece_triangles == 150);
+    EXPECT_EQ(meshed.surface.report.divided_faces, piece_triangles == 150 ? 3 : 0);
+    EXPECT_EQ(meshed.surface.report.mending_rounds, 0) << "pieces of a face intersect";
     if (communicator.size() == 1) continue;
     const std::string together = mesh::hash_mesh(communicator, meshed.surface.mesh, meshed.numbering);
     const Communicator alone = Communicator::self();
