@@ -47,6 +47,7 @@ private:
   std::int32_t walk(geometry::Vec2 point, std::int32_t from) const;
   std::int32_t nearest(geometry::Vec2 point) const;
   double distance_to(std::int32_t triangle, geometry::Vec2 point) const;
+  double distance_to_box(std::int32_t triangle, geometry::Vec2 point) const;  // no more than that
   ChartPoint evaluate(std::int32_t triangle, geometry::Vec2 point) const;
 
   const Chart& _chart;

@@ -53,6 +53,14 @@ std::int32_t ChartLocator::walk(Vec2 point, std::int32_t from) const {
   return -1;
 }
 
+double ChartLocator::distance_to_box(std::int32_t triangle, Vec2 point) const {
+  const auto& [a, b, c] = _chart.support.triangles[triangle];
+  const Vec2 p = _chart.plane[a], q = _chart.plane[b], r = _chart.plane[c];
+  const double x = std::max({std::min({p.x, q.x, r.x}) - point.x, point.x - std::max({p.x, q.x, r.x}), 0.0});
+  const double y = std::max({std::min({p.y, q.y, r.y}) - point.y, point.y - std::max({p.y, q.y, r.y}), 0.0});
+  return std::max(x, y);
+}
+
 double ChartLocator::distance_to(std::int32_t triangle, Vec2 point) const {
   const auto& corners = _chart.support.triangles[triangle];
   const auto w = weights(triangle, point);
@@ -77,8 +85,10 @@ std::int32_t ChartLocator::nearest(Vec2 point) const {
       for (std::int32_t i = column - ring; i <= column + ring; i += whole_row ? 1 : 2 * ring) {
         if (i < 0 || i >= _grid.columns()) continue;
         for (const std::int32_t t : _grid.triangles_in(i, j)) {
+          if (distance_to_box(t, point) > least) continue;
           const double away = distance_to(t, point);
           if (away < least) least = away, best = t;
+          if (least == 0) return best;
         }
       }
     }
