@@ -5,14 +5,17 @@
 /// others, on interfaces, travel: each goes to the rank its global vertex numbers point to.
 #pragma once
 
+#include "mesh/cell_stars.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/pair_table.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <utility>
@@ -53,6 +56,10 @@ inline std::vector<std::uint8_t> mark_shared(const Piece& piece) {
   return marks;
 }
 
+/// Whether the faces of the tetrahedra are matched too, as items 4 * cell + face of this role.
+enum class CellFaces : std::uint8_t { left_out, matched };
+inline constexpr int cell_role = 0;
+
 /// What to match: `enumerate(piece, sink)` calls sink(vertices, role, item) for each face or edge, the same
 /// in every call; `label(piece, role, item)` is what the judge may know of one of them; `judge(members)` gets
 /// all that meet at one and names the rule that is broken, if any.
@@ -62,9 +69,12 @@ struct Matching {
   Enumerate enumerate;
   Label label;
   Judge judge;
+  CellFaces cell_faces = CellFaces::left_out;
 };
 template <class Enumerate, class Label, class Judge>
 Matching(RoleEntities, Enumerate, Label, Judge) -> Matching<Enumerate, Label, Judge>;
+template <class Enumerate, class Label, class Judge>
+Matching(RoleEntities, Enumerate, Label, Judge, CellFaces) -> Matching<Enumerate, Label, Judge>;
 
 /// Matches the faces (N = 3) or edges (N = 2) of a mesh. Offenders go to `findings`. Collective.
 template <std::size_t N, class Enumerate, class Label, class Judge>
@@ -117,8 +127,37 @@ private:
       std::copy(v.begin() + 1, v.end(), slot.rest.begin());
       slot.tag = make_tag(odd, role, item);
     });
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      judge_bucket(piece, v, std::span(items).subspan(first[v], first[v + 1] - first[v]), numbers);
+    const auto bucket_of = [&](LocalIndex v) {
+      return std::span(items).subspan(first[v], first[v + 1] - first[v]);
+    };
+    if constexpr (N == 3) {
+      if (_what.cell_faces == CellFaces::matched) return match_with_cells(piece, numbers, shared, bucket_of);
+    }
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) judge_bucket(piece, v, bucket_of(v), numbers);
+  }
+
+  /// Matches the faces of the cells with what is in the buckets: they are put there one vertex at a time.
+  template <class BucketOf>
+  void match_with_cells(const Piece& piece, const std::vector<GlobalIndex>& numbers,
+                        const std::vector<std::uint8_t>& shared, const BucketOf& bucket_of) {
+    const CellStars stars(piece, 2);
+    std::vector<Inside> bucket;
+    for (LocalIndex lowest = 0; lowest < piece.vertex_count(); ++lowest) {
+      const auto others = bucket_of(lowest);
+      bucket.assign(others.begin(), others.end());
+      stars.for_each(lowest, [&](LocalIndex c, const AscendingCell& cell) {
+        cell.for_each_face_of(lowest, [&](int left_out, LocalIndex middle, LocalIndex highest) {
+          const std::uint32_t item = 4 * static_cast<std::uint32_t>(c) + cell.place(left_out);
+          if (shared[lowest] && shared[middle] && shared[highest]) {
+            const auto& face = tetrahedron_faces[cell.place(left_out)];
+            const LocalIndex* v = piece.cell(c);
+            send_across(piece, {v[face[0]], v[face[1]], v[face[2]]}, numbers, cell_role, item);
+          } else {
+            bucket.push_back({{middle, highest}, make_tag(cell.is_face_odd(left_out), cell_role, item)});
+          }
+        });
+      });
+      judge_bucket(piece, lowest, bucket, numbers);
     }
   }
 
@@ -130,8 +169,34 @@ private:
     _across.push_back({vertices, piece.id, make_tag(odd, role, item), _what.label(piece, role, item)});
   }
 
+  /// Whether all that meet in a bucket are fine, and no more than two at a time.
+  bool settle(const Piece& piece, std::span<const Inside> bucket) {
+    const auto member = [&](std::uint32_t tag) {
+      Member member{piece.id, tag, 0};
+      member.label = _what.label(piece, member.role(), member.item());
+      return member;
+    };
+    const auto is_fine = [&](std::initializer_list<Member> members) {
+      return !_what.judge(std::span<const Member>(members.begin(), members.size()));
+    };
+    _pairs.begin(bucket.size());
+    for (const Inside& item : bucket) {
+      const PairTable::Outcome met = _pairs.add(key_of(item), item.tag);
+      if (met.count > 2) return false;
+      if (met.count == 2 && !is_fine({member(met.first), member(item.tag)})) return false;
+    }
+    return _pairs.all_single([&](std::uint32_t tag) { return is_fine({member(tag)}); });
+  }
+
+  static std::uint64_t key_of(const Inside& item) {
+    std::uint64_t key = 0;
+    for (const LocalIndex v : item.rest) key = key << 32 | static_cast<std::uint32_t>(v);
+    return key;
+  }
+
   void judge_bucket(const Piece& piece, LocalIndex lowest, std::span<Inside> bucket,
                     const std::vector<GlobalIndex>& numbers) {
+    if (settle(piece, bucket)) return;
     std::sort(bucket.begin(), bucket.end());
     for (std::size_t i = 0, j = 0; i < bucket.size(); i = j) {
       _members.clear();
@@ -185,6 +250,7 @@ private:
   Findings& _findings;
   std::vector<Across> _across;
   std::vector<Member> _members;
+  PairTable _pairs;
 };
 
 /// Matches and judges all faces (N = 3) or edges (N = 2). See Matcher. Collective.

@@ -21,7 +21,7 @@ using geometry::Vec3;
 namespace {
 
 constexpr double volume_tolerance = 1e-10;
-constexpr int cell_role = 0, triangle_role = 1;
+constexpr int triangle_role = 1;
 
 /// Volume of a piece's cells; those that are not exactly positive are reported.
 double measure_cells(const Piece& piece, Findings& findings) {
@@ -36,6 +36,12 @@ double measure_cells(const Piece& piece, Findings& findings) {
     sum.add(volume);
   }
   return sum.value() / 6;
+}
+
+/// Whether two cells of one region meet on opposite sides, and nothing else: so it is nearly everywhere.
+bool is_inside_region(std::span<const Member> members) {
+  return members.size() == 2 && members[0].role() == cell_role && members[1].role() == cell_role &&
+         members[0].label == members[1].label && members[0].odd() != members[1].odd();
 }
 
 /// What meets at a face.
@@ -87,14 +93,6 @@ std::optional<Violation> judge_two_cells(const FaceParts& parts, FaceSides sides
 void check_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                  const Numbering& numbering, Findings& findings) {
   const auto faces = [](const Piece& piece, const auto& sink) {
-    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
-      const LocalIndex* v = piece.cell(c);
-      for (int f = 0; f < 4; ++f) {
-        const auto& face = tetrahedron_faces[f];
-        sink(std::array<LocalIndex, 3>{v[face[0]], v[face[1]], v[face[2]]}, cell_role,
-             4 * static_cast<std::uint32_t>(c) + f);
-      }
-    }
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const LocalIndex* v = piece.boundary_triangle(t);
       sink(std::array<LocalIndex, 3>{v[0], v[1], v[2]}, triangle_role, static_cast<std::uint32_t>(t));
@@ -104,6 +102,7 @@ void check_faces(const parallel::Communicator& communicator, const DistributedMe
     return role == cell_role ? piece.region : piece.triangle_face[item];
   };
   const auto judge = [&mesh](std::span<const Member> members) -> std::optional<Violation> {
+    if (is_inside_region(members)) return std::nullopt;
     const FaceParts parts = sort_out(members);
     if (parts.cells > 2) return Violation::face_of_many_cells;
     if (parts.cells == 0) return Violation::triangle_without_cell;
@@ -111,7 +110,8 @@ void check_faces(const parallel::Communicator& communicator, const DistributedMe
     return parts.cells == 1 ? judge_one_cell(parts, sides) : judge_two_cells(parts, sides);
   };
   match_all<3>(communicator, mesh, numbering,
-               Matching{{Entity::cell_face, Entity::triangle}, faces, label, judge}, findings);
+               Matching{{Entity::cell_face, Entity::triangle}, faces, label, judge, CellFaces::matched},
+               findings);
 }
 
 /// Sums the cells and the divergence integral over the boundary, and compares, region by region.
