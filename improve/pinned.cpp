@@ -18,6 +18,12 @@ using mesh::Piece;
 
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr int on_curve = 1;
+/// Degrees by which rounding may set the two measures of an angle apart, at most.
+constexpr double angle_slack = 1e-6;
+
+double largest_allowed(double target) {
+  return 180 - 1.5 * target;
+}
 
 /// An edge between vertices on curves, as one region sees it.
 struct EdgeName {
@@ -58,10 +64,15 @@ void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
 class PinnedSearch {
 public:
   PinnedSearch(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-               const mesh::Numbering& numbering, double target)
-      : _communicator(communicator), _mesh(mesh), _numbering(numbering), _target(target), _measure(target) {
+               const mesh::Numbering& numbering, double target, const mesh::CellsBeyond& suspects)
+      : _communicator(communicator),
+        _mesh(mesh),
+        _numbering(numbering),
+        _suspects(suspects),
+        _target(target),
+        _measure(target) {
     _report.smallest_angle = target;
-    _report.largest_angle = 180 - 1.5 * target;
+    _report.largest_angle = largest_allowed(target);
   }
 
   PinnedReport run() {
@@ -104,6 +115,7 @@ private:
   const parallel::Communicator& _communicator;
   const mesh::DistributedMesh& _mesh;
   const mesh::Numbering& _numbering;
+  const mesh::CellsBeyond& _suspects;
   double _target;
   TetQuality _measure;
   std::vector<std::vector<BadTet>> _bad;  // per piece
@@ -118,7 +130,7 @@ void PinnedSearch::collect_edges() {
   for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) {
     const Piece& piece = _mesh.pieces[i];
     std::vector<BadTet>& bad = _bad.emplace_back();
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    for (const LocalIndex t : _suspects.cells[i]) {
       const auto p = points(piece, t);
       const double quality = _measure(p[0], p[1], p[2], p[3]);
       if (quality >= _measure.target()) continue;
@@ -287,9 +299,14 @@ PinnedReport PinnedSearch::merge() {
 
 }  // namespace
 
+mesh::DihedralRange suspect_angles(double target_angle) {
+  return {target_angle + angle_slack, largest_allowed(target_angle) - angle_slack};
+}
+
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                         const mesh::Numbering& numbering, double target_angle) {
-  return PinnedSearch(communicator, mesh, numbering, target_angle).run();
+                         const mesh::Numbering& numbering, double target_angle,
+                         const mesh::CellsBeyond& suspects) {
+  return PinnedSearch(communicator, mesh, numbering, target_angle, suspects).run();
 }
 
 }  // namespace aeroloom::improve

@@ -3,6 +3,7 @@
 
 #include "geometry/vec.hpp"
 #include "mesh/distributed_mesh.hpp"
+#include "mesh/quality.hpp"
 #include "parallel/communicator.hpp"
 
 #include <array>
@@ -34,11 +35,15 @@ struct PinnedReport {
   double smallest_angle = 0, largest_angle = 180;
 };
 
+/// All tetrahedra that miss the target angle have an angle beyond these, degrees.
+mesh::DihedralRange suspect_angles(double target_angle);
+
 /// Which tetrahedra that miss the target angle (degrees, as in ImproveOptions) are pinned: those at an edge
 /// of a CAD curve where the boundary encloses less than the target, and those on a boundary triangle that
-/// fills a corner of less than the target between two curves. Collective; the same on every rank and for any
-/// number of ranks.
+/// fills a corner of less than the target between two curves. `suspects` are those beyond the angles above,
+/// as mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                         const mesh::Numbering& numbering, double target_angle);
+                         const mesh::Numbering& numbering, double target_angle,
+                         const mesh::CellsBeyond& suspects);
 
 }  // namespace aeroloom::improve

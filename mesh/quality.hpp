@@ -58,8 +58,15 @@ struct QualitySummary {
   std::vector<WorstCell> worst;  ///< the ten of smallest min_dihedral, worst first, ties by global number
 };
 
-/// Collective; the same on every rank and for any number of ranks (sums are taken in piece order).
+/// Cells of this rank with a smaller or a larger angle than allowed.
+struct CellsBeyond {
+  DihedralRange limits;                        ///< degrees, asked for
+  std::vector<std::vector<LocalIndex>> cells;  ///< per local piece, ascending; filled in
+};
+
+/// `beyond`, if any, is filled in on the way. Collective; the same on every rank and for any number of ranks
+/// (sums are taken in piece order).
 QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const Numbering& numbering);
+                                 const Numbering& numbering, CellsBeyond* beyond = nullptr);
 
 }  // namespace aeroloom::mesh

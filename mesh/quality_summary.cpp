@@ -1,5 +1,6 @@
 #include "mesh/delivery.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/tet_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +44,7 @@ struct Accumulated {
   void add(double value, const Scale& scale) {
     minimum = std::min(minimum, value);
     maximum = std::max(maximum, value);
-    const double bin =
-        std::clamp(std::floor(value * scale.bins_per_unit), 0.0, static_cast<double>(bins.size() - 1));
+    const double bin = std::clamp(value * scale.bins_per_unit, 0.0, static_cast<double>(bins.size() - 1));
     ++bins[static_cast<std::size_t>(bin)];
   }
 };
@@ -53,14 +53,6 @@ struct Values {
   double of[measures];
 };
 
-Values measure_tetrahedron(const Piece& piece, LocalIndex c) {
-  const LocalIndex* v = piece.cell(c);
-  const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
-  const DihedralRange angles = dihedral_range(p[0], p[1], p[2], p[3]);
-  return {{angles.smallest, angles.largest, mean_ratio(p[0], p[1], p[2], p[3]),
-           radius_ratio(p[0], p[1], p[2], p[3])}};
-}
-
 Values measure_triangle(const Piece& piece, LocalIndex c) {
   const LocalIndex* v = piece.cell(c);
   const Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
@@ -68,14 +60,29 @@ Values measure_triangle(const Piece& piece, LocalIndex c) {
            triangle_mean_ratio(p[0], p[1], p[2]), 0}};
 }
 
-/// A cell with a coordinate that is no number counts as flat.
-Values measure(const Piece& piece, LocalIndex c) {
-  Values values =
-      piece.kind == CellKind::tetrahedron ? measure_tetrahedron(piece, c) : measure_triangle(piece, c);
-  for (double& value : values.of) {
-    if (!std::isfinite(value)) value = 0;
+/// Calls visit(cell, values) for the cells of a piece, ascending. A cell with a coordinate that is no number
+/// counts as flat.
+template <class Visit>
+void for_each_cell(const Piece& piece, const Visit& visit) {
+  const auto visit_finite = [&](LocalIndex c, Values values) {
+    for (double& value : values.of) {
+      if (!std::isfinite(value)) value = 0;
+    }
+    visit(c, values);
+  };
+  if (piece.kind == CellKind::triangle) {
+    for (LocalIndex c = 0; c < piece.cell_count(); ++c) visit_finite(c, measure_triangle(piece, c));
+    return;
   }
-  return values;
+  TetMeasures of;
+  for (LocalIndex first = 0; first < piece.cell_count(); first += TetMeasures::most) {
+    const int count = std::min(TetMeasures::most, piece.cell_count() - first);
+    of.measure(piece, first, count);
+    for (int i = 0; i < count; ++i) {
+      visit_finite(first + i,
+                   {{of.smallest_dihedral[i], of.largest_dihedral[i], of.mean_ratio[i], of.radius_ratio[i]}});
+    }
+  }
 }
 
 Vec3 center_of(const Piece& piece, LocalIndex c) {
@@ -100,14 +107,16 @@ struct LocalSummary {
   std::vector<WorstCell> worst;
 };
 
-LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbering) {
+LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbering, CellsBeyond& beyond) {
   LocalSummary local;
   for (const Scale& scale : scales) local.measure.emplace_back(scale);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     Values sum{};
-    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
-      const Values values = measure(piece, c);
+    std::vector<LocalIndex>& cells_beyond = beyond.cells.emplace_back();
+    for_each_cell(piece, [&](LocalIndex c, const Values& values) {
+      if (values.of[min_angle] < beyond.limits.smallest || values.of[max_angle] > beyond.limits.largest)
+        cells_beyond.push_back(c);
       for (int m = 0; m < measures; ++m) {
         local.measure[m].add(values.of[m], scales[m]);
         sum.of[m] += values.of[m];
@@ -117,7 +126,7 @@ LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbe
         local.worst.push_back({candidate.value, candidate.cell, center_of(piece, c)});
         keep_worst(local.worst);
       }
-    }
+    });
     local.sums.push_back(sum);
   }
   return local;
@@ -182,8 +191,9 @@ Distribution distribution_of(const parallel::Communicator& communicator, const A
 }  // namespace
 
 QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const Numbering& numbering) {
-  LocalSummary local = summarise_local(mesh, numbering);
+                                 const Numbering& numbering, CellsBeyond* beyond) {
+  CellsBeyond nobody_asks;
+  LocalSummary local = summarise_local(mesh, numbering, beyond != nullptr ? *beyond : nobody_asks);
   Values sums{};
   for (const Values& piece : gather_by_piece(communicator, mesh, local.sums)) {
     for (int m = 0; m < measures; ++m) sums.of[m] += piece.of[m];

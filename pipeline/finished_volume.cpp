@@ -27,8 +27,8 @@ std::vector<RegionRow> table_of_regions(const Communicator& communicator, const 
 
 /// Tells the elements that the CAD forces from those that improvement could not mend.
 void list_pinned(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
-                 const mesh::Numbering& numbering, RunRecord& record) {
-  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle);
+                 const mesh::Numbering& numbering, const mesh::CellsBeyond& suspects, RunRecord& record) {
+  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle, suspects);
   log_pinned(record);
 }
 
@@ -57,8 +57,10 @@ void inspect_volume(const Communicator& communicator, const Case& input, const m
   record.mesh_volume = validity.volume;
   record.counts = mesh::count_mesh(communicator, volume, numbering);
   record.regions_filled = table_of_regions(communicator, volume, validity.region_volumes);
-  record.quality = mesh::summarise_quality(communicator, volume, numbering);
-  if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, record);
+  mesh::CellsBeyond suspects;
+  if (input.improve.enabled) suspects.limits = improve::suspect_angles(input.improve.target_angle);
+  record.quality = mesh::summarise_quality(communicator, volume, numbering, &suspects);
+  if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, suspects, record);
   record.hash = mesh::hash_mesh(communicator, volume, numbering);
 }
 

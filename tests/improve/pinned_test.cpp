@@ -52,7 +52,10 @@ DistributedMesh make_wedge(const parallel::Communicator& communicator, double an
 PinnedReport find(double angle, int tets, int dimension, double target) {
   const auto world = parallel::Communicator::world();
   const DistributedMesh mesh = make_wedge(world, angle, tets, dimension);
-  return find_pinned(world, mesh, mesh::number_mesh(world, mesh), target);
+  const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
+  mesh::CellsBeyond suspects{suspect_angles(target), {}};
+  mesh::summarise_quality(world, mesh, numbering, &suspects);
+  return find_pinned(world, mesh, numbering, target, suspects);
 }
 
 TEST(Pinned, FindsTheFacesThatForceAnAngle) {

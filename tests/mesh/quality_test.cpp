@@ -1,5 +1,6 @@
 #include "mesh/quality.hpp"
 
+#include "mesh/tet_measures.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <cmath>
@@ -73,6 +74,31 @@ TEST(Quality, OfTriangles) {
   EXPECT_EQ(triangle_mean_ratio(a, b, {2, 0, 0}), 0);
   EXPECT_EQ(smallest_angle(a, b, {2, 0, 0}), 0);
   EXPECT_EQ(triangle_mean_ratio(a, a, a), 0);
+}
+
+TEST(Quality, OfManyTetrahedraIsThatOfEach) {
+  Piece piece = examples::cube(Communicator::self(), 4, 1).pieces[0];
+  for (std::size_t i = 0; i < piece.coordinates.size(); ++i)  // some are turned inside out
+    piece.coordinates[i] += 0.2 * std::sin(static_cast<double>(i * i));
+  piece.cells.insert(piece.cells.end(), {0, 0, 0, 0});
+  ASSERT_NE(piece.cell_count() % TetMeasures::most, 0);
+  TetMeasures of;
+  int inverted = 0;
+  for (LocalIndex first = 0; first < piece.cell_count(); first += TetMeasures::most) {
+    const int count = std::min(TetMeasures::most, piece.cell_count() - first);
+    of.measure(piece, first, count);
+    for (int i = 0; i < count; ++i) {
+      const LocalIndex* v = piece.cell(first + i);
+      const Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+      const DihedralRange angles = dihedral_range(p[0], p[1], p[2], p[3]);
+      EXPECT_EQ(of.smallest_dihedral[i], angles.smallest);
+      EXPECT_EQ(of.largest_dihedral[i], angles.largest);
+      EXPECT_EQ(of.mean_ratio[i], mean_ratio(p[0], p[1], p[2], p[3]));
+      EXPECT_EQ(of.radius_ratio[i], radius_ratio(p[0], p[1], p[2], p[3]));
+      inverted += of.mean_ratio[i] < 0;
+    }
+  }
+  EXPECT_GT(inverted, 10);
 }
 
 void expect_same(const Distribution& a, const Distribution& b) {
@@ -158,6 +184,24 @@ TEST(QualitySummary, OfAnEmptyMesh) {
   EXPECT_EQ(summary.min_dihedral.minimum, 0);
   EXPECT_EQ(summary.mean_ratio.mean, 0);
   EXPECT_TRUE(summary.worst.empty());
+}
+
+TEST(QualitySummary, TellsTheCellsBeyondAngles) {
+  const auto world = Communicator::world();
+  const auto mesh = examples::fan(world, 5);
+  CellsBeyond beyond{{50, 89}, {}};
+  summarise_quality(world, mesh, number_mesh(world, mesh), &beyond);
+  ASSERT_EQ(beyond.cells.size(), mesh.pieces.size());
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    std::vector<LocalIndex> expected;
+    for (LocalIndex c = 0; c < mesh.pieces[i].cell_count(); ++c) {
+      const LocalIndex* v = mesh.pieces[i].cell(c);
+      const auto point = [&](int k) { return mesh.pieces[i].point(v[k]); };
+      const DihedralRange range = dihedral_range(point(0), point(1), point(2), point(3));
+      if (range.smallest < 50 || range.largest > 89) expected.push_back(c);
+    }
+    EXPECT_EQ(beyond.cells[i], expected);
+  }
 }
 
 TEST(QualitySummary, CountsACellThatIsNoNumberAsFlat) {
