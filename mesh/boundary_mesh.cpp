@@ -9,16 +9,6 @@
 namespace aeroloom::mesh {
 namespace {
 
-/// Triangles of a tetrahedral piece by CAD face, in their order.
-std::vector<LocalIndex> triangles_by_face(const Piece& piece) {
-  std::vector<LocalIndex> order(piece.boundary_count());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](LocalIndex a, LocalIndex b) {
-    return piece.triangle_face[a] < piece.triangle_face[b];
-  });
-  return order;
-}
-
 /// Builds the surface piece of some triangles of a tetrahedral piece.
 class SkinPiece {
 public:
@@ -63,6 +53,15 @@ private:
 };
 
 }  // namespace
+
+std::vector<LocalIndex> triangles_by_face(const Piece& piece) {
+  std::vector<LocalIndex> order(piece.boundary_count());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](LocalIndex a, LocalIndex b) {
+    return piece.triangle_face[a] < piece.triangle_face[b];
+  });
+  return order;
+}
 
 DistributedMesh boundary_mesh(const parallel::Communicator& communicator, const DistributedMesh& volume,
                               const Numbering& numbering) {

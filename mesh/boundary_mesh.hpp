@@ -20,4 +20,7 @@ enum class SurfacePart : std::uint8_t { outside, between_regions };
 /// Those alone. Pieces keep their ids, left out ones are empty. Not collective.
 DistributedMesh part_of_surface(const DistributedMesh& surface, SurfacePart which);
 
+/// Triangles of a tetrahedral piece by CAD face, in their order: that of boundary_mesh.
+std::vector<LocalIndex> triangles_by_face(const Piece& piece);
+
 }  // namespace aeroloom::mesh

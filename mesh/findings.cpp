@@ -98,6 +98,12 @@ void Findings::add(Violation violation, const Offender& offender) {
   if (finding.count++ == 0 || before(offender, finding.first)) finding.first = offender;
 }
 
+bool Findings::any(const parallel::Communicator& communicator) const {
+  std::int64_t found = 0;
+  for (const Finding& finding : _table) found += finding.count;
+  return communicator.sum(found) > 0;
+}
+
 Findings::Table Findings::over_all_ranks(const parallel::Communicator& communicator) const {
   Table total;
   for (const Table& table : communicator.all_gather_items(std::span<const Table>(&_table, 1))) {

@@ -52,6 +52,9 @@ class Findings {
 public:
   void add(Violation violation, const Offender& offender);
 
+  /// Whether any rank has found something. Collective.
+  bool any(const parallel::Communicator& communicator) const;
+
   /// One sentence per broken rule, the same on every rank: its count over all ranks, and piece and
   /// coordinates of the first offender. `mesh` is the one the offenders belong to. Collective.
   std::vector<std::string> sentences(const parallel::Communicator& communicator,

@@ -20,8 +20,10 @@ namespace {
 
 /// Exact: three points lie on one line when all three projections do.
 bool is_degenerate(Vec3 a, Vec3 b, Vec3 c) {
-  const double probe = geometry::norm(geometry::cross(b - a, c - a));
-  if (!std::isfinite(probe)) return true;
+  const Vec3 ab = b - a, ac = c - a, normal = geometry::cross(ab, ac);
+  const auto sum = [](Vec3 e) { return std::abs(e.x) + std::abs(e.y) + std::abs(e.z); };
+  if (!std::isfinite(geometry::norm(normal))) return true;
+  if (sum(normal) > 1e-14 * sum(ab) * sum(ac)) return false;  // rounding cannot matter
   return geometry::orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 &&
          geometry::orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
          geometry::orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;

@@ -1,5 +1,6 @@
 #include "mesh/validity.hpp"
 
+#include "mesh/boundary_mesh.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
@@ -264,6 +265,22 @@ TEST(VolumeValidity, FindsASurfaceThatIsAnother) {
   const auto report = check_volume_mesh(world, mesh, number_mesh(world, mesh), &surface);
   EXPECT_FOUND(joined(report.violations), "boundary triangles that the surface mesh does not have:");
   EXPECT_FOUND(joined(report.violations), "triangles of the surface mesh that the boundary does not have:");
+}
+
+TEST(VolumeValidity, KnowsItsOwnSurfaceFromAnother) {
+  const auto world = Communicator::world();
+  const auto mesh = examples::cube(world, side, pieces);
+  const Numbering numbering = number_mesh(world, mesh);
+  DistributedMesh surface = boundary_mesh(world, mesh, numbering);
+  EXPECT_TRUE(check_volume_mesh(world, mesh, numbering, &surface).valid());
+  change_piece(surface, 2, [](Piece& piece) { piece.coordinates[4] += 1e-15; });
+  const std::string moved = joined(check_volume_mesh(world, mesh, numbering, &surface).violations);
+  EXPECT_FOUND(moved, "boundary triangles that the surface mesh does not have");
+  EXPECT_FOUND(moved, "triangles of the surface mesh that the boundary does not have");
+  surface = boundary_mesh(world, mesh, numbering);
+  change_piece(surface, surface.piece_count - 1, [](Piece& piece) { repeat_triangle(piece, 0); });
+  EXPECT_FOUND(joined(check_volume_mesh(world, mesh, numbering, &surface).violations),
+               "triangles of the surface mesh that the boundary does not have: 1,");
 }
 
 TEST(VolumeValidity, RefusesANumberingOfAnotherMesh) {
