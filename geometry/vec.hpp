@@ -110,6 +110,7 @@ struct Box {
   Vec3 center() const { return 0.5 * (low + high); }
   Vec3 size() const { return high - low; }
   double diagonal() const { return empty() ? 0.0 : distance(low, high); }
+  Box dilated(double by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }
   bool contains(Vec3 p) const {
     return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
   }

@@ -1,10 +1,12 @@
 #include "volume/block_points.hpp"
 
 #include "mesh/mixing.hpp"
+#include "volume/near_triangles.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace aeroloom::volume {
 
@@ -18,8 +20,6 @@ constexpr double smallest_edge = 0.3, largest_edge = 1.5;
 /// What the clearance grows by in each step of a retry.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
-/// Triangles are looked for in this many times the largest clearance, for what it tells of the points around.
-constexpr double look_farther = 4;
 /// Balls without triangles that are remembered.
 constexpr std::size_t remembered_balls = 16;
 /// Trilinear interpolation may be steeper than the growth limit by this factor.
@@ -65,23 +65,45 @@ public:
     const bool met = _source.table.is_met(b);
     if (!met && _source.regions[b] == mesh::no_region) return;
     _block = b;
-    _clearance = clearance_of(_source, b);
-    _near = met || is_near(b);
+    _offered.clear();
+    _box = {};
     for (int child = 0; child < _source.tree.leaf_count(b); ++child) make_leaf(child);
+    const bool near = met || is_near();
+    if (near) find_triangles();
+    for (const Offer& offer : _offered) {
+      mesh::RegionId region = _source.regions[b];
+      if (near && !is_clear(offer)) continue;
+      if (met) region = region_of(offer.point);
+      if (region == mesh::no_region) continue;
+      _result.slots.push_back(offer.slot);
+      _result.points.push_back(offer.point);
+      _result.regions.push_back(region);
+    }
   }
 
 private:
-  bool is_near(BlockIndex b) {
+  /// A point that is made unless something is in the way.
+  struct Offer {
+    Vec3 point;
+    double size;  ///< where triangles may be near
+    std::uint8_t slot;
+  };
+
+  /// Whether triangles may be too near to a point of the block.
+  bool is_near() const {
     if (_surface.empty()) return false;
-    const GridCube cell = _source.tree.cube(b);
-    const double half = 0.5 * cell.edge();
-    const Vec3 center = _source.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
-    const double range = 1.1 * 0.5 * std::numbers::sqrt3 * _source.frame.edge(cell.level) +
-                         largest_edge * _clearance * largest_size(_source, b);
-    const auto nearest = _surface.distance().nearest(center, _guess, range);
-    if (nearest.triangle < 0) return false;
-    _guess = nearest.triangle;
-    return true;
+    const double reach = largest_edge * clearance_of(_source, _block) * largest_size(_source, _block);
+    return _surface.distance().any_in(_box.dilated(reach));
+  }
+
+  /// Those that are, and the sizes that decide.
+  void find_triangles() {
+    double largest = 0;
+    for (Offer& offer : _offered) {
+      offer.size = _source.field(offer.point);
+      largest = std::max(largest, offer.size);
+    }
+    _triangles.collect(_surface.distance(), _box, largest_edge * clearance_of(_source, _block) * largest);
   }
 
   void make_leaf(int child) {
@@ -111,12 +133,8 @@ private:
     const int(&place)[3] = slot_places[slot];
     const Vec3 grid = GridBox::of(leaf).low + Vec3{half * place[0], half * place[1], half * place[2]};
     const Vec3 p = _source.frame.to_space(grid) + perturbation(leaf, slot);
-    mesh::RegionId region = _source.regions[_block];
-    if (_near && !is_clear(p, region)) return;
-    if (region == mesh::no_region) return;
-    _result.slots.push_back(static_cast<std::uint8_t>(child * slots_per_leaf + slot));
-    _result.points.push_back(p);
-    _result.regions.push_back(region);
+    _offered.push_back({p, 0, static_cast<std::uint8_t>(child * slots_per_leaf + slot)});
+    _box.add(p);
   }
 
   Vec3 perturbation(const GridCube& leaf, int slot) const {
@@ -132,47 +150,32 @@ private:
     return shift;
   }
 
-  /// Whether a point keeps off the surface. In a block that the surface meets, its region is told as well.
-  bool is_clear(Vec3 p, mesh::RegionId& region) {
-    const double size = _source.field(p), range = largest_edge * _clearance * size;
-    const bool ask = _source.table.is_met(_block);
-    if (const EmptyBall* ball = ball_around(p, range)) {
-      region = ball->region;
-      return true;
-    }
-    const double seen = look_farther * range;
-    const auto nearest = _surface.distance().nearest(p, _guess, seen);
-    if (nearest.triangle >= 0) {
-      _guess = nearest.triangle;
-      const auto limit = [&](std::int32_t triangle) {
-        return _clearance *
-               std::clamp(_surface.distance().mean_edge(triangle), smallest_edge * size, largest_edge * size);
-      };
-      if (nearest.distance < limit(nearest.triangle)) return false;
-      if (nearest.distance < range && _surface.distance().any_nearer(p, range, limit)) return false;
-    }
-    if (ask) region = region_of(p, nearest);
-    _balls[_next_ball++ % _balls.size()] = {p, nearest.distance, region};
-    return true;
+  bool is_clear(const Offer& offer) const {
+    return !_triangles.any_nearer(
+        offer.point, {clearance_of(_source, _block), smallest_edge * offer.size, largest_edge * offer.size});
   }
 
-  mesh::RegionId region_of(Vec3 p, BoundaryDistance::Nearest nearest) {
-    if (const EmptyBall* ball = ball_around(p, 0)) return ball->region;
-    if (nearest.triangle < 0) nearest = _surface.distance().nearest(p, _guess);
-    return _surface.region_at(p, nearest).value_or(mesh::no_region);
+  /// The region of a point in a block that the surface meets.
+  mesh::RegionId region_of(Vec3 p) {
+    if (const EmptyBall* ball = ball_around(p)) return ball->region;
+    std::optional<BoundaryDistance::Nearest> nearest = _triangles.nearest(p);
+    if (!nearest) nearest = _surface.distance().nearest(p, _guess);
+    _guess = nearest->triangle;
+    const mesh::RegionId region = _surface.region_at(p, *nearest).value_or(mesh::no_region);
+    _balls[_next_ball++ % _balls.size()] = {p, nearest->distance, region};
+    return region;
   }
 
   /// No triangle is nearer to the centre than the radius, so a ball lies in one region.
   struct EmptyBall {
     Vec3 center;
-    double radius = -1;
+    double radius = 0;
     mesh::RegionId region = mesh::no_region;
   };
-  /// A ball that holds all that is nearer to p than `margin`; null: none of those that were met last.
-  const EmptyBall* ball_around(Vec3 p, double margin) const {
+  /// A ball that holds p, of those that were met last; null: none.
+  const EmptyBall* ball_around(Vec3 p) const {
     for (const EmptyBall& ball : _balls) {
-      const double rest = ball.radius - margin;
-      if (rest > 0 && dot(p - ball.center, p - ball.center) < rest * rest) return &ball;
+      if (dot(p - ball.center, p - ball.center) < ball.radius * ball.radius) return &ball;
     }
     return nullptr;
   }
@@ -181,8 +184,9 @@ private:
   const NearSurface& _surface;
   BlockPoints& _result;
   BlockIndex _block = 0;
-  double _clearance = 0;
-  bool _near = false;
+  std::vector<Offer> _offered;  // in the block
+  geometry::Box _box;           // of them
+  NearTriangles _triangles;     // near them
   std::int32_t _guess = -1;
   std::array<EmptyBall, remembered_balls> _balls{};
   std::size_t _next_ball = 0;

@@ -1,5 +1,7 @@
 #include "volume/boundary_distance.hpp"
 
+#include <limits>
+
 namespace aeroloom::volume {
 
 using geometry::Box;
@@ -40,24 +42,32 @@ Vec3 foot_on(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool& in_face) {
 BoundaryDistance::BoundaryDistance(std::span<const Vec3> points, std::span<const Triangle> triangles)
     : _points(points), _triangles(triangles), _slot(triangles.size()) {
   const auto count = static_cast<std::int32_t>(triangles.size());
-  _mean_edges.reserve(triangles.size());
   std::vector<Box> boxes(triangles.size());
   for (std::int32_t t = 0; t < count; ++t) {
     const Vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-    _mean_edges.push_back((distance(a, b) + distance(b, c) + distance(c, a)) / 3.0);
     for (const Vec3 p : {a, b, c}) boxes[t].add(p);
   }
   _tree = geometry::BoxTree(boxes, leaf_size);
   _corners.reserve(triangles.size());
+  _mean_edges.reserve(triangles.size());
   for (const std::int32_t t : _tree.order()) {
     _slot[t] = static_cast<std::int32_t>(_corners.size());
-    _corners.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
+    const auto& [a, b, c] = _corners.emplace_back(Corners{corner(t, 0), corner(t, 1), corner(t, 2)});
+    _mean_edges.push_back((distance(a, b) + distance(b, c) + distance(c, a)) / 3.0);
   }
 }
 
-double BoundaryDistance::squared_distance(Vec3 p, const Corners& triangle, bool& in_face) {
+BoundaryDistance::SquaredDistance BoundaryDistance::squared_distance(Vec3 p, const Corners& triangle) {
+  bool in_face = false;
   const Vec3 foot = foot_on(p, triangle.a, triangle.b, triangle.c, in_face);
-  return dot(p - foot, p - foot);
+  return {dot(p - foot, p - foot), in_face};
+}
+
+bool BoundaryDistance::any_in(const Box& box) const {
+  bool found = false;
+  _tree.search([&](const Box& node) { return !found && node.overlaps(box); },
+               [&](std::int32_t) { found = true; });
+  return found;
 }
 
 Vec3 BoundaryDistance::foot_point(Vec3 p, std::int32_t triangle) const {
@@ -66,14 +76,13 @@ Vec3 BoundaryDistance::foot_point(Vec3 p, std::int32_t triangle) const {
   return foot_on(p, corners.a, corners.b, corners.c, in_face);
 }
 
-BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess, double range) const {
+BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess) const {
   const auto nodes = _tree.nodes();
   const auto order = _tree.order();
   Nearest best;
-  double best_squared = range * range;
+  double best_squared = std::numeric_limits<double>::infinity();
   const auto look_at = [&](std::int32_t slot) {
-    bool in_face = false;
-    const double squared = squared_distance(p, _corners[slot], in_face);
+    const auto [squared, in_face] = squared_distance(p, _corners[slot]);
     if (squared < best_squared) {
       best_squared = squared;
       best.triangle = order[slot];
@@ -102,7 +111,7 @@ BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess, 
     }
     for (std::int32_t i = node.begin; i < node.end; ++i) look_at(i);
   }
-  best.distance = best.triangle < 0 ? range : std::sqrt(best_squared);
+  best.distance = std::sqrt(best_squared);
   return best;
 }
 

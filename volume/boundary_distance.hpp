@@ -27,9 +27,8 @@ public:
     std::int32_t triangle = -1;
     bool in_face = false;  ///< the foot point lies inside the triangle, on none of its edges
   };
-  /// `guess` is a triangle thought to be near, -1 for none; it changes the speed, not the distance. Triangles
-  /// not nearer than `range` are not seen: with none nearer, the triangle is -1 and the distance `range`.
-  Nearest nearest(geometry::Vec3 p, std::int32_t guess = -1, double range = 1e150) const;
+  /// `guess` is a triangle thought to be near, -1 for none; it changes the speed, not the distance.
+  Nearest nearest(geometry::Vec3 p, std::int32_t guess = -1) const;
 
   /// The point of one triangle that is nearest to p, and how far it is.
   geometry::Vec3 foot_point(geometry::Vec3 p, std::int32_t triangle) const;
@@ -37,49 +36,51 @@ public:
     return distance(p, foot_point(p, triangle));
   }
 
-  /// Whether a triangle lies nearer to p than its own limit; `limit(t)` is at most `largest_limit`.
-  template <class Limit>
-  bool any_nearer(geometry::Vec3 p, double largest_limit, const Limit& limit) const;
-
   /// Mean edge length of a triangle.
-  double mean_edge(std::int32_t triangle) const { return _mean_edges[triangle]; }
+  double mean_edge(std::int32_t triangle) const { return _mean_edges[_slot[triangle]]; }
   const geometry::Box& box() const { return _tree.nodes().front().box; }
+
+  /// A triangle with what questions of distance ask of it.
+  struct Corners {
+    geometry::Vec3 a, b, c;
+  };
+  struct Measured {
+    Corners corners;
+    double mean_edge;
+    std::int32_t triangle;
+  };
+  /// Calls `visit(measured)` for the triangles of all leaves of the tree that meet a box.
+  template <class Visit>
+  void for_each_in(const geometry::Box& box, const Visit& visit) const {
+    _tree.search([&](const geometry::Box& node) { return node.overlaps(box); },
+                 [&](std::int32_t slot) {
+                   visit(Measured{_corners[slot], _mean_edges[slot], _tree.order()[slot]});
+                 });
+  }
+  /// Whether a leaf of the tree meets a box.
+  bool any_in(const geometry::Box& box) const;
+
+  /// The square of the distance to a triangle, and whether the foot point lies inside.
+  struct SquaredDistance {
+    double squared;
+    bool in_face;
+  };
+  static SquaredDistance squared_distance(geometry::Vec3 p, const Corners& triangle);
+  static double squared_distance(geometry::Vec3 p, const geometry::Box& box);
 
   /// Calls `visit(a, b)`, a < b, for all pairs of triangles whose boxes overlap.
   void for_each_overlapping_pair(const std::function<void(std::int32_t, std::int32_t)>& visit) const;
 
 private:
-  /// Corners of the triangles in the order of the leaves (slots).
-  struct Corners {
-    geometry::Vec3 a, b, c;
-  };
-
-  static double squared_distance(geometry::Vec3 p, const Corners& triangle, bool& in_face);
-  static double squared_distance(geometry::Vec3 p, const geometry::Box& box);
   geometry::Vec3 corner(std::int32_t triangle, int k) const { return _points[_triangles[triangle][k]]; }
 
   std::span<const geometry::Vec3> _points;
   std::span<const Triangle> _triangles;
-  std::vector<double> _mean_edges;
   geometry::BoxTree _tree;
   std::vector<std::int32_t> _slot;  ///< place of each triangle in the tree's order
-  std::vector<Corners> _corners;
+  std::vector<Corners> _corners;    ///< in the tree's order
+  std::vector<double> _mean_edges;  ///< in the tree's order
 };
-
-template <class Limit>
-bool BoundaryDistance::any_nearer(geometry::Vec3 p, double largest_limit, const Limit& limit) const {
-  bool found = false;
-  const auto enters = [&](const geometry::Box& box) {
-    return !found && squared_distance(p, box) < largest_limit * largest_limit;
-  };
-  _tree.search(enters, [&](std::int32_t slot) {
-    if (found) return;
-    const double allowed = limit(_tree.order()[slot]);
-    bool in_face = false;
-    found = squared_distance(p, _corners[slot], in_face) < allowed * allowed;
-  });
-  return found;
-}
 
 inline double BoundaryDistance::squared_distance(geometry::Vec3 p, const geometry::Box& box) {
   const double dx = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});

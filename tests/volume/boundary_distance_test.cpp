@@ -62,17 +62,6 @@ TEST(BoundaryDistance, tells_whether_the_foot_point_is_inside_of_its_triangle) {
   EXPECT_FALSE(boundary.nearest({1.5, 0, 0}).in_face);      // the diagonal of a side
 }
 
-TEST(BoundaryDistance, does_not_see_what_is_out_of_range) {
-  const surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1, 4);
-  const BoundaryDistance boundary(surface.points, surface.triangles);
-  for (const Vec3& p : random_points(500, 2)) {
-    const double expected = distance_to_cube(p, 1);
-    const auto seen = boundary.nearest(p, -1, 0.4);
-    EXPECT_EQ(seen.triangle < 0, expected >= 0.4);
-    EXPECT_NEAR(seen.distance, std::min(expected, 0.4), 1e-14);
-  }
-}
-
 TEST(BoundaryDistance, knows_its_mean_edges_and_box) {
   surfaces::Surface surface = surfaces::box({0, 0, 0}, {3, 4, 5}, {1, 1, 1});
   const BoundaryDistance boundary(surface.points, surface.triangles);
@@ -83,21 +72,6 @@ TEST(BoundaryDistance, knows_its_mean_edges_and_box) {
     const Vec3 a = surface.points[v[0]], b = surface.points[v[1]], c = surface.points[v[2]];
     EXPECT_NEAR(boundary.mean_edge(static_cast<std::int32_t>(t)),
                 (distance(a, b) + distance(b, c) + distance(c, a)) / 3, 1e-14);
-  }
-}
-
-TEST(BoundaryDistance, finds_any_triangle_within_its_own_limit) {
-  const surfaces::Surface surface = surfaces::sphere({0, 0, 0}, 1, 8);
-  const BoundaryDistance boundary(surface.points, surface.triangles);
-  const auto limit_of_one = [](std::int32_t only) {
-    return [only](std::int32_t t) { return t == only ? 0.6 : 0.0; };
-  };
-  for (std::int32_t t = 0; t < 50; ++t) {
-    const auto& v = surface.triangles[t];
-    const Vec3 center = (1.0 / 3.0) * (surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]);
-    EXPECT_TRUE(boundary.any_nearer(0.5 * center, 0.6, limit_of_one(t)));
-    EXPECT_FALSE(boundary.any_nearer(0.3 * center, 0.6, limit_of_one(t)));
-    EXPECT_FALSE(boundary.any_nearer(-0.5 * center, 0.6, limit_of_one(t)));
   }
 }
 
