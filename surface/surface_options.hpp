@@ -20,7 +20,7 @@ using FaceDivider =
 
 struct SurfaceOptions {
   SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
-  std::int64_t piece_triangles = 50'000;  ///< wanted triangles of a piece
+  std::int64_t piece_triangles = 10'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
   FaceDivider divider = {};   ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn

@@ -57,7 +57,7 @@ TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   EXPECT_EQ(input.domain.kind, cad::DomainKind::automatic);
   EXPECT_FALSE(input.sizing.minimum || input.sizing.maximum || input.sizing.surface_maximum);
   EXPECT_FALSE(input.sizing.curvature_angle || input.sizing.growth);
-  EXPECT_EQ(input.surface.piece_triangles, 50'000);
+  EXPECT_EQ(input.surface.piece_triangles, 10'000);
   EXPECT_FALSE(input.volume.piece_tets);
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::pieces);
   EXPECT_TRUE(input.improve.enabled);
