@@ -1,10 +1,10 @@
 #include "volume/block_points.hpp"
 
 #include "mesh/mixing.hpp"
+#include "volume/empty_balls.hpp"
 #include "volume/near_triangles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -20,8 +20,6 @@ constexpr double smallest_edge = 0.3, largest_edge = 1.5;
 /// What the clearance grows by in each step of a retry.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
-/// Balls without triangles that are remembered.
-constexpr std::size_t remembered_balls = 16;
 /// Trilinear interpolation may be steeper than the growth limit by this factor.
 constexpr double slope_margin = std::numbers::sqrt3;
 
@@ -157,27 +155,13 @@ private:
 
   /// The region of a point in a block that the surface meets.
   mesh::RegionId region_of(Vec3 p) {
-    if (const EmptyBall* ball = ball_around(p)) return ball->region;
+    if (const auto known = _balls.region_at(p)) return *known;
     std::optional<BoundaryDistance::Nearest> nearest = _triangles.nearest(p);
     if (!nearest) nearest = _surface.distance().nearest(p, _guess);
     _guess = nearest->triangle;
     const mesh::RegionId region = _surface.region_at(p, *nearest).value_or(mesh::no_region);
-    _balls[_next_ball++ % _balls.size()] = {p, nearest->distance, region};
+    _balls.remember(p, nearest->distance, region);
     return region;
-  }
-
-  /// No triangle is nearer to the centre than the radius, so a ball lies in one region.
-  struct EmptyBall {
-    Vec3 center;
-    double radius = 0;
-    mesh::RegionId region = mesh::no_region;
-  };
-  /// A ball that holds p, of those that were met last; null: none.
-  const EmptyBall* ball_around(Vec3 p) const {
-    for (const EmptyBall& ball : _balls) {
-      if (dot(p - ball.center, p - ball.center) < ball.radius * ball.radius) return &ball;
-    }
-    return nullptr;
   }
 
   const LatticeSource& _source;
@@ -188,8 +172,7 @@ private:
   geometry::Box _box;           // of them
   NearTriangles _triangles;     // near them
   std::int32_t _guess = -1;
-  std::array<EmptyBall, remembered_balls> _balls{};
-  std::size_t _next_ball = 0;
+  EmptyBalls _balls;
 };
 
 }  // namespace

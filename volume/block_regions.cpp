@@ -1,10 +1,13 @@
 #include "volume/block_regions.hpp"
 
 #include "geometry/disjoint_sets.hpp"
+#include "volume/empty_balls.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::volume {
 
@@ -70,6 +73,40 @@ std::vector<Witness> unite(std::vector<Witness> all) {
   return united;
 }
 
+/// What is seen from the contacts of which blocks first to last are the met ones. The first place of each
+/// kind is looked at for what it tells; others in an empty ball, whose region is known, only count.
+std::vector<Witness> witnesses_of(std::span<const Contact> contacts, BlockIndex first, BlockIndex last,
+                                  const LatticeFrame& frame, BlockSets& sets,
+                                  std::span<const SurfaceTriangle> triangles, const NearSurface& surface) {
+  std::vector<Witness> mine;
+  BoundaryDistance::Nearest nearest;
+  EmptyBalls balls;
+  std::map<std::pair<BlockIndex, RegionId>, std::size_t> known;  // of `mine`
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    if (contact.met < first || contact.met >= last) continue;
+    const Vec3 p = frame.to_space(contact.place);
+    const BlockIndex set = sets.root(contact.free);
+    if (const auto region = balls.region_at(p)) {
+      const auto witness = known.find({set, *region});
+      if (witness != known.end()) {
+        ++mine[witness->second].places;
+        continue;
+      }
+    }
+    nearest = surface.distance().nearest(p, nearest.triangle);
+    const auto region = surface.region_at(p, nearest);
+    if (!region) continue;
+    balls.remember(p, nearest.distance, *region);
+    const auto [witness, is_new] = known.insert({{set, *region}, mine.size()});
+    if (is_new)
+      mine.push_back({set, *region, static_cast<std::int64_t>(i), 1, triangles[nearest.triangle].number, p});
+    else
+      ++mine[witness->second].places;
+  }
+  return mine;
+}
+
 /// The witnesses of the lowest set that is seen in several regions: what fewest places and what most say.
 std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witnesses) {
   const auto first = std::adjacent_find(witnesses.begin(), witnesses.end(),
@@ -105,17 +142,7 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
-    BoundaryDistance::Nearest nearest;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const Contact& contact = contacts[i];
-      if (contact.met < first || contact.met >= last) continue;
-      const Vec3 p = frame.to_space(contact.place);
-      nearest = surface.distance().nearest(p, nearest.triangle);
-      if (const auto region = surface.region_at(p, nearest))
-        mine.push_back({sets.root(contact.free), *region, static_cast<std::int64_t>(i), 1,
-                        triangles[nearest.triangle].number, p});
-    }
-    mine = unite(std::move(mine));
+    mine = witnesses_of(contacts, first, last, frame, sets, triangles, surface);
   }
   const std::vector<Witness> witnesses = unite(communicator.all_gather_items<Witness>(mine));
   BlockRegions found{std::vector<RegionId>(count, mesh::no_region), find_contradiction(witnesses)};
