@@ -126,7 +126,7 @@ private:
   /// The logarithm of the count over the target; 1e300 where there are far too many. What comes nearest is
   /// kept.
   double judge(SizingOptions options) {
-    if (_features.floor > 0) options.feature_minimum = std::min(_features.floor, options.minimum);
+    if (_features.floor > 0) set_feature_floor(options, _features.floor);
     std::optional<Trial> trial = _sampler.try_sizes(options, _coarser, _most_leaves);
     if (!trial) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", options.surface_maximum));

@@ -13,6 +13,7 @@ namespace aeroloom::sizing {
 namespace {
 
 constexpr double finest_over_minimum = 1e-3;
+constexpr double finest_point = 0.05;    // of the minimum, at short edges and sharp corners
 constexpr double finest_over_gap = 0.5;  // of the widest gap that was sewn
 // Of the budget: what is aimed at, and what is near enough to it.
 constexpr double aim = 0.93, well_used = 0.85;
@@ -62,7 +63,7 @@ public:
 private:
   std::optional<double> count(double floor) const {
     SizingOptions options = _options;
-    options.feature_minimum = floor;
+    set_feature_floor(options, floor);
     const std::optional<Trial> trial = _sampler.try_sizes(options, _coarser, _most_leaves);
     parallel::log_verbose(trial ? fmt::format("sizing: features down to {:.3g}: {:.3g} tetrahedra", floor,
                                               trial->counts.tetrahedra)
@@ -78,6 +79,11 @@ private:
 };
 
 }  // namespace
+
+void set_feature_floor(SizingOptions& options, double floor) {
+  options.strip_minimum = std::min(floor, options.minimum);
+  options.feature_minimum = std::max(options.strip_minimum, finest_point * options.minimum);
+}
 
 FeatureShare share_of_features(const ModelSampler& sampler, const SizingOptions& options, double budget,
                                double coarser, std::int64_t most_leaves) {

@@ -26,6 +26,10 @@ struct FeatureShare {
   }
 };
 
+/// Lets strips ask for sizes down to `floor`, short edges and sharp corners, around which elements grow from
+/// a point, down to that or a twentieth of the minimum; none of them for more than the minimum.
+void set_feature_floor(SizingOptions& options, double floor);
+
 /// The lowest floor, down to a thousandth of the minimum, with which the share is within the budget, under
 /// `options`, whose features ask for no less than their minimum. By fields whose sizes are `coarser` times as
 /// large; those with clearly more leaves than `most_leaves` count as far beyond the budget. Collective.

@@ -270,7 +270,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
 std::vector<Strip> ModelSampler::strips_narrower_than(double width) const {
   SizingOptions options;
   options.minimum = options.maximum = width;
-  options.feature_minimum = finest_strip * width;
+  options.strip_minimum = finest_strip * width;
   std::vector<Strip> mine;
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
@@ -295,7 +295,8 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
 std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, double coarser,
                                              std::int64_t most_leaves) const {
   SizingOptions coarse = options;
-  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.surface_maximum, &coarse.maximum})
+  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum,
+                       &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
   std::optional<SizeField> field = FieldBuilder(_communicator, _clock, _model.bounds(), coarse)

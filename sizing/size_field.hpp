@@ -25,7 +25,8 @@ struct SizingOptions {
       0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
   double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
   double feature_minimum =
-      0;  ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
+      0;                     ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
+  double strip_minimum = 0;  ///< as `feature_minimum`, for narrow faces alone; 0: as that
   double chordal_deviation =
       0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
 
@@ -35,6 +36,11 @@ struct SizingOptions {
 /// Short edges, narrow faces and sharp corners may ask for sizes down to this.
 inline double smallest_feature_size(const SizingOptions& options) {
   return options.feature_minimum > 0 ? options.feature_minimum : 0.05 * options.minimum;
+}
+
+/// Narrow faces may ask for sizes down to this.
+inline double smallest_strip_size(const SizingOptions& options) {
+  return options.strip_minimum > 0 ? options.strip_minimum : smallest_feature_size(options);
 }
 
 /// A point that asks for a size.

@@ -151,7 +151,7 @@ private:
     return _segments.nearest(p, std::min(bound, _reach), [&](int other) { return are_facing(line, other); });
   }
 
-  double size_of(double width) const { return std::max(width, smallest_feature_size(_options)); }
+  double size_of(double width) const { return std::max(width, smallest_strip_size(_options)); }
 
   void cover(Vec3 a, double width_a, Vec3 b, double width_b, int line, int depth) {
     const double length = distance(a, b);

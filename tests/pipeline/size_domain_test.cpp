@@ -82,7 +82,7 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   ASSERT_TRUE(large.features);
   EXPECT_TRUE(large.features->strips.empty());
   EXPECT_TRUE(describe(*large.features).empty());
-  EXPECT_LT(large.sizes.feature_minimum, 0.0005);
+  EXPECT_LT(large.sizes.strip_minimum, 0.0005);
   EXPECT_NEAR(large.counts->tetrahedra, small.features->wanted_tetrahedra(),
               0.4 * small.features->wanted_tetrahedra());
 }

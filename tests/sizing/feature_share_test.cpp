@@ -22,7 +22,7 @@ public:
   }
   double predict(double floor) {
     SizingOptions options = sizes();
-    options.feature_minimum = floor;
+    set_feature_floor(options, floor);
     return _sampler.predict(_sampler.build_field(options)).tetrahedra;
   }
   ChosenSizes choose(double target, double budget) { return choose_sizes(_sampler, target, budget); }
@@ -100,7 +100,7 @@ TEST(ChooseSizes, FeaturesComeOnTop) {
                 0.1 * usual.options.surface_maximum);
     EXPECT_GT(chosen.counts.tetrahedra, 1.3 * target);
     EXPECT_LT(chosen.counts.tetrahedra, 1.2 * budget * target);
-    EXPECT_LT(chosen.options.feature_minimum, 0.5 * chosen.options.minimum);
+    EXPECT_LT(chosen.options.strip_minimum, 0.5 * chosen.options.minimum);
     EXPECT_NEAR(chosen.counts.tetrahedra / chosen.features.share, target, 0.2 * target);
   }
 }
