@@ -57,13 +57,13 @@ TEST(FaceSamples, AnswerAsIfAskedForTheFirstTime) {
   dimensions.major_radius = 1;
   const Model torus = make_primitive_domain(PrimitiveKind::torus, dimensions);
   const cad::Facets facets = sizing::sampling_facets(torus, 0, false);
-  sizing::FaceSamples kept(torus, 0);
+  sizing::FaceSamples kept(torus.is_planar(0));
   int finer = 0;
   for (const double minimum : {0.05, 0.01, 0.2, 0.02}) {
     const SizingOptions options{minimum, 2, 300 * minimum, 1.3, 2 * minimum};
-    sizing::FaceSamples fresh(torus, 0);
-    const auto expected = fresh.sources(torus, facets, false, options);
-    const auto sources = kept.sources(torus, facets, false, options);
+    sizing::FaceSamples fresh(torus.is_planar(0));
+    const auto expected = fresh.sources(torus, 0, facets, false, options);
+    const auto sources = kept.sources(torus, 0, facets, false, options);
     finer += expected.size() > facets.points.size();
     ASSERT_EQ(sources.size(), expected.size()) << minimum;
     for (std::size_t i = 0; i < sources.size(); ++i) {
