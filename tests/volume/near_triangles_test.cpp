@@ -67,7 +67,9 @@ TEST_F(NearTrianglesOfBoxes, keep_points_off_each_as_far_as_its_edges_say) {
 
 TEST_F(NearTrianglesOfBoxes, are_there_where_a_leaf_is) {
   for_each_point([&](Vec3 p, const Box& box, double reach) {
-    if (boundary.nearest(p).distance < reach) EXPECT_TRUE(boundary.any_in(box.dilated(reach)));
+    if (boundary.nearest(p).distance < reach) {
+      EXPECT_TRUE(boundary.any_in(box.dilated(reach)));
+    }
   });
   EXPECT_FALSE(boundary.any_in(Box{{9, 9, 9}, {10, 10, 10}}));
 }
