@@ -34,10 +34,12 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks, bool improve) {
   domain.far_field->extent = 3;
   const cad::Model model = cad::Model::from_bytes(cad::prepare_domain(domain).model.serialise());
   parallel::StageClock clock;
-  const sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 30'000, clock);
+  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 60'000, clock);
+  sizes.feature_minimum = 0.5 * sizes.minimum;  // small for a test: trailing edges stay unresolved
+  sizes.strip_minimum = 0;
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes, clock);
   surface::SurfaceOptions surface_options;
-  surface_options.piece_triangles = 400;
+  surface_options.piece_triangles = 200;
   Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options, clock), {}, {}, {}};
   const mesh::Numbering numbering = mesh::number_mesh(ranks, aircraft.surface.mesh);
   volume::VolumeOptions options;
