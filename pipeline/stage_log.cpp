@@ -2,6 +2,8 @@
 
 #include "parallel/log.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace aeroloom::pipeline {
@@ -27,12 +29,30 @@ void log_sizing(const RunRecord& record) {
     parallel::log_warning("sizing: " + text);
 }
 
+namespace {
+
+void log_closed_tips(const RunRecord& record) {
+  const std::vector<surface::ClosedTip>& tips = record.surface.closed_tips;
+  if (tips.empty()) return;
+  const auto farthest = std::max_element(
+      tips.begin(), tips.end(),
+      [](const surface::ClosedTip& a, const surface::ClosedTip& b) { return a.moved < b.moved; });
+  log_info(
+      fmt::format("surface: {} tip(s) of faces between tangent curves closed, by at most {:.3g} (face "
+                  "'{}' at ({:.6g}, {:.6g}, {:.6g}))",
+                  tips.size(), farthest->moved, record.face_names.at(farthest->face), farthest->point.x,
+                  farthest->point.y, farthest->point.z));
+}
+
+}  // namespace
+
 void log_surface(const RunRecord& record) {
   log_info(
       fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
                   "average",
                   record.surface.triangles, record.surface.pieces,
                   record.surface_quality->min_dihedral.minimum, record.surface_quality->mean_ratio.mean));
+  log_closed_tips(record);
 }
 
 void log_surface_again(const std::string& reason) {

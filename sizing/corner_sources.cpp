@@ -1,4 +1,5 @@
 // Sharp corners of faces: what lies between two edges that meet at a small angle is as narrow as a strip.
+#include "sizing/closed_corners.hpp"
 #include "sizing/model_sources.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceC
   for (int k = 0; k < most_steps; ++k, reach *= step) {
     const auto opening = cad::open_corner(model, corner, reach);
     if (!opening || (k == 0 && opening->degrees >= sharp)) break;
+    if (opening->degrees < closed_corner && opening->width < closing_gap(options)) continue;
     const double size = std::max(opening->width, smallest_feature_size(options));
     if (size >= options.maximum || opening->degrees > 2 * sharp) break;
     for (const geometry::Vec3 point : opening->points) sources.push_back({point, size});

@@ -26,7 +26,7 @@ bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner);
 
 /// Sources behind sharp corners of faces. One triangle fills such a corner, about as large as `reach`, the
 /// size at the corner without these sources; behind it elements fit between the two edges, down to
-/// smallest_feature_size().
+/// smallest_feature_size(). A corner that is closed asks for nothing as far as it is.
 std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceCorner& corner, double reach,
                                        const SizingOptions& options);
 

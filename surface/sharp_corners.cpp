@@ -1,6 +1,7 @@
 #include "surface/sharp_corners.hpp"
 
 #include "parallel/collective_error.hpp"
+#include "sizing/closed_corners.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,7 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
     if (!both_straight) break;
     const double size = std::min(field(opening->points[0]), field(opening->points[1]));
     if (opening->width >= fitting * size) {
-      result.leg = reach;
+      if (opening->degrees >= sizing::closed_corner) result.leg = reach;
       break;
     }
   }

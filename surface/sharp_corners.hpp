@@ -19,7 +19,8 @@ struct SharpCorner {
   std::array<cad::EdgeEnd, 2> ends;
   double degrees = 0;
   /// Length of the first segment on both edges, so that one triangle fills the corner and elements fit
-  /// between the edges behind it; 0 where the edges bend too much or are too short for one.
+  /// between the edges behind it; 0 where the edges bend too much or are too short for one, and where the
+  /// corner is closed instead (cusp_tips.hpp).
   double leg = 0;
 };
 

@@ -2,7 +2,9 @@
 
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "sizing/closed_corners.hpp"
 #include "surface/curves.hpp"
+#include "surface/cusp_tips.hpp"
 #include "surface/intersection.hpp"
 #include "surface/piece_pool.hpp"
 #include "surface/surface_error.hpp"
@@ -91,6 +93,8 @@ SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::
     Conflicts conflicts = share(communicator, pool.mesh(curves, result.field));
     if (conflicts.complaint.empty()) {
       result.mesh = pool.assemble();
+      result.report.closed_tips = close_cusp_tips(communicator, model, curves,
+                                                  sizing::closing_gap(field.options()), result.mesh, clock);
       result.report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
       result.report.sharp_corners = list_corners(model, curves);
       conflicts = find_conflicts(communicator, model, result.field, result.mesh, pool, clock);

@@ -1,0 +1,142 @@
+/// The tip of a face between two curves tangent to each other is closed, and nothing sharp stays there.
+#include "surface/cusp_tips.hpp"
+
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "sizing/closed_corners.hpp"
+#include "surface/surface_mesher.hpp"
+#include "tests/cad/cad_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <gp_Pln.hxx>
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using cad::Model;
+using geometry::Vec3;
+using parallel::Communicator;
+
+constexpr double radius = 4;
+/// Where the arc leaves the cube.
+const double arc_end = radius - std::sqrt(radius * radius - 1);
+
+TopoDS_Face polygon(const std::vector<gp_Pnt>& corners) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const gp_Pnt& corner : corners) wire.Add(corner);
+  wire.Close();
+  return BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+}
+
+/// A part of the cube's top: beside the arc from (0, 0, 1) to (1, arc_end, 1), which leaves the edge y = 0
+/// along it, and the corners.
+TopoDS_Face beside_arc(const std::vector<gp_Pnt>& corners) {
+  const double half = 0.5 * std::asin(1 / radius);
+  const gp_Pnt first(0, 0, 1), last(1, arc_end, 1);
+  const gp_Pnt middle(radius * std::sin(half), radius * (1 - std::cos(half)), 1);
+  BRepBuilderAPI_MakeWire wire(
+      BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(first, middle, last).Value()).Edge());
+  gp_Pnt from = last;
+  for (const gp_Pnt& corner : corners) {
+    wire.Add(BRepBuilderAPI_MakeEdge(from, corner).Edge());
+    from = corner;
+  }
+  wire.Add(BRepBuilderAPI_MakeEdge(from, first).Edge());
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 1), gp_Dir(0, 0, 1)), wire.Wire()).Face();
+}
+
+/// The unit cube, its top cut in two by the arc.
+Model cube_with_cusp() {
+  const std::vector<TopoDS_Face> faces{
+      beside_arc({{1, 0, 1}}),
+      beside_arc({{1, 1, 1}, {0, 1, 1}}),
+      polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+      polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}),
+      polygon({{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}}),
+      polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}),
+      polygon({{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, arc_end, 1}, {1, 0, 1}})};
+  return cad::shapes::prepare_fluid(cad::shapes::compound_of(faces)).model;
+}
+
+const sizing::SizingOptions sizes{0.02, 0.1, 12, 1.3, 0};
+
+SurfaceMesh mesh_cube(const Communicator& communicator, const Model& model) {
+  parallel::StageClock clock;
+  return mesh_surface(communicator, model, sizing::build_size_field(communicator, model, sizes, clock), {},
+                      clock);
+}
+
+double least_angle(const mesh::DistributedMesh& surface) {
+  double least = 180;
+  for (const mesh::Piece& piece : surface.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      least = std::min(least, mesh::smallest_angle(piece.point(v[0]), piece.point(v[1]), piece.point(v[2])));
+    }
+  }
+  return least;
+}
+
+TEST(CuspTips, AreClosedAsFarAsTheirCurvesAreOne) {
+  const Communicator communicator = Communicator::world();
+  const Model model = cube_with_cusp();
+  const SurfaceMesh surface = mesh_cube(communicator, model);
+  ASSERT_EQ(surface.report.closed_tips.size(), 1u);
+  const ClosedTip& tip = surface.report.closed_tips.front();
+  EXPECT_LT(distance(tip.point, {0, 0, 1}), 1e-9);
+  // The arc is x^2 / (2 radius) from the edge.
+  const double widest = sizing::closing_gap(sizes);
+  EXPECT_LT(tip.length, std::sqrt(2 * radius * widest) * 1.01);
+  EXPECT_GT(tip.length, 0.4 * std::sqrt(2 * radius * widest));
+  EXPECT_GT(tip.moved, 0);
+  EXPECT_LE(tip.moved, 0.5 * sizes.minimum);
+  EXPECT_GT(least_angle(surface.mesh), 5);
+}
+
+TEST(CuspTips, LeaveAValidSurfaceOfTheSameArea) {
+  const Communicator communicator = Communicator::world();
+  const Model model = cube_with_cusp();
+  const SurfaceMesh surface = mesh_cube(communicator, model);
+  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  EXPECT_TRUE(mesh::check_surface_mesh(communicator, surface.mesh, numbering).valid());
+  double area = 0;
+  for (const mesh::Piece& piece : surface.mesh.pieces) {
+    mesh::require_consistent_arrays(piece);
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const Vec3 a = piece.point(v[0]);
+      area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
+    }
+  }
+  EXPECT_NEAR(communicator.sum(area), 6, 1e-4);
+}
+
+TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
+  const Model model = cube_with_cusp();
+  parallel::StageClock clock;
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes, clock);
+  EXPECT_GT(field({0, 0, 1}), 2 * sizing::closing_gap(sizes));
+  const double end = std::sqrt(2 * radius * sizing::closing_gap(sizes));
+  EXPECT_LT(field({1.2 * end, 0, 1}), 4 * sizing::closing_gap(sizes));
+}
+
+TEST(CuspTips, StayWhereTheCurvesAreApart) {
+  const Communicator communicator = Communicator::world();
+  const Model model = cube_with_cusp();
+  parallel::StageClock clock;
+  const auto field = sizing::build_size_field(communicator, model, sizes, clock);
+  const CurveMesh curves = discretise_curves(communicator, model, field, clock);
+  mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
+  EXPECT_TRUE(close_cusp_tips(communicator, model, curves, 1e-9, surface, clock).empty());
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
