@@ -17,7 +17,7 @@ FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing:
                               double tetrahedra) {
   FeatureReport report{share, tetrahedra, {}};
   if (!share.limited) return report;
-  for (const sizing::Strip& strip : sampler.strips_narrower_than(share.floor)) {
+  for (const sizing::Strip& strip : sampler.strips_narrower_than(share.floor, share.minimum)) {
     report.strips.push_back({sampler.model().face(strip.face).name, strip.width, strip.place,
                              std::atan(strip.width / share.floor) * 180 / std::numbers::pi});
   }

@@ -27,15 +27,24 @@ double nearest_reach(const cad::Model& model, const cad::FaceCorner& corner) {
   return part * shortest;
 }
 
-}  // namespace
-
-bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner) {
+/// Seen from some distance.
+bool opens_by_less(const cad::Model& model, const cad::FaceCorner& corner, double degrees) {
   const double farthest = nearest_reach(model, corner);
   for (const double part : {1.0, 0.1, 0.01}) {
     const auto opening = cad::open_corner(model, corner, part * farthest);
-    if (opening && opening->degrees < sharp) return true;
+    if (opening && opening->degrees < degrees) return true;
   }
   return false;
+}
+
+}  // namespace
+
+bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner) {
+  return opens_by_less(model, corner, sharp);
+}
+
+bool is_closed_corner(const cad::Model& model, const cad::FaceCorner& corner) {
+  return opens_by_less(model, corner, closed_corner);
 }
 
 std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceCorner& corner, double reach,

@@ -35,7 +35,7 @@ public:
             std::llround(std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves))) {}
 
   FeatureShare run() {
-    FeatureShare found{_options.minimum, 1, false, _options.minimum, 1};
+    FeatureShare found{_options.minimum, 1, false, _options.minimum, 1, _options.minimum};
     const double lowest = std::min(_options.minimum, std::max(finest_over_minimum * _options.minimum,
                                                               finest_over_gap * _sampler.model().sewn_gap()));
     const std::optional<double> base = count(_options.minimum);

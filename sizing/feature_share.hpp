@@ -18,6 +18,7 @@ struct FeatureShare {
   double share = 1;                         ///< predicted tetrahedra over those with the minimum as floor
   bool limited = false;                     ///< by the budget: the floor is not the lowest
   double tried_floor = 0, tried_share = 1;  ///< the lowest for which tetrahedra were predicted
+  double minimum = 0;                       ///< of everything else
 
   /// The share, about, were all resolved down to a width: strips ask for elements in proportion to one over
   /// theirs.

@@ -224,7 +224,7 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) c
     FaceSamples& samples = _fields == Fields::several ? face.samples : once;
     std::vector<SizeSource> sources = samples.sources(_model, face.id, face.facets, far_field, options);
     const std::vector<SizeSource> strips =
-        strip_sources(_model, face.facets, options, largest_size(far_field, options));
+        strip_sources(_model, face.id, face.facets, options, largest_size(far_field, options));
     sources.insert(sources.end(), strips.begin(), strips.end());
     keep(thin_sources(_root, sources));
     if (options.proximity > 0 && face.gaps) keep(gap_sources(*face.gaps, options));
@@ -267,15 +267,16 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   return all;
 }
 
-std::vector<Strip> ModelSampler::strips_narrower_than(double width) const {
+std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minimum) const {
   SizingOptions options;
-  options.minimum = options.maximum = width;
+  options.minimum = minimum;
+  options.maximum = width;
   options.strip_minimum = finest_strip * width;
   std::vector<Strip> mine;
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (const OwnFace& face : _faces) {
-      const auto sources = strip_sources(_model, face.facets, options, width);
+      const auto sources = strip_sources(_model, face.id, face.facets, options, width);
       const auto narrowest = std::min_element(sources.begin(), sources.end(),
                                               [](const auto& a, const auto& b) { return a.size < b.size; });
       if (narrowest != sources.end()) mine.push_back({face.id, narrowest->size, narrowest->point});

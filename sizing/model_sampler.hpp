@@ -53,8 +53,8 @@ public:
                                  std::int64_t most_leaves) const;
 
   /// One for each face with strips narrower than that, by width; widths below a hundredth of it count as
-  /// that. Collective.
-  std::vector<Strip> strips_narrower_than(double width) const;
+  /// that. `minimum` tells how far corners are closed. Collective.
+  std::vector<Strip> strips_narrower_than(double width, double minimum) const;
 
   const cad::Model& model() const { return _model; }
   /// The box of all faces that are not far field; of everything where there are none.

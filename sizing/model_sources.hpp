@@ -15,14 +15,17 @@ std::vector<bool> find_far_field(const cad::Model& model);
 /// The triangulation of a face that samples and predictions start from.
 cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field);
 
-/// What narrow strips of a face ask for: between two edges of the face that share no
-/// vertex, elements are at most as large as the distance; down to smallest_feature_size(). Distances from
-/// `reach` on ask for nothing.
-std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,
+/// What narrow strips of a face ask for: between two edges of the face that share no vertex, or that end in a
+/// corner which is closed, elements are at most as large as the distance; down to smallest_strip_size().
+/// Distances from `reach` on ask for nothing, nor does a corner as far as it is closed.
+std::vector<SizeSource> strip_sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
                                       const SizingOptions& options, double reach);
 
 /// Whether elements of some size see the corner below 30 degrees.
 bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner);
+
+/// Whether elements of some size see it so sharp that it is closed (closed_corners.hpp).
+bool is_closed_corner(const cad::Model& model, const cad::FaceCorner& corner);
 
 /// Sources behind sharp corners of faces. One triangle fills such a corner, about as large as `reach`, the
 /// size at the corner without these sources; behind it elements fit between the two edges, down to

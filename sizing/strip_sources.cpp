@@ -1,4 +1,5 @@
 // Narrow faces: where two edges of a face come closer than its elements are large.
+#include "sizing/closed_corners.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/segment_tree.hpp"
 
@@ -20,27 +21,43 @@ constexpr int facets_per_leaf = 8;
 class Strips {
 public:
   /// Widths from `reach` on do not matter.
-  Strips(const cad::Model& model, const Facets& facets, const SizingOptions& options, double reach)
-      : _model(model), _facets(facets), _options(options), _reach(reach) {}
+  Strips(const cad::Model& model, cad::FaceId face, const Facets& facets, const SizingOptions& options,
+         double reach)
+      : _model(model), _face(face), _facets(facets), _options(options), _reach(reach) {}
 
   std::vector<SizeSource> run() {
     list_lines();
     if (_lines.size() < 2) return {};
     join_lines();
-    for (const int line : _lines) {
-      const auto& nodes = _facets.boundary[line].nodes;
-      double width_a = width(_facets.points[nodes.front()], line, _reach);
-      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
-        const double width_b = width(b, line, width_a + distance(a, b));
-        cover(a, width_a, b, width_b, line, 0);
-        width_a = width_b;
-      }
+    for (const int line : _lines) cover_line(line);
+    find_closed_corners();
+    if (!_closed_corners.empty()) {
+      _beside_corners = true;
+      for (const int line : _lines) cover_line(line);
     }
     return std::move(_sources);
   }
 
 private:
+  void cover_line(int line) {
+    const auto& nodes = _facets.boundary[line].nodes;
+    double width_a = width(_facets.points[nodes.front()], line, _reach);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
+      const double width_b = width(b, line, width_a + distance(a, b));
+      cover(a, width_a, b, width_b, line, 0);
+      width_a = width_b;
+    }
+  }
+
+  /// Pairs of edges that the face ends between in a corner which is closed.
+  void find_closed_corners() {
+    for (const cad::FaceCorner& corner : cad::corners_of(_model, _face)) {
+      if (is_closed_corner(_model, corner))
+        _closed_corners.push_back(std::minmax(corner.arriving.edge, corner.leaving.edge));
+    }
+  }
+
   /// Those that carry elements, and their segments.
   void list_lines() {
     std::vector<SegmentTree::Segment> segments;
@@ -83,11 +100,14 @@ private:
     for (const auto& lines : lines_around) join(lines, lines);
   }
 
-  /// Whether two lines without a common vertex lie opposite each other. Where the short end of a strip has
+  /// Whether two lines lie opposite each other: those without a common vertex or, beside corners that are
+  /// closed, those that end in one. Where the short end of a strip has
   /// nodes of its own, no facet joins the long sides: they are facing if facets lie between the places where
   /// they are nearest. Asked for lines that are near, and remembered.
   bool are_facing(int a, int b) {
-    if (a == b || share_vertex(a, b)) return false;
+    if (a == b) return false;
+    if (share_vertex(a, b)) return _beside_corners && end_in_closed_corner(a, b);
+    if (_beside_corners) return false;
     const auto [known, is_new] = _facing.try_emplace(std::minmax(a, b), false);
     if (is_new) known->second = is_faced(a, b) || is_faced(b, a);
     return known->second;
@@ -138,6 +158,12 @@ private:
     return inside;
   }
 
+  bool end_in_closed_corner(int a, int b) const {
+    const std::pair<cad::EdgeId, cad::EdgeId> edges =
+        std::minmax(_facets.boundary[a].use.edge, _facets.boundary[b].use.edge);
+    return std::find(_closed_corners.begin(), _closed_corners.end(), edges) != _closed_corners.end();
+  }
+
   bool share_vertex(int a, int b) const {
     const auto& edge_a = _model.edge(_facets.boundary[a].use.edge);
     const auto& edge_b = _model.edge(_facets.boundary[b].use.edge);
@@ -158,6 +184,7 @@ private:
     // Widths change no faster than the place: on the whole segment they are at least this.
     const double least = 0.5 * (width_a + width_b - length);
     if (least >= _reach || depth >= deepest_bisection) return;
+    if (_beside_corners && 0.5 * (width_a + width_b + length) < closing_gap(_options)) return;
     if (length <= size_of(std::min(width_a, width_b))) {
       add(a, width_a);
       add(b, width_b);
@@ -170,25 +197,29 @@ private:
   }
 
   void add(Vec3 point, double width) {
+    if (_beside_corners && width < closing_gap(_options)) return;
     if (width < _reach) _sources.push_back({point, size_of(width)});
   }
 
   const cad::Model& _model;
+  cad::FaceId _face;
   const Facets& _facets;
   const SizingOptions& _options;
   double _reach;
   std::vector<int> _lines;
   SegmentTree _segments;                        // by line
   std::map<std::pair<int, int>, bool> _facing;  // of those asked for, the lower line first
-  geometry::BoxTree _plane;                     // of the facets' parameters, when it is asked for
+  std::vector<std::pair<cad::EdgeId, cad::EdgeId>> _closed_corners;
+  bool _beside_corners = false;  // edges that share a vertex are looked at, and no others
+  geometry::BoxTree _plane;      // of the facets' parameters, when it is asked for
   std::vector<SizeSource> _sources;
 };
 
 }  // namespace
 
-std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& facets,
+std::vector<SizeSource> strip_sources(const cad::Model& model, cad::FaceId face, const Facets& facets,
                                       const SizingOptions& options, double reach) {
-  return Strips(model, facets, options, reach).run();
+  return Strips(model, face, facets, options, reach).run();
 }
 
 }  // namespace aeroloom::sizing

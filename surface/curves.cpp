@@ -3,9 +3,11 @@
 #include "cad/model/face_corners.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/schedule.hpp"
+#include "sizing/closed_corners.hpp"
 #include "surface/curve_metric.hpp"
 #include "surface/curve_segments.hpp"
 #include "surface/sharp_corners.hpp"
+#include "surface/tip_alignment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -231,6 +233,10 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   });
   CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
   mesh.sharp_corners = std::move(corners);
+  parallel::agree(communicator, [&] {
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    align_tips(model, sizing::closing_gap(field.options()), mesh);
+  });
   return mesh;
 }
 

@@ -128,6 +128,35 @@ TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
   EXPECT_LT(field({1.2 * end, 0, 1}), 4 * sizing::closing_gap(sizes));
 }
 
+TEST(CuspTips, HaveSizesThatFollowTheirWidthBehind) {
+  const Model model = cube_with_cusp();
+  parallel::StageClock clock;
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes, clock);
+  for (double x = 0.12; x < 0.4; x *= 1.02) {
+    const double width = x * x / (2 * radius);
+    EXPECT_LT(field({x, 0, 1}), 2 * width) << x;
+  }
+}
+
+TEST(CuspTips, HaveVerticesOppositeEachOther) {
+  const Model model = cube_with_cusp();
+  parallel::StageClock clock;
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes, clock);
+  const CurveMesh curves = discretise_curves(Communicator::world(), model, field, clock);
+  ASSERT_FALSE(curves.sharp_corners.empty());
+  const SharpCorner& corner = curves.sharp_corners.front();
+  std::vector<std::vector<double>> away;
+  for (const cad::EdgeEnd& end : corner.ends) {
+    auto chain = curves.chain(model, end.edge);
+    if (!end.first) std::reverse(chain.begin(), chain.end());
+    away.emplace_back();
+    for (const CurveVertex v : chain) away.back().push_back(distance(curves.points[v], {0, 0, 1}));
+    EXPECT_TRUE(std::is_sorted(away.back().begin(), away.back().end()));
+  }
+  const double end = std::sqrt(2 * radius * sizing::closing_gap(sizes));
+  for (std::size_t i = 1; away[0][i] < end; ++i) EXPECT_NEAR(away[0][i], away[1][i], 1e-9);
+}
+
 TEST(CuspTips, StayWhereTheCurvesAreApart) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();

@@ -1,0 +1,144 @@
+// wings: writes half wings with thin blunt trailing edges, to see what meshes make of them.
+//
+// usage: wings separate|tapered|partly_sharp FILE
+//
+// separate: IGES, faces that share no edges; rectangular, trailing edge 0.3 % of the chord.
+// tapered: STEP; swept, the tip a tenth of the root, trailing edge 0.3 % of the chord.
+// partly_sharp: STEP; trailing edge 0.2 % of the chord at the root, sharp at the tip.
+//
+// In millimetres: x aft, y to the tip, z up; the root in the plane y = 0.
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <GeomFill.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <IGESControl_Writer.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Solid.hxx>
+#include <gp_Pln.hxx>
+#include <gp_Pnt.hxx>
+
+namespace {
+
+/// A section of the wing: where its leading edge is, its chord, the thickness of its trailing edge over
+/// chord.
+struct Section {
+  double x, y, chord, trailing_edge;
+};
+
+constexpr double thickness = 0.12;  // over chord
+constexpr int intervals = 20;       // of the interpolated upper and lower side
+
+/// Half the thickness of the four-digit section (Jacobs, Ward and Pinkerton, NACA report 460, 1933) at x of a
+/// unit chord, closed at the trailing edge, whose own thickness is then added linearly.
+double half_thickness(double x, double trailing_edge) {
+  const double closed = 0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)));
+  return 5 * thickness * closed + 0.5 * trailing_edge * x;
+}
+
+gp_Pnt point_of(const Section& section, double x, double sign) {
+  return {section.x + section.chord * x, section.y,
+          sign * section.chord * half_thickness(x, section.trailing_edge)};
+}
+
+/// One side from the leading to the trailing edge; the same parameters on every section.
+Handle(Geom_BSplineCurve) side_of(const Section& section, double sign) {
+  const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, intervals + 1);
+  const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, intervals + 1);
+  for (int i = 0; i <= intervals; ++i) {
+    const double angle = 0.5 * std::numbers::pi * i / intervals;
+    points->SetValue(i + 1, point_of(section, i == intervals ? 1 : 1 - std::cos(angle), sign));
+    parameters->SetValue(i + 1, angle);
+  }
+  GeomAPI_Interpolate interpolate(points, parameters, Standard_False, 1e-9);
+  interpolate.Perform();
+  return interpolate.Curve();
+}
+
+TopoDS_Face between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
+  return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), 1e-9).Face();
+}
+
+TopoDS_Face cap(const Section& section) {
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
+                               BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge());
+  if (section.trailing_edge > 0) {
+    wire.Add(BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
+  }
+  return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
+}
+
+TopoDS_Face trailing_edge(const Section& root, const Section& tip) {
+  BRepBuilderAPI_MakePolygon wire(point_of(root, 1, -1), point_of(root, 1, 1), point_of(tip, 1, 1));
+  if (tip.trailing_edge > 0) wire.Add(point_of(tip, 1, -1));
+  wire.Close();
+  return BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+}
+
+std::vector<TopoDS_Face> faces_between(const Section& root, const Section& tip) {
+  return {between(side_of(root, 1), side_of(tip, 1)), between(side_of(root, -1), side_of(tip, -1)), cap(root),
+          cap(tip), trailing_edge(root, tip)};
+}
+
+TopoDS_Solid solid_of(const std::vector<TopoDS_Face>& faces) {
+  BRepBuilderAPI_Sewing sewing(1e-6);
+  for (const TopoDS_Face& face : faces) sewing.Add(face);
+  sewing.Perform();
+  if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) throw std::runtime_error("the faces do not close");
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
+}
+
+/// IGES as many programs write it: surfaces trimmed one by one.
+void write_separate(const std::vector<TopoDS_Face>& faces, const char* file) {
+  IGESControl_Writer writer("MM", 0);
+  for (const TopoDS_Face& face : faces) writer.AddShape(face);
+  writer.ComputeModel();
+  if (!writer.Write(file)) throw std::runtime_error("the file cannot be written");
+}
+
+void write_solid(const std::vector<TopoDS_Face>& faces, const char* file) {
+  STEPControl_Writer writer;
+  writer.Transfer(solid_of(faces), STEPControl_AsIs);
+  if (writer.Write(file) != IFSelect_RetDone) throw std::runtime_error("the file cannot be written");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string kind = argc == 3 ? argv[1] : "";
+  try {
+    if (kind == "separate") {
+      write_separate(faces_between({0, 0, 1000, 0.003}, {0, 3000, 1000, 0.003}), argv[2]);
+    } else if (kind == "tapered") {
+      write_solid(faces_between({0, 0, 1000, 0.003}, {1200, 3000, 100, 0.003}), argv[2]);
+    } else if (kind == "partly_sharp") {
+      write_solid(faces_between({0, 0, 1000, 0.002}, {600, 3000, 500, 0}), argv[2]);
+    } else {
+      std::fprintf(stderr, "usage: wings separate|tapered|partly_sharp FILE\n");
+      return 2;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "wings: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
