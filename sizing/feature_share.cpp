@@ -38,8 +38,12 @@ public:
     FeatureShare found{_options.minimum, 1, false, _options.minimum, 1, _options.minimum};
     const double lowest = std::min(_options.minimum, std::max(finest_over_minimum * _options.minimum,
                                                               finest_over_gap * _sampler.model().sewn_gap()));
+    if (lowest == _options.minimum) return found;
     const std::optional<double> base = count(_options.minimum);
-    if (!base || lowest == _options.minimum) return found;
+    if (!base) {
+      found.limited = true;
+      return found;
+    }
     double low = lowest, high = _options.minimum, floor = lowest;
     for (int round = 0; round < most_rounds && std::log(high / low) > same_floor; ++round) {
       const std::optional<double> tetrahedra = count(floor);

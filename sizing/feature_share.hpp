@@ -14,7 +14,7 @@ inline constexpr double default_feature_budget = 5;
 
 /// What strips, short edges and sharp corners bring that are finer than the minimum of some sizes.
 struct FeatureShare {
-  double floor = 0;                         ///< the smallest size that they may ask for; 0: the minimum
+  double floor = 0;                         ///< the smallest size that strips may ask for; 0: the minimum
   double share = 1;                         ///< predicted tetrahedra over those with the minimum as floor
   bool limited = false;                     ///< by the budget: the floor is not the lowest
   double tried_floor = 0, tried_share = 1;  ///< the lowest for which tetrahedra were predicted

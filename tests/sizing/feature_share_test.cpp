@@ -75,6 +75,14 @@ TEST(FeatureShare, FieldsThatAreFarTooFineAreNotBuilt) {
   EXPECT_GT(some.share_down_to(0.0005), 4);
 }
 
+TEST(FeatureShare, WhereNotEvenTheMinimumCanBeTriedFeaturesStayUnresolved) {
+  Sampled wedge(cad::shapes::blunt_wedge(0.004));
+  const FeatureShare none = wedge.share(no_budget, 1);
+  EXPECT_TRUE(none.limited);
+  EXPECT_EQ(none.share, 1);
+  EXPECT_EQ(none.floor, Sampled::sizes().minimum);
+}
+
 TEST(FeatureShare, WithoutFeaturesThereIsNone) {
   Sampled sphere(make_primitive_domain(cad::PrimitiveKind::box_with_sphere));
   const FeatureShare none = sphere.share(1.5);
