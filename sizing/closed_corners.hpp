@@ -2,13 +2,23 @@
 /// to agree on.
 #pragma once
 
+#include "cad/model/face_corners.hpp"
 #include "sizing/size_field.hpp"
 
 namespace aeroloom::sizing {
 
-/// Corners that open by less than this many degrees are closed (surface/cusp_tips.hpp): one triangle that
-/// filled them would be a needle.
-inline constexpr double closed_corner = 3;
+/// A corner that opens by less than this many degrees is closed (surface/cusp_tips.hpp): one triangle that
+/// filled it would be a needle. Less where the faces beyond meet already: closed, they would do so twice.
+inline double closing_angle(const cad::Model& model, const cad::FaceCorner& corner) {
+  switch (cad::beyond_corner(model, corner)) {
+    case cad::BeyondCorner::two_faces:
+      return 12;
+    case cad::BeyondCorner::faces_that_meet:
+      return 3;
+    default:
+      return 0;
+  }
+}
 
 /// As far as their edges are apart by less than this. The mesh leaves the surface by half of it.
 inline double closing_gap(const SizingOptions& options) {

@@ -44,17 +44,18 @@ bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner) {
 }
 
 bool is_closed_corner(const cad::Model& model, const cad::FaceCorner& corner) {
-  return opens_by_less(model, corner, closed_corner);
+  return opens_by_less(model, corner, closing_angle(model, corner));
 }
 
 std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceCorner& corner, double reach,
                                        const SizingOptions& options) {
   std::vector<SizeSource> sources;
   reach = std::min(reach, nearest_reach(model, corner));
+  const double closed = closing_angle(model, corner);
   for (int k = 0; k < most_steps; ++k, reach *= step) {
     const auto opening = cad::open_corner(model, corner, reach);
     if (!opening || (k == 0 && opening->degrees >= sharp)) break;
-    if (opening->degrees < closed_corner && opening->width < closing_gap(options)) continue;
+    if (opening->degrees < closed && opening->width < closing_gap(options)) continue;
     const double size = std::max(opening->width, smallest_feature_size(options));
     if (size >= options.maximum || opening->degrees > 2 * sharp) break;
     for (const geometry::Vec3 point : opening->points) sources.push_back({point, size});

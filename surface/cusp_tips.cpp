@@ -1,13 +1,11 @@
 #include "surface/cusp_tips.hpp"
 
-#include "mesh/tokens.hpp"
-#include "parallel/collective_error.hpp"
+#include "surface/tip_topology.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
-#include <span>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -17,19 +15,6 @@ using cad::Model;
 using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::Piece;
-
-/// The vertices of two curves that could become one, from the CAD vertex on.
-struct Tip {
-  cad::FaceId face;
-  cad::VertexId vertex;
-  std::vector<std::array<CurveVertex, 2>> pairs;
-};
-
-/// How many pairs of a tip can be closed, by what its piece holds.
-struct Closing {
-  std::int32_t tip;
-  std::int32_t pairs;
-};
 
 /// The vertices of an edge from one of its ends up to the middle.
 std::vector<CurveVertex> near_half(const Model& model, const CurveMesh& curves, cad::EdgeEnd end) {
@@ -77,105 +62,6 @@ Tip measure_tip(const Model& model, const CurveMesh& curves, double widest, cons
     tip.pairs.push_back({a.vertices[i], b.vertices[i]});
   }
   return tip;
-}
-
-/// Which vertex of which curve each vertex of a piece is; -1 for others.
-std::vector<CurveVertex> curve_vertices(const CurveMesh& curves, const Piece& piece) {
-  std::vector<CurveVertex> result(piece.vertex_count(), -1);
-  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-    if (!mesh::is_cut_token(piece.shared_tokens[s]))
-      result[piece.shared_vertices[s]] = curves.vertex_of(piece.shared_tokens[s]);
-  }
-  return result;
-}
-
-/// Ranks of vertices in a tip: 0 the CAD vertex, i the pair i; -1 elsewhere.
-std::vector<std::int32_t> ranks_in_tip(const Tip& tip, const std::vector<CurveVertex>& on_curve) {
-  std::map<CurveVertex, std::int32_t> rank{{tip.vertex, 0}};
-  for (std::size_t i = 0; i < tip.pairs.size(); ++i) {
-    for (const CurveVertex v : tip.pairs[i]) rank[v] = static_cast<std::int32_t>(i) + 1;
-  }
-  std::vector<std::int32_t> ranks(on_curve.size(), -1);
-  for (std::size_t v = 0; v < on_curve.size(); ++v) {
-    const auto found = on_curve[v] < 0 ? rank.end() : rank.find(on_curve[v]);
-    if (found != rank.end()) ranks[v] = found->second;
-  }
-  return ranks;
-}
-
-/// The highest of a triangle's ranks in a tip, -1 where not all of its vertices are in it.
-std::int32_t level(const LocalIndex* triangle, const std::vector<std::int32_t>& ranks) {
-  std::int32_t highest = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (ranks[triangle[k]] < 0) return -1;
-    highest = std::max(highest, ranks[triangle[k]]);
-  }
-  return highest;
-}
-
-/// How the triangles beyond a tip's first `pairs` pairs know its vertices.
-class Surroundings {
-public:
-  Surroundings(const Piece& piece, const std::vector<std::int32_t>& ranks, std::int32_t pairs)
-      : _piece(piece), _ranks(ranks), _pairs(pairs) {}
-
-  /// One triangle, beyond the last pair, has both vertices of a pair, and what closes does not fold others.
-  bool let_close() {
-    std::map<LocalIndex, std::vector<LocalIndex>> neighbours;  // of the vertices of the last pair
-    int closing = 0;
-    for (LocalIndex t = 0; t < _piece.cell_count(); ++t) {
-      const LocalIndex* v = _piece.cell(t);
-      const std::int32_t own = level(v, _ranks);
-      if (own >= 0 && own <= _pairs) continue;
-      for (int k = 0; k < 3; ++k) {
-        const LocalIndex a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
-        if (is_closed(a) && _ranks[a] == _ranks[b]) {
-          if (_ranks[a] != _pairs) return false;
-          ++closing;
-        }
-        if (_ranks[a] == _pairs) neighbours[a].insert(neighbours[a].end(), {b, c});
-      }
-    }
-    return closing == 1 && neighbours.size() == 2 && common(neighbours) == 1;
-  }
-
-private:
-  bool is_closed(LocalIndex v) const { return _ranks[v] > 0 && _ranks[v] <= _pairs; }
-
-  /// Vertices, not of the tip, next to both vertices of the last pair.
-  static std::size_t common(std::map<LocalIndex, std::vector<LocalIndex>>& neighbours) {
-    std::vector<std::vector<LocalIndex>> sorted;
-    for (auto& [vertex, next] : neighbours) {
-      std::sort(next.begin(), next.end());
-      next.erase(std::unique(next.begin(), next.end()), next.end());
-      sorted.push_back(next);
-    }
-    std::vector<LocalIndex> both;
-    std::set_intersection(sorted[0].begin(), sorted[0].end(), sorted[1].begin(), sorted[1].end(),
-                          std::back_inserter(both));
-    return both.size();
-  }
-
-  const Piece& _piece;
-  const std::vector<std::int32_t>& _ranks;
-  std::int32_t _pairs;
-};
-
-/// How many pairs the triangles of a piece let close: those up to a pair must be all that lie between the
-/// curves there.
-std::int32_t closable_pairs(const Piece& piece, const Tip& tip, const std::vector<CurveVertex>& on_curve) {
-  const std::vector<std::int32_t> ranks = ranks_in_tip(tip, on_curve);
-  std::vector<std::int32_t> triangles(tip.pairs.size() + 1, 0);
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const std::int32_t own = level(piece.cell(t), ranks);
-    if (own >= 0) ++triangles[own];
-  }
-  std::int32_t best = 0, sum = triangles[0];
-  for (std::int32_t i = 1; i < static_cast<std::int32_t>(triangles.size()); ++i) {
-    sum += triangles[i];
-    if (sum == 2 * i - 1 && sum + 1 < piece.cell_count()) best = i;
-  }
-  return best > 0 && Surroundings(piece, ranks, best).let_close() ? best : 0;
 }
 
 /// Vertices that become one: the lowest stands for all, at their mean.
@@ -231,7 +117,8 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
   std::vector<char> vanishes(piece.cell_count(), 0);
   for (const Tip* tip : tips) {
     const auto ranks = ranks_in_tip(*tip, on_curve);
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) vanishes[t] |= level(piece.cell(t), ranks) >= 0;
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t)
+      vanishes[t] |= level_in_tip(piece.cell(t), ranks) >= 0;
   }
   std::vector<LocalIndex> stands_for(piece.vertex_count());
   std::iota(stands_for.begin(), stands_for.end(), 0);
@@ -274,60 +161,6 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
   return result;
 }
 
-/// Tips whose pieces let them close, cut to the pairs that do. Collective.
-std::vector<Tip> agree_on_tips(const parallel::Communicator& communicator, const CurveMesh& curves,
-                               const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
-  std::vector<Closing> mine;
-  parallel::agree(communicator, [&] {
-    for (const Piece& piece : surface.pieces) {
-      std::vector<CurveVertex> on_curve;
-      for (std::size_t i = 0; i < tips.size(); ++i) {
-        if (tips[i].face != piece.common_face()) continue;
-        if (on_curve.empty()) on_curve = curve_vertices(curves, piece);
-        const std::int32_t pairs = closable_pairs(piece, tips[i], on_curve);
-        if (pairs > 0) mine.push_back({static_cast<std::int32_t>(i), pairs});
-      }
-    }
-  });
-  std::vector<std::int32_t> pairs(tips.size(), 0);
-  for (const Closing& closing : communicator.all_gather_items<Closing>(mine)) {
-    pairs[closing.tip] = std::max(pairs[closing.tip], closing.pairs);
-  }
-  for (std::size_t i = 0; i < tips.size(); ++i) tips[i].pairs.resize(pairs[i]);
-  std::erase_if(tips, [](const Tip& tip) { return tip.pairs.empty(); });
-  return tips;
-}
-
-/// Without tips whose pairs other triangles than their own join. Collective.
-std::vector<Tip> without_bridged(const parallel::Communicator& communicator, const CurveMesh& curves,
-                                 const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
-  std::map<std::pair<CurveVertex, CurveVertex>, std::int32_t> tip_of;
-  for (std::size_t i = 0; i < tips.size(); ++i) {
-    for (const auto& [a, b] : tips[i].pairs) tip_of[std::minmax(a, b)] = static_cast<std::int32_t>(i);
-  }
-  std::vector<std::int32_t> mine;
-  for (const Piece& piece : surface.pieces) {
-    const std::vector<CurveVertex> on_curve = curve_vertices(curves, piece);
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const LocalIndex* v = piece.cell(t);
-      for (int k = 0; k < 3; ++k) {
-        const CurveVertex a = on_curve[v[k]], b = on_curve[v[(k + 1) % 3]];
-        if (a < 0 || b < 0) continue;
-        const auto found = tip_of.find(std::minmax(a, b));
-        if (found != tip_of.end() && tips[found->second].face != piece.common_face())
-          mine.push_back(found->second);
-      }
-    }
-  }
-  std::vector<char> bridged(tips.size(), 0);
-  for (const std::int32_t tip : communicator.all_gather_items<std::int32_t>(mine)) bridged[tip] = 1;
-  std::vector<Tip> rest;
-  for (std::size_t i = 0; i < tips.size(); ++i) {
-    if (!bridged[i]) rest.push_back(std::move(tips[i]));
-  }
-  return rest;
-}
-
 std::vector<ClosedTip> describe(const CurveMesh& curves, const std::vector<Tip>& tips,
                                 const ClosedVertices& closed) {
   std::vector<ClosedTip> result;
@@ -350,12 +183,12 @@ std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicato
                                        parallel::StageClock& clock) {
   std::vector<Tip> tips;
   for (const SharpCorner& corner : curves.sharp_corners) {
+    if (!corner.closes) continue;
     Tip tip = measure_tip(model, curves, widest, corner);
     if (!tip.pairs.empty()) tips.push_back(std::move(tip));
   }
   if (tips.empty()) return {};
-  tips = agree_on_tips(communicator, curves, surface, std::move(tips));
-  if (!tips.empty()) tips = without_bridged(communicator, curves, surface, std::move(tips));
+  tips = closable_tips(communicator, curves, surface, std::move(tips));
   if (tips.empty()) return {};
   const ClosedVertices closed(model, curves, tips);
   const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);

@@ -25,7 +25,7 @@ inline constexpr double closing_width = 0.3;
 
 /// Closes the tips of the surface that the pieces, as the pool assembles them, make on these curves, as far
 /// as the curves are apart by less than `widest`. A vertex on several curves counts as part of the CAD
-/// vertex. A tip that has vertices between its curves, or whose sides meet in other triangles too, stays. By
+/// vertex. A tip stays that has vertices between its curves, or whose curves other faces join. By
 /// face, the same on every rank. Collective.
 std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicator, const cad::Model& model,
                                        const CurveMesh& curves, double widest, mesh::DistributedMesh& surface,

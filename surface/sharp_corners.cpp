@@ -44,6 +44,7 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
                      corner.vertex,
                      {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)}};
   double reach = field(model.vertex(corner.vertex));
+  const double closed = sizing::closing_angle(model, corner);
   for (int k = 0; k < most_steps; ++k, reach *= step) {
     const auto opening = cad::open_corner(model, corner, reach);
     if (!opening || opening->degrees >= sharp) break;
@@ -55,11 +56,12 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
     if (!both_straight) break;
     const double size = std::min(field(opening->points[0]), field(opening->points[1]));
     if (opening->width >= fitting * size) {
-      if (opening->degrees >= sizing::closed_corner) result.leg = reach;
+      if (opening->degrees >= closed) result.leg = reach;
       break;
     }
   }
   if (!(result.degrees > 0)) return std::nullopt;
+  result.closes = result.degrees < closed && !(result.leg > 0);
   return result;
 }
 

@@ -22,6 +22,7 @@ struct SharpCorner {
   /// between the edges behind it; 0 where the edges bend too much or are too short for one, and where the
   /// corner is closed instead (cusp_tips.hpp).
   double leg = 0;
+  bool closes = false;  ///< its edges are one as far as they are next to each other (cusp_tips.hpp)
 };
 
 /// All of them by face, the same on every rank. Collective.

@@ -1,7 +1,5 @@
 #include "surface/tip_alignment.hpp"
 
-#include "sizing/closed_corners.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -95,7 +93,7 @@ private:
 void align_tips(const Model& model, double widest, CurveMesh& curves) {
   std::map<std::pair<cad::EdgeId, bool>, bool> follows;
   for (const SharpCorner& corner : curves.sharp_corners) {
-    if (corner.leg > 0 || corner.degrees >= sizing::closed_corner) continue;
+    if (!corner.closes) continue;
     EdgeEnd leader = corner.ends[0], follower = corner.ends[1];
     if (follower.edge < leader.edge) std::swap(leader, follower);
     if (follows[{follower.edge, follower.first}]) std::swap(leader, follower);

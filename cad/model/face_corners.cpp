@@ -21,6 +21,13 @@ Vec3 normal_at(const Model& model, const FaceCorner& corner) {
   return {};
 }
 
+/// The face beyond an edge of a face; no_entity where there is none, or more than one.
+FaceId face_beyond(const Model& model, EdgeId edge, FaceId face) {
+  const auto& faces = model.edge(edge).faces;
+  if (faces.size() != 2) return no_entity;
+  return faces[0] == face ? faces[1] : faces[0];
+}
+
 }  // namespace
 
 std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
@@ -40,6 +47,21 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
     }
   }
   return corners;
+}
+
+BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner) {
+  const FaceId first = face_beyond(model, corner.arriving.edge, corner.face),
+               second = face_beyond(model, corner.leaving.edge, corner.face);
+  if (first == no_entity || second == no_entity || first == second) return BeyondCorner::other;
+  for (const auto& loop : model.face(first).loops) {
+    for (const EdgeUse& use : loop) {
+      const Edge& edge = model.edge(use.edge);
+      const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
+      if (at_corner && std::find(edge.faces.begin(), edge.faces.end(), second) != edge.faces.end())
+        return BeyondCorner::faces_that_meet;
+    }
+  }
+  return BeyondCorner::two_faces;
 }
 
 std::optional<double> parameter_at(const Model& model, EdgeEnd end, double wanted) {

@@ -29,6 +29,11 @@ inline EdgeEnd end_at_corner(const EdgeUse& use, bool leaving) {
 /// is a point of its corner.
 std::vector<FaceCorner> corners_of(const Model& model, FaceId face);
 
+/// What lies beyond the two edges of a corner: two faces that have no further edge at its vertex in common,
+/// or that meet there in one as at the section of a wedge; or anything else.
+enum class BeyondCorner { two_faces, faces_that_meet, other };
+BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner);
+
 /// The parameter of the first point of the edge at a distance from the vertex at this end; nothing when there
 /// is none on the near half of the edge.
 std::optional<double> parameter_at(const Model& model, EdgeEnd end, double distance);

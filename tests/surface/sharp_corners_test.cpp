@@ -18,11 +18,11 @@ namespace {
 using cad::Model;
 using geometry::Vec3;
 
-constexpr double sharp_degrees = 12;
+constexpr double sharp_degrees = 16;
 
 /// A right triangle whose corner at the origin is sharp, drawn out along y.
-Model sharp_prism() {
-  const double height = 3 * std::tan(sharp_degrees * std::numbers::pi / 180);
+Model sharp_prism(double degrees = sharp_degrees) {
+  const double height = 3 * std::tan(degrees * std::numbers::pi / 180);
   return cad::shapes::prepare_fluid(cad::shapes::prism({{0, 0}, {3, 0}, {3, height}}, 1)).model;
 }
 
@@ -72,6 +72,21 @@ TEST(SharpCorners, HoldOneTriangle) {
     EXPECT_NEAR(corner.degrees, sharp_degrees, 1e-6);
     EXPECT_LT(std::hypot(corner.point.x, corner.point.z), 1e-9);
   }
+}
+
+// The faces beyond its two edges meet in the edge of the wedge: they cannot become neighbours in another.
+TEST(SharpCorners, OfAWedgesSectionStayOpen) {
+  const Model model = sharp_prism(6);
+  const sizing::SizeField field = field_of(model);
+  parallel::StageClock clock;
+  const auto communicator = parallel::Communicator::world();
+  const auto corners = find_sharp_corners(communicator, model, field, clock);
+  ASSERT_EQ(corners.size(), 2u);
+  for (const SharpCorner& corner : corners) {
+    EXPECT_FALSE(corner.closes);
+    EXPECT_GT(corner.leg, 0);
+  }
+  EXPECT_TRUE(mesh_surface(communicator, model, field, {}, clock).report.closed_tips.empty());
 }
 
 }  // namespace
