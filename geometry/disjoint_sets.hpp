@@ -19,6 +19,7 @@ public:
     std::iota(_parent.begin(), _parent.end(), Index{0});
   }
 
+  std::size_t size() const { return _parent.size(); }
   /// The lowest number of the set that i is in. Shortens the way for the next time.
   Index root(Index i) {
     while (_parent[i] != i) i = _parent[i] = _parent[_parent[i]];

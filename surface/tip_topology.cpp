@@ -1,5 +1,6 @@
 #include "surface/tip_topology.hpp"
 
+#include "geometry/disjoint_sets.hpp"
 #include "mesh/tokens.hpp"
 #include "parallel/collective_error.hpp"
 
@@ -141,79 +142,126 @@ std::vector<Tip> agree_on_tips(const parallel::Communicator& communicator, const
   return tips;
 }
 
-/// What triangles of other faces than a tip's own would do to it.
-class Neighbourhood {
+/// A triangle whose vertices all lie on curves.
+struct CurveTriangle {
+  std::array<CurveVertex, 3> vertices;
+  cad::FaceId face;
+};
+
+/// What the triangles around tips become when tips close.
+class Closure {
 public:
-  Neighbourhood(const CurveMesh& curves, const std::vector<Tip>& tips) : _curves(curves), _tips(tips) {
+  Closure(std::size_t curve_vertices, const std::vector<Tip>& tips)
+      : _tips(tips), _open(tips.size(), 0), _sets(curve_vertices) {
     for (std::size_t i = 0; i < tips.size(); ++i) {
-      const auto tip = static_cast<std::int32_t>(i);
-      std::array<CurveVertex, 2> before{tips[i].vertex, tips[i].vertex};
-      std::int32_t step = 0;
       for (const auto& pair : tips[i].pairs) {
-        _steps[std::minmax(pair[0], pair[1])].push_back({tip, across});
-        for (int side = 0; side < 2; ++side)
-          _steps[std::minmax(before[side], pair[side])].push_back({tip, step});
-        before = pair;
-        ++step;
+        for (const CurveVertex v : pair) _tips_at[v].push_back(i);
       }
     }
   }
 
-  /// Tips that stay open: other faces join the two curves, or have triangles on both that would become one.
-  /// Collective.
-  std::vector<char> open_tips(const parallel::Communicator& communicator,
-                              const mesh::DistributedMesh& surface) {
-    for (const Piece& piece : surface.pieces) visit(piece);
-    std::vector<char> open(_tips.size(), 0);
-    for (const std::int32_t tip : communicator.all_gather_items<std::int32_t>(_bridged)) open[tip] = 1;
-    std::vector<Fan> fans = communicator.all_gather_items<Fan>(_fans);
-    std::sort(fans.begin(), fans.end());
-    for (std::size_t i = 1; i < fans.size(); ++i) {
-      if (fans[i] == fans[i - 1]) open[fans[i][0]] = 1;
+  /// Triangles around the tips, on this rank.
+  std::vector<CurveTriangle> collect(const CurveMesh& curves, const mesh::DistributedMesh& surface) const {
+    std::vector<CurveTriangle> result;
+    for (const Piece& piece : surface.pieces) {
+      const std::vector<CurveVertex> on_curve = curve_vertices(curves, piece);
+      for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+        const LocalIndex* v = piece.cell(t);
+        const CurveTriangle triangle{{on_curve[v[0]], on_curve[v[1]], on_curve[v[2]]}, piece.common_face()};
+        const auto& all = triangle.vertices;
+        const bool on_curves = std::min({all[0], all[1], all[2]}) >= 0;
+        if (on_curves &&
+            std::any_of(all.begin(), all.end(), [&](auto each) { return _tips_at.contains(each); }))
+          result.push_back(triangle);
+      }
     }
-    return open;
+    return result;
+  }
+
+  /// Opens tips, the last one first, until no triangle of another face loses an edge and no two become one.
+  const std::vector<char>& settle(const std::vector<CurveTriangle>& triangles) {
+    while (open_one(triangles)) {
+    }
+    return _open;
   }
 
 private:
-  static constexpr std::int32_t across = -1;
-  /// A tip, a segment of its curves by its number from the CAD vertex on, and the vertex of a curve that a
-  /// triangle on the segment has opposite.
-  using Fan = std::array<std::int32_t, 3>;
-  struct Step {
-    std::int32_t tip, step;  // across: between the vertices of a pair
-  };
-
-  void visit(const Piece& piece) {
-    const std::vector<CurveVertex> on_curve = curve_vertices(_curves, piece);
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const LocalIndex* v = piece.cell(t);
-      for (int k = 0; k < 3; ++k) {
-        const CurveVertex a = on_curve[v[k]], b = on_curve[v[(k + 1) % 3]], c = on_curve[v[(k + 2) % 3]];
-        if (a < 0 || b < 0) continue;
-        const auto found = _steps.find(std::minmax(a, b));
-        if (found == _steps.end()) continue;
-        for (const Step& step : found->second) {
-          if (_tips[step.tip].face == piece.common_face()) continue;
-          if (step.step == across)
-            _bridged.push_back(step.tip);
-          else if (c >= 0)
-            _fans.push_back({step.tip, step.step, c});
-        }
-      }
+  bool open_one(const std::vector<CurveTriangle>& triangles) {
+    _sets = geometry::DisjointSets<CurveVertex>(_sets.size());
+    for (std::size_t i = 0; i < _tips.size(); ++i) {
+      if (_open[i]) continue;
+      for (const auto& [a, b] : _tips[i].pairs) _sets.unite(a, b);
     }
+    std::vector<std::array<CurveVertex, 6>> left;  // what vertices become, ascending, and what they are
+    for (const CurveTriangle& triangle : triangles) {
+      if (vanishes(triangle)) continue;
+      const auto& [a, b, c] = triangle.vertices;
+      std::array<CurveVertex, 3> now{_sets.root(a), _sets.root(b), _sets.root(c)};
+      std::sort(now.begin(), now.end());
+      if ((now[0] == now[1] || now[1] == now[2]) && !ends(triangle)) return open_last({a, b, c});
+      if (now[0] != now[1] && now[1] != now[2]) left.push_back({now[0], now[1], now[2], a, b, c});
+    }
+    std::sort(left.begin(), left.end());
+    for (std::size_t i = 1; i < left.size(); ++i) {
+      if (std::equal(left[i].begin(), left[i].begin() + 3, left[i - 1].begin()))
+        return open_last(
+            {left[i][3], left[i][4], left[i][5], left[i - 1][3], left[i - 1][4], left[i - 1][5]});
+    }
+    return false;
   }
 
-  const CurveMesh& _curves;
+  /// Whether it lies between the curves of a tip of its face.
+  bool vanishes(const CurveTriangle& triangle) const { return vertices_in_own_tip(triangle) == 3; }
+  /// Whether it is next to the last pair of a tip of its face.
+  bool ends(const CurveTriangle& triangle) const { return vertices_in_own_tip(triangle) == 2; }
+  std::ptrdiff_t vertices_in_own_tip(const CurveTriangle& triangle) const {
+    std::ptrdiff_t most = 0;
+    for (const CurveVertex v : triangle.vertices) {
+      const auto found = _tips_at.find(v);
+      if (found == _tips_at.end()) continue;
+      for (const std::size_t tip : found->second) {
+        if (_open[tip] || _tips[tip].face != triangle.face) continue;
+        most = std::max(most, std::count_if(triangle.vertices.begin(), triangle.vertices.end(),
+                                            [&](CurveVertex w) { return is_in(w, tip); }));
+      }
+    }
+    return most;
+  }
+  bool is_in(CurveVertex v, std::size_t tip) const {
+    if (v == _tips[tip].vertex) return true;
+    const auto found = _tips_at.find(v);
+    return found != _tips_at.end() &&
+           std::find(found->second.begin(), found->second.end(), tip) != found->second.end();
+  }
+
+  /// The last of the tips that some vertices are in. False where all are open.
+  bool open_last(const std::vector<CurveVertex>& vertices) {
+    std::ptrdiff_t last = -1;
+    for (const CurveVertex v : vertices) {
+      const auto found = _tips_at.find(v);
+      if (found == _tips_at.end()) continue;
+      for (const std::size_t tip : found->second) {
+        if (!_open[tip]) last = std::max(last, static_cast<std::ptrdiff_t>(tip));
+      }
+    }
+    if (last < 0) return false;
+    _open[last] = 1;
+    return true;
+  }
+
   const std::vector<Tip>& _tips;
-  std::map<std::pair<CurveVertex, CurveVertex>, std::vector<Step>> _steps;
-  std::vector<std::int32_t> _bridged;  // tips, on this rank
-  std::vector<Fan> _fans;              // on this rank
+  std::vector<char> _open;
+  std::map<CurveVertex, std::vector<std::size_t>> _tips_at;  // of vertices in pairs
+  geometry::DisjointSets<CurveVertex> _sets;
 };
 
 /// Without tips that other faces keep open. Collective.
 std::vector<Tip> without_open(const parallel::Communicator& communicator, const CurveMesh& curves,
                               const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
-  const std::vector<char> open = Neighbourhood(curves, tips).open_tips(communicator, surface);
+  Closure closure(curves.points.size(), tips);
+  const std::vector<CurveTriangle> triangles =
+      communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
+  const std::vector<char>& open = closure.settle(triangles);
   std::vector<Tip> rest;
   for (std::size_t i = 0; i < tips.size(); ++i) {
     if (!open[i]) rest.push_back(std::move(tips[i]));
