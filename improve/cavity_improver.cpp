@@ -1,6 +1,7 @@
 #include "improve/cavity_improver.hpp"
 
 #include "improve/improver.hpp"
+#include "improve/reach.hpp"
 #include "improve/relaxation.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/tet_faces.hpp"
@@ -19,6 +20,19 @@ using mesh::Piece;
 /// Width of the grid's cells, in edges of the bad tetrahedron in them, at least.
 constexpr double cell_width = 8;
 
+/// Per vertex: whether it is shared, or a neighbour of one that is.
+std::vector<char> near_borders(const Piece& piece) {
+  std::vector<char> shared(piece.vertex_count(), 0);
+  for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
+  std::vector<char> near = shared;
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* c = piece.cell(t);
+    if (std::none_of(c, c + 4, [&](LocalIndex v) { return shared[v] != 0; })) continue;
+    for (int k = 0; k < 4; ++k) near[c[k]] = 1;
+  }
+  return near;
+}
+
 }  // namespace
 
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
@@ -28,10 +42,19 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
   wishes.clear();
   for (const Piece& piece : mesh.pieces) {
     std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
+    const Reach reach(piece, measure);
+    std::vector<char> beside;  // a border, once needed
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
-      if (measure(p[0], p[1], p[2], p[3]) >= measure.target()) continue;
+      const double quality = measure(p[0], p[1], p[2], p[3]);
+      if (quality >= reach(v)) continue;
+      // Beside a strip what was tried inside a piece is not tried again.
+      if (reach.is_limited(v) && !reach.is_severe(quality)) {
+        if (shift > 0) continue;
+        if (beside.empty()) beside = near_borders(piece);
+        if (std::none_of(v, v + 4, [&](LocalIndex k) { return beside[k] != 0; })) continue;
+      }
       ++count;
       const cavities::CavityId id =
           cavities::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mean_edge(p), cell_width, shift);

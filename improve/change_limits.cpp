@@ -10,6 +10,7 @@ namespace {
 constexpr double least = 0.3, most = 3;  // of the size, the former also of the mean edge before
 
 constexpr double decent_ratio = 0.5;
+constexpr double flattening = 0.3;  // of the ratio before, where a severe case beside a strip gets better
 
 double ratio_of(const std::array<Vec3, 4>& p) {
   return mesh::mean_ratio(p[0], p[1], p[2], p[3]);
@@ -74,10 +75,17 @@ bool ChangeLimits::allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std
   return for_neighbours([&](Vec3 other) { return allow_edge(before, p, other); });
 }
 
+bool ChangeLimits::is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const {
+  return _reach && std::any_of(tets.begin(), tets.end(),
+                               [&](LocalIndex t) { return _reach->is_limited(mesh.corners(t)); });
+}
+
 bool ChangeLimits::allow(const TetMesh& mesh, const Replacement& cavity) const {
   if (!allow_sizes(mesh, cavity)) return false;
   double poorest = decent_ratio;
   for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));
+  if (_reach && _reach->is_severe(cavity.before) && is_beside_strip(mesh, cavity.old_tets))
+    poorest *= flattening;
   return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
     return ratio_of({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])}) >= poorest;
   });
@@ -87,13 +95,16 @@ bool ChangeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<
                               Vec3 origin) const {
   if (!allow_moved_sizes(mesh, vertex, star, origin)) return false;
   double before = decent_ratio, after = decent_ratio;
+  const bool beside_strip = is_beside_strip(mesh, star);
+  bool severe = false;
   for (const LocalIndex t : star) {
     std::array<Vec3, 4> p = mesh.points(t);
     after = std::min(after, ratio_of(p));
     p[mesh.local_vertex(t, vertex)] = origin;
     before = std::min(before, ratio_of(p));
+    severe = severe || (beside_strip && _reach->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
   }
-  return after >= before;
+  return after >= (severe ? flattening * before : before);
 }
 
 }  // namespace aeroloom::improve

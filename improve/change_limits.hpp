@@ -1,6 +1,7 @@
 /// What a change must keep to beside the quality that it is made for: sizes and decent shapes.
 #pragma once
 
+#include "improve/reach.hpp"
 #include "improve/tet_mesh.hpp"
 #include "sizing/size_field.hpp"
 
@@ -12,10 +13,13 @@ namespace aeroloom::improve {
 /// A change may make an edge longer than all that were there before it only up to 3 times the size in its
 /// middle, and shorter than all only down to 0.3 times that size or, where edges are shorter because the CAD
 /// is, 0.3 times their mean. Where no size field is known, every length will do.
-/// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was.
+/// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was; down to 0.3 times the
+/// poorest where severe cases beside strips (Reach) get better: large angles over a triangle that is longer
+/// than wide need a flat tetrahedron.
 class ChangeLimits {
 public:
-  explicit ChangeLimits(const sizing::SizeField* field = nullptr) : _field(field) {}
+  explicit ChangeLimits(const sizing::SizeField* field = nullptr, const Reach* reach = nullptr)
+      : _field(field), _reach(reach) {}
 
   /// Whether the new tetrahedra of a cavity keep to that.
   bool allow(const TetMesh& mesh, const Replacement& cavity) const;
@@ -35,7 +39,10 @@ private:
   };
   bool allow_edge(const Lengths& before, Vec3 a, Vec3 b) const;
 
+  bool is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
+
   const sizing::SizeField* _field;
+  const Reach* _reach;
 };
 
 }  // namespace aeroloom::improve

@@ -96,10 +96,11 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     return report;
   }
 
+  const Reach reach(piece, measure);
   TetMesh mesh(piece, measure, options.boundary_may_change);
   note_before(examine(mesh));
-  const ChangeLimits limits(source.sizes);
-  Schedule schedule(mesh, limits, options.boundary_may_change ? source.locator : nullptr);
+  const ChangeLimits limits(source.sizes, &reach);
+  Schedule schedule(mesh, reach, limits, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
   if (options.relaxation > 0) {
     report.swaps += VoidFilling().run(mesh);

@@ -43,14 +43,18 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-Schedule::Schedule(TetMesh& mesh, const ChangeLimits& limits, cad::PointLocator* locator)
+Schedule::Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, cad::PointLocator* locator)
     : _mesh(mesh),
+      _reach(reach),
       _limits(limits),
       _smoothing(limits),
       _version(mesh.slot_count(), 0),
       _attempt(mesh.slot_count(), 0),
       _attempt_means(mesh.slot_count(), Means::swaps_and_smoothing),
-      _changed(mesh.vertex_count(), 1) {
+      _changed(mesh.vertex_count(), 1),
+      _smoothed_in_vain(mesh.vertex_count(), 0),
+      _slid_in_vain(mesh.vertex_count(), 0),
+      _moved_in_vain(mesh.vertex_count(), 0) {
   if (locator) _sliding.emplace(*locator, limits);
 }
 
@@ -88,7 +92,7 @@ Schedule::Sweep Schedule::sweep(Means means) {
 void Schedule::fill_queue() {
   _queue.clear();
   for (LocalIndex t = 0; t < _mesh.slot_count(); ++t) {
-    if (_mesh.is_alive(t) && _mesh.quality(t) < _mesh.measure().target()) {
+    if (_mesh.is_alive(t) && _mesh.quality(t) < target_of(t)) {
       _queue.push_back({_mesh.quality(t), t, _version[t]});
     }
   }
@@ -96,22 +100,26 @@ void Schedule::fill_queue() {
 }
 
 void Schedule::push(LocalIndex t) {
-  if (_mesh.quality(t) >= _mesh.measure().target()) return;
+  if (_mesh.quality(t) >= target_of(t)) return;
   _queue.push_back({_mesh.quality(t), t, _version[t]});
   std::push_heap(_queue.begin(), _queue.end(), later);
 }
 
 bool Schedule::worth_trying(LocalIndex t, Means means) const {
-  if (_attempt[t] == 0 || _attempt_means[t] < means) return true;
+  if (_attempt[t] == 0) return true;
+  // Beside a strip every try moves what the next one finds, little comes of it, and no other means follow.
+  if (_attempt_means[t] >= Means::moving_cavities && is_spared(t)) return false;
+  if (_attempt_means[t] < means) return true;
   const Corners& corners = _mesh.corners(t);
   return std::any_of(corners.begin(), corners.end(), [&](LocalIndex v) { return _changed[v] > _attempt[t]; });
 }
 
 bool Schedule::mend(LocalIndex t, Means means) {
   if (swap(t) || smooth(t)) return true;
-  const double share = _mesh.quality(t) / _mesh.measure().target();
-  return (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) ||
-         (means >= Means::new_vertices && share < worth_adding && insert_vertex(t)) ||
+  const double share = _mesh.quality(t) / target_of(t);
+  if (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) return true;
+  if (is_spared(t)) return false;
+  return (means >= Means::new_vertices && share < worth_adding && insert_vertex(t)) ||
          (means >= Means::moving_cavities && slide(t)) || (means >= Means::new_vertices && reconnect(t));
 }
 
@@ -140,8 +148,12 @@ bool Schedule::smooth(LocalIndex t) {
   const Corners corners = _mesh.corners(t);
   bool moved = false;
   for (const LocalIndex v : corners) {
-    if (_mesh.quality(t) >= _mesh.measure().target()) break;
-    if (_mesh.is_fixed(v) || !_smoothing.smooth(_mesh, v, _star)) continue;
+    if (_mesh.quality(t) >= target_of(t)) break;
+    if (_mesh.is_fixed(v) || !has_changed_since(_smoothed_in_vain[v], v)) continue;
+    if (!_smoothing.smooth(_mesh, v, _star)) {
+      _smoothed_in_vain[v] = _now;
+      continue;
+    }
     moved = true;
     ++_smoothed;
     note_change(_star, t);
@@ -154,8 +166,12 @@ bool Schedule::slide(LocalIndex t) {
   const Corners corners = _mesh.corners(t);
   bool moved = false;
   for (const LocalIndex v : corners) {
-    if (_mesh.quality(t) >= _mesh.measure().target()) break;
-    if (!_sliding->slide(_mesh, v, _star)) continue;
+    if (_mesh.quality(t) >= target_of(t)) break;
+    if (!has_changed_since(_slid_in_vain[v], v)) continue;
+    if (!_sliding->slide(_mesh, v, _star)) {
+      _slid_in_vain[v] = _now;
+      continue;
+    }
     moved = true;
     ++_slid;
     note_change(_star, t);
@@ -181,7 +197,9 @@ bool Schedule::contract(LocalIndex t) {
 bool Schedule::move_cavity(LocalIndex t) {
   const Corners corners = _mesh.corners(t);
   for (const LocalIndex v : corners) {
-    if (_mesh.is_fixed(v) || !_insertion.propose_around_vertex(_mesh, v, _trial)) continue;
+    if (_mesh.is_fixed(v) || !has_changed_since(_moved_in_vain[v], v)) continue;
+    _moved_in_vain[v] = _now;
+    if (!_insertion.propose_around_vertex(_mesh, v, _trial)) continue;
     const Vec3 origin = _mesh.point(v);
     _mesh.move_vertex(v, _insertion.position(), {});
     if (apply(_trial)) {
@@ -197,12 +215,18 @@ bool Schedule::insert_vertex(LocalIndex t) {
   if (!_insertion.propose_new_vertex(_mesh, t, _trial)) return false;
   _mesh.add_vertex(_insertion.position(), _mesh.corners(t)[0]);
   _changed.push_back(_now);
+  _smoothed_in_vain.push_back(0);
+  _slid_in_vain.push_back(0);
+  _moved_in_vain.push_back(0);
   if (apply(_trial)) {
     ++_swaps;
     return true;
   }
   _mesh.drop_last_vertex();
   _changed.pop_back();
+  _smoothed_in_vain.pop_back();
+  _slid_in_vain.pop_back();
+  _moved_in_vain.pop_back();
   return false;
 }
 
@@ -216,7 +240,7 @@ bool Schedule::apply(const Replacement& cavity) {
   for (const Corners& c : cavity.new_tets) {
     if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
   }
-  if (!_limits.allow(_mesh, cavity)) return false;
+  if (!_reach.pays(_mesh, cavity) || !_limits.allow(_mesh, cavity)) return false;
   _mesh.replace(cavity, _placed);
   _version.resize(_mesh.slot_count(), 0);
   _attempt.resize(_mesh.slot_count(), 0);

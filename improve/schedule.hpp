@@ -6,6 +6,7 @@
 #include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
+#include "improve/reach.hpp"
 #include "improve/sliding.hpp"
 #include "improve/small_polyhedron.hpp"
 #include "improve/smoothing.hpp"
@@ -23,7 +24,8 @@ namespace aeroloom::improve {
 class Schedule {
 public:
   /// With a locator, vertices of the boundary slide on its model.
-  Schedule(TetMesh& mesh, const ChangeLimits& limits, cad::PointLocator* locator = nullptr);
+  Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits,
+           cad::PointLocator* locator = nullptr);
 
   /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
   void run(int sweeps);
@@ -57,9 +59,17 @@ private:
   bool apply(const Replacement& cavity);
   /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
   void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
+  double target_of(LocalIndex t) const { return _reach(_mesh.corners(t)); }
+  /// Whether the means that cost most are kept from it: they hardly ever gain beside a strip.
+  bool is_spared(LocalIndex t) const {
+    return _reach.is_limited(_mesh.corners(t)) && !_reach.is_severe(_mesh.quality(t));
+  }
   bool worth_trying(LocalIndex t, Means means) const;
+  /// Whether the star of a vertex is another one than at that time.
+  bool has_changed_since(std::uint32_t time, LocalIndex v) const { return time == 0 || _changed[v] > time; }
 
   TetMesh& _mesh;
+  const Reach& _reach;
   const ChangeLimits& _limits;
   EdgeRemoval _edge_removal;
   BoundaryFlip _boundary_flip;
@@ -76,6 +86,8 @@ private:
   std::vector<std::uint32_t> _attempt;  ///< when a slot was last tried in vain; 0 never
   std::vector<Means> _attempt_means;
   std::vector<std::uint32_t> _changed;  ///< when something around a vertex changed last
+  std::vector<std::uint32_t> _smoothed_in_vain, _slid_in_vain,
+      _moved_in_vain;  ///< when a vertex was last; 0 never
   std::uint32_t _now = 1;
   std::int64_t _smoothed = 0, _slid = 0, _swaps = 0;
 };

@@ -1,0 +1,110 @@
+#include "improve/reach.hpp"
+
+#include "improve/change_limits.hpp"
+#include "tests/improve/pieces.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::improve {
+namespace {
+
+const TetQuality measure(28);
+constexpr double width = 0.04;
+
+/// A triangle of length 1 between two curves, if `dimension` is 1, and apexes over it at the given heights,
+/// from vertex 3 on; one tetrahedron for each.
+mesh::Piece make_strip(const std::vector<double>& heights, std::uint8_t dimension) {
+  std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0.5, width, 0}};
+  std::vector<LocalIndex> cells;
+  for (const double height : heights) {
+    cells.insert(cells.end(), {0, 1, 2, static_cast<LocalIndex>(points.size())});
+    points.push_back({0.5, 0.5 * width, height});
+  }
+  mesh::Piece piece = examples::make_piece(points, cells);
+  std::fill_n(piece.vertex_dimension.begin(), 3, dimension);
+  piece.boundary = {0, 2, 1};
+  piece.triangle_face = piece.triangle_patch = {0};
+  return piece;
+}
+
+TEST(Reach, FallsWithTheWidthOfAStrip) {
+  const Reach reach(make_strip({1}, 1), measure);
+  const double least = std::sqrt(width), target = measure.target();
+  EXPECT_NEAR(reach(Corners{0, 1, 2, 3}), least, 1e-6);
+  EXPECT_NEAR(reach(Corners{0, 1, 3, 4}), std::cbrt(least * least * target), 1e-6);
+  EXPECT_NEAR(reach(Corners{0, 3, 4, 5}), std::cbrt(least * target * target), 1e-6);
+  EXPECT_EQ(reach(Corners{3, 4, 5, 6}), target);
+  EXPECT_TRUE(reach.is_limited(Corners{0, 3, 4, 5}));
+  EXPECT_FALSE(reach.is_limited(Corners{3, 4, 5, 6}));
+}
+
+TEST(Reach, IsTheTargetWhereTrianglesMayBecomeOthers) {
+  const Reach reach(make_strip({1}, 2), measure);
+  EXPECT_EQ(reach(Corners{0, 1, 2, 3}), measure.target());
+}
+
+TEST(Reach, IsTheTargetBesideWiderStrips) {
+  mesh::Piece piece = make_strip({1}, 1);
+  piece.coordinates[3 * 2 + 1] = 0.2;
+  EXPECT_EQ(Reach(piece, measure)(Corners{0, 1, 2, 3}), measure.target());
+}
+
+/// Replaces the first tetrahedron by so many of the second.
+Replacement replace_first(const TetMesh& mesh, std::size_t count) {
+  Replacement cavity;
+  cavity.old_tets = {0};
+  cavity.new_tets.assign(count, mesh.corners(1));
+  cavity.before = mesh.quality(0);
+  cavity.after = mesh.quality(1);
+  return cavity;
+}
+
+TEST(Reach, RefusesWhatLeavesMoreToMend) {
+  mesh::Piece piece = make_strip({0.65, 0.5}, 1);
+  const Reach reach(piece, measure);
+  TetMesh mesh(piece, measure, false);
+  ASSERT_FALSE(reach.is_severe(mesh.quality(0)));
+  ASSERT_GT(mesh.quality(1), mesh.quality(0));
+  ASSERT_LT(mesh.quality(1), reach(mesh.corners(1)));
+  EXPECT_TRUE(reach.pays(mesh, replace_first(mesh, 1)));
+  EXPECT_FALSE(reach.pays(mesh, replace_first(mesh, 5)));
+
+  mesh::Piece elsewhere = make_strip({0.65, 0.5}, 2);
+  const Reach target(elsewhere, measure);
+  TetMesh other(elsewhere, measure, false);
+  EXPECT_TRUE(target.pays(other, replace_first(other, 5))) << "away from strips the worst alone counts";
+}
+
+TEST(Reach, LetsSevereCasesCostOthers) {
+  mesh::Piece piece = make_strip({2, 0.5}, 1);
+  const Reach reach(piece, measure);
+  TetMesh mesh(piece, measure, false);
+  ASSERT_TRUE(reach.is_severe(mesh.quality(0)));
+  EXPECT_TRUE(reach.pays(mesh, replace_first(mesh, 20)));
+}
+
+TEST(Reach, LetsSevereCasesGetFlatter) {
+  mesh::Piece piece = make_strip({0.9, 0.1}, 1);
+  const Reach reach(piece, measure);
+  TetMesh mesh(piece, measure, false);
+  const Replacement cavity = replace_first(mesh, 1);
+  ASSERT_TRUE(reach.is_severe(cavity.before));
+  EXPECT_FALSE(ChangeLimits().allow(mesh, cavity));
+  EXPECT_TRUE(ChangeLimits(nullptr, &reach).allow(mesh, cavity));
+}
+
+TEST(Reach, LetsSevereCasesGetFlatterByMoves) {
+  mesh::Piece piece = make_strip({0.9}, 1);
+  const Reach reach(piece, measure);
+  TetMesh mesh(piece, measure, false);
+  const std::vector<LocalIndex> star{0};
+  const Vec3 origin = mesh.point(3);
+  mesh.move_vertex(3, {0.5, 0.5 * width, 0.1}, star);
+  EXPECT_FALSE(ChangeLimits().allow_move(mesh, 3, star, origin));
+  EXPECT_TRUE(ChangeLimits(nullptr, &reach).allow_move(mesh, 3, star, origin));
+}
+
+}  // namespace
+}  // namespace aeroloom::improve
