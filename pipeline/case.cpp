@@ -23,6 +23,7 @@ struct Draft {
   bool dimensions_given = false;
   cad::FarFieldOptions far_field;
   bool far_field_given = false;
+  std::optional<double> sharpen_width;
 };
 
 void declare_lifting_surface(KeyTable& keys, cad::LiftingSurface& surface) {
@@ -73,6 +74,12 @@ void declare_geometry(KeyTable& root, Draft& draft) {
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}});
   keys.choice<NarrowFaces>("narrow_faces", draft.result.narrow_faces,
                            {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}});
+  cad::TrailingEdgeOptions& trailing = draft.result.domain.trailing_edges;
+  keys.choice<cad::TrailingEdges>(
+      "trailing_edges", trailing.treatment,
+      {{"keep", cad::TrailingEdges::keep}, {"sharpen", cad::TrailingEdges::sharpen}});
+  keys.texts("sharpen_faces", trailing.faces);
+  keys.number("sharpen_width", draft.sharpen_width, Range::above(0, length));
   declare_sabotage(keys, draft.result.geometry_sabotage);
   KeyTable& far_field = root.section("farfield", &draft.far_field_given);
   far_field.choice<FarFieldShape>("shape", draft.far_field.shape,
@@ -171,6 +178,13 @@ void check_geometry(const KeyTable& keys, const Draft& draft, const std::string&
   if (draft.dimensions_given && !built_in) {
     throw CaseError(at("dimensions") + "'geometry.dimensions' belongs to 'geometry.builtin', not to a file");
   }
+  const cad::TrailingEdgeOptions& trailing = draft.result.domain.trailing_edges;
+  const char* const needless = draft.sharpen_width       ? "sharpen_width"
+                               : !trailing.faces.empty() ? "sharpen_faces"
+                                                         : nullptr;
+  if (needless != nullptr && trailing.treatment == cad::TrailingEdges::keep) {
+    throw CaseError(at(needless) + fmt::format("'geometry.{}' needs 'geometry.trailing_edges: sharpen'", needless));
+  }
   if (draft.result.domain.kind != cad::DomainKind::fluid) return;
   if (built_in)
     throw CaseError(at("domain") + "the built-in geometry is a body, 'geometry.domain' cannot be fluid");
@@ -216,6 +230,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   result.domain.file = locate(result.domain.file, file);
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
   result.domain.smallest_size = result.sizing.minimum.value_or(0);
   return result;
 }
@@ -236,6 +251,7 @@ std::string resolved_yaml(const Case& input) {
     draft.dimensions = *input.domain.transport;
     draft.dimensions_given = true;
   }
+  if (input.domain.trailing_edges.width > 0) draft.sharpen_width = input.domain.trailing_edges.width;
   if (input.domain.far_field) {
     draft.far_field = *input.domain.far_field;
     draft.far_field_given = true;

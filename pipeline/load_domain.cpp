@@ -47,6 +47,10 @@ void pack_options(const DomainOptions& options, Packer& packer) {
   packer.value(far_field.symmetry);
   packer.value(std::uint8_t{far_field.symmetry_position.has_value()});
   packer.value(far_field.symmetry_position.value_or(0));
+  packer.value(options.trailing_edges.treatment);
+  packer.value(static_cast<std::uint64_t>(options.trailing_edges.faces.size()));
+  for (const std::string& pattern : options.trailing_edges.faces) packer.text(pattern);
+  packer.value(options.trailing_edges.width);
   packer.value(options.smallest_size);
 }
 
@@ -67,6 +71,10 @@ DomainOptions unpack_options(Unpacker& unpacker) {
   const auto position = unpacker.value<double>();
   if (placed) far_field.symmetry_position = position;
   if (surrounded) options.far_field = far_field;
+  options.trailing_edges.treatment = unpacker.value<cad::TrailingEdges>();
+  options.trailing_edges.faces.resize(unpacker.value<std::uint64_t>());
+  for (std::string& pattern : options.trailing_edges.faces) pattern = unpacker.text();
+  options.trailing_edges.width = unpacker.value<double>();
   options.smallest_size = unpacker.value<double>();
   return options;
 }

@@ -128,6 +128,17 @@ std::string YamlValue::text() const {
   return _node.Scalar();
 }
 
+std::vector<std::string> YamlValue::texts() const {
+  if (_node.IsScalar()) return {text()};
+  if (!_node.IsSequence() || _node.size() == 0) refuse("a list of texts");
+  std::vector<std::string> all;
+  for (const auto& item : _node) {
+    if (!item.IsScalar() || item.Scalar().empty()) refuse("a list of texts");
+    all.push_back(item.Scalar());
+  }
+  return all;
+}
+
 std::size_t YamlValue::choice(const std::vector<std::string>& names) const {
   const auto found = _node.IsScalar() ? std::find(names.begin(), names.end(), _node.Scalar()) : names.end();
   if (found == names.end()) refuse((names.size() > 1 ? "one of " : "") + joined(names));
@@ -204,6 +215,12 @@ void KeyTable::text(const std::string& name, std::string& target) {
   add(
       name, [&target](const YamlValue& value) { target = value.text(); },
       [&target] { return target.empty() ? std::nullopt : std::optional(target); });
+}
+
+void KeyTable::texts(const std::string& name, std::vector<std::string>& target) {
+  add(
+      name, [&target](const YamlValue& value) { target = value.texts(); }, [] { return std::nullopt; });
+  _entries.back().listed = [&target] { return target; };
 }
 
 void KeyTable::retired(const std::string& name, const std::string& why) {
@@ -339,6 +356,9 @@ void KeyTable::write(YAML::Emitter& emitter) const {
       if (entry.given && !*entry.given) continue;
       emitter << YAML::Key << entry.name << YAML::Value;
       entry.below->write(emitter);
+    } else if (entry.listed) {
+      const std::vector<std::string> all = entry.listed();
+      if (!all.empty()) emitter << YAML::Key << entry.name << YAML::Value << YAML::Flow << all;
     } else if (const std::optional<std::string> value = entry.written()) {
       emitter << YAML::Key << entry.name << YAML::Value << *value;
     }

@@ -45,6 +45,8 @@ public:
   std::int64_t integer(const Range& range) const;
   bool flag() const;
   std::string text() const;
+  /// A list of texts, or one text alone.
+  std::vector<std::string> texts() const;
   /// The position among `names`.
   std::size_t choice(const std::vector<std::string>& names) const;
 
@@ -75,6 +77,8 @@ public:
   void flag(const std::string& name, bool& target);
   /// Empty text is not accepted, and not written.
   void text(const std::string& name, std::string& target);
+  /// A list; the empty one is not written.
+  void texts(const std::string& name, std::vector<std::string>& target);
   /// One of the names, each standing for a value of the enumeration.
   template <class Enum>
   void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values);
@@ -97,6 +101,7 @@ private:
     bool* given = nullptr;                                // of a section
     std::function<void(const YamlValue&)> read;           // of a value
     std::function<std::optional<std::string>()> written;  // of a value
+    std::function<std::vector<std::string>()> listed;     // of a list
     std::string why_retired;                              // of a retired key
     std::string where;
 

@@ -2,6 +2,7 @@
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
+#include "cad/domain/sharpen.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
@@ -80,6 +81,7 @@ Domain prepare(const DomainOptions& options) {
                     ? build_fluid(std::move(solids), hull, volumes, report.changes)
                     : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
                                           volumes, report.changes);
+  model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
   if (!hull) try_facets(model);
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};

@@ -35,11 +35,21 @@ struct FarFieldOptions {
       {};  ///< of the plane on its axis; default: where the body ends, or 0
 };
 
+/// What happens to blunt trailing edges: strips between two faces that meet at a sharp angle.
+enum class TrailingEdges { keep, sharpen };
+
+struct TrailingEdgeOptions {
+  TrailingEdges treatment = TrailingEdges::keep;
+  std::vector<std::string> faces = {};  ///< patterns of faces' or patches' names, with * and ?; none: any face
+  double width = 0;  ///< of strips that are closed, at most; 0: blunt_edge_share of their neighbours' breadth
+};
+
 struct DomainOptions {
   std::string file;  ///< STEP, IGES or BREP, by content and extension; empty for `transport`
   std::optional<TransportDimensions> transport;  ///< the built-in aircraft
   DomainKind kind = DomainKind::automatic;
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
+  TrailingEdgeOptions trailing_edges = {};
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
 };
 

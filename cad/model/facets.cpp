@@ -1,3 +1,4 @@
+#include "cad/model/closed_edges_data.hpp"
 #include "cad/model/facet_refinement.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -196,7 +197,9 @@ Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) cons
   if (kept && kept->deflection == deflection && kept->angle == angle) return kept->facets;
   const std::string doing = "triangulating " + _data->describe_face(id);
   tell_step(doing);
-  Facets facets = guarded(doing, [&] { return make_facets(*this, id, deflection, angle, doing); });
+  const ClosedEdges* closed = _data->closed.get();
+  Facets facets = closed ? closed->facets(*this, id, deflection, angle)
+                         : guarded(doing, [&] { return make_facets(*this, id, deflection, angle, doing); });
   if (keep == Keep::yes) {
     evaluator.kept = std::make_shared<const KeptFacets>(KeptFacets{deflection, angle, facets});
   }

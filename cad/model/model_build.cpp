@@ -1,3 +1,4 @@
+#include "cad/model/closed_edges.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/model_topology.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -18,7 +19,7 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr std::uint64_t magic = 0x324d4c4145524f41;  // "AOREALM2"
+constexpr std::uint64_t magic = 0x334d4c4145524f41;  // "AOREALM3"
 
 class ByteWriter {
 public:
@@ -169,8 +170,18 @@ Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
     std::ostringstream stream;
     BinTools::Write(named.shape, stream, false, false, BinTools_FormatVersion_CURRENT);
     writer.put_text(stream.str());
+    writer.put<std::uint64_t>(0);  // strips closed
     return Model::from_bytes(writer.bytes);
   });
+}
+
+std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips) {
+  ByteWriter writer;
+  const std::span<const std::byte> shape = bytes.first(bytes.size() - sizeof(std::uint64_t));
+  writer.bytes.assign(shape.begin(), shape.end());
+  writer.put<std::uint64_t>(strips.size());
+  for (const FaceId strip : strips) writer.put(strip);
+  return std::move(writer.bytes);
 }
 
 Model Model::from_bytes(std::span<const std::byte> bytes) {
@@ -178,7 +189,6 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
     ByteReader reader(bytes);
     if (reader.get<std::uint64_t>() != magic) throw CadError("these bytes are no model of this version");
     auto data = std::make_shared<Model::Data>();
-    data->bytes.assign(bytes.begin(), bytes.end());
     const std::vector<FaceTag> tags = get_labels(reader, *data);
     data->bounds = reader.get<Box>();
     data->body_bounds = reader.get<Box>();
@@ -187,7 +197,17 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
     if (data->shape.IsNull()) throw CadError("the model's bytes hold no shape");
     index_topology(*data);
     apply_tags(tags, *data);
-    return Model(std::move(data));
+    std::vector<FaceId> strips(reader.get<std::uint64_t>());
+    for (FaceId& strip : strips) strip = reader.get<FaceId>();
+    if (strips.empty()) {
+      data->bytes.assign(bytes.begin(), bytes.end());
+      return Model(std::move(data));
+    }
+    data->bytes = with_closed_edges(bytes.first(bytes.size() - strips.size() * sizeof(FaceId)), {});
+    const Model open(std::move(data));
+    std::vector<BluntEdge> edges;
+    for (const FaceId strip : strips) edges.push_back(examine_blunt_edge(open, strip, 0).edge);
+    return close_blunt_edges(open, edges);
   });
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);
 /// Builds the model of a shape whose faces all belong to solids. `tags` follow TopExp's order of faces.
 /// Throws CadError.
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags);
+
+/// The bytes of a model with these strips closed (closed_edges.hpp), from those of the model before.
+std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips);
 
 /// The box of a shape's geometry, without the gaps that tolerances and control points would add.
 Box tight_box(const TopoDS_Shape& shape);
@@ -109,6 +113,7 @@ struct Snap {
   }
 };
 
+struct ClosedEdges;
 struct JoinedFaces;
 
 struct Model::Data {
@@ -127,6 +132,7 @@ struct Model::Data {
   std::string unit_name;
   double unit_in_metres = 1;
   double gap = 0;
+  std::shared_ptr<const ClosedEdges> closed;  ///< where strips are closed: edges that the shape does not have
   std::shared_ptr<const JoinedFaces> joined;  ///< where faces are joined: evaluators and snaps are its base's
 
   /// "face 12 'wing_upper' near (x, y, z)", for messages.

@@ -1,3 +1,4 @@
+#include "cad/model/closed_edges_data.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/sheets.hpp"
@@ -111,6 +112,12 @@ Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
     return all.from_member(own.sheet, joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
   }
   const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
+  if (const ClosedEdges* closed = _data->closed.get()) {
+    const Vec2 guess = closed->base_uv(face, use, parameter);
+    if (!closed->moved[use.edge] || _data->edges[use.edge].degenerate) return guess;
+    return settle_on_face(evaluator, edge_point(use.edge, parameter), guess,
+                          1e-10 * _data->bounds.diagonal());
+  }
   const UseCurve& on_face = evaluator.use(use);
   const Edge& edge = _data->edges[use.edge];
   double at = parameter;

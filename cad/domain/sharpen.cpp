@@ -1,0 +1,144 @@
+#include "cad/domain/sharpen.hpp"
+
+#include "cad/model/blunt_edges.hpp"
+#include "cad/model/closed_edges.hpp"
+#include "cad/model/step_trace.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+using Kind = BluntEdgeFinding::Kind;
+
+/// Strips wider than this many times the limit are not what the user means: not a word about them.
+constexpr double remarkable_excess = 3;
+
+/// Faces that are no strips between two others are spoken of where they are this many times longer than wide.
+constexpr double remarkable_slenderness = 50;
+
+/// Whether the user may have meant the face, though it stays.
+bool is_remarkable(const BluntEdgeFinding& found, const TrailingEdgeOptions& options) {
+  if (found.kind == Kind::wide) return found.edge.widest <= remarkable_excess * found.limit;
+  if (found.kind != Kind::refused) return false;
+  return options.width > 0 ? found.edge.widest <= options.width
+                           : found.edge.widest * remarkable_slenderness <= found.edge.length;
+}
+
+bool is_asked_for(const Model& model, FaceId id, const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return true;
+  const Face& face = model.face(id);
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return matches_pattern(face.name, pattern) || matches_pattern(model.patches()[face.patch], pattern);
+  });
+}
+
+void require_matches(const Model& model, const std::vector<std::string>& patterns) {
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (FaceId f = 0; f < model.face_count() && !any; ++f) any = is_asked_for(model, f, {pattern});
+    if (any) continue;
+    throw CadError(fmt::format(
+        "geometry.sharpen_faces: no face and no patch of this model is called '{}'. Remedy: `aeroloom check` "
+        "lists the patches; * stands for any letters",
+        pattern));
+  }
+}
+
+std::string borders_of(const Model& model, const BluntEdge& strip) {
+  return fmt::format("'{}' and '{}'", model.face(strip.borders[0].front().neighbour).name,
+                     model.face(strip.borders[1].front().neighbour).name);
+}
+
+Change describe_closed(const Model& model, const BluntEdge& strip) {
+  return {fmt::format("trailing edge '{}', {:.4g} long and at most {:.3g} wide, was closed to a curve half-way "
+                      "between {}",
+                      model.face(strip.face).name, strip.length, strip.widest, borders_of(model, strip)),
+          strip.place, 0.5 * strip.widest};
+}
+
+Change describe_left(const Model& model, const BluntEdge& strip, const std::string& reason) {
+  return {fmt::format("strip '{}', {:.4g} long and about {:.3g} wide, was not closed: {}",
+                      model.face(strip.face).name, strip.length, strip.widest, reason),
+          strip.place};
+}
+
+/// Closes them all, or else as many as can be, one after the other.
+Model close_what_closes(const Model& model, const std::vector<BluntEdge>& strips, Changes& changes) {
+  const auto attempt = [&](const std::vector<BluntEdge>& some, std::string& reason) -> std::optional<Model> {
+    try {
+      return close_blunt_edges(model, some);
+    } catch (const CadError& error) {
+      reason = error.what();
+      return std::nullopt;
+    }
+  };
+  std::string reason;
+  if (auto closed = attempt(strips, reason)) {
+    for (const BluntEdge& strip : strips) changes.push_back(describe_closed(model, strip));
+    return *std::move(closed);
+  }
+  std::vector<BluntEdge> some;
+  Model best = model;
+  for (const BluntEdge& strip : strips) {
+    some.push_back(strip);
+    if (auto closed = attempt(some, reason)) {
+      best = *std::move(closed);
+      changes.push_back(describe_closed(model, strip));
+      continue;
+    }
+    some.pop_back();
+    changes.push_back(describe_left(model, strip, reason));
+  }
+  return best;
+}
+
+}  // namespace
+
+bool matches_pattern(const std::string& name, const std::string& pattern) {
+  // Where the last star was, and where in the name what follows it was tried.
+  std::size_t n = 0, p = 0, star = std::string::npos, tried = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++, tried = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p, ++n;
+    } else if (star != std::string::npos) {
+      p = star + 1, n = ++tried;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
+Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes) {
+  if (options.treatment == TrailingEdges::keep) return model;
+  tell_step("sharpening trailing edges");
+  require_matches(model, options.faces);
+  std::vector<BluntEdge> strips;
+  int smooth = 0;
+  for (FaceId id = 0; id < model.face_count(); ++id) {
+    if (!is_asked_for(model, id, options.faces)) continue;
+    const BluntEdgeFinding found = examine_blunt_edge(model, id, options.width);
+    if (found.kind == Kind::closable) strips.push_back(found.edge);
+    if (found.kind == Kind::smooth) ++smooth;
+    if (is_remarkable(found, options))
+      changes.push_back(describe_left(model, found.edge, found.reason));
+  }
+  if (smooth > 0) {
+    changes.push_back(
+        {fmt::format("{} narrow faces go on smoothly in their neighbours: no trailing edges", smooth)});
+  }
+  if (strips.empty()) {
+    changes.push_back({"no trailing edge was closed"});
+    return model;
+  }
+  return close_what_closes(model, strips, changes);
+}
+
+}  // namespace aeroloom::cad
