@@ -68,7 +68,7 @@ Change describe_left(const Model& model, const BluntEdge& strip, const std::stri
 }
 
 /// Closes them all, or else as many as can be, one after the other.
-Model close_what_closes(const Model& model, const std::vector<BluntEdge>& strips, Changes& changes) {
+Model close_what_closes(const Model& model, std::vector<BluntEdge> strips, Changes& changes) {
   const auto attempt = [&](const std::vector<BluntEdge>& some, std::string& reason) -> std::optional<Model> {
     try {
       return close_blunt_edges(model, some);
@@ -84,6 +84,8 @@ Model close_what_closes(const Model& model, const std::vector<BluntEdge>& strips
   }
   std::vector<BluntEdge> some;
   Model best = model;
+  std::stable_sort(strips.begin(), strips.end(),
+                   [](const BluntEdge& a, const BluntEdge& b) { return a.length > b.length; });
   for (const BluntEdge& strip : strips) {
     some.push_back(strip);
     if (auto closed = attempt(some, reason)) {

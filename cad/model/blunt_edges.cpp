@@ -231,8 +231,9 @@ void judge(const Model& model, double width, BluntEdgeFinding& finding) {
   double& limit = finding.limit;
   limit = width;
   if (!(limit > 0)) {
-    limit = blunt_edge_share * std::min(breadth(model, strip.borders[0], first.length()),
-                                        breadth(model, strip.borders[1], second.length()));
+    const double reach = std::min(breadth(model, strip.borders[0], first.length()),
+                                  breadth(model, strip.borders[1], second.length()));
+    limit = std::min(blunt_edge_length_share * strip.length, blunt_edge_breadth_share * reach);
   }
   if (strip.widest > limit) {
     return refuse(Kind::wide, fmt::format("it is {:.3g} wide, more than {:.3g}; geometry.sharpen_width sets "
@@ -267,6 +268,7 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
   if (face.loops.size() > 1) return refuse("it is a closed ring");
   std::vector<EdgeUse> loop;
   for (const EdgeUse& use : face.loops.front()) {
+    if (model.is_seam(use.edge)) return refuse("it is a closed ring");
     if (!model.edge(use.edge).degenerate) loop.push_back(use);
   }
   const std::vector<Run> runs = cut_at_corners(model, loop);

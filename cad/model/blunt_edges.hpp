@@ -41,12 +41,12 @@ struct BluntEdgeFinding {
   double limit = 0;  ///< of the width that may be closed; where the shape is that of a blunt edge
 };
 
-/// Looks at one face. `width`: the widest that may be closed; 0: a share of how far the neighbours reach from
-/// the strip (blunt_edge_share).
+/// Looks at one face. `width`: the widest that may be closed; 0: the shares below.
 BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId face, double width);
 
-/// Without a width asked for, strips up to this part of both neighbours' breadth (area over border) are
-/// closed: trailing edges have at most one or two hundredths of the chord.
-inline constexpr double blunt_edge_share = 0.03;
+/// Without a width asked for, strips are closed up to this part of their length: trailing edges have at most
+/// one or two hundredths of the chord, and wing tips ten. And up to this part of both neighbours' breadth (area
+/// over border; skins may be cut along the span): bars are as thick as they are broad.
+inline constexpr double blunt_edge_length_share = 0.03, blunt_edge_breadth_share = 0.1;
 
 }  // namespace aeroloom::cad

@@ -2,6 +2,8 @@
 
 #include "cad/model/border_path.hpp"
 #include "cad/model/closed_edges_data.hpp"
+#include "cad/model/face_corners.hpp"
+#include "cad/model/face_width.hpp"
 #include "cad/model/middle_curves.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/model_topology.hpp"
@@ -10,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -24,8 +28,8 @@ constexpr double plane_share = 1e-9;
 /// Puts a model together in which strips are closed.
 class Closing {
 public:
-  Closing(const Model& base, const std::vector<BluntEdge>& strips)
-      : _base(base), _strips(strips), _closed{base, {}, {}, {}, {}, {}} {}
+  Closing(const Model& base, std::vector<BluntEdge> strips)
+      : _base(base), _strips(std::move(strips)), _closed{base, {}, {}, {}, {}, {}} {}
 
   Model run() {
     mark_edges();
@@ -36,6 +40,7 @@ public:
     join_vertices();
     _data = std::make_shared<Model::Data>(_base.data());
     keep_faces();
+    require_broad_corners();
     keep_edges();
     for (std::size_t i = 0; i < _strips.size(); ++i) add_middles(i);
     rewrite_loops();
@@ -57,20 +62,21 @@ private:
   void mark_edges() {
     _closed.fates.resize(_base.edge_count());
     for (const BluntEdge& strip : _strips) {
-      for (const auto& border : strip.borders) {
+      for (const auto& end : strip.ends) {
+        for (const EdgeId id : end) _closed.fates[id].kind = EdgeFate::Kind::collapsed;
+      }
+    }
+    // Where a strip ends on the side of another, their common edge becomes a vertex of that side.
+    for (BluntEdge& strip : _strips) {
+      for (auto& border : strip.borders) {
+        std::erase_if(border, [&](const BorderEdge& each) {
+          return _closed.fates[each.strip_use.edge].kind == EdgeFate::Kind::collapsed;
+        });
+        if (border.empty()) refuse(strip, "another strip ends on all of its side");
         for (const BorderEdge& each : border) {
           EdgeFate& fate = _closed.fates[each.strip_use.edge];
           if (fate.kind != EdgeFate::Kind::kept) refuse(strip, "a strip beside it is closed");
           fate.kind = EdgeFate::Kind::closed;
-        }
-      }
-    }
-    for (const BluntEdge& strip : _strips) {
-      for (const auto& end : strip.ends) {
-        for (const EdgeId id : end) {
-          if (_closed.fates[id].kind == EdgeFate::Kind::closed)
-            refuse(strip, "a strip that is closed ends on its side");
-          _closed.fates[id].kind = EdgeFate::Kind::collapsed;
         }
       }
     }
@@ -160,6 +166,23 @@ private:
     }
   }
 
+  /// A face that runs out to a point at a vertex, narrower than the vertex moves, cannot follow it.
+  void require_broad_corners() const {
+    constexpr double away = 10, narrow = 2;  // moves
+    const auto is_kept = [&](EdgeId id) { return _closed.fates[id].kind == EdgeFate::Kind::kept; };
+    for (const FaceId id : _closed.base_faces) {
+      for (const FaceCorner& corner : corners_of(_base, id)) {
+        const Vec3 at = _base.vertex(corner.vertex);
+        const double move = distance(_places[corner.vertex], at);
+        if (move == 0 || !is_kept(corner.arriving.edge) || !is_kept(corner.leaving.edge)) continue;
+        const auto opening = open_corner(_base, corner, away * move);
+        if (!opening || opening->width > narrow * move) continue;
+        throw CadError(fmt::format("face '{}' beside it runs out to a point at ({:.6g}, {:.6g}, {:.6g})",
+                                   _base.face(id).name, at.x, at.y, at.z));
+      }
+    }
+  }
+
   /// Edges that stay, with joined vertices for ends and drawn to them. Vertices have their joined numbers.
   void keep_edges() {
     const Model::Data& from = _base.data();
@@ -171,18 +194,18 @@ private:
         for (const EdgeUse& use : loop) used[use.edge] = 1;
       }
     }
+    const std::vector<double> reaches = reaches_of_vertices(used);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
       EdgeFate& fate = _closed.fates[id];
       if (fate.kind != EdgeFate::Kind::kept || !used[id]) continue;
       fate.edge = static_cast<EdgeId>(to.edges.size());
       Edge edge = from.edges[id];
       EdgeEvaluator evaluator = from.edge_evaluators[id];
-      const Vec3 by_first = _places[edge.first] - _base.vertex(edge.first);
-      const Vec3 by_last = _places[edge.last] - _base.vertex(edge.last);
-      const bool moved = by_first != Vec3{} || by_last != Vec3{};
+      const EndMove first = end_move(reaches, id, edge.first), last = end_move(reaches, id, edge.last);
+      const bool moved = first.by != Vec3{} || last.by != Vec3{};
       if (moved && !edge.degenerate) {
-        evaluator.curve = GeomAdaptor_Curve(move_ends(evaluator.curve, by_first, by_last),
-                                            edge.first_parameter, edge.last_parameter);
+        evaluator.curve = GeomAdaptor_Curve(move_ends(evaluator.curve, first, last), edge.first_parameter,
+                                            edge.last_parameter);
       }
       edge.first = _roots->root(edge.first), edge.last = _roots->root(edge.last);
       to.edges.push_back(std::move(edge));
@@ -191,6 +214,36 @@ private:
       _closed.base_edges.push_back(id);
       _closed.moved.push_back(moved ? 1 : 0);
     }
+  }
+
+  /// From one end of an edge to the other; a part of the length where both are one.
+  double reach_of_edge(EdgeId id) const {
+    const Edge& edge = _base.edge(id);
+    if (edge.first == edge.last) return 0.25 * rough_length(_base, id);
+    return distance(_base.vertex(edge.first), _base.vertex(edge.last));
+  }
+
+  /// How far around each vertex of the base model edges follow its move: as far as the shortest of them goes,
+  /// but for very short ones.
+  std::vector<double> reaches_of_vertices(const std::vector<char>& used) const {
+    constexpr double short_edge = 20;  // moves
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    std::vector<double> reaches(_base.vertex_count(), unlimited);
+    for (EdgeId id = 0; id < _base.edge_count(); ++id) {
+      const Edge& edge = _base.edge(id);
+      if (!used[id] || edge.degenerate || _closed.fates[id].kind != EdgeFate::Kind::kept) continue;
+      const double reach = reach_of_edge(id);
+      for (const VertexId v : {edge.first, edge.last}) {
+        if (reach > short_edge * distance(_places[v], _base.vertex(v)))
+          reaches[v] = std::min(reaches[v], reach);
+      }
+    }
+    return reaches;
+  }
+
+  EndMove end_move(const std::vector<double>& reaches, EdgeId id, VertexId v) const {
+    const Vec3 from = _base.vertex(v);
+    return {from, _places[v] - from, std::min(reaches[v], reach_of_edge(id))};
   }
 
   /// The edges that take a strip's place.
@@ -248,6 +301,7 @@ private:
         }
         loop = std::move(now);
       }
+      require_simple(id);
     }
     for (Edge& edge : _data->edges) edge.faces.clear();
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
@@ -257,6 +311,30 @@ private:
           if (users.empty() || users.back() != id) users.push_back(id);
         }
       }
+    }
+  }
+
+  /// Where a strip's end was all that kept two parts of a loop apart, the face would touch itself there.
+  void require_simple(FaceId id) {
+    std::map<VertexId, int> before, allowed, now;  // how often loops come by
+    const auto count = [](const Edge& edge, const EdgeUse& use, std::map<VertexId, int>& visits) {
+      ++visits[use.reversed ? edge.last : edge.first];
+    };
+    for (const auto& loop : _base.face(_closed.base_faces[id]).loops) {
+      for (const EdgeUse& use : loop) count(_base.edge(use.edge), use, before);
+    }
+    for (const auto& loop : _data->faces[id].loops) {
+      for (const EdgeUse& use : loop) count(_data->edges[use.edge], use, now);
+    }
+    for (const auto& [v, visits] : before) {
+      int& most = allowed[_roots->root(v)];
+      most = std::max(most, visits);
+    }
+    for (const auto& [v, visits] : now) {
+      if (visits <= std::max(1, allowed[v])) continue;
+      const Vec3 at = _places[v];
+      throw CadError(fmt::format("face '{}' would touch itself at ({:.6g}, {:.6g}, {:.6g})",
+                                 _data->faces[id].name, at.x, at.y, at.z));
     }
   }
 
@@ -339,7 +417,7 @@ private:
   }
 
   const Model& _base;
-  const std::vector<BluntEdge>& _strips;
+  std::vector<BluntEdge> _strips;
   ClosedEdges _closed;
   std::shared_ptr<Model::Data> _data;
   std::vector<std::array<BorderPath, 2>> _paths;

@@ -23,8 +23,8 @@ constexpr double kink_turn = 5 * std::numbers::pi / 180;
 /// strip's width.
 constexpr double middle_error = 1e-3;
 constexpr int fewest_points = 32, most_points = 1024;
-/// A moved end takes a place at this share of the edge along by its power: smooth, and without a curvature of
-/// its own to speak of.
+/// A moved end takes its surroundings along by this power of the share of its reach that is left: smooth, and
+/// without a curvature of its own to speak of.
 constexpr double fading = 4;
 
 /// A vertex or kink inside a border.
@@ -105,40 +105,6 @@ void shift_ends(std::vector<Vec3>& points, Vec3 first, Vec3 last) {
   }
   points.front() = first, points.back() = last;
 }
-
-/// How much of the moves of both ends a place gets.
-class Fading {
-public:
-  Fading(const GeomAdaptor_Curve& curve, Vec3 first_move, Vec3 last_move)
-      : _low(curve.FirstParameter()), _high(curve.LastParameter()), _first(first_move), _last(last_move) {
-    constexpr int intervals = 256;
-    _passed.push_back(0);
-    gp_Pnt before = curve.Value(_low);
-    for (int i = 1; i <= intervals; ++i) {
-      const gp_Pnt next = curve.Value(_low + (_high - _low) * i / intervals);
-      _passed.push_back(_passed.back() + before.Distance(next));
-      before = next;
-    }
-  }
-
-  Vec3 operator()(double parameter) const {
-    const double share = share_of_length(parameter);
-    return std::pow(1 - share, fading) * _first + std::pow(share, fading) * _last;
-  }
-
-private:
-  double share_of_length(double parameter) const {
-    const double place =
-        std::clamp((parameter - _low) / (_high - _low), 0.0, 1.0) * static_cast<double>(_passed.size() - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(place), _passed.size() - 2);
-    const double passed = _passed[i] + (place - static_cast<double>(i)) * (_passed[i + 1] - _passed[i]);
-    return _passed.back() > 0 ? passed / _passed.back() : 0;
-  }
-
-  double _low, _high;
-  Vec3 _first, _last;
-  std::vector<double> _passed;
-};
 
 Handle(Geom_BSplineCurve) straight(Vec3 from, Vec3 to, double low, double high) {
   TColgp_Array1OfPnt poles(1, 2);
@@ -247,15 +213,20 @@ MiddleCurve draw_middle(const std::array<BorderPath, 2>& borders, const Station&
   }
 }
 
-Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, Vec3 first_move, Vec3 last_move) {
+Vec3 EndMove::operator()(Vec3 point) const {
+  const double left = 1 - distance(point, from) / reach;
+  return left > 0 ? std::pow(left, fading) * by : Vec3{};
+}
+
+Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, const EndMove& first, const EndMove& last) {
   const double low = curve.FirstParameter(), high = curve.LastParameter();
   const auto value = [&](double t) {
     const gp_Pnt p = curve.Value(t);
     return Vec3{p.X(), p.Y(), p.Z()};
   };
   if (curve.GetType() == GeomAbs_Line)
-    return straight(value(low) + first_move, value(high) + last_move, low, high);
-  const Fading moved(curve, first_move, last_move);
+    return straight(value(low) + first.by, value(high) + last.by, low, high);
+  const auto moved = [&](double t) { return first(value(t)) + last(value(t)); };
   const Handle(Geom_BSplineCurve) spline = as_spline(curve);
   if (spline.IsNull()) {
     constexpr int intervals = 256;

@@ -34,7 +34,16 @@ struct MiddleCurve {
 MiddleCurve draw_middle(const std::array<BorderPath, 2>& borders, const Station& from, const Station& to,
                         Vec3 first, Vec3 last);
 
-/// The curve with its ends moved; its inside follows less and less, and keeps its parameters.
-Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, Vec3 first_move, Vec3 last_move);
+/// What happens to an end of a curve. Curves that are near each other at their common end stay so: each moves
+/// by what depends on the place alone.
+struct EndMove {
+  Vec3 from, by;
+  double reach = 1;  ///< what is further away stays
+
+  Vec3 operator()(Vec3 point) const;
+};
+
+/// The curve with its ends moved; it keeps its parameters, and a line stays one.
+Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, const EndMove& first, const EndMove& last);
 
 }  // namespace aeroloom::cad

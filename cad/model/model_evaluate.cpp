@@ -26,6 +26,14 @@ Vec3 to_vec(const gp_Vec& p) {
   return to_vec(p.XYZ());
 }
 
+/// Parameters for a point that was moved away from those of `guess`: where the surface goes on to it, its own,
+/// else the guess, which lies on the face's border.
+Vec2 follow_moved_point(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
+  const Vec2 settled = settle_on_face(face, point, guess, tolerance);
+  const double before = distance(face.surface.point(guess), point);
+  return distance(face.surface.point(settled), point) < 0.5 * before ? settled : guess;
+}
+
 }  // namespace
 
 std::int32_t Model::vertex_count() const {
@@ -115,8 +123,8 @@ Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
   if (const ClosedEdges* closed = _data->closed.get()) {
     const Vec2 guess = closed->base_uv(face, use, parameter);
     if (!closed->moved[use.edge] || _data->edges[use.edge].degenerate) return guess;
-    return settle_on_face(evaluator, edge_point(use.edge, parameter), guess,
-                          1e-10 * _data->bounds.diagonal());
+    return follow_moved_point(evaluator, edge_point(use.edge, parameter), guess,
+                              1e-10 * _data->bounds.diagonal());
   }
   const UseCurve& on_face = evaluator.use(use);
   const Edge& edge = _data->edges[use.edge];
