@@ -79,6 +79,9 @@ geometry:
     vertical_tail: {sweep: 40.5}
   domain: body
   narrow_faces: keep
+  trailing_edges: sharpen
+  sharpen_faces: ['wing*', fin_te]
+  sharpen_width: 0.02
 farfield: {shape: box, extent: 12.5}
 sizing: {minimum: 0.01, maximum: 1.5, surface_maximum: 0.5, curvature_angle: 15, growth: 1.2, target_tetrahedra: 2e6,
          feature_minimum: 0.002, chordal_deviation: 1e-4}
@@ -117,6 +120,25 @@ TEST_F(CaseTest, ReadsEveryKeyOfTheGeometry) {
   EXPECT_EQ(input.domain.far_field->shape, cad::FarFieldShape::box);
   EXPECT_EQ(input.domain.far_field->extent, 12.5);
   EXPECT_EQ(input.narrow_faces, NarrowFaces::keep);
+  const cad::TrailingEdgeOptions& trailing = input.domain.trailing_edges;
+  EXPECT_EQ(trailing.treatment, cad::TrailingEdges::sharpen);
+  EXPECT_EQ(trailing.faces, (std::vector<std::string>{"wing*", "fin_te"}));
+  EXPECT_EQ(trailing.width, 0.02);
+  EXPECT_EQ(resolved_yaml(read(resolved_yaml(input))), resolved_yaml(input));
+}
+
+TEST_F(CaseTest, SharpeningIsAskedForAsAWhole) {
+  const auto faces = [&](const std::string& value) {
+    return read(transport, {"geometry.trailing_edges=sharpen", "geometry.sharpen_faces=" + value})
+        .domain.trailing_edges.faces;
+  };
+  EXPECT_EQ(faces("[a*, b]"), (std::vector<std::string>{"a*", "b"}));
+  EXPECT_EQ(faces("wing*"), std::vector<std::string>{"wing*"});
+  EXPECT_EQ(error_of(transport, {"geometry.trailing_edges=sharpen", "geometry.sharpen_faces=[]"}),
+            "--set geometry.sharpen_faces=[]: 'geometry.sharpen_faces': expected a list of texts, got a list");
+  EXPECT_EQ(error_of(transport, {"geometry.sharpen_width=0.1"}),
+            "--set geometry.sharpen_width=0.1: 'geometry.sharpen_width' needs 'geometry.trailing_edges: sharpen'");
+  EXPECT_NE(error_of(transport, {"geometry.trailing_edges=close"}).find("keep, sharpen"), std::string::npos);
 }
 
 TEST_F(CaseTest, ReadsEveryKeyOfTheStages) {
