@@ -183,7 +183,8 @@ void check_geometry(const KeyTable& keys, const Draft& draft, const std::string&
                                : !trailing.faces.empty() ? "sharpen_faces"
                                                          : nullptr;
   if (needless != nullptr && trailing.treatment == cad::TrailingEdges::keep) {
-    throw CaseError(at(needless) + fmt::format("'geometry.{}' needs 'geometry.trailing_edges: sharpen'", needless));
+    throw CaseError(at(needless) +
+                    fmt::format("'geometry.{}' needs 'geometry.trailing_edges: sharpen'", needless));
   }
   if (draft.result.domain.kind != cad::DomainKind::fluid) return;
   if (built_in)

@@ -40,8 +40,10 @@ enum class TrailingEdges { keep, sharpen };
 
 struct TrailingEdgeOptions {
   TrailingEdges treatment = TrailingEdges::keep;
-  std::vector<std::string> faces = {};  ///< patterns of faces' or patches' names, with * and ?; none: any face
-  double width = 0;  ///< of strips that are closed, at most; 0: 3 % of their length, 10 % of the neighbours' breadth
+  std::vector<std::string> faces =
+      {};  ///< patterns of faces' or patches' names, with * and ?; none: any face
+  double width =
+      0;  ///< of strips that are closed, at most; 0: 3 % of their length, 10 % of the neighbours' breadth
 };
 
 struct DomainOptions {

@@ -55,10 +55,11 @@ std::string borders_of(const Model& model, const BluntEdge& strip) {
 }
 
 Change describe_closed(const Model& model, const BluntEdge& strip) {
-  return {fmt::format("trailing edge '{}', {:.4g} long and at most {:.3g} wide, was closed to a curve half-way "
-                      "between {}",
-                      model.face(strip.face).name, strip.length, strip.widest, borders_of(model, strip)),
-          strip.place, 0.5 * strip.widest};
+  return {
+      fmt::format("trailing edge '{}', {:.4g} long and at most {:.3g} wide, was closed to a curve half-way "
+                  "between {}",
+                  model.face(strip.face).name, strip.length, strip.widest, borders_of(model, strip)),
+      strip.place, 0.5 * strip.widest};
 }
 
 Change describe_left(const Model& model, const BluntEdge& strip, const std::string& reason) {
@@ -129,8 +130,7 @@ Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Ch
     const BluntEdgeFinding found = examine_blunt_edge(model, id, options.width);
     if (found.kind == Kind::closable) strips.push_back(found.edge);
     if (found.kind == Kind::smooth) ++smooth;
-    if (is_remarkable(found, options))
-      changes.push_back(describe_left(model, found.edge, found.reason));
+    if (is_remarkable(found, options)) changes.push_back(describe_left(model, found.edge, found.reason));
   }
   if (smooth > 0) {
     changes.push_back(

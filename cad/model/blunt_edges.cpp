@@ -89,8 +89,8 @@ Sides tell_sides(std::vector<Run> runs) {
     return {{runs[0], runs[2]}, {runs[1], runs[3]}};
   }
   if (runs.size() == 3) {
-    const auto shortest = std::min_element(
-        runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.length < b.length; });
+    const auto shortest = std::min_element(runs.begin(), runs.end(),
+                                           [](const Run& a, const Run& b) { return a.length < b.length; });
     rotate(static_cast<std::size_t>(shortest - runs.begin()));
     return {{runs[2], runs[1]}, {runs[0], {}}};
   }
@@ -223,7 +223,8 @@ void judge(const Model& model, double width, BluntEdgeFinding& finding) {
       return refuse(Kind::smooth, fmt::format("it goes on smoothly in '{}'", model.face(into).name));
     }
   }
-  if (!convex) return refuse(Kind::refused, "its neighbours do not enclose the body behind it: a step or a slot");
+  if (!convex)
+    return refuse(Kind::refused, "its neighbours do not enclose the body behind it: a step or a slot");
   if (widest_opening > 90 * degree) {
     return refuse(Kind::refused, fmt::format("its neighbours meet at {:.0f} degrees, which is no sharp edge",
                                              widest_opening / degree));

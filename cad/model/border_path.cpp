@@ -33,9 +33,8 @@ BorderPath::BorderPath(const Model& model, const std::vector<BorderEdge>& chain)
 BorderPath::Place BorderPath::at(double passed, std::size_t edge) const {
   const auto begin = _samples.begin() + static_cast<std::ptrdiff_t>(edge * (intervals + 1));
   const auto end = begin + intervals + 1;
-  const auto above = std::upper_bound(begin + 1, end - 1, passed, [](double value, const Sample& sample) {
-    return value < sample.passed;
-  });
+  const auto above = std::upper_bound(
+      begin + 1, end - 1, passed, [](double value, const Sample& sample) { return value < sample.passed; });
   const Sample &low = *(above - 1), &high = *above;
   const double part = high.passed - low.passed;
   const double share = part > 0 ? std::clamp((passed - low.passed) / part, 0.0, 1.0) : 0;

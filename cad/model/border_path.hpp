@@ -38,7 +38,7 @@ private:
   };
   const Model* _model;
   const std::vector<BorderEdge>* _chain;  // outlives the path
-  std::vector<Sample> _samples;      // edge by edge, ends of edges twice
+  std::vector<Sample> _samples;           // edge by edge, ends of edges twice
   std::vector<double> _joints;
   std::vector<VertexId> _vertices;
 };

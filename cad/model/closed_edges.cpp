@@ -8,6 +8,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/model/model_topology.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/plane_snap.hpp"
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
@@ -21,9 +22,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-/// Of the diagonal: a plane holds what is nearer.
-constexpr double plane_share = 1e-9;
 
 /// Puts a model together in which strips are closed.
 class Closing {
@@ -45,7 +43,7 @@ public:
     for (std::size_t i = 0; i < _strips.size(); ++i) add_middles(i);
     rewrite_loops();
     number_vertices();
-    leave_planes();
+    mark_planes_again(*_data, _closed.moved);
     std::vector<FaceId> faces;
     for (const BluntEdge& strip : _strips) faces.push_back(strip.face);
     _data->bytes = with_closed_edges(_base.data().bytes, faces);
@@ -55,8 +53,7 @@ public:
 
 private:
   [[noreturn]] void refuse(const BluntEdge& strip, const char* why) const {
-    throw CadError(
-        fmt::format("the strip '{}' cannot be closed: {}", _base.face(strip.face).name, why));
+    throw CadError(fmt::format("the strip '{}' cannot be closed: {}", _base.face(strip.face).name, why));
   }
 
   void mark_edges() {
@@ -138,8 +135,10 @@ private:
     _places.resize(count);
     for (VertexId v = 0; v < count; ++v) {
       const VertexId r = _roots->root(v);
-      if (terms[r] > 0) _places[v] = (1.0 / terms[r]) * sums[r];
-      else if (v < _base.vertex_count()) _places[v] = _base.vertex(v);
+      if (terms[r] > 0)
+        _places[v] = (1.0 / terms[r]) * sums[r];
+      else if (v < _base.vertex_count())
+        _places[v] = _base.vertex(v);
     }
   }
 
@@ -252,8 +251,8 @@ private:
     for (std::size_t k = 1; k < _stations[i].size(); ++k) {
       Edge edge;
       edge.first = root(i, k - 1), edge.last = root(i, k);
-      MiddleCurve middle = draw_middle(_paths[i], _stations[i][k - 1], _stations[i][k],
-                                       _places[edge.first], _places[edge.last]);
+      MiddleCurve middle = draw_middle(_paths[i], _stations[i][k - 1], _stations[i][k], _places[edge.first],
+                                       _places[edge.last]);
       edge.first_parameter = middle.parameters.front(), edge.last_parameter = middle.parameters.back();
       EdgeEvaluator evaluator;
       evaluator.curve.Load(middle.curve, edge.first_parameter, edge.last_parameter);
@@ -364,67 +363,15 @@ private:
     for (Edge& edge : _data->edges) edge.first = number[edge.first], edge.last = number[edge.last];
   }
 
-  /// A planar face whose edges left its plane is planar no more. What moved within an exact plane is exact.
-  void leave_planes() {
-    const double tolerance = plane_share * _data->bounds.diagonal();
-    for (std::size_t f = 0; f < _data->faces.size(); ++f) {
-      FaceEvaluator& face = _data->face_evaluators[f];
-      if (!face.planar || distance_from_plane(f) <= tolerance) continue;
-      face.planar = false;
-      _data->face_snaps[f] = {};
-    }
-    for (std::size_t e = 0; e < _data->edges.size(); ++e) {
-      if (_closed.moved[e]) _data->edge_snaps[e] = {};
-    }
-    for (std::size_t f = 0; f < _data->faces.size(); ++f) {
-      const Snap& snap = _data->face_snaps[f];
-      for (const auto& loop : _data->faces[f].loops) {
-        for (const EdgeUse& use : loop) fix_on_plane(snap, use.edge);
-      }
-    }
-  }
-
-  void fix_on_plane(const Snap& snap, EdgeId id) {
-    if (!_closed.moved[id]) return;
-    const Edge& edge = _data->edges[id];
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!snap.fixed[axis]) continue;
-      _data->edge_snaps[id].fix(axis, snap.value[axis]);
-      _data->vertex_snaps[edge.first].fix(axis, snap.value[axis]);
-      _data->vertex_snaps[edge.last].fix(axis, snap.value[axis]);
-    }
-  }
-
-  /// Of the edges that moved.
-  double distance_from_plane(std::size_t f) const {
-    constexpr int samples = 16;
-    const FaceEvaluator& face = _data->face_evaluators[f];
-    const SurfaceJet jet = face.surface.jet(0.5 * (face.uv_low + face.uv_high), 1);
-    const Vec3 normal = normalized(cross(jet.du, jet.dv));
-    double largest = 0;
-    for (const auto& loop : _data->faces[f].loops) {
-      for (const EdgeUse& use : loop) {
-        const Edge& edge = _data->edges[use.edge];
-        if (!_closed.moved[use.edge] || edge.degenerate) continue;
-        for (int i = 0; i <= samples; ++i) {
-          const gp_Pnt p = _data->edge_evaluators[use.edge].curve.Value(
-              edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / samples);
-          largest = std::max(largest, std::abs(dot(Vec3{p.X(), p.Y(), p.Z()} - jet.point, normal)));
-        }
-      }
-    }
-    return largest;
-  }
-
   const Model& _base;
   std::vector<BluntEdge> _strips;
   ClosedEdges _closed;
   std::shared_ptr<Model::Data> _data;
   std::vector<std::array<BorderPath, 2>> _paths;
   std::vector<std::vector<Station>> _stations;
-  std::vector<std::vector<VertexId>> _station_vertices;     // their numbers before they are joined
-  std::optional<geometry::DisjointSets<VertexId>> _roots;   // of vertices that become one
-  std::vector<Vec3> _places;                                // of joined vertices, by any of their numbers
+  std::vector<std::vector<VertexId>> _station_vertices;    // their numbers before they are joined
+  std::optional<geometry::DisjointSets<VertexId>> _roots;  // of vertices that become one
+  std::vector<Vec3> _places;                               // of joined vertices, by any of their numbers
 };
 
 }  // namespace

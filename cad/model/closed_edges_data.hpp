@@ -10,8 +10,8 @@ namespace aeroloom::cad {
 
 /// A closed edge as one of its two faces has it: part of an edge of the base model.
 struct BorderPart {
-  FaceId face = no_entity;  ///< of the base model
-  EdgeUse use;              ///< the face's passage along the base model's edge
+  FaceId face = no_entity;        ///< of the base model
+  EdgeUse use;                    ///< the face's passage along the base model's edge
   std::vector<double> own, base;  ///< parameters of the closed edge, ascending, and of the base model's
 
   double to_base(double parameter) const;
@@ -25,15 +25,15 @@ struct BorderPart {
 struct EdgeFate {
   enum class Kind : std::uint8_t { kept, closed, collapsed };
   Kind kind = Kind::kept;
-  EdgeId edge = no_entity;     ///< kept: its number now
-  std::vector<EdgeId> parts;   ///< closed: in the order of the base model's parameter
+  EdgeId edge = no_entity;    ///< kept: its number now
+  std::vector<EdgeId> parts;  ///< closed: in the order of the base model's parameter
 };
 
 struct ClosedEdges {
   Model base;
-  std::vector<FaceId> base_faces;  ///< per face
-  std::vector<EdgeId> base_edges;  ///< per edge; no_entity for closed ones, which come last
-  std::vector<char> moved;         ///< per edge: the curve is not that of the base model
+  std::vector<FaceId> base_faces;                 ///< per face
+  std::vector<EdgeId> base_edges;                 ///< per edge; no_entity for closed ones, which come last
+  std::vector<char> moved;                        ///< per edge: the curve is not that of the base model
   std::vector<std::array<BorderPart, 2>> closed;  ///< per closed edge
   std::vector<EdgeFate> fates;                    ///< per edge of the base model
 

@@ -48,8 +48,7 @@ std::vector<Joint> inner_joints(const Model& model, const std::vector<BorderEdge
       joints.push_back({path.passed_at(i, breaks[b]), no_entity});
     }
   }
-  std::sort(joints.begin(), joints.end(),
-            [](const Joint& a, const Joint& b) { return a.passed < b.passed; });
+  std::sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) { return a.passed < b.passed; });
   return joints;
 }
 
@@ -124,8 +123,8 @@ Handle(Geom_BSplineCurve) as_spline(const GeomAdaptor_Curve& curve) {
   const Handle(Geom_TrimmedCurve) part = new Geom_TrimmedCurve(curve.Curve(), low, high);
   const Handle(Geom_BSplineCurve) spline = GeomConvert::CurveToBSplineCurve(part);
   const double error = 1e-12 * (high - low);
-  const bool same = std::abs(spline->FirstParameter() - low) <= error &&
-                    std::abs(spline->LastParameter() - high) <= error;
+  const bool same =
+      std::abs(spline->FirstParameter() - low) <= error && std::abs(spline->LastParameter() - high) <= error;
   return same ? spline : Handle(Geom_BSplineCurve)();
 }
 
@@ -166,9 +165,8 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
   std::vector<Station> stations = facing;
   for (int side = 0; side < 2; ++side) {
     for (const Joint& joint : joints[side]) {
-      const auto above = std::find_if(facing.begin(), facing.end(), [&](const Station& s) {
-        return s.passed[side] >= joint.passed;
-      });
+      const auto above = std::find_if(facing.begin(), facing.end(),
+                                      [&](const Station& s) { return s.passed[side] >= joint.passed; });
       if (above->passed[side] == joint.passed) continue;
       const Station &low = *(above - 1), &high = *above;
       const double share = (joint.passed - low.passed[side]) / (high.passed[side] - low.passed[side]);

@@ -13,7 +13,7 @@ namespace aeroloom::cad {
 
 /// Where the edge that takes a strip's place begins, ends or is divided: on both borders.
 struct Station {
-  std::array<double, 2> passed;                                  ///< length along each border
+  std::array<double, 2> passed;                            ///< length along each border
   std::array<VertexId, 2> vertices{no_entity, no_entity};  ///< of the borders, where they have one there
 };
 

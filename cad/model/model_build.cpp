@@ -175,7 +175,8 @@ Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
   });
 }
 
-std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips) {
+std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes,
+                                         const std::vector<FaceId>& strips) {
   ByteWriter writer;
   const std::span<const std::byte> shape = bytes.first(bytes.size() - sizeof(std::uint64_t));
   writer.bytes.assign(shape.begin(), shape.end());

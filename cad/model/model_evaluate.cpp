@@ -26,8 +26,8 @@ Vec3 to_vec(const gp_Vec& p) {
   return to_vec(p.XYZ());
 }
 
-/// Parameters for a point that was moved away from those of `guess`: where the surface goes on to it, its own,
-/// else the guess, which lies on the face's border.
+/// Parameters for a point that was moved away from those of `guess`: where the surface goes on to it, its
+/// own, else the guess, which lies on the face's border.
 Vec2 follow_moved_point(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
   const Vec2 settled = settle_on_face(face, point, guess, tolerance);
   const double before = distance(face.surface.point(guess), point);

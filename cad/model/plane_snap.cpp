@@ -60,7 +60,59 @@ double distance_from(const Model::Data& data, EdgeId id, const Plane& plane) {
   return largest;
 }
 
+/// Largest distance of the edges that moved from the plane of a face.
+double distance_of_moved(const Model::Data& data, FaceId id, const std::vector<char>& moved) {
+  constexpr int samples = 16;
+  const FaceEvaluator& face = data.face_evaluators[id];
+  const SurfaceJet jet = face.surface.jet(0.5 * (face.uv_low + face.uv_high), 1);
+  const Vec3 normal = normalized(cross(jet.du, jet.dv));
+  double largest = 0;
+  for (const auto& loop : data.faces[id].loops) {
+    for (const EdgeUse& use : loop) {
+      const Edge& edge = data.edges[use.edge];
+      if (!moved[use.edge] || edge.degenerate) continue;
+      for (int i = 0; i <= samples; ++i) {
+        const gp_Pnt p = data.edge_evaluators[use.edge].curve.Value(
+            edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / samples);
+        largest = std::max(largest, std::abs(dot(Vec3{p.X(), p.Y(), p.Z()} - jet.point, normal)));
+      }
+    }
+  }
+  return largest;
+}
+
+/// Gives the moved edges of an exact plane its coordinate.
+void fix_moved(Model::Data& data, FaceId id, const std::vector<char>& moved) {
+  const Snap& snap = data.face_snaps[id];
+  for (const auto& loop : data.faces[id].loops) {
+    for (const EdgeUse& use : loop) {
+      if (!moved[use.edge]) continue;
+      const Edge& edge = data.edges[use.edge];
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!snap.fixed[axis]) continue;
+        data.edge_snaps[use.edge].fix(axis, snap.value[axis]);
+        data.vertex_snaps[edge.first].fix(axis, snap.value[axis]);
+        data.vertex_snaps[edge.last].fix(axis, snap.value[axis]);
+      }
+    }
+  }
+}
+
 }  // namespace
+
+void mark_planes_again(Model::Data& data, const std::vector<char>& moved) {
+  const auto faces = static_cast<FaceId>(data.faces.size());
+  for (FaceId id = 0; id < faces; ++id) {
+    if (!data.face_evaluators[id].planar) continue;
+    if (distance_of_moved(data, id, moved) <= merge_share * data.bounds.diagonal()) continue;
+    data.face_evaluators[id].planar = false;
+    data.face_snaps[id] = {};
+  }
+  for (std::size_t e = 0; e < data.edges.size(); ++e) {
+    if (moved[e]) data.edge_snaps[e] = {};
+  }
+  for (FaceId id = 0; id < faces; ++id) fix_moved(data, id, moved);
+}
 
 void mark_exact_planes(Model::Data& data) {
   const double diagonal = data.bounds.diagonal();

@@ -54,7 +54,8 @@ void expect_sound(const Model& model, double largest_move) {
           const Vec3 on_face = model.face_point(f, model.edge_uv(f, use, t));
           EXPECT_LE(distance(on_face, model.edge_point(use.edge, t)), largest_move + 1e-9);
         }
-        EXPECT_LT(distance(model.edge_point(use.edge, edge.first_parameter), model.vertex(edge.first)), 1e-12);
+        EXPECT_LT(distance(model.edge_point(use.edge, edge.first_parameter), model.vertex(edge.first)),
+                  1e-12);
         EXPECT_LT(distance(model.edge_point(use.edge, edge.last_parameter), model.vertex(edge.last)), 1e-12);
       }
     }
@@ -217,16 +218,9 @@ TEST(ClosedEdges, StepsSlotsAndRingsStay) {
   const double d = 0.02;
   expect_left(shapes::prism({{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 0.5 + d}, {0, 0.5 + d}}, 1),
               "a step or a slot");
-  expect_left(shapes::prism({{0, 0},
-                             {1, 0},
-                             {1, 1},
-                             {0.5 + d, 1},
-                             {0.5 + d, 0.7},
-                             {0.5, 0.7},
-                             {0.5, 1},
-                             {0, 1}},
-                            1),
-              "a step or a slot");
+  expect_left(
+      shapes::prism({{0, 0}, {1, 0}, {1, 1}, {0.5 + d, 1}, {0.5 + d, 0.7}, {0.5, 0.7}, {0.5, 1}, {0, 1}}, 1),
+      "a step or a slot");
   expect_left(BRepPrimAPI_MakeCylinder(1, d).Shape(), "a closed ring");
   // The bevelled edge of a block.
   expect_left(shapes::prism({{0, 0}, {1.5, 0}, {1.3, 1 - d}, {1.3 - d, 1}, {0, 1}}, 1), "no sharp edge");
@@ -249,8 +243,9 @@ TEST(ClosedEdges, FacesCanStillBeJoined) {
     const Facets facets = joined.facets(f, 0.1, 0.3);
     for (const auto& line : facets.boundary) {
       for (std::size_t i = 0; i < line.nodes.size(); ++i) {
-        EXPECT_LT(distance(facets.points[line.nodes[i]], joined.edge_point(line.use.edge, line.parameters[i])),
-                  1e-9);
+        EXPECT_LT(
+            distance(facets.points[line.nodes[i]], joined.edge_point(line.use.edge, line.parameters[i])),
+            1e-9);
       }
     }
   }

@@ -134,10 +134,12 @@ TEST_F(CaseTest, SharpeningIsAskedForAsAWhole) {
   };
   EXPECT_EQ(faces("[a*, b]"), (std::vector<std::string>{"a*", "b"}));
   EXPECT_EQ(faces("wing*"), std::vector<std::string>{"wing*"});
-  EXPECT_EQ(error_of(transport, {"geometry.trailing_edges=sharpen", "geometry.sharpen_faces=[]"}),
-            "--set geometry.sharpen_faces=[]: 'geometry.sharpen_faces': expected a list of texts, got a list");
-  EXPECT_EQ(error_of(transport, {"geometry.sharpen_width=0.1"}),
-            "--set geometry.sharpen_width=0.1: 'geometry.sharpen_width' needs 'geometry.trailing_edges: sharpen'");
+  EXPECT_EQ(
+      error_of(transport, {"geometry.trailing_edges=sharpen", "geometry.sharpen_faces=[]"}),
+      "--set geometry.sharpen_faces=[]: 'geometry.sharpen_faces': expected a list of texts, got a list");
+  EXPECT_EQ(
+      error_of(transport, {"geometry.sharpen_width=0.1"}),
+      "--set geometry.sharpen_width=0.1: 'geometry.sharpen_width' needs 'geometry.trailing_edges: sharpen'");
   EXPECT_NE(error_of(transport, {"geometry.trailing_edges=close"}).find("keep, sharpen"), std::string::npos);
 }
 
