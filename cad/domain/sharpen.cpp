@@ -18,6 +18,8 @@ using Kind = BluntEdgeFinding::Kind;
 /// Strips wider than this many times the limit are not what the user means: not a word about them.
 constexpr double remarkable_excess = 3;
 
+/// Strips that are left, by name at most; the others are counted.
+constexpr std::size_t most_named = 20;
 /// Faces that are no strips between two others are spoken of where they are this many times longer than wide.
 constexpr double remarkable_slenderness = 50;
 
@@ -124,14 +126,19 @@ Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Ch
   tell_step("sharpening trailing edges");
   require_matches(model, options.faces);
   std::vector<BluntEdge> strips;
+  Changes left;
   int smooth = 0;
   for (FaceId id = 0; id < model.face_count(); ++id) {
     if (!is_asked_for(model, id, options.faces)) continue;
     const BluntEdgeFinding found = examine_blunt_edge(model, id, options.width);
     if (found.kind == Kind::closable) strips.push_back(found.edge);
     if (found.kind == Kind::smooth) ++smooth;
-    if (is_remarkable(found, options)) changes.push_back(describe_left(model, found.edge, found.reason));
+    if (is_remarkable(found, options)) left.push_back(describe_left(model, found.edge, found.reason));
   }
+  const std::size_t named = std::min(left.size(), most_named);
+  changes.insert(changes.end(), left.begin(), left.begin() + static_cast<std::ptrdiff_t>(named));
+  if (named < left.size())
+    changes.push_back({fmt::format("{} more strips were not closed", left.size() - named)});
   if (smooth > 0) {
     changes.push_back(
         {fmt::format("{} narrow faces go on smoothly in their neighbours: no trailing edges", smooth)});
