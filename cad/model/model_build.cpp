@@ -207,6 +207,7 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
     data->bytes = with_closed_edges(bytes.first(bytes.size() - strips.size() * sizeof(FaceId)), {});
     const Model open(std::move(data));
     std::vector<BluntEdge> edges;
+    edges.reserve(strips.size());
     for (const FaceId strip : strips) edges.push_back(examine_blunt_edge(open, strip, 0).edge);
     return close_blunt_edges(open, edges);
   });

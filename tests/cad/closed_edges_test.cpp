@@ -259,5 +259,36 @@ TEST(ClosedEdges, StripAsVoidOfASolidStays) {
   EXPECT_TRUE(changes_about(domain.report.changes, closed_words).empty());
 }
 
+Domain real_domain(const std::string& name) {
+  DomainOptions options;
+  options.file = real::file(name);
+  options.trailing_edges.treatment = TrailingEdges::sharpen;
+  return prepare_domain(options);
+}
+
+TEST(ClosedEdges, TrailingEdgeEndsOnTheSideOfAnother) {
+  if (!real::has("aircraft/gmsh_dlr_f6.brep")) GTEST_SKIP();
+  const Domain domain = real_domain("aircraft/gmsh_dlr_f6.brep");
+  const Changes closed = changes_about(domain.report.changes, closed_words);
+  EXPECT_EQ(closed.size(), 4u);  // two of the wing, nacelle and pylon, which ends below the wing's
+  for (const Change& change : closed) EXPECT_LT(change.how_much, 0.51);
+  for (FaceId f = 0; f < domain.model.face_count(); ++f) {
+    for (const auto& loop : domain.model.face(f).loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const EdgeUse &use = loop[i], &next = loop[(i + 1) % loop.size()];
+        const Edge &edge = domain.model.edge(use.edge), &behind = domain.model.edge(next.edge);
+        EXPECT_EQ(use.reversed ? edge.first : edge.last, next.reversed ? behind.last : behind.first);
+      }
+    }
+  }
+}
+
+TEST(ClosedEdges, PointedFilletsKeepTheirTrailingEdge) {
+  if (!real::has("aircraft/gmsh_wing_fuselage.step")) GTEST_SKIP();
+  const Changes changes = real_domain("aircraft/gmsh_wing_fuselage.step").report.changes;
+  EXPECT_EQ(changes_about(changes, "runs out to a point").size(), 2u);
+  EXPECT_TRUE(changes_about(changes, closed_words).empty());
+}
+
 }  // namespace
 }  // namespace aeroloom::cad
