@@ -54,8 +54,22 @@ def check_unreadable(program):
     assert code == 7 and "nowhere.step" in text and record is None, text
 
 
+def check_sharpened(program):
+    case = "geometry: {{builtin: transport, trailing_edges: sharpen, sharpen_faces: [{}]}}\nsizing: {{target_tetrahedra: 50000}}\n"
+    code, text, record = check(program, case.format("'wing*'"))
+    assert code == 0, text
+    closed = [change for change in record["domain"]["changes"] if "was closed to a curve" in change["what"]]
+    assert len(closed) == 2 and all(0.03 < change["how_much"] < 0.06 for change in closed), text
+    assert all(change["what"] in text for change in closed), text
+    patches = {patch["name"] for patch in record["domain"]["patches"]}
+    assert "wing_left_trailing_edge" not in patches and "vertical_tail_trailing_edge" in patches, patches
+    code, text, record = check(program, case.format("wings"))
+    assert code == 3 and "no face and no patch of this model is called 'wings'" in text, text
+
+
 def main():
     check_sound(sys.argv[1])
+    check_sharpened(sys.argv[1])
     check_open(sys.argv[1])
     check_unreadable(sys.argv[1])
 
