@@ -137,6 +137,26 @@ FinishedSurface build_surface(const Communicator& communicator, const cad::Model
   return build_surface(communicator, sized.model, sized.field, input, record);
 }
 
+/// As above; what fails near trailing edges that were closed may not fail where they stay.
+FinishedSurface build_surface_or_advise(const Communicator& communicator, const cad::Model& model,
+                                        const Case& input, SizedDomain& sized, RunRecord& record) {
+  const bool sharpened = input.domain.trailing_edges.treatment == cad::TrailingEdges::sharpen;
+  const auto advised = [&](const std::string& text) {
+    return text +
+           "; or leave the trailing edges there as they are (geometry.sharpen_faces, "
+           "geometry.sharpen_width)";
+  };
+  try {
+    return build_surface(communicator, model, input, sized, record);
+  } catch (const parallel::CollectiveError& error) {
+    if (!sharpened) throw;
+    throw parallel::CollectiveError(error.kind(), advised(error.what()));
+  } catch (const surface::SurfaceError& error) {
+    if (!sharpened) throw;
+    throw surface::SurfaceError(advised(error.what()));
+  }
+}
+
 volume::VolumeInput volume_input(const FinishedSurface& surface, const Case& input) {
   return {surface.mesh, surface.numbering, surface.field, input.volume};
 }
@@ -219,7 +239,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     return build_sizes(communicator, loaded, input, input.narrow_faces, record);
   });
   FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
-    return build_surface(communicator, loaded, input, sized, record);
+    return build_surface_or_advise(communicator, loaded, input, sized, record);
   });
   volume::Decomposition decomposition = run_stage(
       record, "decompose", ExitCode::volume, [&] { return decompose(communicator, surface, input, record); });
