@@ -1,5 +1,6 @@
 #include "improve/pinned.hpp"
 
+#include "improve/strip_edges.hpp"
 #include "improve/tet_quality.hpp"
 #include "mesh/quality.hpp"
 
@@ -25,14 +26,7 @@ double largest_allowed(double target) {
   return 180 - 1.5 * target;
 }
 
-/// An edge between vertices on curves, as one region sees it.
-struct EdgeName {
-  GlobalIndex low, high;
-  std::int64_t region;
-  auto operator<=>(const EdgeName&) const = default;
-};
-
-/// What one piece knows of such an edge.
+/// What one piece knows of an edge.
 struct EdgeShare {
   std::int64_t edge, piece;
   double angle;                       ///< degrees that its tetrahedra enclose
@@ -73,11 +67,13 @@ public:
         _measure(target) {
     _report.smallest_angle = target;
     _report.largest_angle = largest_allowed(target);
+    _report.pinned = _report.at_features = _report.rest = {0, target, largest_allowed(target)};
   }
 
   PinnedReport run() {
     collect_edges();
     measure_wedges();
+    _strips = find_strip_edges(_communicator, _mesh, _numbering, _edges);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
     return merge();
   }
@@ -110,6 +106,10 @@ private:
   bool pinned_by_curves(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
   std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
+  bool is_at_feature(std::size_t piece, const BadTet& bad);
+  static void count(MissedTarget& kind, const mesh::DihedralRange& angles);
+  void merge_features();
+  void total(MissedTarget& kind) const;
   PinnedReport merge();
 
   const parallel::Communicator& _communicator;
@@ -121,7 +121,9 @@ private:
   std::vector<std::vector<BadTet>> _bad;  // per piece
   std::vector<EdgeName> _edges;           // of bad tetrahedra on all ranks, ascending
   std::vector<Wedge> _wedges;             // per edge
+  std::vector<StripEdge> _strips;         // those of them across strips
   std::vector<PinningEntity> _entities;
+  std::vector<UnresolvedFeature> _features;
   PinnedReport _report;
 };
 
@@ -264,14 +266,61 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
   return false;
 }
 
+/// The narrowest strip that the tetrahedron reaches across counts.
+bool PinnedSearch::is_at_feature(std::size_t i, const BadTet& bad) {
+  const LocalIndex* c = _mesh.pieces[i].cell(bad.tet);
+  const StripEdge* narrowest = nullptr;
+  for (const auto& [a, b] : mesh::tetrahedron_edges) {
+    const std::int64_t edge = find(name(i, c[a], c[b]));
+    const StripEdge* strip = edge < 0 ? nullptr : find_strip_edge(_strips, edge);
+    if (!strip) continue;
+    if (!narrowest || std::tie(strip->width, strip->face) < std::tie(narrowest->width, narrowest->face))
+      narrowest = strip;
+  }
+  if (!narrowest) return false;
+  _features.push_back({narrowest->face, 0, narrowest->width, bad.angles.smallest, narrowest->at, 1});
+  return true;
+}
+
+void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) {
+  ++kind.tetrahedra;
+  kind.smallest_angle = std::min(kind.smallest_angle, angles.smallest);
+  kind.largest_angle = std::max(kind.largest_angle, angles.largest);
+}
+
 void PinnedSearch::judge(std::size_t i) {
   const std::vector<std::array<LocalIndex, 4>> corners = sharp_corners(_mesh.pieces[i]);
   for (const BadTet& bad : _bad[i]) {
-    if (pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners)) continue;
-    ++_report.others;
-    _report.smallest_angle = std::min(_report.smallest_angle, bad.angles.smallest);
-    _report.largest_angle = std::max(_report.largest_angle, bad.angles.largest);
+    const bool pinned = pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners);
+    count(pinned ? _report.pinned : is_at_feature(i, bad) ? _report.at_features : _report.rest, bad.angles);
   }
+}
+
+void PinnedSearch::total(MissedTarget& kind) const {
+  kind.tetrahedra = _communicator.sum(kind.tetrahedra);
+  kind.smallest_angle = _communicator.minimum(kind.smallest_angle);
+  kind.largest_angle = _communicator.maximum(kind.largest_angle);
+}
+
+/// Tetrahedra of the same face become one entry, on each rank before they travel.
+void PinnedSearch::merge_features() {
+  const auto merge = [](std::vector<UnresolvedFeature> rows) {
+    std::sort(rows.begin(), rows.end(), [](const UnresolvedFeature& a, const UnresolvedFeature& b) {
+      return std::tie(a.face, a.width, a.at.x, a.at.y, a.at.z) <
+             std::tie(b.face, b.width, b.at.x, b.at.y, b.at.z);
+    });
+    std::vector<UnresolvedFeature> merged;
+    for (const UnresolvedFeature& row : rows) {
+      if (merged.empty() || merged.back().face != row.face) {
+        merged.push_back(row);
+        continue;
+      }
+      merged.back().tetrahedra += row.tetrahedra;
+      merged.back().smallest_dihedral = std::min(merged.back().smallest_dihedral, row.smallest_dihedral);
+    }
+    return merged;
+  };
+  _report.features = merge(_communicator.all_gather_items<UnresolvedFeature>(merge(std::move(_features))));
 }
 
 PinnedReport PinnedSearch::merge() {
@@ -282,7 +331,6 @@ PinnedReport PinnedSearch::merge() {
            std::tuple(key(b), b.angle, b.at.x, b.at.y, b.at.z);
   });
   for (const PinningEntity& entity : all) {
-    ++_report.tetrahedra;
     if (_report.entities.empty() || key(_report.entities.back()) != key(entity)) {
       _report.entities.push_back(entity);
       continue;
@@ -291,9 +339,12 @@ PinnedReport PinnedSearch::merge() {
     ++known.tetrahedra;
     known.smallest_dihedral = std::min(known.smallest_dihedral, entity.smallest_dihedral);
   }
-  _report.smallest_angle = _communicator.minimum(_report.smallest_angle);
-  _report.largest_angle = _communicator.maximum(_report.largest_angle);
-  _report.others = _communicator.sum(_report.others);
+  merge_features();
+  for (MissedTarget* kind : {&_report.pinned, &_report.at_features, &_report.rest}) total(*kind);
+  _report.tetrahedra = _report.pinned.tetrahedra;
+  _report.others = _report.at_features.tetrahedra + _report.rest.tetrahedra;
+  _report.smallest_angle = std::min(_report.at_features.smallest_angle, _report.rest.smallest_angle);
+  _report.largest_angle = std::max(_report.at_features.largest_angle, _report.rest.largest_angle);
   return std::move(_report);
 }
 

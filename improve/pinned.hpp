@@ -1,4 +1,6 @@
-/// Tetrahedra that cannot reach the target because the CAD has an angle smaller than it: pinned ones.
+/// Tetrahedra that miss the target, told apart: pinned ones, which cannot reach it because the CAD has an
+/// angle smaller than it; those at features of the CAD that are finer than the elements; and the rest, which
+/// improvement is to answer for.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -27,10 +29,31 @@ struct PinningEntity {
   std::int64_t tetrahedra = 0;
 };
 
+/// A CAD face with a strip between two of its curves that are closer than the elements along them
+/// (strip_triangles.hpp).
+struct UnresolvedFeature {
+  std::int32_t face = -1;
+  std::int32_t unused = 0;       ///< no padding travels
+  double width = 0;              ///< where its strip is narrowest among the tetrahedra counted
+  double smallest_dihedral = 0;  ///< degrees, of its tetrahedra
+  geometry::Vec3 at;             ///< across the strip, where it is narrowest
+  std::int64_t tetrahedra = 0;
+};
+
+/// Tetrahedra of one kind that miss the target. Without any, no angle is beyond the target.
+struct MissedTarget {
+  std::int64_t tetrahedra = 0;
+  double smallest_angle = 0, largest_angle = 180;  ///< degrees
+};
+
 struct PinnedReport {
-  std::vector<PinningEntity> entities;  ///< by kind, faces, vertex
-  std::int64_t tetrahedra = 0;          ///< pinned, of those that miss the target
-  std::int64_t others = 0;              ///< that miss it and are not pinned
+  std::vector<PinningEntity> entities;      ///< by kind, faces, vertex
+  std::vector<UnresolvedFeature> features;  ///< by face
+  MissedTarget pinned;                      ///< forced by an angle of the CAD
+  MissedTarget at_features;                 ///< not pinned, with an edge across such a strip
+  MissedTarget rest;
+  std::int64_t tetrahedra = 0;  ///< those pinned
+  std::int64_t others = 0;      ///< those that are not pinned
   /// No tetrahedron that is not pinned goes beyond these, degrees.
   double smallest_angle = 0, largest_angle = 180;
 };
@@ -40,7 +63,8 @@ mesh::DihedralRange suspect_angles(double target_angle);
 
 /// Which tetrahedra that miss the target angle (degrees, as in ImproveOptions) are pinned: those at an edge
 /// of a CAD curve where the boundary encloses less than the target, and those on a boundary triangle that
-/// fills a corner of less than the target between two curves. `suspects` are those beyond the angles above,
+/// fills a corner of less than the target between two curves. Of the others, those with an edge across a
+/// strip that is finer than its elements are at that feature. `suspects` are those beyond the angles above,
 /// as mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,

@@ -10,7 +10,8 @@
 namespace aeroloom::pipeline {
 
 /// Limits; what is empty is not asked for. Angles in degrees. Tetrahedra that the CAD forces
-/// (improve/pinned.hpp) do not count for the smallest and the largest angle.
+/// (improve/pinned.hpp) do not count for the smallest and the largest angle; those at features finer than the
+/// elements do.
 struct QualityGate {
   std::optional<double> smallest_angle, largest_angle;
   std::optional<double> percentile_01, percentile_1, percentile_5;  ///< of the smallest angles

@@ -135,12 +135,34 @@ Json surface_json(const RunRecord& record) {
   return json;
 }
 
+std::string face_name(const RunRecord& record, std::int32_t face) {
+  return face >= 0 && static_cast<std::size_t>(face) < record.face_names.size() ? record.face_names[face]
+                                                                                : std::string("unknown");
+}
+
+Json unresolved_json(const RunRecord& record) {
+  Json list = Json::array();
+  for (const improve::UnresolvedFeature& feature : record.pinned.features) {
+    list.push_back({{"face", face_name(record, feature.face)},
+                    {"width", feature.width},
+                    {"at", to_json(feature.at)},
+                    {"tetrahedra", feature.tetrahedra},
+                    {"smallest_dihedral_deg", feature.smallest_dihedral}});
+  }
+  return list;
+}
+
+/// Angles are null where there are no such tetrahedra.
+Json missed_target_json(const improve::MissedTarget& kind) {
+  const bool any = kind.tetrahedra > 0;
+  return {{"tetrahedra", kind.tetrahedra},
+          {"smallest_dihedral_deg", any ? Json(kind.smallest_angle) : Json()},
+          {"largest_dihedral_deg", any ? Json(kind.largest_angle) : Json()}};
+}
+
 Json pinned_json(const RunRecord& record) {
   Json list = Json::array();
-  const auto name = [&](std::int32_t face) {
-    return face >= 0 && static_cast<std::size_t>(face) < record.face_names.size() ? record.face_names[face]
-                                                                                  : std::string("unknown");
-  };
+  const auto name = [&](std::int32_t face) { return face_name(record, face); };
   for (const improve::PinningEntity& entity : record.pinned.entities) {
     const bool between_faces = entity.kind == improve::PinningEntity::Kind::faces;
     Json item = {{"kind", between_faces ? "faces" : "curves"},
@@ -231,7 +253,11 @@ Json improve_json(const RunRecord& record) {
           {"slid", record.improve.slid},
           {"changed_triangles", record.improve.changed_triangles},
           {"pinned_tetrahedra", record.pinned.tetrahedra},
-          {"unpinned_below_target", record.pinned.others}};
+          {"unpinned_below_target", record.pinned.others},
+          {"below_target",
+           {{"pinned", missed_target_json(record.pinned.pinned)},
+            {"unresolved_features", missed_target_json(record.pinned.at_features)},
+            {"rest", missed_target_json(record.pinned.rest)}}}};
 }
 
 /// What every report begins with.
@@ -255,6 +281,7 @@ void add_finished_mesh(Json& json, const RunRecord& record,
   if (record.quality) json["quality"] = quality_json(*record.quality);
   json["improve"] = improve_json(record);
   json["pinned"] = pinned_json(record);
+  json["unresolved_features"] = unresolved_json(record);
   json["patches"] = patches_json(record);
   json["regions"] = regions_json(record);
   json["wall_seconds"] = record.wall_seconds;

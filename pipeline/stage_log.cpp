@@ -80,9 +80,18 @@ void log_improve(const RunRecord& record) {
 }
 
 void log_pinned(const RunRecord& record) {
-  if (record.pinned.entities.empty()) return;
-  log_info(fmt::format("improve: {} of the tetrahedra below target are pinned by {} sharp places of the CAD",
-                       record.pinned.tetrahedra, record.pinned.entities.size()));
+  const improve::PinnedReport& report = record.pinned;
+  if (report.tetrahedra + report.others == 0) return;
+  const auto part = [](const improve::MissedTarget& kind) {
+    if (kind.tetrahedra == 0) return std::string("0");
+    return fmt::format("{} (from {:.3g} degrees)", kind.tetrahedra, kind.smallest_angle);
+  };
+  log_info(
+      fmt::format("improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
+                  "are at strips of "
+                  "{} faces that are finer than their elements, {} are neither",
+                  part(report.pinned), report.entities.size(), part(report.at_features),
+                  report.features.size(), part(report.rest)));
 }
 
 }  // namespace aeroloom::pipeline

@@ -49,13 +49,66 @@ DistributedMesh make_wedge(const parallel::Communicator& communicator, double an
   return mesh;
 }
 
-PinnedReport find(double angle, int tets, int dimension, double target) {
+void add_triangle(Piece& piece, std::array<int, 3> corners, int face) {
+  piece.boundary.insert(piece.boundary.end(), corners.begin(), corners.end());
+  piece.triangle_face.push_back(face);
+  piece.triangle_patch.push_back(face);
+}
+
+/// A strip of face 0 between curves 1 and `upper_curve`, in segments of length 1, one piece each: two
+/// triangles with a tetrahedron on each of them.
+DistributedMesh make_strip(const parallel::Communicator& communicator, double width, int segments,
+                           std::int32_t upper_curve) {
+  DistributedMesh mesh;
+  mesh.piece_count = segments;
+  mesh.patches = mesh.faces = {"strip"};
+  for (int i = 0; i < segments; ++i) {
+    if (i % communicator.size() != communicator.rank()) continue;
+    Piece piece;
+    piece.id = i;
+    const double x = i;
+    piece.coordinates = {x, 0, 0, x + 1, 0, 0, x, width, 0, x + 1, width, 0, x + 0.5, width / 2, 1};
+    piece.vertex_dimension = {1, 1, 1, 1, 3};
+    piece.vertex_entity = {1, 1, upper_curve, upper_curve, 0};
+    piece.cells = {0, 1, 2, 4, 1, 3, 2, 4};
+    add_triangle(piece, {0, 2, 1}, 0);
+    add_triangle(piece, {1, 2, 3}, 0);
+    piece.shared_vertices = {0, 1, 2, 3};
+    for (const int token : {2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 3}) piece.shared_tokens.push_back(token);
+    mesh.pieces.push_back(piece);
+  }
+  return mesh;
+}
+
+/// One tetrahedron with a long side of face 0 on curve 1 from CAD vertex 5, and a short side from there to a
+/// vertex on curve 2. Face 2 beyond the short side, if any, makes it a part of curve 2.
+DistributedMesh make_corner(const parallel::Communicator& communicator, bool ends_there) {
+  DistributedMesh mesh;
+  mesh.piece_count = 1;
+  mesh.patches = mesh.faces = {"strip", "below", "end"};
+  if (!communicator.is_root()) return mesh;
+  Piece piece;
+  piece.coordinates = {0, 0, 0, 1, 0, 0, 0, 0.1, 0, 0.2, 0.1, 1};
+  piece.vertex_dimension = {0, 1, 1, 2};
+  piece.vertex_entity = {5, 1, 2, 1};
+  piece.cells = {0, 1, 2, 3};
+  add_triangle(piece, {0, 2, 1}, 0);
+  add_triangle(piece, {0, 1, 3}, 1);
+  if (ends_there) add_triangle(piece, {0, 3, 2}, 2);
+  mesh.pieces.push_back(piece);
+  return mesh;
+}
+
+PinnedReport find(const DistributedMesh& mesh, double target) {
   const auto world = parallel::Communicator::world();
-  const DistributedMesh mesh = make_wedge(world, angle, tets, dimension);
   const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
   mesh::CellsBeyond suspects{suspect_angles(target), {}};
   mesh::summarise_quality(world, mesh, numbering, &suspects);
   return find_pinned(world, mesh, numbering, target, suspects);
+}
+
+PinnedReport find(double angle, int tets, int dimension, double target) {
+  return find(make_wedge(parallel::Communicator::world(), angle, tets, dimension), target);
 }
 
 TEST(Pinned, FindsTheFacesThatForceAnAngle) {
@@ -83,6 +136,44 @@ TEST(Pinned, DoesNotExcuseWhatTheCadAllows) {
   const PinnedReport smooth = find(12, 3, 2, 15);
   EXPECT_TRUE(smooth.entities.empty());
   EXPECT_EQ(smooth.others, 3);
+}
+
+TEST(Pinned, TellsFeaturesFinerThanTheElements) {
+  const auto world = parallel::Communicator::world();
+  const PinnedReport report = find(make_strip(world, 0.1, 4, 2), 28);
+  EXPECT_TRUE(report.entities.empty());
+  ASSERT_EQ(report.features.size(), 1u);
+  const UnresolvedFeature& feature = report.features[0];
+  EXPECT_EQ(feature.face, 0);
+  EXPECT_NEAR(feature.width, 0.1, 1e-12);
+  EXPECT_NEAR(feature.at.y, 0.05, 1e-12);
+  EXPECT_EQ(feature.tetrahedra, 8);
+  EXPECT_EQ(report.at_features.tetrahedra, 8);
+  EXPECT_EQ(report.at_features.smallest_angle, feature.smallest_dihedral);
+  EXPECT_LT(feature.smallest_dihedral, 15);
+  EXPECT_EQ(report.rest.tetrahedra, 0);
+  EXPECT_EQ(report.rest.smallest_angle, 28);
+  // They are not pinned, and the gate looks at them.
+  EXPECT_EQ(report.others, 8);
+  EXPECT_EQ(report.smallest_angle, feature.smallest_dihedral);
+}
+
+TEST(Pinned, DoesNotExcuseTrianglesBetweenVerticesOfOneCurve) {
+  const PinnedReport report = find(make_strip(parallel::Communicator::world(), 0.1, 4, 1), 28);
+  EXPECT_TRUE(report.features.empty());
+  EXPECT_EQ(report.rest.tetrahedra, 8);
+  EXPECT_LT(report.rest.smallest_angle, 15);
+}
+
+TEST(Pinned, DoesNotExcuseShortSidesOnCurves) {
+  const auto world = parallel::Communicator::world();
+  const PinnedReport end = find(make_corner(world, true), 28);
+  EXPECT_TRUE(end.features.empty());
+  EXPECT_EQ(end.rest.tetrahedra, 1);
+  // Another curve that passes the CAD vertex.
+  const PinnedReport passing = find(make_corner(world, false), 28);
+  EXPECT_EQ(passing.features.size(), 1u);
+  EXPECT_EQ(passing.rest.tetrahedra, 0);
 }
 
 TEST(Pinned, ListsNothingOfAGoodMesh) {

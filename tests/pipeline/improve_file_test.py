@@ -79,6 +79,12 @@ def main():
         assert report["quality"]["mean_mean_ratio"] > raw.report["quality"]["mean_mean_ratio"]
         assert report["mesh"]["boundary_triangles"] == raw.report["mesh"]["boundary_triangles"]
         assert abs(report["mesh"]["volume"] / raw.report["mesh"]["volume"] - 1) < 1e-10
+        kinds = report["improve"]["below_target"]
+        assert kinds["pinned"]["tetrahedra"] == report["improve"]["pinned_tetrahedra"], kinds
+        assert kinds["unresolved_features"]["tetrahedra"] == sum(f["tetrahedra"] for f in report["unresolved_features"])
+        assert kinds["unresolved_features"]["tetrahedra"] + kinds["rest"]["tetrahedra"] == \
+            report["improve"]["unpinned_below_target"], kinds
+        assert (kinds["rest"]["smallest_dihedral_deg"] is None) == (kinds["rest"]["tetrahedra"] == 0), kinds
         assert [s["name"] for s in report["stages"]] == ["start", "input", "improve", "inspect", "output"], \
             report["stages"]
     assert len(hashes) == 1, f"the mesh depends on the number of ranks: {hashes}"

@@ -1,0 +1,143 @@
+#include "improve/strip_triangles.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace aeroloom::improve {
+namespace {
+
+using geometry::Vec3;
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using mesh::Piece;
+
+constexpr int cad_vertex = 0, on_curve = 1;
+
+/// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.
+using CurveName = std::int64_t;
+
+CurveName name_of_segment(std::int32_t a, std::int32_t b) {
+  return -1 - ((static_cast<std::int64_t>(std::min(a, b)) << 31) + std::max(a, b));
+}
+
+/// An edge of a boundary triangle at a CAD vertex.
+struct EdgeAtVertex {
+  std::int32_t vertex, face;
+  CurveName curve;    ///< that the other end lies on
+  GlobalIndex other;  ///< other end
+  auto operator<=>(const EdgeAtVertex&) const = default;
+};
+
+/// The curves that end in a CAD vertex.
+struct CurveAtVertex {
+  std::int32_t vertex, unused;
+  CurveName curve;
+  auto operator<=>(const CurveAtVertex&) const = default;
+};
+
+void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::vector<EdgeAtVertex>& edges) {
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    for (int i = 0; i < 3; ++i) {
+      for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
+        if (piece.vertex_dimension[v[i]] != cad_vertex || piece.vertex_dimension[v[k]] > on_curve) continue;
+        const std::int32_t vertex = piece.vertex_entity[v[i]], entity = piece.vertex_entity[v[k]];
+        const bool between_vertices = piece.vertex_dimension[v[k]] == cad_vertex;
+        edges.push_back({vertex, piece.triangle_face[t],
+                         between_vertices ? name_of_segment(vertex, entity) : entity, names[v[k]]});
+      }
+    }
+  }
+}
+
+/// Those edges lie on curves where triangles of two CAD faces meet.
+std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& communicator,
+                                              const mesh::DistributedMesh& mesh,
+                                              const mesh::Numbering& numbering) {
+  const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
+    std::sort(edges.begin(), edges.end(), [](const EdgeAtVertex& a, const EdgeAtVertex& b) {
+      return std::tie(a.vertex, a.curve, a.other, a.face) < std::tie(b.vertex, b.curve, b.other, b.face);
+    });
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  };
+  std::vector<EdgeAtVertex> edges;
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
+    add_edges(mesh.pieces[i], numbering.vertices[i], edges);
+  sort_out(edges);
+  edges = communicator.all_gather_items<EdgeAtVertex>(edges);
+  sort_out(edges);
+  std::vector<CurveAtVertex> curves;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const EdgeAtVertex &a = edges[i - 1], &b = edges[i];
+    if (std::tie(a.vertex, a.curve, a.other) == std::tie(b.vertex, b.curve, b.other))
+      curves.push_back({b.vertex, 0, b.curve});
+  }
+  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  return curves;
+}
+
+class StripJudge {
+public:
+  StripJudge(const Piece& piece, const std::vector<CurveAtVertex>& curves) : _piece(piece), _curves(curves) {}
+
+  /// Whether the triangle is one of a strip with its corners so.
+  bool is_strip(LocalIndex a, LocalIndex b, LocalIndex c) {
+    list(a, _at_a);
+    list(b, _at_b);
+    list(c, _at_c);
+    const auto has = [](const std::vector<CurveName>& names, CurveName name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const bool share = std::any_of(_at_a.begin(), _at_a.end(), [&](CurveName n) { return has(_at_b, n); });
+    return share && std::any_of(_at_c.begin(), _at_c.end(),
+                                [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); });
+  }
+
+private:
+  void list(LocalIndex v, std::vector<CurveName>& names) const {
+    names.clear();
+    const std::int32_t entity = _piece.vertex_entity[v];
+    if (_piece.vertex_dimension[v] != cad_vertex) {
+      names.push_back(entity);
+      return;
+    }
+    auto at = std::lower_bound(_curves.begin(), _curves.end(), entity,
+                               [](const CurveAtVertex& c, std::int32_t vertex) { return c.vertex < vertex; });
+    for (; at != _curves.end() && at->vertex == entity; ++at) names.push_back(at->curve);
+  }
+
+  const Piece& _piece;
+  const std::vector<CurveAtVertex>& _curves;
+  std::vector<CurveName> _at_a, _at_b, _at_c;
+};
+
+std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<CurveAtVertex>& curves) {
+  std::vector<StripTriangle> strips;
+  StripJudge judge(piece, curves);
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    if (std::any_of(v, v + 3, [&](LocalIndex w) { return piece.vertex_dimension[w] > on_curve; })) continue;
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];
+      const Vec3 side = piece.point(b) - piece.point(a);
+      const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
+      if (area2 > strip_part * dot(side, side) || !judge.is_strip(a, b, c)) continue;
+      strips.push_back({t, {a, b, c}, area2 / norm(side)});
+      break;
+    }
+  }
+  return strips;
+}
+
+}  // namespace
+
+std::vector<std::vector<StripTriangle>> find_strip_triangles(const parallel::Communicator& communicator,
+                                                             const mesh::DistributedMesh& mesh,
+                                                             const mesh::Numbering& numbering) {
+  const std::vector<CurveAtVertex> curves = curves_at_vertices(communicator, mesh, numbering);
+  std::vector<std::vector<StripTriangle>> strips;
+  for (const Piece& piece : mesh.pieces) strips.push_back(strips_of(piece, curves));
+  return strips;
+}
+
+}  // namespace aeroloom::improve
