@@ -2,7 +2,7 @@
 /// --write as the last argument, surface.pvtp goes to the case's output directory.
 ///
 /// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
-/// on a border between pieces of one CAD face.
+/// on a border between pieces of one CAD face. Needles: below 10 degrees, below 5, the least angle.
 #include "io/vtk_writer.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
@@ -112,6 +112,23 @@ Sharp measure_sharp(const Communicator& communicator, const surface::SurfaceMesh
           communicator.sum(sharp.below_10)};
 }
 
+/// Needles that the CAD forces, or does not: below ten degrees, below five, the least.
+struct NeedleCount {
+  std::int64_t below_10 = 0, below_5 = 0;
+  double least = 180;
+};
+
+NeedleCount count_needles(const surface::SurfaceReport& report, bool forced) {
+  NeedleCount count;
+  for (const surface::NeedleGroup& group : report.needles) {
+    if ((group.cause != surface::NeedleCause::mesh) != forced) continue;
+    count.below_10 += group.needles;
+    count.below_5 += group.below_half;
+    count.least = std::min(count.least, group.degrees);
+  }
+  return count;
+}
+
 /// What the decomposition of faces made: how many fine edges its cuts have, and how much heavier than the
 /// mean piece of its face the heaviest one is (the worst face).
 struct Decomposition {
@@ -178,6 +195,8 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
     sharp += angle.degrees < 30;
     ++bins[std::min(5, static_cast<int>(angle.degrees / 10))];
   }
+  const NeedleCount forced = count_needles(surface.report, true),
+                    others = count_needles(surface.report, false);
   const double total = stage.cpu_seconds_mean * communicator.size();
   const auto triangles = static_cast<double>(surface.report.triangles);
   std::printf(
@@ -189,7 +208,7 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
       "cut_places=%zu cut_places_below_30=%d cut_angle_min=%.2f "
       "cut_edges=%.0f imbalance=%.3f cut_angles_by_10=%d,%d,%d,%d,%d,%d\n"
       "       joined_faces=%zu sharp_corners=%zu min_angle_apart=%.2f below_20_apart=%lld "
-      "below_10_apart=%lld hash=%s\n",
+      "below_10_apart=%lld forced_needles=%lld,%lld,%.4g other_needles=%lld,%lld,%.4g hash=%s\n",
       communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
       sizing, stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
       stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
@@ -199,7 +218,9 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
       surface.report.cut_angles.size(), sharp, sharpest, decomposition.cut_edges, decomposition.imbalance,
       bins[0], bins[1], bins[2], bins[3], bins[4], bins[5], sized.joined.size(),
       surface.report.sharp_corners.size(), apart.least, static_cast<long long>(apart.below_20),
-      static_cast<long long>(apart.below_10), hash.c_str());
+      static_cast<long long>(apart.below_10), static_cast<long long>(forced.below_10),
+      static_cast<long long>(forced.below_5), forced.least, static_cast<long long>(others.below_10),
+      static_cast<long long>(others.below_5), others.least, hash.c_str());
 }
 
 }  // namespace

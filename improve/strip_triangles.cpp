@@ -28,9 +28,9 @@ struct EdgeAtVertex {
   auto operator<=>(const EdgeAtVertex&) const = default;
 };
 
-/// The curves that end in a CAD vertex.
+/// The curves of a CAD face that end in a CAD vertex.
 struct CurveAtVertex {
-  std::int32_t vertex, unused;
+  std::int32_t vertex, face;
   CurveName curve;
   auto operator<=>(const CurveAtVertex&) const = default;
 };
@@ -69,9 +69,11 @@ std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& comm
   std::vector<CurveAtVertex> curves;
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const EdgeAtVertex &a = edges[i - 1], &b = edges[i];
-    if (std::tie(a.vertex, a.curve, a.other) == std::tie(b.vertex, b.curve, b.other))
-      curves.push_back({b.vertex, 0, b.curve});
+    if (std::tie(a.vertex, a.curve, a.other) != std::tie(b.vertex, b.curve, b.other)) continue;
+    curves.push_back({a.vertex, a.face, a.curve});
+    curves.push_back({b.vertex, b.face, b.curve});
   }
+  std::sort(curves.begin(), curves.end());
   curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
   return curves;
 }
@@ -81,10 +83,10 @@ public:
   StripJudge(const Piece& piece, const std::vector<CurveAtVertex>& curves) : _piece(piece), _curves(curves) {}
 
   /// Whether the triangle is one of a strip with its corners so.
-  bool is_strip(LocalIndex a, LocalIndex b, LocalIndex c) {
-    list(a, _at_a);
-    list(b, _at_b);
-    list(c, _at_c);
+  bool is_strip(LocalIndex a, LocalIndex b, LocalIndex c, std::int32_t face) {
+    list(a, face, _at_a);
+    list(b, face, _at_b);
+    list(c, face, _at_c);
     const auto has = [](const std::vector<CurveName>& names, CurveName name) {
       return std::find(names.begin(), names.end(), name) != names.end();
     };
@@ -94,16 +96,18 @@ public:
   }
 
 private:
-  void list(LocalIndex v, std::vector<CurveName>& names) const {
+  void list(LocalIndex v, std::int32_t face, std::vector<CurveName>& names) const {
     names.clear();
     const std::int32_t entity = _piece.vertex_entity[v];
     if (_piece.vertex_dimension[v] != cad_vertex) {
       names.push_back(entity);
       return;
     }
-    auto at = std::lower_bound(_curves.begin(), _curves.end(), entity,
-                               [](const CurveAtVertex& c, std::int32_t vertex) { return c.vertex < vertex; });
-    for (; at != _curves.end() && at->vertex == entity; ++at) names.push_back(at->curve);
+    const auto is_before = [](const CurveAtVertex& c, std::array<std::int32_t, 2> wanted) {
+      return std::tie(c.vertex, c.face) < std::tie(wanted[0], wanted[1]);
+    };
+    auto at = std::lower_bound(_curves.begin(), _curves.end(), std::array{entity, face}, is_before);
+    for (; at != _curves.end() && at->vertex == entity && at->face == face; ++at) names.push_back(at->curve);
   }
 
   const Piece& _piece;
@@ -121,7 +125,7 @@ std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<Curve
       const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];
       const Vec3 side = piece.point(b) - piece.point(a);
       const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
-      if (area2 > strip_part * dot(side, side) || !judge.is_strip(a, b, c)) continue;
+      if (area2 > strip_part * dot(side, side) || !judge.is_strip(a, b, c, piece.triangle_face[t])) continue;
       strips.push_back({t, {a, b, c}, area2 / norm(side)});
       break;
     }

@@ -120,13 +120,27 @@ Json closed_tips_json(const RunRecord& record) {
   return json;
 }
 
+Json needles_json(const RunRecord& record) {
+  Json json = Json::array();
+  for (const surface::NeedleGroup& group : record.surface.needles) {
+    json.push_back({{"face", record.face_names.at(group.face)},
+                    {"cause", surface::name_of(group.cause)},
+                    {"forced", group.cause != surface::NeedleCause::mesh},
+                    {"triangles", group.needles},
+                    {"below_half", group.below_half},
+                    {"degrees", group.degrees},
+                    {"at", to_json(group.at)}});
+  }
+  return json;
+}
+
 Json surface_json(const RunRecord& record) {
   Json json = {
       {"triangles", record.surface.triangles},           {"pieces", record.surface.pieces},
       {"divided_faces", record.surface.divided_faces},   {"cut_angles", cut_angles_json(record)},
       {"sharp_corners", sharp_corners_json(record)},     {"closed_tips", closed_tips_json(record)},
-      {"curve_vertices", record.surface.curve_vertices}, {"mending_rounds", record.surface.mending_rounds},
-      {"load_error_90", record.surface.load_error_90}};
+      {"curve_vertices", record.surface.curve_vertices}, {"needles", needles_json(record)},
+      {"mending_rounds", record.surface.mending_rounds}, {"load_error_90", record.surface.load_error_90}};
   if (record.surface_quality) {
     json["min_angle_deg"] = record.surface_quality->min_dihedral.minimum;
     json["min_mean_ratio"] = record.surface_quality->mean_ratio.minimum;

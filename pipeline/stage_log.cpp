@@ -55,6 +55,39 @@ void log_surface(const RunRecord& record) {
   log_closed_tips(record);
 }
 
+/// Triangles below ten degrees: how many the CAD forces, and where the others are.
+void log_needles(const RunRecord& record) {
+  constexpr int shown = 5;
+  std::int64_t forced = 0, forced_groups = 0, others = 0;
+  double least = surface::needle_degrees;
+  int listed = 0;
+  std::string places;
+  for (const surface::NeedleGroup& group : record.surface.needles) {
+    if (group.cause != surface::NeedleCause::mesh) {
+      forced += group.needles, ++forced_groups;
+      least = std::min(least, group.degrees);
+      continue;
+    }
+    others += group.needles;
+    if (++listed > shown) continue;
+    places +=
+        fmt::format("; {} on '{}', {:.3g} degrees at ({:.6g}, {:.6g}, {:.6g})", group.needles,
+                    record.face_names.at(group.face), group.degrees, group.at.x, group.at.y, group.at.z);
+  }
+  if (forced > 0) {
+    log_info(
+        fmt::format("surface: {} triangles below {:g} degrees that corners of the CAD and strips between its "
+                    "curves force, in {} places, from {:.3g} degrees",
+                    forced, surface::needle_degrees, forced_groups, least));
+  }
+  if (others > 0) {
+    parallel::log_warning(
+        fmt::format("surface: {} triangles below {:g} degrees that the CAD does not force{}{}", others,
+                    surface::needle_degrees, places,
+                    listed > shown ? "; and more, see surface.needles[] of the report" : ""));
+  }
+}
+
 void log_surface_again(const std::string& reason) {
   log_info(fmt::format("surface: with joined faces: {}; again without", reason));
 }

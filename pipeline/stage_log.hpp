@@ -14,6 +14,7 @@ namespace aeroloom::pipeline {
 void log_geometry(const cad::Model& model, const RunRecord& record);
 void log_sizing(const RunRecord& record);
 void log_surface(const RunRecord& record);
+void log_needles(const RunRecord& record);
 /// Joined faces could not be meshed: it is done again without.
 void log_surface_again(const std::string& reason);
 void log_decompose(const RunRecord& record);

@@ -190,7 +190,8 @@ bool is_constraining(const Model& model, EdgeId id) {
 }
 
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const Model& model,
-                            const sizing::SizeField& field, parallel::StageClock& clock) {
+                            const sizing::SizeField& field, parallel::StageClock& clock,
+                            std::span<const cad::VertexId> short_legs) {
   std::vector<EdgeId> edges;
   std::vector<double> loads;
   std::vector<EdgeId> mine;
@@ -198,6 +199,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   std::vector<EdgeMeasure> measures;
   std::vector<Stretch> stretches;
   std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field, clock);
+  shorten_legs(model, field, short_legs, corners);
   const auto legs = legs_of_edges(model, corners);
   parallel::agree(communicator, [&] {
     {

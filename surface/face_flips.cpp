@@ -1,4 +1,5 @@
 #include "surface/face_remesher.hpp"
+#include "surface/triangle_angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +8,9 @@ namespace aeroloom::surface {
 
 using geometry::Vec3;
 
-/// Squared sine of the smallest angle: that between the two longest sides.
+/// Squared sine of the smallest angle.
 double FaceRemesher::smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const {
-  const Vec3 u = _mesh.points[b] - _mesh.points[a], v = _mesh.points[c] - _mesh.points[a], w = v - u;
-  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
-  const Vec3 area = cross(u, v);
-  const double shortest = std::min({uu, vv, ww});
-  const double sides = shortest == uu ? vv * ww : shortest == vv ? uu * ww : uu * vv;
-  return sides > 0 ? dot(area, area) / sides : 0;
+  return smallest_squared_sine(_mesh.points[a], _mesh.points[b], _mesh.points[c]);
 }
 
 /// Flips where the smaller angle of the two triangles gets larger and nothing else worse.

@@ -84,6 +84,14 @@ std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& commun
   return corners;
 }
 
+void shorten_legs(const Model& model, const sizing::SizeField& field, std::span<const cad::VertexId> vertices,
+                  std::vector<SharpCorner>& corners) {
+  for (SharpCorner& corner : corners) {
+    if (!std::binary_search(vertices.begin(), vertices.end(), corner.vertex)) continue;
+    corner.leg = std::min(corner.leg, longest_short_leg * field(model.vertex(corner.vertex)));
+  }
+}
+
 std::vector<std::array<double, 2>> legs_of_edges(const Model& model,
                                                  const std::vector<SharpCorner>& corners) {
   std::vector<double> longest(model.vertex_count(), 0);

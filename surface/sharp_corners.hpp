@@ -8,6 +8,7 @@
 #include "sizing/size_field.hpp"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -29,6 +30,14 @@ struct SharpCorner {
 std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator,
                                             const cad::Model& model, const sizing::SizeField& field,
                                             parallel::StageClock& clock);
+
+/// Length of a short leg, in sizes at the corner.
+inline constexpr double longest_short_leg = 4;
+
+/// Makes the legs at the CAD vertices (ascending) no longer than that: a face on the other side of an edge
+/// has to live with its leg.
+void shorten_legs(const cad::Model& model, const sizing::SizeField& field,
+                  std::span<const cad::VertexId> vertices, std::vector<SharpCorner>& corners);
 
 /// Per edge and end (at its first and last parameter): how far from the CAD vertex the first vertex on the
 /// curve is; 0 where the size field alone decides. Corners at one vertex take the longest leg together: they

@@ -6,8 +6,13 @@
 #include "surface/curves.hpp"
 #include "surface/cusp_tips.hpp"
 #include "surface/intersection.hpp"
+#include "surface/needle_remedies.hpp"
 #include "surface/piece_pool.hpp"
 #include "surface/surface_error.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -74,6 +79,12 @@ Conflicts share(const parallel::Communicator& communicator, const Conflicts& min
       conflicts.complaint, options.mending_rounds));
 }
 
+std::int64_t count_unforced(const std::vector<NeedleGroup>& groups) {
+  std::int64_t count = 0;
+  for (const NeedleGroup& group : groups) count += group.cause == NeedleCause::mesh ? group.needles : 0;
+  return count;
+}
+
 std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh& curves) {
   std::vector<ListedCorner> corners;
   for (const SharpCorner& corner : curves.sharp_corners) {
@@ -82,39 +93,123 @@ std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh&
   return corners;
 }
 
+/// The rounds of one run: until no conflict is left, then until no more needles can be mended.
+class SurfaceRounds {
+public:
+  SurfaceRounds(const parallel::Communicator& communicator, const cad::Model& model, const SizeField& field,
+                const SurfaceOptions& options, parallel::StageClock& clock)
+      : _communicator(communicator),
+        _model(model),
+        _options(options),
+        _clock(clock),
+        _pool(communicator, model, options, clock),
+        _field(field) {}
+
+  SurfaceMesh run() {
+    try {
+      for (bool done = false; !done; ++_rounds) done = mesh_once();
+    } catch (const parallel::CollectiveError& error) {
+      // Sizes that fell for needles alone are no reason to fail.
+      if (!_accepted || error.kind() != parallel::FailureKind::input) throw;
+      parallel::log_verbose(fmt::format("surface: {}; needles stay as they are", error.what()));
+    }
+    return std::move(*_accepted);
+  }
+
+private:
+  /// Whether this was the last round.
+  bool mesh_once() {
+    const CurveMesh curves = discretise_curves(_communicator, _model, _field, _clock, _short_legs);
+    Conflicts conflicts = share(_communicator, _pool.mesh(curves, _field));
+    mesh::DistributedMesh surface;
+    if (conflicts.complaint.empty()) {
+      surface = _pool.assemble();
+      _closed_tips = close_cusp_tips(_communicator, _model, curves, sizing::closing_gap(_field.options()),
+                                     surface, _clock);
+      conflicts = find_conflicts(_communicator, _model, _field, surface, _pool, _clock);
+    }
+    if (!conflicts.complaint.empty()) return !mend(conflicts);
+    const NeedleRemedies remedies = accept(curves, std::move(surface));
+    if (remedies.empty()) return true;
+    std::vector<cad::VertexId> short_legs;
+    std::set_union(_short_legs.begin(), _short_legs.end(), remedies.short_legs.begin(),
+                   remedies.short_legs.end(), std::back_inserter(short_legs));
+    _short_legs = std::move(short_legs);
+    if (!remedies.sizes.empty()) _field = _field.refined(_communicator, remedies.sizes, _clock);
+    return false;
+  }
+
+  /// Whether another round can help.
+  bool mend(const Conflicts& conflicts) {
+    const bool can_go_on = !conflicts.remedies.empty() || !conflicts.undivided.empty();
+    if (_rounds >= _options.mending_rounds || !can_go_on) {
+      if (_accepted) return false;
+      give_up(conflicts, _options);
+    }
+    parallel::log_verbose(fmt::format("surface: {}; sizes fall in {} places, {} faces stay whole",
+                                      conflicts.complaint, conflicts.remedies.size(),
+                                      conflicts.undivided.size()));
+    _pool.leave_whole(conflicts.undivided);
+    if (!conflicts.remedies.empty()) _field = _field.refined(_communicator, conflicts.remedies, _clock);
+    return true;
+  }
+
+  /// Keeps a surface without conflicts if it has fewer needles than the one before; returns what to change
+  /// for the next one, nothing at the end.
+  NeedleRemedies accept(const CurveMesh& curves, mesh::DistributedMesh surface) {
+    std::vector<Needle> needles;
+    {
+      const parallel::ScopedCpu check(_clock, parallel::ScopedCpu::As::check);
+      needles = find_needles(_model, curves, surface);
+    }
+    std::vector<NeedleGroup> groups = group_needles(_communicator, surface, needles);
+    const std::int64_t unforced = count_unforced(groups);
+    if (_accepted && unforced >= count_unforced(_accepted->report.needles)) return {};
+    NeedleRemedies remedies;
+    if (unforced > 0 && _rounds < _options.mending_rounds && _needle_rounds++ < _options.needle_rounds) {
+      remedies = find_needle_remedies(_communicator, surface, needles, _field);
+      parallel::log_verbose(
+          fmt::format("surface: {} needles; sizes fall in {} places, {} corners get shorter legs", unforced,
+                      remedies.sizes.size(), remedies.short_legs.size()));
+    }
+    SurfaceReport report = describe(curves, surface);
+    report.needles = std::move(groups);
+    _accepted = SurfaceMesh{std::move(surface), std::move(report), _field};
+    return remedies;
+  }
+
+  SurfaceReport describe(const CurveMesh& curves, const mesh::DistributedMesh& surface) const {
+    SurfaceReport report;
+    for (const mesh::Piece& piece : surface.pieces) report.triangles += piece.cell_count();
+    report.triangles = _communicator.sum(report.triangles);
+    report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
+    report.sharp_corners = list_corners(_model, curves);
+    report.closed_tips = _closed_tips;
+    report.pieces = surface.piece_count;
+    report.divided_faces = _pool.divided_faces();
+    report.cut_angles = _pool.cut_angles();
+    report.load_error_90 = _pool.load_error_90();
+    report.mending_rounds = _rounds;
+    return report;
+  }
+
+  const parallel::Communicator& _communicator;
+  const cad::Model& _model;
+  const SurfaceOptions& _options;
+  parallel::StageClock& _clock;
+  PiecePool _pool;
+  SizeField _field;
+  std::vector<cad::VertexId> _short_legs;  // ascending
+  std::vector<ClosedTip> _closed_tips;     // of this round
+  int _rounds = 0, _needle_rounds = 0;
+  std::optional<SurfaceMesh> _accepted;  // the last one without conflicts
+};
+
 }  // namespace
 
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
                          const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock) {
-  SurfaceMesh result{{}, {}, field};
-  PiecePool pool(communicator, model, options, clock);
-  for (;; ++result.report.mending_rounds) {
-    const CurveMesh curves = discretise_curves(communicator, model, result.field, clock);
-    Conflicts conflicts = share(communicator, pool.mesh(curves, result.field));
-    if (conflicts.complaint.empty()) {
-      result.mesh = pool.assemble();
-      result.report.closed_tips = close_cusp_tips(communicator, model, curves,
-                                                  sizing::closing_gap(field.options()), result.mesh, clock);
-      result.report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
-      result.report.sharp_corners = list_corners(model, curves);
-      conflicts = find_conflicts(communicator, model, result.field, result.mesh, pool, clock);
-    }
-    if (conflicts.complaint.empty()) break;
-    const bool can_go_on = !conflicts.remedies.empty() || !conflicts.undivided.empty();
-    if (result.report.mending_rounds == options.mending_rounds || !can_go_on) give_up(conflicts, options);
-    parallel::log_verbose(fmt::format("surface: {}; sizes fall in {} places, {} faces stay whole",
-                                      conflicts.complaint, conflicts.remedies.size(),
-                                      conflicts.undivided.size()));
-    pool.leave_whole(conflicts.undivided);
-    if (!conflicts.remedies.empty())
-      result.field = result.field.refined(communicator, conflicts.remedies, clock);
-  }
-  for (const mesh::Piece& piece : result.mesh.pieces) result.report.triangles += piece.cell_count();
-  result.report.triangles = communicator.sum(result.report.triangles);
-  result.report.pieces = result.mesh.piece_count;
-  result.report.divided_faces = pool.divided_faces();
-  result.report.cut_angles = pool.cut_angles();
-  result.report.load_error_90 = pool.load_error_90();
+  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, clock).run();
   clock.add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
   return result;
 }

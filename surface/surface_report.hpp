@@ -31,6 +31,30 @@ struct ClosedTip {
   double moved = 0;      ///< how far a vertex on its curves moved, at most
 };
 
+/// A triangle is a needle when its smallest angle is below this, degrees.
+inline constexpr double needle_degrees = 10;
+
+/// What makes a needle.
+enum class NeedleCause : std::int32_t {
+  corner,  ///< two curves that meet at a CAD vertex enclose its smallest angle: forced
+  strip,   ///< one side lies on a curve, the third vertex on another one as close as the needle is thin:
+           ///< forced
+  mesh     ///< nothing of the CAD
+};
+
+/// "corner", "strip" or "mesh".
+const char* name_of(NeedleCause cause);
+
+/// The needles of a CAD face with one cause.
+struct NeedleGroup {
+  cad::FaceId face = cad::no_entity;
+  NeedleCause cause = NeedleCause::mesh;
+  std::int64_t needles = 0;     ///< triangles below needle_degrees
+  std::int64_t below_half = 0;  ///< of them, those below half as much
+  double degrees = 0;           ///< the smallest angle
+  geometry::Vec3 at;            ///< middle of the triangle that has it
+};
+
 struct SurfaceReport {
   std::int64_t curve_vertices = 0;
   std::int64_t pieces = 0;
@@ -38,6 +62,7 @@ struct SurfaceReport {
   std::vector<CutAngle> cut_angles;         ///< where cuts end, by face and angle, the same on every rank
   std::vector<ListedCorner> sharp_corners;  ///< by face, the same on every rank
   std::vector<ClosedTip> closed_tips;       ///< by face, the same on every rank
+  std::vector<NeedleGroup> needles;         ///< by face and cause, the same on every rank
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds in which sizes had to fall
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below

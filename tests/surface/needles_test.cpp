@@ -1,0 +1,99 @@
+/// Triangles below ten degrees stay where the CAD forces them, and nowhere else.
+#include "surface/needles.hpp"
+
+#include "mesh/quality.hpp"
+#include "mesh/validity.hpp"
+#include "surface/surface_mesher.hpp"
+#include "tests/cad/cad_shapes.hpp"
+#include "tests/cad/prisms.hpp"
+#include "tests/surface/face_fixture.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using cad::Model;
+using parallel::Communicator;
+
+Model prism_of(const std::vector<std::pair<double, double>>& outline) {
+  return cad::shapes::prepare_fluid(cad::shapes::prism(outline, 1)).model;
+}
+
+/// A right triangle whose corner at the origin has so many degrees.
+Model sharp_prism(double degrees) {
+  return prism_of({{0, 0}, {3, 0}, {3, 3 * std::tan(degrees * std::numbers::pi / 180)}});
+}
+
+SurfaceMesh mesh_of(const Model& model, double size, int needle_rounds,
+                    const Communicator& communicator = Communicator::world()) {
+  parallel::StageClock clock;
+  SurfaceMesh surface = mesh_surface(communicator, model, testing::uniform_field(model, size),
+                                     {.needle_rounds = needle_rounds}, clock);
+  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  EXPECT_TRUE(mesh::check_surface_mesh(communicator, surface.mesh, numbering).valid());
+  return surface;
+}
+
+std::int64_t count(const SurfaceMesh& surface, NeedleCause cause) {
+  std::int64_t needles = 0;
+  for (const NeedleGroup& group : surface.report.needles) needles += group.cause == cause ? group.needles : 0;
+  return needles;
+}
+
+TEST(Needles, OnShortEdgesAreMended) {
+  // One corner of a square is cut off by an edge a hundredth of the size.
+  const Model model = prism_of({{0, 0}, {3, 0}, {3, 3}, {0.0035, 3}, {0, 2.9965}});
+  const SurfaceMesh raw = mesh_of(model, 0.5, 0);
+  EXPECT_GT(count(raw, NeedleCause::mesh), 0);
+  const SurfaceMesh mended = mesh_of(model, 0.5, 2);
+  EXPECT_EQ(count(mended, NeedleCause::mesh), 0);
+  EXPECT_GT(mended.report.mending_rounds, 0);
+  EXPECT_LT(mended.report.triangles, 8 * raw.report.triangles);
+}
+
+TEST(Needles, AreMendedAlikeOnAnyNumberOfRanks) {
+  const Model model = prism_of({{0, 0}, {3, 0}, {3, 3}, {0.0035, 3}, {0, 2.9965}});
+  const auto hash = [&](const Communicator& communicator) {
+    const SurfaceMesh surface = mesh_of(model, 0.5, 2, communicator);
+    return mesh::hash_mesh(communicator, surface.mesh, mesh::number_mesh(communicator, surface.mesh));
+  };
+  EXPECT_EQ(hash(Communicator::world()), hash(Communicator::self()));
+}
+
+TEST(Needles, InSharpCornersAreForced) {
+  const SurfaceMesh surface = mesh_of(sharp_prism(8), 0.2, 0);
+  std::vector<NeedleGroup> corners = surface.report.needles;
+  std::erase_if(corners, [](const NeedleGroup& group) { return group.cause != NeedleCause::corner; });
+  ASSERT_EQ(corners.size(), 2u);
+  for (const NeedleGroup& group : corners) {
+    EXPECT_EQ(group.needles, 1);
+    EXPECT_EQ(group.below_half, 0);
+    EXPECT_NEAR(group.degrees, 8, 1e-6);
+    EXPECT_LT(std::hypot(group.at.x, group.at.z), 1.0);
+  }
+  EXPECT_EQ(count(surface, NeedleCause::strip), 0);
+}
+
+TEST(Needles, BesideLongLegsAreMended) {
+  const Model model = sharp_prism(2);
+  EXPECT_GT(count(mesh_of(model, 0.05, 0), NeedleCause::mesh), 0);
+  const SurfaceMesh mended = mesh_of(model, 0.05, 2);
+  EXPECT_EQ(count(mended, NeedleCause::mesh), 0);
+  EXPECT_GT(count(mended, NeedleCause::corner), 0);
+}
+
+TEST(Needles, InStripsAreForced) {
+  const SurfaceMesh surface = mesh_of(prism_of({{0, 0}, {3, 0}, {3, 0.02}, {0, 0.02}}), 0.3, 2);
+  EXPECT_GT(count(surface, NeedleCause::strip), 0);
+  EXPECT_EQ(count(surface, NeedleCause::mesh), 0);
+  EXPECT_EQ(count(surface, NeedleCause::corner), 0);
+  EXPECT_EQ(surface.report.mending_rounds, 0);
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
