@@ -1,7 +1,12 @@
 #include "improve/strip_triangles.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::improve {
 namespace {
@@ -12,6 +17,8 @@ using mesh::LocalIndex;
 using mesh::Piece;
 
 constexpr int cad_vertex = 0, on_curve = 1;
+/// Two curves run along each other where their segments enclose less than this.
+const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
 /// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.
 using CurveName = std::int64_t;
@@ -25,14 +32,18 @@ struct EdgeAtVertex {
   std::int32_t vertex, face;
   CurveName curve;    ///< that the other end lies on
   GlobalIndex other;  ///< other end
-  auto operator<=>(const EdgeAtVertex&) const = default;
+  Vec3 step;          ///< from the vertex to it
 };
+
+auto edge_key(const EdgeAtVertex& e) {
+  return std::tie(e.vertex, e.curve, e.other, e.face);
+}
 
 /// The curves of a CAD face that end in a CAD vertex.
 struct CurveAtVertex {
   std::int32_t vertex, face;
   CurveName curve;
-  auto operator<=>(const CurveAtVertex&) const = default;
+  Vec3 step;  ///< along its first segment
 };
 
 void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::vector<EdgeAtVertex>& edges) {
@@ -44,7 +55,8 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
         const std::int32_t vertex = piece.vertex_entity[v[i]], entity = piece.vertex_entity[v[k]];
         const bool between_vertices = piece.vertex_dimension[v[k]] == cad_vertex;
         edges.push_back({vertex, piece.triangle_face[t],
-                         between_vertices ? name_of_segment(vertex, entity) : entity, names[v[k]]});
+                         between_vertices ? name_of_segment(vertex, entity) : entity, names[v[k]],
+                         piece.point(v[k]) - piece.point(v[i])});
       }
     }
   }
@@ -55,10 +67,10 @@ std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& comm
                                               const mesh::DistributedMesh& mesh,
                                               const mesh::Numbering& numbering) {
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
-    std::sort(edges.begin(), edges.end(), [](const EdgeAtVertex& a, const EdgeAtVertex& b) {
-      return std::tie(a.vertex, a.curve, a.other, a.face) < std::tie(b.vertex, b.curve, b.other, b.face);
-    });
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::sort(edges.begin(), edges.end(),
+              [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) < edge_key(b); });
+    const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
   };
   std::vector<EdgeAtVertex> edges;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
@@ -70,11 +82,13 @@ std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& comm
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const EdgeAtVertex &a = edges[i - 1], &b = edges[i];
     if (std::tie(a.vertex, a.curve, a.other) != std::tie(b.vertex, b.curve, b.other)) continue;
-    curves.push_back({a.vertex, a.face, a.curve});
-    curves.push_back({b.vertex, b.face, b.curve});
+    curves.push_back({a.vertex, a.face, a.curve, a.step});
+    curves.push_back({b.vertex, b.face, b.curve, b.step});
   }
-  std::sort(curves.begin(), curves.end());
-  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  // Those of a vertex and face together, in the order they had.
+  std::stable_sort(curves.begin(), curves.end(), [](const CurveAtVertex& a, const CurveAtVertex& b) {
+    return std::tie(a.vertex, a.face) < std::tie(b.vertex, b.face);
+  });
   return curves;
 }
 
@@ -91,8 +105,17 @@ public:
       return std::find(names.begin(), names.end(), name) != names.end();
     };
     const bool share = std::any_of(_at_a.begin(), _at_a.end(), [&](CurveName n) { return has(_at_b, n); });
-    return share && std::any_of(_at_c.begin(), _at_c.end(),
-                                [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); });
+    if (!share) return false;
+    const Vec3 p = _piece.point(a), q = _piece.point(b), r = _piece.point(c);
+    const Vec3 direction = distance(p, r) < distance(q, r) ? q - p : p - q;
+    const auto is_apart = [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); };
+    if (_piece.vertex_dimension[c] != cad_vertex) return std::any_of(_at_c.begin(), _at_c.end(), is_apart);
+    // A short segment across the end of a curve makes no strip of the curves that it joins.
+    const auto curves = curves_at(_piece.vertex_entity[c], face);
+    return std::any_of(curves.begin(), curves.end(), [&](const CurveAtVertex& curve) {
+      return is_apart(curve.curve) &&
+             dot(curve.step, direction) >= along_cosine * norm(curve.step) * norm(direction);
+    });
   }
 
 private:
@@ -103,11 +126,12 @@ private:
       names.push_back(entity);
       return;
     }
-    const auto is_before = [](const CurveAtVertex& c, std::array<std::int32_t, 2> wanted) {
-      return std::tie(c.vertex, c.face) < std::tie(wanted[0], wanted[1]);
-    };
-    auto at = std::lower_bound(_curves.begin(), _curves.end(), std::array{entity, face}, is_before);
-    for (; at != _curves.end() && at->vertex == entity && at->face == face; ++at) names.push_back(at->curve);
+    for (const CurveAtVertex& curve : curves_at(entity, face)) names.push_back(curve.curve);
+  }
+  std::span<const CurveAtVertex> curves_at(std::int32_t vertex, std::int32_t face) const {
+    const auto key = [](const CurveAtVertex& c) { return std::pair(c.vertex, c.face); };
+    const auto range = std::ranges::equal_range(_curves, std::pair(vertex, face), std::less<>(), key);
+    return {range.begin(), range.end()};
   }
 
   const Piece& _piece;

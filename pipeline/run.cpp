@@ -117,7 +117,7 @@ FinishedSurface build_surface(const Communicator& communicator, const cad::Model
   FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
   inspect_surface(communicator, model, "the surface mesh", finished, record);
   log_surface(record);
-  log_needles(record);
+  if (communicator.is_root()) log_needles(record);
   return finished;
 }
 

@@ -20,6 +20,8 @@ using mesh::Piece;
 /// A curve is as close as a needle is thin when the needle's height over the other curve is at most this part
 /// of its side there.
 constexpr double close_part = 0.2;
+/// Two curves run along each other where their segments enclose less than this.
+const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 /// Vertices of one curve that are further apart along it than this belong to different stretches of it.
 constexpr int same_stretch = 3;
 
@@ -105,18 +107,34 @@ private:
     return std::any_of(edges.begin(), edges.end(),
                        [&](EdgeId e) { return is_on(b, e) && steps_between(a, b, e) == 1; });
   }
-  /// Whether the side ab lies on a curve and c on another one of the face that has neither, or far off on the
-  /// same one.
+  /// Whether a segment of the edge at c has the direction: from the vertex of ab next to c to the other. A
+  /// short segment across the end of a curve makes no strip of the curves that it joins.
+  bool runs_along(EdgeId edge, CurveVertex c, Vec3 direction) const {
+    const cad::Edge& e = _model.edge(edge);
+    const CurveVertex begin = _curves.first_interior[edge], end = _curves.first_interior[edge + 1];
+    const bool inside = c >= _model.vertex_count();
+    const auto is_along = [&](CurveVertex next) {
+      const Vec3 segment = _curves.points[next] - _curves.points[c];
+      return dot(segment, direction) >= along_cosine * norm(segment) * norm(direction);
+    };
+    if (inside) return is_along(c == begin ? e.first : c - 1) || is_along(c + 1 == end ? e.last : c + 1);
+    return (c == e.first && is_along(begin < end ? begin : e.last)) ||
+           (c == e.last && is_along(begin < end ? end - 1 : e.first));
+  }
+  /// Whether the side ab lies on a curve and c on another one of the face that has neither and runs along it,
+  /// or far off on the same one.
   bool faces_other_curve(CurveVertex a, CurveVertex b, CurveVertex c, cad::FaceId face) const {
     if (!is_segment(a, b)) return false;
     EdgeId own = cad::no_entity;
+    const Vec3 p = _curves.points[a], q = _curves.points[b], r = _curves.points[c];
+    const Vec3 direction = distance(p, r) < distance(q, r) ? q - p : p - q;
     const auto is_apart = [&](EdgeId e) {
       const auto& users = _model.edge(e).faces;
       if (!std::binary_search(users.begin(), users.end(), face)) return false;
       for (const CurveVertex v : {a, b}) {
         if (is_on(v, e) && steps_between(v, c, e) < same_stretch) return false;
       }
-      return true;
+      return runs_along(e, c, direction);
     };
     const auto edges = edges_at(c, own);
     return std::any_of(edges.begin(), edges.end(), is_apart);

@@ -176,6 +176,28 @@ TEST(Pinned, DoesNotExcuseShortSidesOnCurves) {
   EXPECT_EQ(passing.rest.tetrahedra, 0);
 }
 
+TEST(Pinned, TellsShortEdgesFromStrips) {
+  // The short side joins two CAD vertices; the curve beyond goes on along the long side, or away from it.
+  for (const bool along : {true, false}) {
+    const auto world = parallel::Communicator::world();
+    DistributedMesh mesh = make_corner(world, true);
+    if (world.is_root()) {
+      Piece& piece = mesh.pieces.front();
+      piece.vertex_dimension[2] = 0;
+      piece.vertex_entity[2] = 6;
+      // A vertex of curve 4 beyond, with triangles of faces 0 and 1 at the edge to it.
+      piece.coordinates.insert(piece.coordinates.end(), {along ? 1 : -0.1, along ? 0.15 : 1.1, 0});
+      piece.vertex_dimension.push_back(1);
+      piece.vertex_entity.push_back(4);
+      add_triangle(piece, {1, 2, 4}, 0);
+      add_triangle(piece, {2, 3, 4}, 1);
+    }
+    const PinnedReport report = find(mesh, 28);
+    EXPECT_EQ(report.at_features.tetrahedra, along ? 1 : 0);
+    EXPECT_EQ(report.rest.tetrahedra, along ? 0 : 1);
+  }
+}
+
 TEST(Pinned, ListsNothingOfAGoodMesh) {
   const PinnedReport report = find(60, 1, 1, 15);
   EXPECT_TRUE(report.entities.empty());

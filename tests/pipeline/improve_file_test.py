@@ -64,6 +64,7 @@ def main():
     raw = Run(program, COARSE_TRANSPORT, 2, ("improve.enabled=false",))
     assert raw.code == 0, raw.text
     before = raw.report["quality"]["min_dihedral_deg"]
+    assert all(needle["forced"] for needle in raw.report["surface"]["needles"]), raw.report["surface"]["needles"]
 
     # A foreign file: the same result on any number of ranks, better, its space and its boundary kept.
     foreign = raw.folder / "foreign.vtu"

@@ -8,6 +8,7 @@
 #include "tests/cad/prisms.hpp"
 #include "tests/surface/face_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -50,6 +51,8 @@ TEST(Needles, OnShortEdgesAreMended) {
   const Model model = prism_of({{0, 0}, {3, 0}, {3, 3}, {0.0035, 3}, {0, 2.9965}});
   const SurfaceMesh raw = mesh_of(model, 0.5, 0);
   EXPECT_GT(count(raw, NeedleCause::mesh), 0);
+  // The face along the short edge is a strip; the edges that the short one joins enclose none.
+  EXPECT_EQ(std::ranges::count(raw.report.needles, NeedleCause::strip, &NeedleGroup::cause), 1);
   const SurfaceMesh mended = mesh_of(model, 0.5, 2);
   EXPECT_EQ(count(mended, NeedleCause::mesh), 0);
   EXPECT_GT(mended.report.mending_rounds, 0);
