@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <span>
 #include <tuple>
@@ -129,9 +128,13 @@ private:
     for (const CurveAtVertex& curve : curves_at(entity, face)) names.push_back(curve.curve);
   }
   std::span<const CurveAtVertex> curves_at(std::int32_t vertex, std::int32_t face) const {
-    const auto key = [](const CurveAtVertex& c) { return std::pair(c.vertex, c.face); };
-    const auto range = std::ranges::equal_range(_curves, std::pair(vertex, face), std::less<>(), key);
-    return {range.begin(), range.end()};
+    const auto is_before = [](const CurveAtVertex& c, const std::pair<std::int32_t, std::int32_t>& wanted) {
+      return std::tie(c.vertex, c.face) < std::tie(wanted.first, wanted.second);
+    };
+    const auto first = std::lower_bound(_curves.begin(), _curves.end(), std::pair(vertex, face), is_before);
+    const auto last = std::find_if(
+        first, _curves.end(), [&](const CurveAtVertex& c) { return c.vertex != vertex || c.face != face; });
+    return {first, last};
   }
 
   const Piece& _piece;
