@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -64,7 +65,20 @@ Tip measure_tip(const Model& model, const CurveMesh& curves, double widest, cons
   return tip;
 }
 
-/// Vertices that become one: the lowest stands for all, at their mean.
+/// The axis that an exact plane is normal to.
+int axis_of_plane(const Model& model, cad::FaceId face) {
+  const cad::EdgeUse& use = model.face(face).loops.front().front();
+  const geometry::Vec2 uv = model.edge_uv(face, use, model.edge(use.edge).first_parameter);
+  const Vec3 normal = model.face_frame(face, uv).normal;
+  int axis = 0;
+  for (const int other : {1, 2}) {
+    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  }
+  return axis;
+}
+
+/// Vertices that become one: the lowest stands for all, at their mean, but on every exact plane (a plane of
+/// symmetry, say) that one of them lies on.
 class ClosedVertices {
 public:
   ClosedVertices(const Model& model, const CurveMesh& curves, const std::vector<Tip>& tips)
@@ -91,6 +105,7 @@ public:
       ++count;
     }
     for (const auto& [v, sum] : sums) _point[v] = (1.0 / sum.second) * sum.first;
+    for (const auto& [v, root] : _root) keep_on_planes(v, _point[root]);
   }
 
   /// The vertex that stands for v; v itself where nothing closes.
@@ -104,6 +119,15 @@ public:
   mesh::SharedToken token(CurveVertex v) const { return _curves.token(_model, root(v)); }
 
 private:
+  /// Planes through one CAD vertex agree where they have an axis in common.
+  void keep_on_planes(CurveVertex v, Vec3& point) const {
+    for (const cad::FaceId face : _model.edge(_curves.edge_of(_model, v)).faces) {
+      if (!_model.is_exact_plane(face)) continue;
+      const int axis = axis_of_plane(_model, face);
+      point[axis] = _curves.points[v][axis];
+    }
+  }
+
   const Model& _model;
   const CurveMesh& _curves;
   std::map<CurveVertex, CurveVertex> _root;

@@ -119,6 +119,22 @@ TEST(CuspTips, LeaveAValidSurfaceOfTheSameArea) {
   EXPECT_NEAR(communicator.sum(area), 6, 1e-4);
 }
 
+TEST(CuspTips, KeepExactPlanes) {
+  const Model model = cube_with_cusp();
+  const SurfaceMesh surface = mesh_cube(Communicator::world(), model);
+  ASSERT_FALSE(surface.report.closed_tips.empty());
+  for (const mesh::Piece& piece : surface.mesh.pieces) {
+    const Vec3 first = piece.point(0);
+    int planes = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      bool same = true;
+      for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) same &= piece.point(v)[axis] == first[axis];
+      planes += same ? 1 : 0;
+    }
+    EXPECT_EQ(planes, 1) << model.face(piece.common_face()).name;
+  }
+}
+
 TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
   const Model model = cube_with_cusp();
   parallel::StageClock clock;
