@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -82,12 +84,29 @@ TEST(Needles, InSharpCornersAreForced) {
   EXPECT_EQ(count(surface, NeedleCause::strip), 0);
 }
 
-TEST(Needles, BesideLongLegsAreMended) {
-  const Model model = sharp_prism(2);
-  EXPECT_GT(count(mesh_of(model, 0.05, 0), NeedleCause::mesh), 0);
-  const SurfaceMesh mended = mesh_of(model, 0.05, 2);
-  EXPECT_EQ(count(mended, NeedleCause::mesh), 0);
-  EXPECT_GT(count(mended, NeedleCause::corner), 0);
+// What a face beyond a sharp corner's long first segments gets where it has needles beside them.
+TEST(Needles, LegsAreShortWhereAskedFor) {
+  constexpr double size = 0.05;
+  const Model model = sharp_prism(6);
+  parallel::StageClock clock;
+  const sizing::SizeField field = testing::uniform_field(model, size);
+  const auto longest_leg = [&](std::span<const cad::VertexId> short_legs) {
+    const CurveMesh curves = discretise_curves(Communicator::world(), model, field, clock, short_legs);
+    double longest = 0;
+    for (const SharpCorner& corner : curves.sharp_corners) {
+      for (const cad::EdgeEnd& end : corner.ends) {
+        const auto chain = curves.chain(model, end.edge);
+        const CurveVertex next = end.first ? chain[1] : chain[chain.size() - 2];
+        longest = std::max(longest, distance(curves.points[next], model.vertex(corner.vertex)));
+      }
+    }
+    return longest;
+  };
+  EXPECT_GT(longest_leg({}), 1.5 * longest_short_leg * size);
+  std::vector<cad::VertexId> all(model.vertex_count());
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_LE(longest_leg(all), 1.01 * longest_short_leg * size);
+  EXPECT_GT(longest_leg(all), 0.9 * longest_short_leg * size);
 }
 
 TEST(Needles, InStripsAreForced) {
