@@ -20,7 +20,8 @@ inline double closing_angle(const cad::Model& model, const cad::FaceCorner& corn
   }
 }
 
-/// As far as their edges are apart by less than this. The mesh leaves the surface by half of it.
+/// As far as their edges are apart by less than this. The mesh leaves the surface by half of it,
+/// by all of it beside an exact plane.
 inline double closing_gap(const SizingOptions& options) {
   return 0.05 * options.minimum;
 }

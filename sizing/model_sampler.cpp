@@ -161,9 +161,13 @@ void ModelSampler::take_faces(std::vector<OwnFace> before, const std::vector<Fac
 }
 
 void ModelSampler::list_corners() {
-  for (const OwnFace& face : _faces) {
+  for (OwnFace& face : _faces) {
+    face.closed_corners.clear();  // edges are the same in every model, what lies beyond them need not be
     for (const cad::FaceCorner& corner : cad::corners_of(_model, face.id)) {
-      if (may_be_sharp(_model, corner)) _corners.push_back(corner);
+      if (!may_be_sharp(_model, corner)) continue;
+      _corners.push_back(corner);
+      if (is_closed_corner(_model, corner))
+        face.closed_corners.push_back(std::minmax(corner.arriving.edge, corner.leaving.edge));
     }
   }
 }
@@ -224,7 +228,7 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) c
     FaceSamples& samples = _fields == Fields::several ? face.samples : once;
     std::vector<SizeSource> sources = samples.sources(_model, face.id, face.facets, far_field, options);
     const std::vector<SizeSource> strips =
-        strip_sources(_model, face.id, face.facets, options, largest_size(far_field, options));
+        strip_sources(_model, face.facets, face.closed_corners, options, largest_size(far_field, options));
     sources.insert(sources.end(), strips.begin(), strips.end());
     keep(thin_sources(_root, sources));
     if (options.proximity > 0 && face.gaps) keep(gap_sources(*face.gaps, options));
@@ -276,7 +280,7 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (const OwnFace& face : _faces) {
-      const auto sources = strip_sources(_model, face.id, face.facets, options, width);
+      const auto sources = strip_sources(_model, face.facets, face.closed_corners, options, width);
       const auto narrowest = std::min_element(sources.begin(), sources.end(),
                                               [](const auto& a, const auto& b) { return a.size < b.size; });
       if (narrowest != sources.end()) mine.push_back({face.id, narrowest->size, narrowest->point});

@@ -66,7 +66,8 @@ private:
     cad::FaceId id;
     cad::Facets facets;
     FaceSamples samples;
-    std::optional<std::vector<Gap>> gaps;  // seen from the face; nothing: not looked for yet
+    std::optional<std::vector<Gap>> gaps = {};  // seen from the face; nothing: not looked for yet
+    std::vector<EdgePair> closed_corners = {};
   };
   /// Those of the model before; `number` tells which face has become of each.
   void take_faces(std::vector<OwnFace> before, const std::vector<cad::FaceId>& number);

@@ -4,6 +4,8 @@
 #include "cad/model/face_corners.hpp"
 #include "sizing/sources.hpp"
 
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -15,11 +17,16 @@ std::vector<bool> find_far_field(const cad::Model& model);
 /// The triangulation of a face that samples and predictions start from.
 cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field);
 
-/// What narrow strips of a face ask for: between two edges of the face that share no vertex, or that end in a
-/// corner which is closed, elements are at most as large as the distance; down to smallest_strip_size().
-/// Distances from `reach` on ask for nothing, nor does a corner as far as it is closed.
-std::vector<SizeSource> strip_sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
-                                      const SizingOptions& options, double reach);
+/// Two edges of a face, the lower one first.
+using EdgePair = std::pair<cad::EdgeId, cad::EdgeId>;
+
+/// What narrow strips of a face ask for: between two edges of the face that share no vertex, or that end in
+/// one of its corners which are closed (is_closed_corner()), elements are at most as large as the distance;
+/// down to smallest_strip_size(). Distances from `reach` on ask for nothing, nor does a corner as far as it
+/// is closed.
+std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,
+                                      std::span<const EdgePair> closed_corners, const SizingOptions& options,
+                                      double reach);
 
 /// Whether elements of some size see the corner below 30 degrees.
 bool may_be_sharp(const cad::Model& model, const cad::FaceCorner& corner);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace aeroloom::sizing {
@@ -21,16 +22,15 @@ constexpr int facets_per_leaf = 8;
 class Strips {
 public:
   /// Widths from `reach` on do not matter.
-  Strips(const cad::Model& model, cad::FaceId face, const Facets& facets, const SizingOptions& options,
-         double reach)
-      : _model(model), _face(face), _facets(facets), _options(options), _reach(reach) {}
+  Strips(const cad::Model& model, const Facets& facets, std::span<const EdgePair> closed_corners,
+         const SizingOptions& options, double reach)
+      : _model(model), _facets(facets), _closed_corners(closed_corners), _options(options), _reach(reach) {}
 
   std::vector<SizeSource> run() {
     list_lines();
     if (_lines.size() < 2) return {};
     join_lines();
     for (const int line : _lines) cover_line(line);
-    find_closed_corners();
     if (!_closed_corners.empty()) {
       _beside_corners = true;
       for (const int line : _lines) cover_line(line);
@@ -47,14 +47,6 @@ private:
       const double width_b = width(b, line, width_a + distance(a, b));
       cover(a, width_a, b, width_b, line, 0);
       width_a = width_b;
-    }
-  }
-
-  /// Pairs of edges that the face ends between in a corner which is closed.
-  void find_closed_corners() {
-    for (const cad::FaceCorner& corner : cad::corners_of(_model, _face)) {
-      if (is_closed_corner(_model, corner))
-        _closed_corners.push_back(std::minmax(corner.arriving.edge, corner.leaving.edge));
     }
   }
 
@@ -159,8 +151,7 @@ private:
   }
 
   bool end_in_closed_corner(int a, int b) const {
-    const std::pair<cad::EdgeId, cad::EdgeId> edges =
-        std::minmax(_facets.boundary[a].use.edge, _facets.boundary[b].use.edge);
+    const EdgePair edges = std::minmax(_facets.boundary[a].use.edge, _facets.boundary[b].use.edge);
     return std::find(_closed_corners.begin(), _closed_corners.end(), edges) != _closed_corners.end();
   }
 
@@ -202,24 +193,24 @@ private:
   }
 
   const cad::Model& _model;
-  cad::FaceId _face;
   const Facets& _facets;
+  std::span<const EdgePair> _closed_corners;
   const SizingOptions& _options;
   double _reach;
   std::vector<int> _lines;
   SegmentTree _segments;                        // by line
   std::map<std::pair<int, int>, bool> _facing;  // of those asked for, the lower line first
-  std::vector<std::pair<cad::EdgeId, cad::EdgeId>> _closed_corners;
-  bool _beside_corners = false;  // edges that share a vertex are looked at, and no others
-  geometry::BoxTree _plane;      // of the facets' parameters, when it is asked for
+  bool _beside_corners = false;                 // edges that share a vertex are looked at, and no others
+  geometry::BoxTree _plane;                     // of the facets' parameters, when it is asked for
   std::vector<SizeSource> _sources;
 };
 
 }  // namespace
 
-std::vector<SizeSource> strip_sources(const cad::Model& model, cad::FaceId face, const Facets& facets,
-                                      const SizingOptions& options, double reach) {
-  return Strips(model, face, facets, options, reach).run();
+std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& facets,
+                                      std::span<const EdgePair> closed_corners, const SizingOptions& options,
+                                      double reach) {
+  return Strips(model, facets, closed_corners, options, reach).run();
 }
 
 }  // namespace aeroloom::sizing

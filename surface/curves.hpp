@@ -43,8 +43,8 @@ bool is_constraining(const cad::Model& model, cad::EdgeId edge);
 /// Spreads vertices so that each segment has length 1 in the metric of the field (equal parts of the integral
 /// of ds/h, at least enough segments that no two curves share both ends of a segment: three on a closed edge,
 /// two where another edge joins the same vertices). At sharp corners of faces the first segment is longer
-/// (sharp_corners.hpp), but not much at the CAD vertices in `short_legs` (ascending, the same on every rank);
-/// beside closed ones vertices lie opposite each other (tip_alignment.hpp). Each edge is discretised by one
+/// (sharp_corners.hpp), but not much at the CAD vertices in `short_legs` (ascending, the same on every rank).
+/// Beside closed ones vertices lie opposite each other (tip_alignment.hpp). Each edge is discretised by one
 /// rank, the result is shared. Collective.
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const cad::Model& model,
                             const sizing::SizeField& field, parallel::StageClock& clock,

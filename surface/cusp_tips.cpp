@@ -1,5 +1,6 @@
 #include "surface/cusp_tips.hpp"
 
+#include "sizing/segment_tree.hpp"
 #include "surface/tip_topology.hpp"
 
 #include <algorithm>
@@ -25,12 +26,6 @@ std::vector<CurveVertex> near_half(const Model& model, const CurveMesh& curves, 
   return chain;
 }
 
-double distance_to_segment(Vec3 p, Vec3 from, Vec3 to) {
-  const Vec3 along = to - from;
-  const double t = std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0);
-  return distance(p, from + t * along);
-}
-
 /// The points of a half edge from the CAD vertex on.
 struct Side {
   std::vector<CurveVertex> vertices;
@@ -46,8 +41,8 @@ struct Side {
   }
   /// How far a point is from them.
   double distance_from(Vec3 p, std::size_t i) const {
-    return std::min(distance_to_segment(p, points[i - 1], points[i]),
-                    distance_to_segment(p, points[i], points[i + 1]));
+    return std::min(sizing::distance_to_segment(p, points[i - 1], points[i]),
+                    sizing::distance_to_segment(p, points[i], points[i + 1]));
   }
 };
 

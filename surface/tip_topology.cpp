@@ -5,6 +5,7 @@
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -146,6 +147,7 @@ std::vector<Tip> agree_on_tips(const parallel::Communicator& communicator, const
 struct CurveTriangle {
   std::array<CurveVertex, 3> vertices;
   cad::FaceId face;
+  auto operator<=>(const CurveTriangle&) const = default;
 };
 
 /// What the triangles around tips become when tips close.
@@ -259,8 +261,10 @@ private:
 std::vector<Tip> without_open(const parallel::Communicator& communicator, const CurveMesh& curves,
                               const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
   Closure closure(curves.points.size(), tips);
-  const std::vector<CurveTriangle> triangles =
+  std::vector<CurveTriangle> triangles =
       communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
+  // Which tip opens first depends on their order, and theirs on the ranks.
+  std::sort(triangles.begin(), triangles.end());
   const std::vector<char>& open = closure.settle(triangles);
   std::vector<Tip> rest;
   for (std::size_t i = 0; i < tips.size(); ++i) {

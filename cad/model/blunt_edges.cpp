@@ -1,6 +1,7 @@
 #include "cad/model/blunt_edges.hpp"
 
 #include "cad/model/border_path.hpp"
+#include "cad/model/face_corners.hpp"
 #include "cad/model/face_width.hpp"
 
 #include <algorithm>
@@ -97,23 +98,11 @@ Sides tell_sides(std::vector<Run> runs) {
   return {{runs[0], runs[1]}, {}};
 }
 
-/// The face beyond an edge of the strip; no_entity where not exactly two faces pass it once each.
-FaceId beyond(const Model& model, FaceId face, EdgeId id) {
-  const Edge& edge = model.edge(id);
-  if (edge.faces.size() != 2) return no_entity;
-  const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
-  int uses = 0;
-  for (const auto& loop : model.face(other).loops) {
-    for (const EdgeUse& use : loop) uses += use.edge == id;
-  }
-  return uses == 1 ? other : no_entity;
-}
-
 /// Both borders from the same end of the strip to the other: the second against the loop.
 std::string lay_borders(const Model& model, const Sides& sides, BluntEdge& strip) {
   for (int side = 0; side < 2; ++side) {
     for (const EdgeUse& use : sides.borders[side].uses) {
-      const FaceId neighbour = beyond(model, strip.face, use.edge);
+      const FaceId neighbour = face_beyond(model, strip.face, use.edge);
       if (neighbour == no_entity) return "a long border is not shared with one other face";
       strip.borders[side].push_back({use, use.reversed != (side == 1), neighbour});
     }
@@ -122,7 +111,7 @@ std::string lay_borders(const Model& model, const Sides& sides, BluntEdge& strip
   // Behind the first border the strip ends, behind the second it starts.
   for (int end = 0; end < 2; ++end) {
     for (const EdgeUse& use : sides.ends[1 - end].uses) {
-      if (beyond(model, strip.face, use.edge) == no_entity)
+      if (face_beyond(model, strip.face, use.edge) == no_entity)
         return "an edge at an end is not shared with one other face";
       strip.ends[end].push_back(use.edge);
     }

@@ -21,13 +21,6 @@ Vec3 normal_at(const Model& model, const FaceCorner& corner) {
   return {};
 }
 
-/// The face beyond an edge of a face; no_entity where there is none, or more than one.
-FaceId face_beyond(const Model& model, EdgeId edge, FaceId face) {
-  const auto& faces = model.edge(edge).faces;
-  if (faces.size() != 2) return no_entity;
-  return faces[0] == face ? faces[1] : faces[0];
-}
-
 }  // namespace
 
 std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
@@ -49,9 +42,20 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
   return corners;
 }
 
+FaceId face_beyond(const Model& model, FaceId face, EdgeId id) {
+  const Edge& edge = model.edge(id);
+  if (edge.faces.size() != 2) return no_entity;
+  const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
+  int uses = 0;
+  for (const auto& loop : model.face(other).loops) {
+    for (const EdgeUse& use : loop) uses += use.edge == id;
+  }
+  return uses == 1 ? other : no_entity;
+}
+
 BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner) {
-  const FaceId first = face_beyond(model, corner.arriving.edge, corner.face),
-               second = face_beyond(model, corner.leaving.edge, corner.face);
+  const FaceId first = face_beyond(model, corner.face, corner.arriving.edge),
+               second = face_beyond(model, corner.face, corner.leaving.edge);
   if (first == no_entity || second == no_entity || first == second) return BeyondCorner::other;
   for (const auto& loop : model.face(first).loops) {
     for (const EdgeUse& use : loop) {

@@ -119,6 +119,15 @@ TEST(CuspTips, LeaveAValidSurfaceOfTheSameArea) {
   EXPECT_NEAR(communicator.sum(area), 6, 1e-4);
 }
 
+TEST(CuspTips, AreClosedAlikeOnAnyNumberOfRanks) {
+  const Model model = cube_with_cusp();
+  const auto hash = [&](const Communicator& communicator) {
+    const mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
+    return mesh::hash_mesh(communicator, surface, mesh::number_mesh(communicator, surface));
+  };
+  EXPECT_EQ(hash(Communicator::world()), hash(Communicator::self()));
+}
+
 TEST(CuspTips, KeepExactPlanes) {
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(Communicator::world(), model);
