@@ -297,8 +297,8 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
   return in;
 }
 
-void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine,
-                   const std::vector<Outcome>& outcomes, const Delivery& delivery) {
+std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine,
+                                       const std::vector<Outcome>& outcomes, const Delivery& delivery) {
   const auto outcome_of = [&](CavityId id) {
     return std::lower_bound(outcomes.begin(), outcomes.end(), id,
                             [](const Outcome& o, CavityId c) { return o.cavity < c; });
@@ -313,17 +313,21 @@ void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine,
   std::vector<std::vector<WireVertex>> vertices(mesh.pieces.size());
   for (const WireVertex& v : delivery.vertices) vertices[local_piece(v.piece)].push_back(v);
   for (const WireTriangle& t : delivery.triangles) triangles[local_piece(t.piece)].push_back(t);
+  std::vector<PieceChange> changes(mesh.pieces.size());
   std::size_t first = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     mesh::Piece& piece = mesh.pieces[p];
+    PieceChange& change = changes[p];
     std::size_t last = first;
     while (last < delivery.tets.size() && delivery.tets[last].piece == piece.id) ++last;
     const bool touched = last > first || std::any_of(mine.of_cell[p].begin(), mine.of_cell[p].end(), gone);
+    change.first_new = piece.cell_count();
     if (touched) {
       PieceUpdate update(piece, mine.tokens[p]);
       for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
         if (gone(mine.of_cell[p][c])) {
           update.leave(c);
+          change.left.push_back(c);
         } else {
           update.keep(c);
         }
@@ -331,20 +335,18 @@ void update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine,
       for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
         if (!gone(mine.of_triangle[p][t])) update.keep_triangle(t);
       }
+      change.first_new -= static_cast<mesh::LocalIndex>(change.left.size());
       piece = update.finish({delivery.tets.data() + first, last - first}, vertices[p], triangles[p]);
     }
     first = last;
   }
+  return changes;
 }
 
 }  // namespace
 
-bool is_placed_by_last_round(const mesh::DistributedMesh& mesh, mesh::SharedToken token) {
-  return mesh::is_placed_by(token, mesh.cavity_rounds - 1);
-}
-
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
+                            const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock) {
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
@@ -352,8 +354,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   CavityWishes settled = wishes;
   spread_wishes(communicator, mesh, settled);
   settle_wishes(communicator, mesh, settled);
-  for (std::size_t p = 0; reach == Reach::neighbours && p < mesh.pieces.size(); ++p)
-    widen(mesh.pieces[p], settled[p]);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) widen(mesh.pieces[p], settled[p]);
   Contribution mine = collect(mesh, settled, round);
   const CavityTable table = list_cavities(communicator, mine);
   std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);
@@ -372,8 +373,8 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
   const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(communicator, mesh, here);
   const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
-  update_pieces(mesh, mine, outcomes, delivery);
   CavityRound result;
+  result.changes = update_pieces(mesh, mine, outcomes, delivery);
   result.cavities = static_cast<std::int64_t>(outcomes.size());
   for (const Outcome& outcome : outcomes) result.refilled += outcome.refilled;
   return result;

@@ -67,24 +67,24 @@ using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
 /// piece wishes for a shared vertex, the others do too; where they differ the higher number counts.
 using CavityWishes = std::vector<std::vector<CavityId>>;
 
-/// Of the whole mesh, the same on every rank.
-struct CavityRound {
-  std::int64_t cavities = 0, refilled = 0;
+/// What a round did to a piece: the cells that are left kept their order, and what came stands behind them.
+struct PieceChange {
+  std::vector<mesh::LocalIndex> left;  ///< cells that went, ascending, as they were numbered before
+  mesh::LocalIndex first_new = 0;      ///< the first cell that came
 };
 
-/// Whether a vertex with this token was placed by the last round on the mesh.
-bool is_placed_by_last_round(const mesh::DistributedMesh& mesh, mesh::SharedToken token);
-
-/// Whether cavities consist of the stars of vertices that were wished for alone, or of those of their
-/// neighbours too, where these lie inside a piece and near one cavity only.
-enum class Reach : bool { stars, neighbours };
+struct CavityRound {
+  std::int64_t cavities = 0, refilled = 0;  ///< of the whole mesh, the same on every rank
+  std::vector<PieceChange> changes;         ///< per local piece
+};
 
 /// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
 /// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
-/// another round with other wishes. Deals cavities out by size. At most 255 rounds on one mesh.
+/// another round with other wishes. The stars of neighbours come too where these lie inside a piece and near
+/// one cavity only. Deals cavities out by size. At most 255 rounds on one mesh.
 /// Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
+                            const CavityWishes& wishes, const RefillCavity& refill,
                             parallel::StageClock& clock);
 
 }  // namespace aeroloom::cavities

@@ -2,8 +2,6 @@
 
 #include "improve/improver.hpp"
 #include "improve/reach.hpp"
-#include "improve/relaxation.hpp"
-#include "mesh/quality.hpp"
 #include "mesh/tet_faces.hpp"
 #include "mesh/tokens.hpp"
 
@@ -35,16 +33,17 @@ std::vector<char> near_borders(const Piece& piece) {
 
 }  // namespace
 
-std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                          cavities::CavityWishes& wishes) {
-  const TetQuality measure(options.target_angle);
+std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad, const TetQuality& measure,
+                          int shift, cavities::CavityWishes& wishes) {
   std::int64_t count = 0;
   wishes.clear();
-  for (const Piece& piece : mesh.pieces) {
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const Piece& piece = mesh.pieces[i];
     std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
+    if (bad.of_piece(i).empty()) continue;
     const Reach reach(piece, measure);
     std::vector<char> beside;  // a border, once needed
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       const double quality = measure(p[0], p[1], p[2], p[3]);
@@ -59,52 +58,6 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOption
       const cavities::CavityId id =
           cavities::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mean_edge(p), cell_width, shift);
       for (int k = 0; k < 4; ++k) mine[v[k]] = std::max(mine[v[k]], id);
-    }
-  }
-  return count;
-}
-
-std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                              cavities::CavityWishes& wishes) {
-  const TetQuality measure(options.target_angle);
-  std::int64_t count = 0;
-  wishes.clear();
-  std::vector<double> edges;
-  std::vector<double> ratios;
-  std::vector<std::int32_t> tets;
-  std::vector<char> bad;
-  for (const Piece& piece : mesh.pieces) {
-    std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
-    std::vector<LocalIndex> place(piece.vertex_count(), -1);
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-      place[piece.shared_vertices[s]] = static_cast<LocalIndex>(s);
-    edges.assign(piece.shared_vertices.size(), 0);
-    ratios.assign(piece.shared_vertices.size(), 0);
-    tets.assign(piece.shared_vertices.size(), 0);
-    bad.assign(piece.shared_vertices.size(), 0);
-    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const LocalIndex* v = piece.cell(t);
-      if (place[v[0]] < 0 && place[v[1]] < 0 && place[v[2]] < 0 && place[v[3]] < 0) continue;
-      const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
-      const double ratio = mesh::mean_ratio(p[0], p[1], p[2], p[3]);
-      const double edge = mean_edge(p);
-      const bool misses = measure(p[0], p[1], p[2], p[3]) < measure.target();
-      for (int k = 0; k < 4; ++k) {
-        if (place[v[k]] < 0) continue;
-        edges[place[v[k]]] += edge;
-        ratios[place[v[k]]] += ratio;
-        ++tets[place[v[k]]];
-        if (misses) bad[place[v[k]]] = 1;
-      }
-    }
-    for (std::size_t s = 0; s < tets.size(); ++s) {
-      const LocalIndex v = piece.shared_vertices[s];
-      if (tets[s] == 0 || piece.vertex_dimension[v] < 3) continue;
-      const bool poor = ratios[s] < Relaxation::good_enough * tets[s] &&
-                        (shift == 0 || !cavities::is_placed_by_last_round(mesh, piece.shared_tokens[s]));
-      if (!poor && !bad[s]) continue;
-      mine[v] = cavities::cavity_at(piece.point(v), edges[s] / tets[s], cell_width, shift);
-      ++count;
     }
   }
   return count;

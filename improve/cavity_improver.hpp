@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cavities/rounds.hpp"
+#include "improve/bad_cells.hpp"
 #include "improve/improve_options.hpp"
 #include "improve/improve_report.hpp"
 #include "improve/mesh_source.hpp"
@@ -12,16 +13,10 @@
 
 namespace aeroloom::improve {
 
-/// Wishes for the stars of all vertices of tetrahedra that miss the target, grouped by place; `shift` as in
-/// cavities::cavity_at. Returns their number on this rank.
-std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                          cavities::CavityWishes& wishes);
-
-/// Wishes for the stars of shared vertices inside whose tetrahedra are worse shaped on average than those of
-/// a lattice, as relaxation.hpp sees it, or among which one misses the target. From the second shift on, of
-/// the former only those that the last round did not reach. Returns their number on this rank.
-std::int64_t wish_for_borders(const mesh::DistributedMesh& mesh, const ImproveOptions& options, int shift,
-                              cavities::CavityWishes& wishes);
+/// Wishes for the stars of all vertices of tetrahedra that miss what is within reach (reach.hpp), grouped by
+/// place; `shift` as in cavities::cavity_at. Returns their number on this rank.
+std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad, const TetQuality& measure,
+                          int shift, cavities::CavityWishes& wishes);
 
 /// Improves the tetrahedra of cavities. What other tetrahedra have in common with a cavity stays, and so do
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.

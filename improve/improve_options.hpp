@@ -8,8 +8,7 @@ struct ImproveOptions {
   double target_angle = 28;  ///< degrees; tetrahedra with a smaller dihedral angle, or a larger one than 180
                              ///< minus 1.5 times this, are worked on
   int sweeps = 12;           ///< at most; ends earlier when sweeps gain little
-  int relaxation = 1;  ///< passes of smoothing for the average in a piece (relaxation.hpp); 0: none, no new
-                       ///< vertices, no rounds for borders
+  int relaxation = 1;        ///< passes of smoothing for the average (relaxation.hpp, border_relaxation.hpp)
   bool boundary_may_change = true;  ///< its triangles may flip and edges contract within one CAD face
   int shifted_rounds = 3;  ///< at most, across the borders of pieces; ends earlier when nothing is left
 };

@@ -1,12 +1,13 @@
 #include "improve/improver.hpp"
 
+#include "improve/bad_cells.hpp"
 #include "improve/balance.hpp"
+#include "improve/border_relaxation.hpp"
 #include "improve/cavity_improver.hpp"
 #include "improve/relaxation.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
 #include "improve/tet_quality.hpp"
-#include "improve/void_filling.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/sharing.hpp"
 #include "parallel/collective_error.hpp"
@@ -17,46 +18,7 @@
 namespace aeroloom::improve {
 namespace {
 
-/// What the report tells of a piece at one moment.
-struct PieceState {
-  std::int64_t bad = 0;
-  double least_angle = 180;  ///< degrees
-};
-
-/// Adds tetrahedra to a state, their qualities known.
-class Examination {
-public:
-  explicit Examination(const TetQuality& measure) : _target(measure.target()) {}
-
-  void add(double quality, const std::array<geometry::Vec3, 4>& p) {
-    state.bad += quality < _target;
-    if (quality > _bound) return;
-    const double angle = mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest;
-    if (angle >= state.least_angle) return;
-    state.least_angle = angle;
-    _bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
-  }
-
-  PieceState state;
-
-private:
-  double _target;
-  /// The quality is at most the sine of the smallest angle: above this nothing can lower the least angle.
-  double _bound = 2;
-};
-
-PieceState examine(const mesh::Piece& piece, const TetQuality& measure) {
-  Examination examination(measure);
-  for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const mesh::LocalIndex* c = piece.cell(t);
-    const std::array<geometry::Vec3, 4> p{piece.point(c[0]), piece.point(c[1]), piece.point(c[2]),
-                                          piece.point(c[3])};
-    examination.add(measure(p[0], p[1], p[2], p[3]), p);
-  }
-  return examination.state;
-}
-
-PieceState examine(const TetMesh& mesh) {
+BadState examine(const TetMesh& mesh) {
   Examination examination(mesh.measure());
   for (mesh::LocalIndex t = 0; t < mesh.slot_count(); ++t) {
     if (mesh.is_alive(t)) examination.add(mesh.quality(t), mesh.points(t));
@@ -70,9 +32,7 @@ double expected_work(const mesh::Piece& piece, const TetQuality& measure) {
   constexpr double per_bad = 50;
   std::int64_t bad = 0;
   for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const mesh::LocalIndex* c = piece.cell(t);
-    bad += measure(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) <
-           measure.target();
+    bad += quality_of(piece, t, measure) < measure.target();
   }
   return static_cast<double>(piece.cell_count()) + per_bad * static_cast<double>(bad);
 }
@@ -87,7 +47,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     numbered->resize(piece.vertex_count());
     std::iota(numbered->begin(), numbered->end(), 0);
   }
-  const auto note_before = [&](const PieceState& state) {
+  const auto note_before = [&](const BadState& state) {
     report.bad_before = report.bad_after = state.bad;
     report.min_angle_before = report.min_angle_after = state.least_angle;
   };
@@ -102,11 +62,8 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   const ChangeLimits limits(source.sizes, &reach);
   Schedule schedule(mesh, reach, limits, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
-  if (options.relaxation > 0) {
-    report.swaps += VoidFilling().run(mesh);
-    report.smoothed += Relaxation().run(mesh, options.relaxation);
-  }
-  const PieceState after = examine(mesh);
+  report.smoothed += Relaxation().run(mesh, options.relaxation);
+  const BadState after = examine(mesh);
   mesh.finish();
   if (numbered) *numbered = mesh.origin();
   report.changed_triangles = mesh.changed_triangles();
@@ -121,10 +78,6 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 
 namespace {
 
-/// Rounds for the average across borders. Those that two cavities wanted in one are inside of one in the
-/// next.
-constexpr int border_rounds = 2;
-
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                     const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
@@ -134,37 +87,28 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   cavities::CavityWishes wishes;
   const std::int32_t rounds_before = mesh.cavity_rounds;
   CavityImprover improver(mesh, options, source);
-  const auto refill = [&](cavities::Reach reach) {
-    const auto improve = [&](const cavities::Cavity& cavity) {
-      const double begin = parallel::cpu_seconds();
-      auto refilling = improver.improve(cavity, total);
-      clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id),
-                       static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
-                       static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
-      return refilling;
-    };
-    cavities::refill_cavities(communicator, mesh, wishes, reach, improve, clock);
+  const auto improve = [&](const cavities::Cavity& cavity) {
+    const double begin = parallel::cpu_seconds();
+    auto refilling = improver.improve(cavity, total);
+    clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id), static_cast<double>(cavity.tets.size()),
+                     parallel::cpu_seconds() - begin,
+                     static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
+    return refilling;
   };
-  for (int shift = 0; shift < (options.relaxation > 0 ? border_rounds : 0); ++shift) {
-    if (communicator.sum(wish_for_borders(mesh, options, shift, wishes)) == 0) break;
-    refill(cavities::Reach::stars);
-  }
-  // In a single piece all are known already.
-  const bool look = mesh.cavity_rounds > rounds_before || communicator.sum(total.bad_after) > 0;
-  for (int shift = 0; shift < (look ? options.shifted_rounds : 0); ++shift) {
-    if (communicator.sum(wish_for_bad(mesh, options, shift, wishes)) == 0) break;
-    refill(cavities::Reach::neighbours);
-  }
-  if (mesh.cavity_rounds == rounds_before) return;
-  mesh::forget_unshared(communicator, mesh);  // cavities name more than borders
   const TetQuality measure(options.target_angle);
-  total.bad_after = 0;
-  total.min_angle_after = 180;
-  for (const mesh::Piece& piece : mesh.pieces) {
-    const PieceState state = examine(piece, measure);
-    total.bad_after += state.bad;
-    total.min_angle_after = std::min(total.min_angle_after, state.least_angle);
+  const std::int64_t border_moves = relax_borders(communicator, mesh, measure, options.relaxation);
+  if (communicator.rank() == 0) total.smoothed += border_moves;
+  // Where borders stayed as they were, all is known already.
+  if (border_moves == 0 && communicator.sum(total.bad_after) == 0) return;
+  BadCells bad(mesh, measure);
+  for (int shift = 0; shift < options.shifted_rounds; ++shift) {
+    if (communicator.sum(wish_for_bad(mesh, bad, measure, shift, wishes)) == 0) break;
+    bad.update(mesh, cavities::refill_cavities(communicator, mesh, wishes, improve, clock));
   }
+  if (mesh.cavity_rounds > rounds_before) mesh::forget_unshared(communicator, mesh);  // cavities name more
+  const BadState after = bad.state(mesh);
+  total.bad_after = after.bad;
+  total.min_angle_after = after.least_angle;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace aeroloom::improve {
 
 /// Improves one tetrahedral piece in place: the worst element of any replacement gets better, then the
-/// average (void_filling.hpp, relaxation.hpp), no worst element of a replacement falling. Shared vertices
+/// average (relaxation.hpp), the worst element around a vertex not falling. Shared vertices
 /// stay. Where the options allow it, edges on the boundary may flip and vertices inside a CAD face
 /// vanish (boundary_change.hpp), and where the source is known vertices slide on CAD faces and curves
 /// (sliding.hpp). Vertices inside may move, some are added (at the end) or removed (the others keep their
@@ -25,10 +25,10 @@ namespace aeroloom::improve {
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source = {},
                             std::vector<mesh::LocalIndex>* numbered = nullptr);
 
-/// Improves all pieces of a mesh, dealt out anew by the work expected, their borders frozen; then what is
-/// poor on average or still bad beside borders, in cavities in which those borders are inside
-/// (cavities/rounds.hpp), shifted from round to round. The report counts the whole mesh, the same on every
-/// rank. Collective. Throws CollectiveError.
+/// Improves all pieces of a mesh, dealt out anew by the work expected, their borders frozen; then borders for
+/// the average where they are (border_relaxation.hpp), and what is still bad in cavities in which borders are
+/// inside (cavities/rounds.hpp), shifted from round to round. The report counts the whole mesh, the same on
+/// every rank. Collective. Throws CollectiveError.
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock,
                            const MeshSource& source = {});

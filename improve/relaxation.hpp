@@ -2,9 +2,9 @@
 /// where the sum of their inverse mean ratios is smaller, which counts the worst most.
 #pragma once
 
+#include "improve/inverse_ratios.hpp"
 #include "improve/tet_mesh.hpp"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,30 +17,24 @@ class Relaxation {
 public:
   /// Mean ratio on average around a vertex that stays where it is; a lattice has 0.95.
   static constexpr double good_enough = 0.93;
+  /// What is tried first, of the mean distance to the neighbours.
+  static constexpr double first_step = 0.15;
+  /// What a move must gain, of the mean of the inverse ratios.
+  static constexpr double least_gain = 1e-3;
 
   /// Visits the free vertices in their order, `passes` times. Returns how many moves were made.
   std::int64_t run(TetMesh& mesh, int passes);
 
 private:
-  /// A tetrahedron at the vertex: the face opposite to it, counter-clockwise seen from the vertex.
-  struct Cone {
-    Vec3 a, b, c;
-    Vec3 normal;     ///< of that face, twice its area long
-    double squares;  ///< of its edges, summed
-  };
   void score_vertices(const TetMesh& mesh);
   bool relax(TetMesh& mesh, LocalIndex v);
-  /// The sum over the cones with their tips at p, negated; very small where one is not positive.
-  double minus_inverse_ratios(Vec3 p) const;
-  /// The same with its gradient.
-  double minus_inverse_ratios(Vec3 p, Vec3& ascent) const;
   /// Moves the vertex of _star unless a quality falls below `least`.
   bool move(TetMesh& mesh, LocalIndex v, Vec3 to, double least);
 
   std::vector<float> _mean;  ///< mean ratio around each vertex
   std::vector<LocalIndex> _star;
   std::vector<double> _after;  ///< qualities of _star where it moves to
-  std::vector<Cone> _cones;
+  InverseRatios _ratios;
 };
 
 }  // namespace aeroloom::improve

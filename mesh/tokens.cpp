@@ -67,9 +67,4 @@ SharedToken placed_token(int round, std::int64_t index) {
   return late_bit | placed_bit | wide(round) << round_shift | wide(index);
 }
 
-bool is_placed_by(SharedToken token, int round) {
-  return (token & late_bit) != 0 && (token & placed_bit) != 0 &&
-         (token >> round_shift & round_mask) == wide(round);
-}
-
 }  // namespace aeroloom::mesh

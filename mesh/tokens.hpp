@@ -41,7 +41,5 @@ inline constexpr int most_token_rounds = 255;
 SharedToken late_token(int round, PieceId piece, LocalIndex vertex);
 /// A vertex that a round placed, by a running number.
 SharedToken placed_token(int round, std::int64_t index);
-/// Whether this round placed the vertex.
-bool is_placed_by(SharedToken token, int round);
 
 }  // namespace aeroloom::mesh

@@ -101,8 +101,7 @@ TEST(Cavities, KeepTheMeshWhole) {
   const mesh::GlobalIndex cells = count_cells(world, mesh);
   parallel::StageClock clock;
   for (int shift = 0; shift < 4; ++shift) {
-    const CavityRound round =
-        refill_cavities(world, mesh, wish_for_shared(mesh, shift), Reach::neighbours, same, clock);
+    const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, shift), same, clock);
     EXPECT_GT(round.cavities, 0);
     EXPECT_EQ(round.refilled, round.cavities);
     expect_valid(world, mesh);
@@ -110,26 +109,35 @@ TEST(Cavities, KeepTheMeshWhole) {
   }
 }
 
-TEST(Cavities, OfStarsAloneAreSmaller) {
+// Kept cells are where they were, the others new: told by their corners.
+TEST(Cavities, SayWhatTheyChanged) {
   const auto world = Communicator::world();
-  std::int64_t taken[2] = {};
-  for (const Reach reach : {Reach::stars, Reach::neighbours}) {
-    mesh::DistributedMesh mesh = mesh::examples::cube(world, 4 * squares, pieces);
-    const CavityWishes wishes = wish_for_shared(mesh, 0);
-    parallel::StageClock clock;
-    std::int64_t& tets = taken[static_cast<int>(reach)];
-    refill_cavities(
-        world, mesh, wishes, reach,
-        [&](const Cavity& cavity) {
-          tets += static_cast<std::int64_t>(cavity.tets.size());
-          return same(cavity);
-        },
-        clock);
-    expect_valid(world, mesh);
-    tets = world.sum(tets);
+  mesh::DistributedMesh mesh = mesh::examples::cube(world, 2 * squares, pieces);
+  const auto corners = [](const mesh::Piece& piece, mesh::LocalIndex cell) {
+    std::array<geometry::Vec3, 4> result;
+    for (int k = 0; k < 4; ++k) result[k] = piece.point(piece.cell(cell)[k]);
+    return result;
+  };
+  const std::vector<mesh::Piece> before = mesh.pieces;
+  parallel::StageClock clock;
+  const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, 0), divided, clock);
+  ASSERT_EQ(round.changes.size(), before.size());
+  std::int64_t changed = 0, kept = 0;
+  for (std::size_t p = 0; p < before.size(); ++p) {
+    const PieceChange& change = round.changes[p];
+    std::vector<mesh::LocalIndex> cells;
+    for (mesh::LocalIndex c = 0; c < before[p].cell_count(); ++c) {
+      if (!std::binary_search(change.left.begin(), change.left.end(), c)) cells.push_back(c);
+    }
+    ASSERT_EQ(static_cast<std::size_t>(change.first_new), cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      EXPECT_EQ(corners(mesh.pieces[p], static_cast<mesh::LocalIndex>(i)), corners(before[p], cells[i]));
+    changed += static_cast<std::int64_t>(change.left.size());
+    kept += change.first_new;
+    EXPECT_EQ(mesh.pieces[p].cell_count() > change.first_new, !change.left.empty());
   }
-  EXPECT_GT(taken[0], 0);
-  EXPECT_LT(taken[0], taken[1]);
+  EXPECT_GT(world.sum(changed), 0);
+  EXPECT_GT(world.sum(kept), 0);
 }
 
 TEST(Cavities, TakeNewVertices) {
@@ -139,7 +147,7 @@ TEST(Cavities, TakeNewVertices) {
   parallel::StageClock clock;
   std::int64_t taken = 0;
   refill_cavities(
-      world, mesh, wish_for_shared(mesh, 0), Reach::neighbours,
+      world, mesh, wish_for_shared(mesh, 0),
       [&](const Cavity& cavity) {
         taken += static_cast<std::int64_t>(cavity.tets.size());
         return divided(cavity);
@@ -178,8 +186,8 @@ TEST(Cavities, MayChangeTheSurface) {
   const mesh::MeshCounts before = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(count_moved(world, together), 0);
   parallel::StageClock clock;
-  refill_cavities(world, together, wish_for_surface(together), Reach::neighbours, slid, clock);
-  refill_cavities(self, alone, wish_for_surface(alone), Reach::neighbours, slid, clock);
+  refill_cavities(world, together, wish_for_surface(together), slid, clock);
+  refill_cavities(self, alone, wish_for_surface(alone), slid, clock);
   expect_valid(world, together);
   const mesh::MeshCounts after = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(after.vertices, before.vertices);
@@ -198,7 +206,7 @@ TEST(Cavities, RefuseAnotherBoundary) {
     result.tets.pop_back();
     return std::optional(result);
   };
-  EXPECT_THROW(refill_cavities(self, mesh, wish_for_shared(mesh, 0), Reach::neighbours, without_one, clock),
+  EXPECT_THROW(refill_cavities(self, mesh, wish_for_shared(mesh, 0), without_one, clock),
                parallel::CollectiveError);
 }
 
@@ -209,8 +217,8 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   parallel::StageClock clock;
   for (int shift = 0; shift < 3; ++shift) {
     const auto refill = shift == 1 ? divided : same;
-    refill_cavities(world, together, wish_for_shared(together, shift), Reach::neighbours, refill, clock);
-    refill_cavities(self, alone, wish_for_shared(alone, shift), Reach::neighbours, refill, clock);
+    refill_cavities(world, together, wish_for_shared(together, shift), refill, clock);
+    refill_cavities(self, alone, wish_for_shared(alone, shift), refill, clock);
   }
   EXPECT_EQ(hash(world, together), hash(self, alone));
 }
@@ -225,7 +233,7 @@ TEST(Cavities, AreDealtToTheRanksByTheirTetrahedra) {
     largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
     return same(cavity);
   };
-  refill_cavities(world, mesh, wish_for_shared(mesh, 0, 0.03), Reach::neighbours, count, clock);
+  refill_cavities(world, mesh, wish_for_shared(mesh, 0, 0.03), count, clock);
   // The heaviest rank is above the mean by no more than one cavity.
   EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
@@ -237,8 +245,7 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   const std::string before = hash(world, mesh);
   parallel::StageClock clock;
   const CavityRound round = refill_cavities(
-      world, mesh, wish_for_shared(mesh, 0), Reach::neighbours, [](const Cavity&) { return std::nullopt; },
-      clock);
+      world, mesh, wish_for_shared(mesh, 0), [](const Cavity&) { return std::nullopt; }, clock);
   EXPECT_GT(round.cavities, 0);
   EXPECT_EQ(round.refilled, 0);
   EXPECT_EQ(hash(world, mesh), before);

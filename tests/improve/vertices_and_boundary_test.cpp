@@ -2,7 +2,6 @@
 #include "improve/edge_contraction.hpp"
 #include "improve/relaxation.hpp"
 #include "improve/tet_mesh.hpp"
-#include "improve/void_filling.hpp"
 #include "mesh/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
@@ -139,62 +138,6 @@ LocalIndex vertex_at(const mesh::Piece& piece, Vec3 p) {
     if (distance(piece.point(v), p) < 1e-9) return v;
   }
   return -1;
-}
-
-/// Takes the centre of the cell at (2,2,2) out of the lattice: five tetrahedra fill the cube of its corners,
-/// two each the pyramids to the centres of the neighbouring cells.
-mesh::Piece take_centre_out(const mesh::Piece& lattice) {
-  mesh::Piece piece = lattice;
-  const LocalIndex missing = vertex_at(piece, {2.5, 2.5, 2.5});
-  piece.cells.clear();
-  for (LocalIndex t = 0; t < lattice.cell_count(); ++t) {
-    const LocalIndex* c = lattice.cell(t);
-    if (std::find(c, c + 4, missing) == c + 4) piece.cells.insert(piece.cells.end(), c, c + 4);
-  }
-  const auto corner = [&](int i, int j, int k) {
-    return vertex_at(piece, {double(2 + i), double(2 + j), double(2 + k)});
-  };
-  const auto add = [&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
-    if (volume6(piece.point(a), piece.point(b), piece.point(c), piece.point(d)) < 0) std::swap(c, d);
-    piece.cells.insert(piece.cells.end(), {a, b, c, d});
-  };
-  add(corner(0, 0, 0), corner(1, 1, 0), corner(1, 0, 1), corner(0, 1, 1));
-  for (const auto& [i, j, k] : {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}})
-    add(corner(i, j, k), corner(1 - i, j, k), corner(i, 1 - j, k), corner(i, j, 1 - k));
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int side = 0; side < 2; ++side) {
-      Vec3 tip{2.5, 2.5, 2.5};
-      tip[axis] += 2 * side - 1;
-      std::vector<LocalIndex> even, odd;  // the cube's diagonals join even corners
-      for (int u = 0; u < 2; ++u)
-        for (int v = 0; v < 2; ++v) {
-          int at[3];
-          at[axis] = side, at[(axis + 1) % 3] = u, at[(axis + 2) % 3] = v;
-          ((side + u + v) % 2 == 0 ? even : odd).push_back(corner(at[0], at[1], at[2]));
-        }
-      for (const LocalIndex o : odd) add(vertex_at(piece, tip), even[0], even[1], o);
-    }
-  }
-  return piece;
-}
-
-TEST(VoidFilling, PutsTheMissingPointOfALatticeBack) {
-  const mesh::Piece whole = make_lattice(5);
-  mesh::Piece piece = take_centre_out(whole);
-  const double before = volume(piece);
-  EXPECT_NEAR(before, volume(whole), 1e-12);
-  EXPECT_EQ(piece.cell_count(), whole.cell_count() - 24 + 17);
-  {
-    TetMesh mesh(piece, measure);
-    EXPECT_EQ(VoidFilling().run(mesh), 1);
-    mesh.finish();
-  }
-  EXPECT_NEAR(volume(piece), before, 1e-12);
-  EXPECT_EQ(piece.cell_count(), whole.cell_count());
-  EXPECT_LT(distance(piece.point(piece.vertex_count() - 1), {2.5, 2.5, 2.5}), 1e-9);
-  mesh::Piece full = whole;
-  TetMesh mesh(full, measure);
-  EXPECT_EQ(VoidFilling().run(mesh), 0) << "nothing is missing";
 }
 
 TEST(Relaxation, LiftsTheAverageAndNeverTheWorst) {

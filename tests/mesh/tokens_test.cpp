@@ -48,13 +48,5 @@ TEST(Tokens, OfVolumesNeverMeet) {
   EXPECT_LT(placed_token(0, many), placed_token(1, 0));
 }
 
-TEST(Tokens, TellTheRoundThatPlacedAVertex) {
-  EXPECT_TRUE(is_placed_by(placed_token(9, 1234567), 9));
-  EXPECT_FALSE(is_placed_by(placed_token(9, 1234567), 8));
-  EXPECT_FALSE(is_placed_by(late_token(9, 1, 2), 9));
-  EXPECT_FALSE(is_placed_by(added_token(9, 2), 0));
-  EXPECT_FALSE(is_placed_by(running_token(9), 0));
-}
-
 }  // namespace
 }  // namespace aeroloom::mesh
