@@ -346,7 +346,7 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 }  // namespace
 
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, const RefillCavity& refill,
+                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
                             parallel::StageClock& clock) {
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
@@ -354,7 +354,9 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   CavityWishes settled = wishes;
   spread_wishes(communicator, mesh, settled);
   settle_wishes(communicator, mesh, settled);
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) widen(mesh.pieces[p], settled[p]);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (int ring = 0; ring < reach.rings; ++ring) widen(mesh.pieces[p], reach.along_surface, settled[p]);
+  }
   Contribution mine = collect(mesh, settled, round);
   const CavityTable table = list_cavities(communicator, mine);
   std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);

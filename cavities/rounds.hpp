@@ -78,13 +78,20 @@ struct CavityRound {
   std::vector<PieceChange> changes;         ///< per local piece
 };
 
+/// How far cavities reach beyond the stars of vertices that are wished for: how often they take the stars of
+/// their vertices too, where these lie inside a piece and near one cavity only; those on the surface where
+/// asked for.
+struct Reach {
+  int rings = 1;
+  bool along_surface = false;
+};
+
 /// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
 /// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
-/// another round with other wishes. The stars of neighbours come too where these lie inside a piece and near
-/// one cavity only. Deals cavities out by size. At most 255 rounds on one mesh.
+/// another round with other wishes. Deals cavities out by size. At most 255 rounds on one mesh.
 /// Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, const RefillCavity& refill,
+                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
                             parallel::StageClock& clock);
 
 }  // namespace aeroloom::cavities

@@ -13,8 +13,9 @@ void spread_wishes(const parallel::Communicator& communicator, const mesh::Distr
 void settle_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                    CavityWishes& wishes);
 
-/// Adds the inner vertices next to each cavity: to it, if they are next to no other.
-void widen(const mesh::Piece& piece, std::vector<CavityId>& wishes);
+/// Adds the inner vertices next to each cavity, those on the surface too where asked for: to it, if they are
+/// next to no other.
+void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& wishes);
 
 /// The first wish among vertices.
 inline CavityId cavity_of(const std::vector<CavityId>& wishes, const mesh::LocalIndex* vertices, int count) {

@@ -2,6 +2,8 @@
 
 #include "improve/improver.hpp"
 #include "improve/reach.hpp"
+#include "improve/scatter.hpp"
+#include "mesh/mixing.hpp"
 #include "mesh/tet_faces.hpp"
 #include "mesh/tokens.hpp"
 
@@ -160,17 +162,61 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
   return after < before - 1e-12;
 }
 
+namespace {
+
+void add_changes(ImproveReport& report, const ImproveReport& of) {
+  report.smoothed += of.smoothed;
+  report.slid += of.slid;
+  report.swaps += of.swaps;
+  report.changed_triangles += of.changed_triangles;
+}
+
+/// The worst quality, then how many miss the target: what is greater is better.
+std::pair<double, std::int64_t> judge(const Piece& piece, const TetQuality& measure) {
+  std::pair<double, std::int64_t> result{std::numeric_limits<double>::max(), 0};
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const double quality = quality_of(piece, t, measure);
+    result.first = std::min(result.first, quality);
+    if (quality < measure.target()) --result.second;
+  }
+  return result;
+}
+
+}  // namespace
+
 std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavity& cavity,
                                                            ImproveReport& report) {
   order_vertices(cavity);
   build_piece(cavity);
   const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
   if (mine.smoothed + mine.slid + mine.swaps == 0 || is_worse_than(cavity)) return std::nullopt;
-  report.smoothed += mine.smoothed;
-  report.slid += mine.slid;
-  report.swaps += mine.swaps;
-  report.changed_triangles += mine.changed_triangles;
+  add_changes(report, mine);
   return build_refilling(cavity);
+}
+
+std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavities::Cavity& cavity,
+                                                                     int trials, std::uint64_t seed,
+                                                                     ImproveReport& report) {
+  // Of the vertices' shortest edges: about how far those beside the worst have to move to let go of it.
+  constexpr double share = 0.3;
+  order_vertices(cavity);
+  build_piece(cavity);
+  const Piece start = _piece;
+  auto best = judge(start, _measure);
+  std::optional<cavities::Refilling> result;
+  ImproveReport changes;
+  for (int trial = 0; trial < trials && best.second < 0; ++trial) {
+    _piece = start;
+    if (trial > 0) scatter(_piece, share, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
+    const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
+    const auto now = judge(_piece, _measure);
+    if (now <= best) continue;
+    best = now;
+    changes = mine;
+    result = build_refilling(cavity);
+  }
+  if (result) add_changes(report, changes);
+  return result;
 }
 
 }  // namespace aeroloom::improve

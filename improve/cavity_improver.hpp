@@ -28,6 +28,12 @@ public:
 
   /// Nothing where improvement changes nothing. Adds to the report.
   std::optional<cavities::Refilling> improve(const cavities::Cavity& cavity, ImproveReport& report);
+  /// The best of several: what improves the cavity as it is, then what improves it with its vertices inside
+  /// scattered (scatter.hpp; `seed` gives other throws), until none misses the target. The best has the best
+  /// worst tetrahedron, then the fewest that miss the target. Nothing where none is better than what is
+  /// there.
+  std::optional<cavities::Refilling> improve_by_trials(const cavities::Cavity& cavity, int trials,
+                                                       std::uint64_t seed, ImproveReport& report);
 
 private:
   void order_vertices(const cavities::Cavity& cavity);

@@ -78,34 +78,56 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 
 namespace {
 
+/// The rounds for the last ones: larger cavities, the surface in them, the best of several trials each, so
+/// that no order of changes decides.
+constexpr int last_rounds = 2;
+constexpr int last_trials = 8;
+constexpr cavities::Reach last_reach{2, true};
+
+/// So few that trials are no burden: each takes about as long as improving ten thousand tetrahedra.
+bool are_few(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+             std::int64_t bad) {
+  std::int64_t cells = 0;
+  for (const mesh::Piece& piece : mesh.pieces) cells += piece.cell_count();
+  return bad <= 20 + communicator.sum(cells) / 50000;
+}
+
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                     const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
                     parallel::StageClock& clock) {
   if (!options.enabled) return;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-  cavities::CavityWishes wishes;
-  const std::int32_t rounds_before = mesh.cavity_rounds;
-  CavityImprover improver(mesh, options, source);
-  const auto improve = [&](const cavities::Cavity& cavity) {
-    const double begin = parallel::cpu_seconds();
-    auto refilling = improver.improve(cavity, total);
-    clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id), static_cast<double>(cavity.tets.size()),
-                     parallel::cpu_seconds() - begin,
-                     static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
-    return refilling;
-  };
   const TetQuality measure(options.target_angle);
   const std::int64_t border_moves = relax_borders(communicator, mesh, measure, options.relaxation);
   if (communicator.rank() == 0) total.smoothed += border_moves;
   // Where borders stayed as they were, all is known already.
   if (border_moves == 0 && communicator.sum(total.bad_after) == 0) return;
+
   BadCells bad(mesh, measure);
-  for (int shift = 0; shift < options.shifted_rounds; ++shift) {
-    if (communicator.sum(wish_for_bad(mesh, bad, measure, shift, wishes)) == 0) break;
-    bad.update(mesh, cavities::refill_cavities(communicator, mesh, wishes, improve, clock));
+  cavities::CavityWishes wishes;
+  CavityImprover improver(mesh, options, source);
+  const auto refill = [&](cavities::Reach reach, int trials, int shift) {
+    const auto improve = [&](const cavities::Cavity& cavity) {
+      const double begin = parallel::cpu_seconds();
+      auto refilling = trials > 1 ? improver.improve_by_trials(cavity, trials, shift, total)
+                                  : improver.improve(cavity, total);
+      clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id),
+                       static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
+                       static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
+      return refilling;
+    };
+    bad.update(mesh, cavities::refill_cavities(communicator, mesh, wishes, reach, improve, clock));
+    mesh::forget_unshared(communicator, mesh);  // cavities name more than borders
+  };
+  int shift = 0;
+  const auto wish = [&] { return communicator.sum(wish_for_bad(mesh, bad, measure, shift, wishes)); };
+  for (; shift < options.shifted_rounds && wish() > 0; ++shift) refill({}, 1, shift);
+  for (const int end = shift + last_rounds; options.shifted_rounds > 0 && shift < end; ++shift) {
+    const std::int64_t left = wish();
+    if (left == 0 || !are_few(communicator, mesh, left)) break;
+    refill(last_reach, last_trials, shift);
   }
-  if (mesh.cavity_rounds > rounds_before) mesh::forget_unshared(communicator, mesh);  // cavities name more
   const BadState after = bad.state(mesh);
   total.bad_after = after.bad;
   total.min_angle_after = after.least_angle;

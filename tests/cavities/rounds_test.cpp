@@ -101,7 +101,7 @@ TEST(Cavities, KeepTheMeshWhole) {
   const mesh::GlobalIndex cells = count_cells(world, mesh);
   parallel::StageClock clock;
   for (int shift = 0; shift < 4; ++shift) {
-    const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, shift), same, clock);
+    const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, shift), {}, same, clock);
     EXPECT_GT(round.cavities, 0);
     EXPECT_EQ(round.refilled, round.cavities);
     expect_valid(world, mesh);
@@ -120,7 +120,7 @@ TEST(Cavities, SayWhatTheyChanged) {
   };
   const std::vector<mesh::Piece> before = mesh.pieces;
   parallel::StageClock clock;
-  const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, 0), divided, clock);
+  const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, 0), {}, divided, clock);
   ASSERT_EQ(round.changes.size(), before.size());
   std::int64_t changed = 0, kept = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
@@ -140,6 +140,38 @@ TEST(Cavities, SayWhatTheyChanged) {
   EXPECT_GT(world.sum(kept), 0);
 }
 
+TEST(Cavities, ReachAsFarAsTheyAreTold) {
+  const auto world = Communicator::world();
+  std::vector<std::int64_t> taken, triangles;
+  for (const Reach reach : {Reach{0, false}, {1, false}, {2, false}, {2, true}}) {
+    mesh::DistributedMesh mesh = mesh::examples::cube(world, 2 * squares, pieces);
+    std::int64_t tets = 0, on_surface = 0;
+    const auto count = [&](const Cavity& cavity) {
+      tets += static_cast<std::int64_t>(cavity.tets.size());
+      on_surface += static_cast<std::int64_t>(cavity.triangles.size());
+      return same(cavity);
+    };
+    // Far from each other, a cavity each.
+    CavityWishes wishes;
+    for (const mesh::Piece& piece : mesh.pieces) {
+      auto& mine = wishes.emplace_back(piece.vertex_count(), no_cavity);
+      for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+        const geometry::Vec3 p = piece.point(v);
+        const auto at = [](double x, double place) { return std::abs(x - place) < 0.04; };
+        if (at(p.x, 0.5) && at(p.y, 1.0 / 12) && (at(p.z, 0.25) || at(p.z, 0.75)))
+          mine[v] = cavity_at(p, 0.3, 1, 0);
+      }
+    }
+    parallel::StageClock clock;
+    refill_cavities(world, mesh, wishes, reach, count, clock);
+    expect_valid(world, mesh);
+    taken.push_back(world.sum(tets));
+    triangles.push_back(world.sum(on_surface));
+  }
+  for (std::size_t i = 1; i < taken.size(); ++i) EXPECT_GT(taken[i], taken[i - 1]) << i;
+  EXPECT_GT(triangles[3], triangles[2]);
+}
+
 TEST(Cavities, TakeNewVertices) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
@@ -147,7 +179,7 @@ TEST(Cavities, TakeNewVertices) {
   parallel::StageClock clock;
   std::int64_t taken = 0;
   refill_cavities(
-      world, mesh, wish_for_shared(mesh, 0),
+      world, mesh, wish_for_shared(mesh, 0), {},
       [&](const Cavity& cavity) {
         taken += static_cast<std::int64_t>(cavity.tets.size());
         return divided(cavity);
@@ -186,8 +218,8 @@ TEST(Cavities, MayChangeTheSurface) {
   const mesh::MeshCounts before = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(count_moved(world, together), 0);
   parallel::StageClock clock;
-  refill_cavities(world, together, wish_for_surface(together), slid, clock);
-  refill_cavities(self, alone, wish_for_surface(alone), slid, clock);
+  refill_cavities(world, together, wish_for_surface(together), {}, slid, clock);
+  refill_cavities(self, alone, wish_for_surface(alone), {}, slid, clock);
   expect_valid(world, together);
   const mesh::MeshCounts after = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(after.vertices, before.vertices);
@@ -206,7 +238,7 @@ TEST(Cavities, RefuseAnotherBoundary) {
     result.tets.pop_back();
     return std::optional(result);
   };
-  EXPECT_THROW(refill_cavities(self, mesh, wish_for_shared(mesh, 0), without_one, clock),
+  EXPECT_THROW(refill_cavities(self, mesh, wish_for_shared(mesh, 0), {}, without_one, clock),
                parallel::CollectiveError);
 }
 
@@ -217,8 +249,9 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   parallel::StageClock clock;
   for (int shift = 0; shift < 3; ++shift) {
     const auto refill = shift == 1 ? divided : same;
-    refill_cavities(world, together, wish_for_shared(together, shift), refill, clock);
-    refill_cavities(self, alone, wish_for_shared(alone, shift), refill, clock);
+    const Reach reach{shift, shift == 2};
+    refill_cavities(world, together, wish_for_shared(together, shift), reach, refill, clock);
+    refill_cavities(self, alone, wish_for_shared(alone, shift), reach, refill, clock);
   }
   EXPECT_EQ(hash(world, together), hash(self, alone));
 }
@@ -233,7 +266,7 @@ TEST(Cavities, AreDealtToTheRanksByTheirTetrahedra) {
     largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
     return same(cavity);
   };
-  refill_cavities(world, mesh, wish_for_shared(mesh, 0, 0.03), count, clock);
+  refill_cavities(world, mesh, wish_for_shared(mesh, 0, 0.03), {}, count, clock);
   // The heaviest rank is above the mean by no more than one cavity.
   EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
@@ -245,7 +278,7 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   const std::string before = hash(world, mesh);
   parallel::StageClock clock;
   const CavityRound round = refill_cavities(
-      world, mesh, wish_for_shared(mesh, 0), [](const Cavity&) { return std::nullopt; }, clock);
+      world, mesh, wish_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; }, clock);
   EXPECT_GT(round.cavities, 0);
   EXPECT_EQ(round.refilled, 0);
   EXPECT_EQ(hash(world, mesh), before);

@@ -1,6 +1,7 @@
 #include "improve/bad_cells.hpp"
 #include "improve/border_relaxation.hpp"
 #include "improve/cavity_improver.hpp"
+#include "improve/scatter.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <gtest/gtest.h>
@@ -99,6 +100,76 @@ TEST(BorderRelaxation, LeavesASinglePieceAlone) {
   EXPECT_EQ(relax_borders(self, mesh, measure, 2), 0);
 }
 
+TEST(Scatter, MovesVerticesInsideALittleAndInvertsNothing) {
+  const auto self = Communicator::self();
+  DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 25, 4), 1);
+  Piece& piece = mesh.pieces.front();
+  piece.shared_vertices = {piece.vertex_count() - 1};
+  const Piece before = piece;
+  scatter(piece, 0.3, 1);
+  piece.shared_vertices.clear();
+  examples::expect_valid(self, mesh);
+  int moved = 0, inside = 0;
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+    const bool free = piece.vertex_dimension[v] == 3 && v != piece.vertex_count() - 1;
+    inside += free;
+    moved += piece.point(v) != before.point(v);
+    if (!free) EXPECT_EQ(piece.point(v), before.point(v));
+    EXPECT_LT(distance(piece.point(v), before.point(v)), 0.3 * 0.2 * std::sqrt(3.0) * std::sqrt(3.0));
+  }
+  EXPECT_GT(moved, inside / 4);
+  Piece again = before, other = before;
+  scatter(again, 0.3, 1);
+  scatter(other, 0.3, 2);
+  EXPECT_EQ(again.coordinates, piece.coordinates);
+  EXPECT_NE(other.coordinates, piece.coordinates);
+}
+
+/// A cube as a cavity that may change inside.
+cavities::Cavity cavity_of(const Piece& piece) {
+  cavities::Cavity cavity;
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) cavity.points.push_back(piece.point(v));
+  cavity.dimension.assign(piece.vertex_dimension.begin(), piece.vertex_dimension.end());
+  cavity.entity.assign(piece.vertex_entity.begin(), piece.vertex_entity.end());
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* c = piece.cell(t);
+    cavity.tets.push_back({c[0], c[1], c[2], c[3]});
+  }
+  return cavity;
+}
+
+TEST(CavityImprover, TakesTheBestOfSeveralTrials) {
+  const auto self = Communicator::self();
+  ImproveOptions options;
+  options.sweeps = 3;
+  const MeshSource nowhere;
+  int better = 0;
+  for (std::uint32_t seed = 40; seed < 50; ++seed) {
+    const DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(4, 1, 25, seed), 1);
+    CavityImprover improver(mesh, options, nowhere);
+    const cavities::Cavity cavity = cavity_of(mesh.pieces.front());
+    const auto worst_of = [&](int trials) {
+      ImproveReport report;
+      const auto refilling = improver.improve_by_trials(cavity, trials, 7, report);
+      double least = 1;
+      const auto point = [&](LocalIndex v) {
+        const auto known = static_cast<LocalIndex>(cavity.points.size());
+        return v < known ? cavity.points[v] : refilling->added[v - known].point;
+      };
+      const auto& tets = refilling ? refilling->tets : cavity.tets;
+      for (const auto& t : tets)
+        least = std::min(least, measure(point(t[0]), point(t[1]), point(t[2]), point(t[3])));
+      return least;
+    };
+    const double before = worst(self, mesh), once = worst_of(1), often = worst_of(8);
+    EXPECT_GE(once, before);
+    EXPECT_GE(often, once);
+    EXPECT_EQ(worst_of(8), often);
+    better += often > once;
+  }
+  EXPECT_GT(better, 0);
+}
+
 TEST(BadCells, FollowRounds) {
   const auto world = Communicator::world();
   for (std::uint32_t seed = 30; seed < 34; ++seed) {
@@ -115,7 +186,7 @@ TEST(BadCells, FollowRounds) {
     parallel::StageClock clock;
     for (int shift = 0; shift < 4; ++shift) {
       if (world.sum(wish_for_bad(mesh, bad, measure, shift, wishes)) == 0) break;
-      bad.update(mesh, cavities::refill_cavities(world, mesh, wishes, improve, clock));
+      bad.update(mesh, cavities::refill_cavities(world, mesh, wishes, {}, improve, clock));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
       BadState all;
