@@ -26,7 +26,7 @@ FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing:
 
 double FeatureReport::wanted_tetrahedra() const {
   if (strips.empty()) return tetrahedra;
-  return tetrahedra * share.share_down_to(strips.front().width) / share.share;
+  return tetrahedra * share.resolved_share / share.share;
 }
 
 std::string describe(const FeatureReport& report) {

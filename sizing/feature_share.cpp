@@ -3,9 +3,11 @@
 #include "parallel/log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -35,7 +37,7 @@ public:
             std::llround(std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves))) {}
 
   FeatureShare run() {
-    FeatureShare found{_options.minimum, 1, false, _options.minimum, 1, _options.minimum};
+    FeatureShare found{_options.minimum, 1, false, 1, _options.minimum};
     const double lowest = std::min(_options.minimum, std::max(finest_over_minimum * _options.minimum,
                                                               finest_over_gap * _sampler.model().sewn_gap()));
     if (lowest == _options.minimum) return found;
@@ -45,10 +47,11 @@ public:
       return found;
     }
     double low = lowest, high = _options.minimum, floor = lowest;
+    Known known{_options.minimum, 1};
     for (int round = 0; round < most_rounds && std::log(high / low) > same_floor; ++round) {
       const std::optional<double> tetrahedra = count(floor);
       const double share = tetrahedra ? *tetrahedra / *base : 0;
-      if (tetrahedra && floor < found.tried_floor) found.tried_floor = floor, found.tried_share = share;
+      if (tetrahedra && floor < known.floor) known = {floor, share};
       if (tetrahedra && share <= _budget) {
         found.floor = high = floor;
         found.share = share;
@@ -61,10 +64,25 @@ public:
       if (!(floor > low && floor < high)) floor = std::sqrt(low * high);
     }
     found.limited = found.floor > lowest;
+    found.resolved_share = found.limited ? share_at(lowest, known) : found.share;
     return found;
   }
 
 private:
+  /// A floor for which tetrahedra were predicted.
+  struct Known {
+    double floor, share;
+  };
+
+  /// The share of a lower floor, about. Sizes grow away from a strip at the same rate, whatever they start
+  /// from: around each element along it there are as many tetrahedra, large or small.
+  double share_at(double floor, const Known& known) const {
+    const std::array<double, 3> floors{floor, known.floor, _options.minimum};
+    const std::vector<double> elements = _sampler.elements_along_strips(floors, _options.minimum);
+    const double more = elements[0] - elements[2], known_more = elements[1] - elements[2];
+    return known_more > 0 ? 1 + (known.share - 1) * more / known_more : known.share;
+  }
+
   std::optional<double> count(double floor) const {
     SizingOptions options = _options;
     set_feature_floor(options, floor);

@@ -14,17 +14,11 @@ inline constexpr double default_feature_budget = 5;
 
 /// What strips, short edges and sharp corners bring that are finer than the minimum of some sizes.
 struct FeatureShare {
-  double floor = 0;                         ///< the smallest size that strips may ask for; 0: the minimum
-  double share = 1;                         ///< predicted tetrahedra over those with the minimum as floor
-  bool limited = false;                     ///< by the budget: the floor is not the lowest
-  double tried_floor = 0, tried_share = 1;  ///< the lowest for which tetrahedra were predicted
-  double minimum = 0;                       ///< of everything else
-
-  /// The share, about, were all resolved down to a width: strips ask for elements in proportion to one over
-  /// theirs.
-  double share_down_to(double width) const {
-    return tried_floor <= width ? tried_share : 1 + (tried_share - 1) * tried_floor / width;
-  }
+  double floor = 0;           ///< the smallest size that strips may ask for; 0: the minimum
+  double share = 1;           ///< predicted tetrahedra over those with the minimum as floor
+  bool limited = false;       ///< by the budget: the floor is not the lowest
+  double resolved_share = 1;  ///< about, with the lowest floor; as `share` where that is within the budget
+  double minimum = 0;         ///< of everything else
 };
 
 /// Lets strips ask for sizes down to `floor`, short edges and sharp corners, around which elements grow from

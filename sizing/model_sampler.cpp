@@ -293,6 +293,41 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
   return all;
 }
 
+std::vector<double> ModelSampler::elements_along_strips(std::span<const double> floors,
+                                                        double minimum) const {
+  struct FaceElements {
+    FaceId face;
+    std::size_t floor;
+    double elements;
+  };
+  SizingOptions options;
+  options.minimum = options.maximum = minimum;
+  options.strip_minimum = *std::min_element(floors.begin(), floors.end());
+  std::vector<FaceElements> mine;
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (const OwnFace& face : _faces) {
+      const auto parts = strip_parts(_model, face.facets, face.closed_corners, options, minimum);
+      for (std::size_t i = 0; i < floors.size() && !parts.empty(); ++i) {
+        double sum = 0;
+        for (const StripPart& part : parts) {
+          const double width = 0.5 * (part.first_width + part.last_width);
+          if (width < minimum) sum += distance(part.first, part.last) / std::max(width, floors[i]);
+        }
+        mine.push_back({face.id, i, sum});
+      }
+    }
+  });
+  std::vector<FaceElements> all = _communicator.all_gather_items<FaceElements>(mine);
+  // Summed in the order of faces, whatever the number of ranks.
+  std::sort(all.begin(), all.end(), [](const FaceElements& a, const FaceElements& b) {
+    return std::pair(a.face, a.floor) < std::pair(b.face, b.floor);
+  });
+  std::vector<double> elements(floors.size());
+  for (const FaceElements& face : all) elements[face.floor] += face.elements;
+  return elements;
+}
+
 SizeField ModelSampler::build_field(const SizingOptions& options) const {
   return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
 }

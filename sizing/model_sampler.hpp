@@ -56,6 +56,10 @@ public:
   /// that. `minimum` tells how far corners are closed. Collective.
   std::vector<Strip> strips_narrower_than(double width, double minimum) const;
 
+  /// Elements along both sides of all strips narrower than `minimum`, about, for each of some smallest sizes
+  /// that strips may ask for: their lengths over their widths. Collective.
+  std::vector<double> elements_along_strips(std::span<const double> floors, double minimum) const;
+
   const cad::Model& model() const { return _model; }
   /// The box of all faces that are not far field; of everything where there are none.
   const geometry::Box& body_box() const { return _body_box; }

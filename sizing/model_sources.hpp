@@ -20,6 +20,18 @@ cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_
 /// Two edges of a face, the lower one first.
 using EdgePair = std::pair<cad::EdgeId, cad::EdgeId>;
 
+/// A part of a line along a narrow strip of a face, and the distances to the line opposite at its ends.
+struct StripPart {
+  geometry::Vec3 first, last;
+  double first_width, last_width;  ///< from `reach` on they do not matter
+};
+
+/// The narrow strips of a face, part by part, none longer than it is wide or than smallest_strip_size(), as
+/// strip_sources() looks for them.
+std::vector<StripPart> strip_parts(const cad::Model& model, const cad::Facets& facets,
+                                   std::span<const EdgePair> closed_corners, const SizingOptions& options,
+                                   double reach);
+
 /// What narrow strips of a face ask for: between two edges of the face that share no vertex, or that end in
 /// one of its corners which are closed (is_closed_corner()), elements are at most as large as the distance;
 /// down to smallest_strip_size(). Distances from `reach` on ask for nothing, nor does a corner as far as it

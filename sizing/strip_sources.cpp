@@ -26,7 +26,7 @@ public:
          const SizingOptions& options, double reach)
       : _model(model), _facets(facets), _closed_corners(closed_corners), _options(options), _reach(reach) {}
 
-  std::vector<SizeSource> run() {
+  std::vector<StripPart> run() {
     list_lines();
     if (_lines.size() < 2) return {};
     join_lines();
@@ -35,7 +35,7 @@ public:
       _beside_corners = true;
       for (const int line : _lines) cover_line(line);
     }
-    return std::move(_sources);
+    return std::move(_parts);
   }
 
 private:
@@ -177,8 +177,7 @@ private:
     if (least >= _reach || depth >= deepest_bisection) return;
     if (_beside_corners && 0.5 * (width_a + width_b + length) < closing_gap(_options)) return;
     if (length <= size_of(std::min(width_a, width_b))) {
-      add(a, width_a);
-      add(b, width_b);
+      _parts.push_back({a, b, open_width(width_a), open_width(width_b)});
       return;
     }
     const Vec3 middle = 0.5 * (a + b);
@@ -187,9 +186,9 @@ private:
     cover(middle, width_middle, b, width_b, line, depth + 1);
   }
 
-  void add(Vec3 point, double width) {
-    if (_beside_corners && width < closing_gap(_options)) return;
-    if (width < _reach) _sources.push_back({point, size_of(width)});
+  /// A corner asks for nothing as far as it is closed.
+  double open_width(double width) const {
+    return _beside_corners && width < closing_gap(_options) ? _reach : width;
   }
 
   const cad::Model& _model;
@@ -202,15 +201,28 @@ private:
   std::map<std::pair<int, int>, bool> _facing;  // of those asked for, the lower line first
   bool _beside_corners = false;                 // edges that share a vertex are looked at, and no others
   geometry::BoxTree _plane;                     // of the facets' parameters, when it is asked for
-  std::vector<SizeSource> _sources;
+  std::vector<StripPart> _parts;
 };
 
 }  // namespace
 
+std::vector<StripPart> strip_parts(const cad::Model& model, const Facets& facets,
+                                   std::span<const EdgePair> closed_corners, const SizingOptions& options,
+                                   double reach) {
+  return Strips(model, facets, closed_corners, options, reach).run();
+}
+
 std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& facets,
                                       std::span<const EdgePair> closed_corners, const SizingOptions& options,
                                       double reach) {
-  return Strips(model, facets, closed_corners, options, reach).run();
+  std::vector<SizeSource> sources;
+  for (const StripPart& part : strip_parts(model, facets, closed_corners, options, reach)) {
+    for (const auto& [point, width] :
+         {std::pair(part.first, part.first_width), std::pair(part.last, part.last_width)}) {
+      if (width < reach) sources.push_back({point, std::max(width, smallest_strip_size(options))});
+    }
+  }
+  return sources;
 }
 
 }  // namespace aeroloom::sizing

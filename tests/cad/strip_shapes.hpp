@@ -6,11 +6,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
@@ -44,6 +47,21 @@ inline Model spline_cylinder(double degrees, double height) {
 /// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.
 inline Model blunt_wedge(double thickness) {
   return prepare_fluid(prism({{0, -0.2}, {1, -0.5 * thickness}, {1, 0.5 * thickness}, {0, 0.2}}, 1)).model;
+}
+
+/// A wedge along y of unit length whose blunt end, at x = 1, is as thick at y = 0 and y = 1 as these say.
+inline Model tapered_wedge(double root, double tip) {
+  BRepOffsetAPI_ThruSections loft(Standard_True, Standard_True);
+  for (const auto& [y, thickness] : {std::pair(0.0, root), std::pair(1.0, tip)}) {
+    BRepBuilderAPI_MakePolygon section;
+    section.Add(gp_Pnt(0, y, -0.2));
+    section.Add(gp_Pnt(1, y, -0.5 * thickness));
+    section.Add(gp_Pnt(1, y, 0.5 * thickness));
+    section.Add(gp_Pnt(0, y, 0.2));
+    section.Close();
+    loft.AddWire(section.Wire());
+  }
+  return prepare_fluid(loft.Shape()).model;
 }
 
 /// A prism along y with a side that bends by so many degrees before its end: what is behind the bend is a
