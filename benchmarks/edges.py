@@ -21,7 +21,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CASES = ROOT / "configs/acceptance"
 DEFAULT_BUDGET = 5
-# Case, settings beside it, ranks where one is not enough.
+# Case, settings beside it, ranks.
 RUNS = [
     ("edges_transport_1", [], 1),
     ("edges_transport_0_3", [], 1),
@@ -37,6 +37,7 @@ RUNS = [
     ("edges_wing_tapered", [], 1),
     ("edges_wing_partly_sharp", [], 1),
     ("edges_transport_0_03_half_span", ["sizing.feature_budget=50"], 2),
+    ("edges_transport_0_03", ["sizing.feature_budget=50"], 2),
 ]
 WINGS = {"separate": "igs", "tapered": "step", "partly_sharp": "step"}
 
