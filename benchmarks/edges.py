@@ -37,7 +37,6 @@ RUNS = [
     ("edges_wing_tapered", [], 1),
     ("edges_wing_partly_sharp", [], 1),
     ("edges_transport_0_03_half_span", ["sizing.feature_budget=50"], 2),
-    ("edges_transport_0_03", ["sizing.feature_budget=50"], 2),
 ]
 WINGS = {"separate": "igs", "tapered": "step", "partly_sharp": "step"}
 
