@@ -127,19 +127,23 @@ private:
   /// kept.
   double judge(SizingOptions options) {
     if (_features.floor > 0) set_feature_floor(options, _features.floor);
-    std::optional<Trial> trial = _sampler.try_sizes(options, _coarser, _most_leaves);
-    if (!trial) {
+    std::optional<Trial> trial;
+    if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
+    const std::optional<double> tetrahedra =
+        trial ? std::optional(trial->counts.tetrahedra)
+              : _coarser > 1 ? _sampler.estimate_tetrahedra(options, _coarser, _most_leaves) : std::nullopt;
+    if (!tetrahedra) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", options.surface_maximum));
       return 1e300;
     }
-    const double count = std::max(trial->counts.tetrahedra, 1.0) * usual_bias(_coarser);
+    const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarser);
     parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra",
                                       options.surface_maximum, _coarser > 1 ? "about " : "", count));
     const double error = std::log(count / _features.share) - _target;
     if (std::abs(error) < std::abs(_error)) {
       _error = error;
       _options = options;
-      if (_coarser == 1) _best = std::move(trial);
+      _best = std::move(trial);
     }
     return error;
   }

@@ -17,7 +17,7 @@ struct ChosenSizes {
   FeatureShare features;
 };
 
-/// Sizes that give the target within some twenty percent, by estimates alone (ModelSampler::try_sizes), where
+/// Sizes that give the target within some twenty percent, by estimates alone (ModelSampler::estimate_tetrahedra), where
 /// no feature is finer than their minimum. Collective. Throws as choose_sizes().
 SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra);
 

@@ -86,12 +86,12 @@ private:
   std::optional<double> count(double floor) const {
     SizingOptions options = _options;
     set_feature_floor(options, floor);
-    const std::optional<Trial> trial = _sampler.try_sizes(options, _coarser, _most_leaves);
-    parallel::log_verbose(trial ? fmt::format("sizing: features down to {:.3g}: {:.3g} tetrahedra", floor,
-                                              trial->counts.tetrahedra)
-                                : fmt::format("sizing: features down to {:.3g}: far too many", floor));
-    if (!trial) return std::nullopt;
-    return std::max(1.0, trial->counts.tetrahedra);
+    const std::optional<double> tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);
+    parallel::log_verbose(
+        tetrahedra ? fmt::format("sizing: features down to {:.3g}: {:.3g} tetrahedra", floor, *tetrahedra)
+                   : fmt::format("sizing: features down to {:.3g}: far too many", floor));
+    if (!tetrahedra) return std::nullopt;
+    return std::max(1.0, *tetrahedra);
   }
 
   const ModelSampler& _sampler;

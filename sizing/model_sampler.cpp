@@ -72,6 +72,21 @@ double finest_facet(double extent, double area) {
 /// Widths that are told apart, over the widest.
 constexpr double finest_strip = 0.01;
 
+/// Sizes that differ by rounding alone.
+bool is_same(double a, double b) {
+  constexpr double rounding = 1e-9;
+  return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+}
+
+bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
+  return is_same(a.minimum, b.minimum) && is_same(a.maximum, b.maximum) &&
+         is_same(a.surface_maximum, b.surface_maximum) && is_same(a.growth, b.growth) &&
+         is_same(a.curvature_angle, b.curvature_angle) && is_same(a.proximity, b.proximity) &&
+         is_same(a.chordal_deviation, b.chordal_deviation) &&
+         is_same(smallest_feature_size(a), smallest_feature_size(b)) &&
+         is_same(smallest_strip_size(a), smallest_strip_size(b));
+}
+
 /// What walls opposite to each other ask for.
 std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOptions& options) {
   std::vector<SizeSource> sources;
@@ -332,19 +347,36 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
   return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
 }
 
-std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, double coarser,
-                                             std::int64_t most_leaves) const {
+std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& options, double coarser,
+                                                     std::int64_t most_leaves) const {
   SizingOptions coarse = options;
   for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum,
                        &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
-  std::optional<SizeField> field = FieldBuilder(_communicator, _clock, _model.bounds(), coarse)
-                                       .build_within(sample(options, coarser), most_leaves);
+  return FieldBuilder(_communicator, _clock, _model.bounds(), coarse)
+      .build_within(sample(options, coarser), most_leaves);
+}
+
+std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, std::int64_t most_leaves) const {
+  std::optional<SizeField> field = build_coarser(options, 1, most_leaves);
   if (!field) return std::nullopt;
   const PredictedCounts counts = predict(*field);
-  return Trial{std::move(*field),
-               {std::pow(coarser, 2) * counts.triangles, std::pow(coarser, 3) * counts.tetrahedra}};
+  return Trial{std::move(*field), counts};
+}
+
+std::optional<double> ModelSampler::estimate_tetrahedra(const SizingOptions& options, double coarser,
+                                                        std::int64_t most_leaves) const {
+  const auto known = std::find_if(_estimates.begin(), _estimates.end(), [&](const Estimate& each) {
+    return each.coarser == coarser && are_same_sizes(each.options, options);
+  });
+  if (known != _estimates.end())
+    return known->leaves > most_leaves ? std::nullopt : std::optional(known->tetrahedra);
+  const std::optional<SizeField> field = build_coarser(options, coarser, most_leaves);
+  if (!field) return std::nullopt;
+  const double tetrahedra = std::pow(coarser, 3) * count_tetrahedra(*field);
+  _estimates.push_back({options, coarser, field->leaf_count(), tetrahedra});
+  return tetrahedra;
 }
 
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,

@@ -47,10 +47,14 @@ public:
   SizeField build_field(const SizingOptions& options) const;
   /// As predict_counts. Collective.
   PredictedCounts predict(const SizeField& field) const;
-  /// A field whose sizes are all `coarser` times as large as those under these options, and about what these
-  /// would predict: with one, exactly. Nothing where the field has clearly more leaves. Collective.
-  std::optional<Trial> try_sizes(const SizingOptions& options, double coarser,
-                                 std::int64_t most_leaves) const;
+  /// The field under these options with what it predicts; nothing where it has clearly more leaves.
+  /// Collective.
+  std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves) const;
+  /// About what they would predict, by a field whose sizes are all `coarser` times as large; with one,
+  /// exactly. Nothing where that has clearly more leaves. Remembered for sizes that are asked for again.
+  /// Collective.
+  std::optional<double> estimate_tetrahedra(const SizingOptions& options, double coarser,
+                                            std::int64_t most_leaves) const;
 
   /// One for each face with strips narrower than that, by width; widths below a hundredth of it count as
   /// that. `minimum` tells how far corners are closed. Collective.
@@ -73,6 +77,16 @@ private:
     std::optional<std::vector<Gap>> gaps = {};  // seen from the face; nothing: not looked for yet
     std::vector<EdgePair> closed_corners = {};
   };
+  /// What estimate_tetrahedra() has found so far.
+  struct Estimate {
+    SizingOptions options;
+    double coarser;
+    std::int64_t leaves;
+    double tetrahedra;
+  };
+  /// A field whose sizes are `coarser` times as large as those under these options.
+  std::optional<SizeField> build_coarser(const SizingOptions& options, double coarser,
+                                         std::int64_t most_leaves) const;
   /// Those of the model before; `number` tells which face has become of each.
   void take_faces(std::vector<OwnFace> before, const std::vector<cad::FaceId>& number);
   void add_face(cad::FaceId id);
@@ -103,6 +117,7 @@ private:
   std::optional<TriangleTree> _boundary;  // facets of all faces that bound the domain
   std::optional<Walls> _walls;            // facets of all faces
   geometry::Box _body_box;
+  mutable std::vector<Estimate> _estimates;
 };
 
 }  // namespace aeroloom::sizing

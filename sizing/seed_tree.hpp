@@ -34,10 +34,11 @@ public:
 
 private:
   static constexpr int group = 8;
-  /// Two fit into a line of the cache; coordinates of the grid are exact in single precision.
+  /// The boxes of eight neighbours on the level below and the smallest size in each, rounded down; coordinates
+  /// of the grid are exact in single precision.
   struct Group {
-    std::array<float, 3> low, high;
-    double size;  ///< the smallest
+    std::array<std::array<float, group>, 3> low, high;  ///< by axis
+    std::array<float, group> size;                      ///< infinite where there is no neighbour
   };
   struct Best {
     double size;
@@ -45,19 +46,19 @@ private:
   };
 
   struct Point {
-    double x, y, z;
+    float x, y, z;
   };
+  static Point point(GridPoint p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
   double offer(std::size_t seed, const Point& p) const;
-  /// False only where no seed in the group offers less than `best`.
-  bool may_offer_less(const Group& of, const Point& p, double best) const;
-  /// Lowers `best` to what the groups [first, last) of a level offer; ends at the first lower offer where any
-  /// will do.
+  /// Lowers `best` to what lies below the group of a level; ends at the first lower offer where any will do.
   template <bool any>
-  bool search(std::size_t level, std::size_t first, std::size_t last, const Point& p, Best& best) const;
+  bool search(std::size_t level, std::size_t number, const Point& p, Best& best) const;
 
-  /// The seeds along the Morton curve, as groups of one; groups of eight of those, and so on up to one of at
-  /// most eight.
+  /// The seeds along the Morton curve in groups of eight; groups of eight of those, and so on up to one.
   std::vector<std::vector<Group>> _levels;
+  std::vector<double> _sizes;  // of the seeds
   double _slope = 0, _steps_per_size = 0;
 };
 
