@@ -58,16 +58,11 @@ public:
     double sum = 0;
     std::array<Side, remembered_leaves> recent{};
     std::size_t clear_leaves = 0;
-    // Facets around the leaves that come next: those of a cube that is larger by two levels.
-    SizeField::Leaf around{{}, 0, 0};
-    std::vector<std::int32_t> near, touching;
+    std::vector<std::int32_t> touching;
+    _depth = 0;
     for (std::int64_t i = first; i < last; ++i) {
       const SizeField::Leaf leaf = _field.leaf(i);
-      if (!lies_in(leaf, around)) {
-        around = _field.ancestor(i, 2);
-        _boundary.find_overlapping(with_margin(around.low, around.edge), margin_edge(around.edge), near);
-      }
-      find_touching(leaf.low, leaf.edge, near, touching);
+      find_touching(leaf.low, leaf.edge, near_leaf(i, leaf), touching);
       if (!touching.empty()) {
         sum += over_cut_cube(leaf.low, leaf.edge, touching, 0);
         continue;
@@ -90,7 +85,8 @@ private:
     bool inside;
   };
   static constexpr std::size_t remembered_leaves = 16;
-  static constexpr double margin = 1e-9;  // of the edge
+  static constexpr int levels_around = 3;  // above a leaf: the largest of the cubes
+  static constexpr double margin = 1e-9;   // of the edge
 
   static double cube(double x) { return x * x * x; }
 
@@ -98,6 +94,39 @@ private:
     const Vec3 away = leaf.low + 0.5 * leaf.edge * Vec3{1, 1, 1} - cube.low;
     return leaf.edge < cube.edge && std::min({away.x, away.y, away.z}) > 0 &&
            std::max({away.x, away.y, away.z}) < cube.edge;
+  }
+
+  /// Facets that touch the parent of a leaf, or a larger cube around it that none does. Those of its
+  /// ancestors are kept for the leaves that come next.
+  std::span<const std::int32_t> near_leaf(std::int64_t i, const SizeField::Leaf& leaf) {
+    while (_depth > 0 && !lies_in(leaf, _around[_depth - 1].cube)) --_depth;
+    if (_depth == 0) {
+      const SizeField::Leaf cube = _field.ancestor(i, levels_around);
+      _boundary.find_overlapping(with_margin(cube.low, cube.edge), margin_edge(cube.edge),
+                                 room_for(cube).touching);
+    }
+    for (int up = levels_between(_around[_depth - 1].cube, leaf) - 1; up > 0; --up) {
+      if (_around[_depth - 1].touching.empty()) break;
+      const SizeField::Leaf cube = _field.ancestor(i, up);
+      Surroundings& inner = room_for(cube);
+      find_touching(cube.low, cube.edge, _around[_depth - 2].touching, inner.touching);
+    }
+    return _around[_depth - 1].touching;
+  }
+
+  static int levels_between(const SizeField::Leaf& above, const SizeField::Leaf& below) {
+    return std::ilogb(1.5 * above.edge / below.edge);
+  }
+
+  struct Surroundings {
+    SizeField::Leaf cube;
+    std::vector<std::int32_t> touching;
+  };
+  /// The innermost of the cubes around a leaf, from now on.
+  Surroundings& room_for(const SizeField::Leaf& cube) {
+    if (_depth == _around.size()) _around.emplace_back();
+    _around[_depth].cube = cube;
+    return _around[_depth++];
   }
 
   /// The closed cube: a side of the domain may coincide with sides of leaves.
@@ -132,6 +161,8 @@ private:
 
   const SizeField& _field;
   const TriangleTree& _boundary;
+  std::vector<Surroundings> _around;  // cubes in each other, the first _depth
+  std::size_t _depth = 0;
 };
 
 }  // namespace

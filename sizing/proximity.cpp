@@ -52,7 +52,7 @@ private:
     const Vec3 center = (t[0] + t[1] + t[2]) / 3;
     const Vec3 normal = unit_normal(t);
     if (!(norm(normal) > 0.5)) return;
-    const double gap = std::min(look(center, normal, normal), look(center, -normal, normal));
+    const double gap = look(center, normal);
     if (gap <= _widest) _gaps.push_back({center, gap});
     int longest = 0;
     double length = 0;
@@ -68,18 +68,16 @@ private:
     cover({middle, b, c}, depth + 1);
   }
 
-  /// Distance along the ray to the nearest wall that faces the normal, the lower one where two are as near;
-  /// infinity where there is none in reach.
-  double look(Vec3 from, Vec3 direction, Vec3 normal) const {
+  /// Distance along the normal, to either side, to the nearest wall that faces back, the lower one where two
+  /// are as near; infinity where there is none in reach.
+  double look(Vec3 from, Vec3 normal) const {
     double nearest = std::numeric_limits<double>::infinity();
-    std::int32_t wall = -1;
-    _walls.tree.for_each_crossing(from, direction, _widest, [&](std::int32_t triangle, double away) {
-      const bool is_nearer = away < nearest || (away == nearest && triangle < wall);
-      if (!is_nearer || dot(unit_normal(_walls.triangles[triangle]), normal) > facing) return;
-      nearest = away, wall = triangle;
-    });
-    if (wall < 0 || in_wedge(from, _walls.faces[wall], nearest))
-      return std::numeric_limits<double>::infinity();
+    const auto faces_back = [&](std::int32_t triangle) {
+      return dot(_walls.normals[triangle], normal) <= facing;
+    };
+    for (const auto& [wall, away] : _walls.tree.nearest_crossings(from, normal, _widest, faces_back)) {
+      if (wall >= 0 && away < nearest && !in_wedge(from, _walls.faces[wall], away)) nearest = away;
+    }
     return nearest;
   }
 
@@ -101,8 +99,11 @@ private:
 
 }  // namespace
 
-Walls::Walls(std::vector<Triangle> triangles_of_walls, std::vector<cad::FaceId> faces_of_walls)
-    : tree(triangles_of_walls), triangles(std::move(triangles_of_walls)), faces(std::move(faces_of_walls)) {}
+Walls::Walls(const std::vector<Triangle>& triangles_of_walls, std::vector<cad::FaceId> faces_of_walls)
+    : tree(triangles_of_walls), faces(std::move(faces_of_walls)) {
+  normals.reserve(triangles_of_walls.size());
+  for (const Triangle& t : triangles_of_walls) normals.push_back(unit_normal(t));
+}
 
 std::vector<Gap> find_gaps(const cad::Model& model, const cad::Facets& facets, const Walls& walls,
                            double widest, double finest, double layers) {

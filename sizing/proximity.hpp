@@ -18,10 +18,10 @@ struct Gap {
 /// The facets of all faces as walls; `faces` tells each triangle's face.
 struct Walls {
   TriangleTree tree;
-  std::vector<Triangle> triangles;
+  std::vector<geometry::Vec3> normals;  ///< unit; zero where a triangle has none
   std::vector<cad::FaceId> faces;
 
-  Walls(std::vector<Triangle> triangles_of_walls, std::vector<cad::FaceId> faces_of_walls);
+  Walls(const std::vector<Triangle>& triangles_of_walls, std::vector<cad::FaceId> faces_of_walls);
 };
 
 /// Gaps seen from one face, given by its facets: rays along its facets' normals, to both sides, to the
