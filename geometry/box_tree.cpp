@@ -28,7 +28,8 @@ std::int32_t BoxTree::build(std::span<const Box> boxes, std::int32_t begin, std:
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::int32_t middle = begin + (end - begin) / 2;
   std::nth_element(first, _order.begin() + middle, last, [&](std::int32_t a, std::int32_t b) {
-    const double left = boxes[a].center()[axis], right = boxes[b].center()[axis];
+    const double left = boxes[a].low[axis] + boxes[a].high[axis],
+                 right = boxes[b].low[axis] + boxes[b].high[axis];
     return left != right ? left < right : a < b;
   });
   build(boxes, begin, middle, leaf_size);

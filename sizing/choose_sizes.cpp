@@ -130,8 +130,9 @@ private:
     std::optional<Trial> trial;
     if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
     const std::optional<double> tetrahedra =
-        trial ? std::optional(trial->counts.tetrahedra)
-              : _coarser > 1 ? _sampler.estimate_tetrahedra(options, _coarser, _most_leaves) : std::nullopt;
+        trial          ? std::optional(trial->counts.tetrahedra)
+        : _coarser > 1 ? _sampler.estimate_tetrahedra(options, _coarser, _most_leaves)
+                       : std::nullopt;
     if (!tetrahedra) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", options.surface_maximum));
       return 1e300;

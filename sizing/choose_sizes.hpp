@@ -17,8 +17,9 @@ struct ChosenSizes {
   FeatureShare features;
 };
 
-/// Sizes that give the target within some twenty percent, by estimates alone (ModelSampler::estimate_tetrahedra), where
-/// no feature is finer than their minimum. Collective. Throws as choose_sizes().
+/// Sizes that give the target within some twenty percent, by estimates alone
+/// (ModelSampler::estimate_tetrahedra), where no feature is finer than their minimum. Collective. Throws as
+/// choose_sizes().
 SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra);
 
 /// Searches the one size from which all bounds follow until the predicted count is within some percent of

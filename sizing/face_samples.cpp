@@ -34,26 +34,25 @@ std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceI
 }
 
 void FaceSamples::start(const Demand& demand, const cad::Facets& facets) {
-  for (std::size_t p = 0; p < facets.points.size(); ++p) add(demand, facets.uv[p], facets.points[p]);
+  for (std::size_t p = 0; p < facets.points.size(); ++p) {
+    const Vec2 uv = facets.uv[p];
+    add(uv, facets.points[p],
+        _planar ? cad::PrincipalCurvatures{} : demand.model.face_curvatures(demand.face, uv));
+  }
   _parts.resize(facets.triangles.size());
 }
 
-std::int32_t FaceSamples::add(const Demand& demand, Vec2 uv, Vec3 point) {
-  double curvature = 0;
-  if (!_planar) {
-    const auto curvatures = demand.model.face_curvatures(demand.face, uv);
-    if (curvatures.defined) curvature = std::abs(curvatures.largest);
-  }
-  _points.push_back({uv, point, curvature, {-1, -1}});
+std::int32_t FaceSamples::add(Vec2 uv, Vec3 point, const cad::PrincipalCurvatures& curvatures) {
+  _points.push_back({uv, point, curvatures.defined ? std::abs(curvatures.largest) : 0, {-1, -1}});
   return static_cast<std::int32_t>(_points.size()) - 1;
 }
 
 std::int32_t FaceSamples::add_between(const Demand& demand, std::int32_t a, std::int32_t b, double length) {
   const Vec3 from = _points[a].point, to = _points[b].point;
   const Vec2 uv = 0.5 * (_points[a].uv + _points[b].uv);
-  const Vec3 point = demand.model.face_point(demand.face, uv);
+  const auto [point, curvatures] = demand.model.face_curved_point(demand.face, uv);
   if (std::max(distance(point, from), distance(point, to)) < farthest_middle * length)
-    return add(demand, uv, point);
+    return add(uv, point, curvatures);
   // The parameters jump or are singular between the two: follow the facet instead.
   _points.push_back({_points[a].uv, 0.5 * (from + to), 0, {a, b}});
   return static_cast<std::int32_t>(_points.size()) - 1;

@@ -47,7 +47,7 @@ private:
   };
 
   void start(const Demand& demand, const cad::Facets& facets);
-  std::int32_t add(const Demand& demand, geometry::Vec2 uv, geometry::Vec3 point);
+  std::int32_t add(geometry::Vec2 uv, geometry::Vec3 point, const cad::PrincipalCurvatures& curvatures);
   std::int32_t add_between(const Demand& demand, std::int32_t a, std::int32_t b, double length);
   double size_of(const Point& point, const Demand& demand) const;
   void ask(std::int32_t point, Demand& demand) const;

@@ -86,7 +86,7 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   split_at_sources();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  if (!split_where_coarse(grow_octree(), SeedTree(seeds_at_sources(), _slope), most_leaves / 8))
+  if (!split_where_coarse(_cells.leaves(), SeedTree(seeds_at_sources(), _slope), most_leaves / 8))
     return std::nullopt;
   _cells.balance();
   Octree octree = grow_octree();
@@ -174,7 +174,8 @@ double FieldBuilder::bound_at(GridPoint p) const {
   return _previous->interpolate(unit * p.x, unit * p.y, unit * p.z);
 }
 
-bool FieldBuilder::split_where_coarse(const Octree& octree, const SeedTree& seeds, std::int64_t most_cubes) {
+bool FieldBuilder::split_where_coarse(const SplitCubes::Leaves& leaves, const SeedTree& seeds,
+                                      std::int64_t most_cubes) {
   struct Cube {
     std::uint64_t key;
     std::int64_t level;
@@ -192,9 +193,9 @@ bool FieldBuilder::split_where_coarse(const Octree& octree, const SeedTree& seed
   };
   parallel::agree(_communicator, [&] {
     const ScopedCpu own(_clock, ScopedCpu::As::task);
-    const Range range = own_range(octree.leaves.keys.size());
+    const Range range = own_range(leaves.keys.size());
     for (std::size_t leaf = range.first; leaf < range.last; ++leaf)
-      visit(visit, octree.leaves.keys[leaf], octree.leaves.levels[leaf]);
+      visit(visit, leaves.keys[leaf], leaves.levels[leaf]);
   });
   if (_communicator.sum(static_cast<std::int64_t>(mine.size())) > most_cubes) return false;
   for (const Cube& cube : _communicator.all_gather_items<Cube>(mine))

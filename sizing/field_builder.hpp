@@ -73,7 +73,7 @@ private:
   Octree grow_octree();
   Range own_range(std::size_t count) const;
   /// False where that would take more cubes than that; then nothing is split.
-  bool split_where_coarse(const Octree& octree, const SeedTree& seeds, std::int64_t most_cubes);
+  bool split_where_coarse(const SplitCubes::Leaves& leaves, const SeedTree& seeds, std::int64_t most_cubes);
   /// What no size may exceed at a point.
   double bound_at(GridPoint p) const;
   std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;

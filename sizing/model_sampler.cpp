@@ -129,7 +129,7 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
       _layers(before._layers),
       _fields(before._fields),
       _root(before._root),
-      _boundary(std::move(before._boundary)),
+      _part_on_boundary(std::move(before._part_on_boundary)),
       _walls(std::move(before._walls)),
       _body_box(before._body_box) {
   parallel::agree(_communicator, [&] {
@@ -197,19 +197,20 @@ void ModelSampler::gather_triangles() {
   }
   std::vector<FaceTriangle> all = _communicator.all_gather_items<FaceTriangle>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
-  std::vector<Triangle> boundary;
+  ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+  std::vector<Triangle> boundary, walls;
+  std::vector<FaceId> faces;
   for (const FaceTriangle& t : all) {
     if (!_far_field[t.face]) {
       for (const geometry::Vec3 p : t.corners) _body_box.add(p);
     }
     if (_model.face(t.face).back == cad::no_entity) boundary.push_back(t.corners);
+    walls.push_back(t.corners);
+    faces.push_back(t.face);
   }
-  std::vector<Triangle> walls;
-  std::vector<FaceId> faces;
-  for (const FaceTriangle& t : all) walls.push_back(t.corners), faces.push_back(t.face);
-  ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-  _boundary.emplace(std::move(boundary));
-  _walls.emplace(std::move(walls), std::move(faces));
+  // Without faces between regions the walls are the boundary: one tree serves both.
+  if (boundary.size() < walls.size()) _part_on_boundary.emplace(std::move(boundary));
+  _walls.emplace(walls, std::move(faces));
   if (_body_box.empty()) _body_box = _model.bounds();
 }
 

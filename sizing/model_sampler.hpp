@@ -99,6 +99,8 @@ private:
   std::vector<SizeSource> sample(const SizingOptions& options, double factor) const;
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources,
                                          const SizingOptions& options) const;
+  /// Facets of all faces that bound the domain.
+  const TriangleTree& boundary() const { return _part_on_boundary ? *_part_on_boundary : _walls->tree; }
   double count_triangles(const SizeField& field) const;
   double count_tetrahedra(const SizeField& field) const;
 
@@ -113,9 +115,9 @@ private:
   std::vector<int> _owners;  // ranks, by face
   mutable std::vector<OwnFace>
       _faces;  // ascending; their samples grow with what is asked for, answers do not change
-  std::vector<cad::FaceCorner> _corners;  // of those, where may_be_sharp
-  std::optional<TriangleTree> _boundary;  // facets of all faces that bound the domain
-  std::optional<Walls> _walls;            // facets of all faces
+  std::vector<cad::FaceCorner> _corners;          // of those, where may_be_sharp
+  std::optional<TriangleTree> _part_on_boundary;  // facets that bound the domain, where not all do
+  std::optional<Walls> _walls;                    // facets of all faces
   geometry::Box _body_box;
   mutable std::vector<Estimate> _estimates;
 };

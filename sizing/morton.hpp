@@ -13,6 +13,8 @@ inline constexpr std::uint32_t grid_size = 1U << finest_level;  ///< finest cell
 /// A corner of the finest grid, or the finest cell whose low corner it is.
 struct GridPoint {
   std::uint32_t x = 0, y = 0, z = 0;
+
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
 /// Moves the 21 low bits of v three places apart.

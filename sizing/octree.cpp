@@ -10,6 +10,22 @@ void sort_unique(std::vector<std::uint64_t>& keys) {
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
+/// For each child of a cell, which of the 27 cells around the parent, it included, the child touches: bit
+/// x + 3 y + 9 z.
+constexpr std::array<std::uint32_t, 8> around_child = [] {
+  std::array<std::uint32_t, 8> touched{};
+  for (int child = 0; child < 8; ++child) {
+    for (int side = 0; side < 8; ++side) {
+      const auto step = [&](int axis) {
+        const bool high = (child >> axis & 1) != 0, beside = (side >> axis & 1) != 0;
+        return beside ? (high ? 2 : 0) : 1;
+      };
+      touched[child] |= 1U << (step(0) + 3 * step(1) + 9 * step(2));
+    }
+  }
+  return touched;
+}();
+
 /// The corner of a leaf that has the given offset bits.
 GridPoint corner_point(GridPoint low, std::uint32_t edge, int corner) {
   return {low.x + (corner & 1 ? edge : 0), low.y + (corner & 2 ? edge : 0), low.z + (corner & 4 ? edge : 0)};
@@ -62,20 +78,52 @@ int octant_to_hang_on(GridPoint p, const std::array<std::int32_t, 8>& around,
   return -1;
 }
 
+/// Corners met lately: most are shared with leaves a little further back on the curve.
+class RecentNodes {
+public:
+  /// The node at a point, -1 where it was not met lately.
+  std::int32_t find(GridPoint p) const {
+    const Slot& slot = _slots[slot_of(p)];
+    return slot.point == p ? slot.node : -1;
+  }
+  void keep(GridPoint p, std::int32_t node) { _slots[slot_of(p)] = {p, node}; }
+
+private:
+  struct Slot {
+    GridPoint point;
+    std::int32_t node = -1;
+  };
+  static constexpr int bits = 14;
+
+  static std::size_t slot_of(GridPoint p) {
+    const std::uint64_t mixed =
+        p.x * 0x9e3779b97f4a7c15ULL ^ p.y * 0xc2b2ae3d27d4eb4fULL ^ p.z * 0x165667b19e3779f9ULL;
+    return static_cast<std::size_t>(mixed >> (64 - bits));
+  }
+
+  std::vector<Slot> _slots = std::vector<Slot>(std::size_t{1} << bits);
+};
+
 }  // namespace
 
 void SplitCubes::balance() {
   for (int level = finest_level - 1; level > 0; --level) {
     sort_unique(_cells[level]);
-    // A split cell needs neighbours of its own level: their parents, itself included, must be split.
+    // A split cell needs neighbours of its own level: their parents, itself included, must be split. Siblings
+    // share most of those: each is asked for once, by its place among the 27 around their own parent.
     std::vector<std::uint64_t>& parents = _cells[level - 1];
     const std::uint32_t range = 1U << (level - 1);
-    for (const std::uint64_t key : _cells[level]) {
-      const GridPoint c = grid_point(key);
-      for (int side = 0; side < 8; ++side) {
-        const GridPoint p{(c.x >> 1) + (side & 1 ? (c.x & 1 ? 1U : ~0U) : 0U),
-                          (c.y >> 1) + (side & 2 ? (c.y & 1 ? 1U : ~0U) : 0U),
-                          (c.z >> 1) + (side & 4 ? (c.z & 1 ? 1U : ~0U) : 0U)};
+    const std::vector<std::uint64_t>& cells = _cells[level];
+    for (std::size_t i = 0; i < cells.size();) {
+      const std::uint64_t parent = cells[i] >> 3;
+      std::uint32_t wanted = 0;
+      for (; i < cells.size() && cells[i] >> 3 == parent; ++i) wanted |= around_child[cells[i] & 7];
+      const GridPoint c = grid_point(parent);
+      for (int place = 0; place < 27; ++place) {
+        if ((wanted >> place & 1) == 0) continue;
+        const GridPoint p{c.x + static_cast<std::uint32_t>(place % 3) - 1,
+                          c.y + static_cast<std::uint32_t>(place / 3 % 3) - 1,
+                          c.z + static_cast<std::uint32_t>(place / 9) - 1};
         if (p.x < range && p.y < range && p.z < range) parents.push_back(morton_key(p));
       }
     }
@@ -134,21 +182,26 @@ OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& tab
                           std::size_t last) {
   OctreeNodes nodes;
   std::vector<std::int32_t> hung_on;  // per hanging node
+  RecentNodes recent;
   nodes.corners.resize(8 * (last - first));
   for (std::size_t leaf = first; leaf < last; ++leaf) {
     const GridPoint low = grid_point(leaves.keys[leaf]);
     for (int corner = 0; corner < 8; ++corner) {
       const GridPoint p = corner_point(low, grid_size >> leaves.levels[leaf], corner);
+      std::int32_t& node = nodes.corners[8 * (leaf - first) + corner];
+      node = recent.find(p);
+      if (node >= 0) continue;
       std::array<std::int32_t, 8> around{};
       const int earlier = find_leaves_around(p, static_cast<std::int32_t>(leaf),
                                              static_cast<std::int32_t>(first), leaves, table, around);
-      std::int32_t& node = nodes.corners[8 * (leaf - first) + corner];
       if (earlier >= 0) {
         node = nodes.corners[8 * (static_cast<std::size_t>(around[earlier]) - first) + (7 ^ earlier)];
+        recent.keep(p, node);
         continue;
       }
       node = static_cast<std::int32_t>(nodes.points.size());
       nodes.points.push_back(p);
+      recent.keep(p, node);
       const int octant = octant_to_hang_on(p, around, leaves);
       if (octant < 0) continue;
       nodes.hanging.push_back(hang(node, p, around[octant], leaves));

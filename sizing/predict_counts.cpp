@@ -199,7 +199,7 @@ double ModelSampler::count_tetrahedra(const SizeField& field) const {
   std::vector<double> mine;
   {
     const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
-    VolumeIntegral integral(field, *_boundary);
+    VolumeIntegral integral(field, boundary());
     for (std::int64_t task = _communicator.rank(); task < tasks; task += _communicator.size()) {
       const std::int64_t first = task * leaves_per_task;
       mine.push_back(integral.over_leaves(first, std::min(first + leaves_per_task, field.leaf_count())));

@@ -34,8 +34,8 @@ public:
 
 private:
   static constexpr int group = 8;
-  /// The boxes of eight neighbours on the level below and the smallest size in each, rounded down; coordinates
-  /// of the grid are exact in single precision.
+  /// The boxes of eight neighbours on the level below and the smallest size in each, rounded down;
+  /// coordinates of the grid are exact in single precision.
   struct Group {
     std::array<std::array<float, group>, 3> low, high;  ///< by axis
     std::array<float, group> size;                      ///< infinite where there is no neighbour

@@ -69,6 +69,11 @@ struct PrincipalCurvatures {
   bool defined = false;              ///< false at singular points
 };
 
+struct CurvedPoint {
+  Vec3 point;
+  PrincipalCurvatures curvatures;
+};
+
 /// Where a point of space falls on a face.
 struct Projection {
   Vec2 uv;
@@ -134,6 +139,8 @@ public:
   Vec3 face_point(FaceId id, Vec2 uv) const;
   SurfaceFrame face_frame(FaceId id, Vec2 uv) const;
   PrincipalCurvatures face_curvatures(FaceId id, Vec2 uv) const;
+  /// Both face_point() and face_curvatures(), for one evaluation of the surface.
+  CurvedPoint face_curved_point(FaceId id, Vec2 uv) const;
   bool is_planar(FaceId id) const;
   /// Whether the face is an axis-aligned plane, whose coordinate its points have exactly.
   bool is_exact_plane(FaceId id) const;

@@ -34,6 +34,22 @@ Vec2 follow_moved_point(const FaceEvaluator& face, Vec3 point, Vec2 guess, doubl
   return distance(face.surface.point(settled), point) < 0.5 * before ? settled : guess;
 }
 
+PrincipalCurvatures curvatures_of(const SurfaceJet& jet) {
+  const double e = dot(jet.du, jet.du), f = dot(jet.du, jet.dv), g = dot(jet.dv, jet.dv);
+  const Vec3 normal = cross(jet.du, jet.dv);
+  const double area = norm(normal);
+  if (!(area > 1e-12 * std::max(e, g))) return {};
+  const double l = dot(jet.duu, normal) / area, m = dot(jet.duv, normal) / area,
+               n = dot(jet.dvv, normal) / area;
+  const double determinant = area * area;
+  const double mean = 0.5 * (e * n - 2 * f * m + g * l) / determinant;
+  const double gauss = (l * n - m * m) / determinant;
+  const double spread = std::sqrt(std::max(0.0, mean * mean - gauss));
+  const double first = std::abs(mean + spread), second = std::abs(mean - spread);
+  if (!std::isfinite(first) || !std::isfinite(second)) return {};
+  return {std::max(first, second), std::min(first, second), true};
+}
+
 }  // namespace
 
 std::int32_t Model::vertex_count() const {
@@ -185,20 +201,18 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {0, 0, true};
+  return curvatures_of(face.surface.jet(uv, 2));
+}
+
+CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_curved_point(at.face, at.uv);
+  }
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  if (face.planar) return {face_point(id, uv), {0, 0, true}};
   const SurfaceJet jet = face.surface.jet(uv, 2);
-  const double e = dot(jet.du, jet.du), f = dot(jet.du, jet.dv), g = dot(jet.dv, jet.dv);
-  const Vec3 normal = cross(jet.du, jet.dv);
-  const double area = norm(normal);
-  if (!(area > 1e-12 * std::max(e, g))) return {};
-  const double l = dot(jet.duu, normal) / area, m = dot(jet.duv, normal) / area,
-               n = dot(jet.dvv, normal) / area;
-  const double determinant = area * area;
-  const double mean = 0.5 * (e * n - 2 * f * m + g * l) / determinant;
-  const double gauss = (l * n - m * m) / determinant;
-  const double spread = std::sqrt(std::max(0.0, mean * mean - gauss));
-  const double first = std::abs(mean + spread), second = std::abs(mean - spread);
-  if (!std::isfinite(first) || !std::isfinite(second)) return {};
-  return {std::max(first, second), std::min(first, second), true};
+  return {_data->face_snaps[id](jet.point), curvatures_of(jet)};
 }
 
 Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {

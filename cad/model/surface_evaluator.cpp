@@ -112,18 +112,17 @@ void SplineSurface::basis(const Direction& direction, int span, double parameter
   }
 }
 
-SurfaceJet SplineSurface::evaluate(Vec2 uv, int order) const {
-  uv = {_u.wrap(uv.x), _v.wrap(uv.y)};
+template <int order, int width>
+SurfaceJet SplineSurface::sum(Vec2 uv) const {
   const int span_u = _u.span(uv.x), span_v = _v.span(uv.y);
   Basis in_u, in_v;
   basis(_u, span_u, uv.x, order, in_u);
   basis(_v, span_v, uv.y, order, in_v);
-  const int width = _rational ? 4 : 3;
   const int first_u = span_u - _u.degree, first_v = span_v - _v.degree;
   // Homogeneous sums: S, Su, Sv, Suu, Suv, Svv.
   double sums[6][4] = {};
   for (int i = 0; i <= _u.degree; ++i) {
-    double along[3][4] = {};
+    double along[order + 1][width] = {};
     const double* pole =
         _poles.data() + static_cast<std::size_t>(width) * ((first_u + i) * _v.poles + first_v);
     for (int j = 0; j <= _v.degree; ++j, pole += width) {
@@ -133,27 +132,37 @@ SurfaceJet SplineSurface::evaluate(Vec2 uv, int order) const {
     }
     for (int k = 0; k < width; ++k) {
       sums[0][k] += in_u[0][i] * along[0][k];
-      if (order < 1) continue;
-      sums[1][k] += in_u[1][i] * along[0][k];
-      sums[2][k] += in_u[0][i] * along[1][k];
-      if (order < 2) continue;
-      sums[3][k] += in_u[2][i] * along[0][k];
-      sums[4][k] += in_u[1][i] * along[1][k];
-      sums[5][k] += in_u[0][i] * along[2][k];
+      if constexpr (order >= 1) {
+        sums[1][k] += in_u[1][i] * along[0][k];
+        sums[2][k] += in_u[0][i] * along[1][k];
+      }
+      if constexpr (order >= 2) {
+        sums[3][k] += in_u[2][i] * along[0][k];
+        sums[4][k] += in_u[1][i] * along[1][k];
+        sums[5][k] += in_u[0][i] * along[2][k];
+      }
     }
   }
   const auto vec = [&](int which) { return Vec3{sums[which][0], sums[which][1], sums[which][2]}; };
   SurfaceJet jet{vec(0), vec(1), vec(2), vec(3), vec(4), vec(5)};
-  if (!_rational) return jet;
-  const auto weight = [&](int which) { return sums[which][3]; };
-  const double w = weight(0);
-  jet.point = jet.point / w;
-  jet.du = (jet.du - weight(1) * jet.point) / w;
-  jet.dv = (jet.dv - weight(2) * jet.point) / w;
-  jet.duu = (jet.duu - 2 * weight(1) * jet.du - weight(3) * jet.point) / w;
-  jet.duv = (jet.duv - weight(1) * jet.dv - weight(2) * jet.du - weight(4) * jet.point) / w;
-  jet.dvv = (jet.dvv - 2 * weight(2) * jet.dv - weight(5) * jet.point) / w;
+  if constexpr (width == 4) {
+    const auto weight = [&](int which) { return sums[which][3]; };
+    const double w = weight(0);
+    jet.point = jet.point / w;
+    jet.du = (jet.du - weight(1) * jet.point) / w;
+    jet.dv = (jet.dv - weight(2) * jet.point) / w;
+    jet.duu = (jet.duu - 2 * weight(1) * jet.du - weight(3) * jet.point) / w;
+    jet.duv = (jet.duv - weight(1) * jet.dv - weight(2) * jet.du - weight(4) * jet.point) / w;
+    jet.dvv = (jet.dvv - 2 * weight(2) * jet.dv - weight(5) * jet.point) / w;
+  }
   return jet;
+}
+
+SurfaceJet SplineSurface::evaluate(Vec2 uv, int order) const {
+  uv = {_u.wrap(uv.x), _v.wrap(uv.y)};
+  if (order == 0) return _rational ? sum<0, 4>(uv) : sum<0, 3>(uv);
+  if (order == 1) return _rational ? sum<1, 4>(uv) : sum<1, 3>(uv);
+  return _rational ? sum<2, 4>(uv) : sum<2, 3>(uv);
 }
 
 SurfaceEvaluator::SurfaceEvaluator(const Handle(Geom_Surface) & surface) : _adaptor(surface) {

@@ -47,6 +47,9 @@ private:
   /// Basis functions that do not vanish on a span: [derivative][function].
   using Basis = std::array<std::array<double, max_count>, 3>;
 
+  /// Of parameters in range; the sums are over as many coordinates as poles have.
+  template <int order, int width>
+  SurfaceJet sum(Vec2 uv) const;
   static void basis(const Direction& direction, int span, double parameter, int order, Basis& result);
 
   Direction _u, _v;
