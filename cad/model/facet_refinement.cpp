@@ -41,7 +41,7 @@ void FacetRefiner::run() {
 bool FacetRefiner::improve_once() {
   std::vector<std::int32_t> bad;
   for (std::int32_t t = 0; t < count(); ++t) {
-    if (is_bad(t)) bad.push_back(t);
+    if (has_become_bad(t)) bad.push_back(t);
   }
   bool changed = false;
   for (const std::int32_t t : bad) {
@@ -109,6 +109,14 @@ bool FacetRefiner::is_bad(std::int32_t t) const {
   const std::int32_t a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
   const Vec3 middle = (point(a) + point(b) + point(c)) / 3.0;
   return distance(middle, _model.face_point(_id, (uv(a) + uv(b) + uv(c)) / 3.0)) > _deflection;
+}
+
+bool FacetRefiner::has_become_bad(std::int32_t t) {
+  if (_good.size() < _facets.triangles.size()) _good.resize(_facets.triangles.size(), {-1, -1, -1});
+  if (_good[t] == _facets.triangles[t]) return false;
+  if (is_bad(t)) return true;
+  _good[t] = _facets.triangles[t];
+  return false;
 }
 
 bool FacetRefiner::is_flat(std::int32_t t) const {

@@ -72,6 +72,8 @@ private:
   int longest_side(std::int32_t t) const;
   double side_length(std::int32_t t, int i) const;
   bool is_bad(std::int32_t t) const;
+  /// As is_bad(); those that were found good stay so as long as they keep their corners.
+  bool has_become_bad(std::int32_t t);
   bool is_flat(std::int32_t t) const;
 
   /// A boundary side of the triangle that is nearly its longest: dividing another would crowd vertices along
@@ -135,6 +137,7 @@ private:
   std::vector<BoundarySide> _sides;
   std::map<std::pair<std::int32_t, double>, std::int32_t> _side_at;  // by line and lower parameter
   std::vector<StackedSide> _stack;
+  std::vector<Triangle> _good;  // corners of each triangle when it was last found good
 };
 
 }  // namespace aeroloom::cad

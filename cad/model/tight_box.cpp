@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
@@ -93,28 +96,43 @@ public:
   }
 
   void add() {
-    std::array<Vec2, 2 * axes> best{};
-    std::array<double, 2 * axes> reach;
-    reach.fill(-std::numeric_limits<double>::max());
+    std::vector<Sample> grid;
+    grid.reserve(static_cast<std::size_t>((samples + 1) * (samples + 1)));
     for (int i = 0; i <= samples; ++i) {
       for (int j = 0; j <= samples; ++j) {
         const Vec2 uv{_low.x + (_high.x - _low.x) * i / samples, _low.y + (_high.y - _low.y) * j / samples};
-        const gp_Pnt p = _surface.Value(uv.x, uv.y);
-        for (int side = 0; side < 2 * axes; ++side) {
-          const double height = (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
-          if (height > reach[side] && lies_on_face(uv)) reach[side] = height, best[side] = uv;
-        }
+        grid.push_back({uv, _surface.Value(uv.x, uv.y)});
       }
     }
+    // From the highest sample on the face; whether one is on it takes far longer to tell than how high it is.
+    std::vector<std::int32_t> order(grid.size());
     for (int side = 0; side < 2 * axes; ++side) {
-      if (reach[side] > -std::numeric_limits<double>::max())
-        climb(best[side], side / 2 + 1, side % 2 ? 1 : -1);
+      const auto height = [&](std::int32_t i) {
+        return (side % 2 ? 1 : -1) * grid[i].point.Coord(side / 2 + 1);
+      };
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+        return height(a) != height(b) ? height(a) > height(b) : a < b;
+      });
+      const auto highest =
+          std::find_if(order.begin(), order.end(), [&](std::int32_t i) { return lies_on_face(grid[i]); });
+      if (highest != order.end()) climb(grid[*highest].uv, side / 2 + 1, side % 2 ? 1 : -1);
     }
   }
 
 private:
   static constexpr int samples = 16;
 
+  struct Sample {
+    Vec2 uv;
+    gp_Pnt point;
+    std::optional<bool> on_face = {};  // when it was asked for
+  };
+
+  bool lies_on_face(Sample& sample) {
+    if (!sample.on_face) sample.on_face = lies_on_face(sample.uv);
+    return *sample.on_face;
+  }
   bool lies_on_face(Vec2 uv) { return _classifier.Perform({uv.x, uv.y}) != TopAbs_OUT; }
 
   /// Ends at the border of the face at the latest: its edges were looked at on their own.

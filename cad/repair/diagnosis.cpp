@@ -71,12 +71,16 @@ std::string name_of(const NamedShape& named, const TopoDS_Shape& face, int index
   return label != nullptr && !label->name.empty() ? label->name : fmt::format("face_{}", index);
 }
 
+/// Relative error of areas. Without one the CAD library takes the most points its rules have in every span of
+/// a spline, ten times as long.
+constexpr double area_precision = 1e-3;
+
 void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
   for (int i = 1; i <= faces.Extent(); ++i) {
     GProp_GProps surface, rim;
-    BRepGProp::SurfaceProperties(faces(i), surface);
+    BRepGProp::SurfaceProperties(faces(i), surface, area_precision);
     BRepGProp::LinearProperties(faces(i), rim);
     const double length = 0.5 * rim.Mass();  // of a strip
     const double width = length > 0 ? std::abs(surface.Mass()) / length : 0;
