@@ -1,12 +1,14 @@
 #include "sizing/octree.hpp"
 
+#include "geometry/sort_by_key.hpp"
+
 #include <algorithm>
 
 namespace aeroloom::sizing {
 namespace {
 
 void sort_unique(std::vector<std::uint64_t>& keys) {
-  std::sort(keys.begin(), keys.end());
+  geometry::sort_by_key(keys, [](std::uint64_t key) { return key; });
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 

@@ -1,5 +1,7 @@
 #include "sizing/seed_tree.hpp"
 
+#include "geometry/sort_by_key.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +25,7 @@ SeedTree::SeedTree(std::vector<SizeSeed> seeds, double slope) : _slope(slope), _
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   order.reserve(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) order.emplace_back(morton_key(seeds[i].low), i);
-  std::sort(order.begin(), order.end());
+  geometry::sort_by_key(order, [](const auto& each) { return each.first; });
   constexpr float infinity = std::numeric_limits<float>::infinity();
   Group empty;
   empty.size.fill(infinity);

@@ -1,6 +1,7 @@
 #include "sizing/sources.hpp"
 
 #include "geometry/runs.hpp"
+#include "geometry/sort_by_key.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,10 +34,10 @@ RootCube::RootCube(const geometry::Box& domain) {
   const geometry::Vec3 size = domain.size();
   edge = std::max({size.x, size.y, size.z});
   low = domain.center() - 0.5 * geometry::Vec3{edge, edge, edge};
+  cells_per_length = grid_size / edge;
 }
 
 GridPoint RootCube::cell(geometry::Vec3 point) const {
-  const double cells_per_length = grid_size / edge;
   return {cell_along(point.x - low.x, cells_per_length), cell_along(point.y - low.y, cells_per_length),
           cell_along(point.z - low.z, cells_per_length)};
 }
@@ -51,7 +52,7 @@ std::vector<SizeSource> thin_sources(const RootCube& root, std::span<const SizeS
   std::vector<std::pair<std::uint64_t, std::size_t>> paths;
   paths.reserve(sources.size());
   for (std::size_t i = 0; i < sources.size(); ++i) paths.emplace_back(path_of(root, sources[i]), i);
-  std::sort(paths.begin(), paths.end());
+  geometry::sort_by_key(paths, [](const auto& path) { return path.first; });
   std::vector<SizeSource> kept;
   const auto same_cell = [](const auto& a, const auto& b) { return a.first == b.first; };
   geometry::for_each_run(std::span<const std::pair<std::uint64_t, std::size_t>>(paths), same_cell,

@@ -12,6 +12,7 @@ namespace aeroloom::sizing {
 struct RootCube {
   geometry::Vec3 low;
   double edge = 1;
+  double cells_per_length = grid_size;  ///< finest cells
 
   /// The smallest cube around the domain with the same centre.
   explicit RootCube(const geometry::Box& domain);

@@ -11,7 +11,7 @@ using geometry::Box;
 using geometry::Vec3;
 
 constexpr std::int32_t triangles_per_leaf = 4;
-constexpr std::size_t most_candidates = 64;  // that are looked at one by one
+constexpr std::size_t most_candidates = 512;  // that are looked at one by one
 
 Box box_of(const Triangle& t) {
   Box box;
