@@ -20,9 +20,11 @@ using cad::FaceId;
 using parallel::ScopedCpu;
 
 /// Areas of all faces, each measured by one rank.
-std::vector<double> measure_faces(const parallel::Communicator& communicator, const cad::Model& model) {
+std::vector<double> measure_faces(const parallel::Communicator& communicator, const cad::Model& model,
+                                  parallel::StageClock& clock) {
   std::vector<double> mine, areas(model.face_count());
   parallel::agree(communicator, [&] {
+    const ScopedCpu cpu(clock, ScopedCpu::As::task);
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       mine.push_back(model.face_area(f));
     }
@@ -107,7 +109,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
       _layers(layers),
       _fields(fields),
       _root(model.bounds()),
-      _areas(measure_faces(communicator, model)) {
+      _areas(measure_faces(communicator, model, clock)) {
   parallel::agree(communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     _far_field = find_far_field(model);

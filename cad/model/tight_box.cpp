@@ -97,7 +97,7 @@ public:
 
   void add() {
     std::vector<Sample> grid;
-    grid.reserve(static_cast<std::size_t>((samples + 1) * (samples + 1)));
+    grid.reserve(std::size_t{samples + 1} * std::size_t{samples + 1});
     for (int i = 0; i <= samples; ++i) {
       for (int j = 0; j <= samples; ++j) {
         const Vec2 uv{_low.x + (_high.x - _low.x) * i / samples, _low.y + (_high.y - _low.y) * j / samples};

@@ -153,6 +153,19 @@ TEST(Model, KnowsItsFarField) {
   EXPECT_NEAR(model.bounds().size().x, 10, 1e-9);
 }
 
+TEST(Model, OneEvaluationGivesPointAndCurvatures) {
+  for (const PrimitiveKind kind : {PrimitiveKind::torus, PrimitiveKind::box_with_sphere}) {
+    const Model model = make_primitive_domain(kind);
+    for (FaceId f = 0; f < model.face_count(); ++f) {
+      const Vec2 uv{0.3, 0.2};
+      const CurvedPoint both = model.face_curved_point(f, uv);
+      EXPECT_EQ(both.point, model.face_point(f, uv));
+      EXPECT_EQ(both.curvatures.largest, model.face_curvatures(f, uv).largest);
+      EXPECT_EQ(both.curvatures.defined, model.face_curvatures(f, uv).defined);
+    }
+  }
+}
+
 TEST(Model, CurvaturesOfKnownSurfaces) {
   const Model torus = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.25, .major_radius = 0.75});
   const PrincipalCurvatures outside = torus.face_curvatures(0, {0.3, 0});

@@ -56,4 +56,26 @@ TEST(ModelSampler, LooksForGapsAnewBesideJoinedFaces) {
   expect_same(model, joined, options, Fields::several, clock);
 }
 
+TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
+  parallel::StageClock clock;
+  const Model model = cad::shapes::split_cylinder(3, 2);
+  const SizingOptions options{0.05, 0.5, 15, 1.3, 0};
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, options.proximity,
+                             Fields::several);
+  constexpr std::int64_t many = 1'000'000'000;
+  const auto exact = sampler.try_sizes(options, many);
+  const auto estimate = sampler.estimate_tetrahedra(options, 1, many);
+  ASSERT_TRUE(exact && estimate);
+  EXPECT_EQ(*estimate, exact->counts.tetrahedra);
+  SizingOptions rounded = options, with_floor = options, finer = options;
+  rounded.minimum *= 1 + 1e-14;
+  with_floor.feature_minimum = smallest_feature_size(options);
+  finer.curvature_angle = 8;
+  EXPECT_EQ(sampler.estimate_tetrahedra(rounded, 1, many), estimate);
+  EXPECT_EQ(sampler.estimate_tetrahedra(with_floor, 1, many), estimate);
+  EXPECT_NE(sampler.estimate_tetrahedra(finer, 1, many), estimate);
+  EXPECT_NE(sampler.estimate_tetrahedra(options, 2, many), estimate);
+  EXPECT_FALSE(sampler.estimate_tetrahedra(options, 1, exact->field.leaf_count() - 1).has_value());
+}
+
 }  // namespace aeroloom::sizing
