@@ -194,6 +194,7 @@ ContainedResult run_contained(const std::string& name, std::span<const std::byte
   if (!is_containment_ready()) return run_uncontained(registry().tasks[request.task], input);
   FileDescriptor input_memory = shared_memory("input"), output_memory = shared_memory("output");
   if (!write_all(input_memory.number(), input)) throw std::bad_alloc();
+  return_free_memory();
   send_request(server().socket.number(), request, input_memory, output_memory);
   const ContainedReply reply = await_reply(server().socket.number());
   ContainedResult result;

@@ -11,6 +11,9 @@
 #include <utility>
 
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace aeroloom::parallel {
 
@@ -94,12 +97,19 @@ std::int64_t peak_resident_bytes() {
   return std::max(earlier_peak, status_bytes("VmHWM"));
 }
 
+void return_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 std::int64_t resident_bytes() {
   return status_bytes("VmRSS");
 }
 
 void StageClock::begin(const std::string& name) {
   if (_open) throw std::logic_error("stage '" + name + "' begins inside '" + current().name + "'");
+  return_free_memory();
   restart_peak();
   _open = true;
   const auto known =

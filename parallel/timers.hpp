@@ -17,6 +17,9 @@ double wall_seconds();
 double process_age_seconds();
 /// Largest resident set of this process so far, bytes; children not included.
 std::int64_t peak_resident_bytes();
+/// Gives memory that was freed, and that the allocator keeps for what may come, back to the system: what
+/// other processes of the node need must not wait for it.
+void return_free_memory();
 /// Resident set of this process now, bytes.
 std::int64_t resident_bytes();
 
@@ -61,7 +64,8 @@ struct StageSummary {
 /// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
 class StageClock {
 public:
-  /// A stage begun again goes on where it was. Throws std::logic_error when a stage is open.
+  /// A stage begun again goes on where it was. What earlier stages have freed is not counted as its. Throws
+  /// std::logic_error when a stage is open.
   void begin(const std::string& name);
   void end();
   /// Notes a stage that has ended before there was a clock. Throws std::logic_error when a stage is open.

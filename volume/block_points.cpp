@@ -177,13 +177,25 @@ private:
 
 }  // namespace
 
-double reach_of_block(const LatticeSource& source, BlockIndex b) {
+// Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
+// of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
+SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last) {
+  constexpr double more_for_shear = 1.1, inward = 0.1;
   const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
-  const double clear = largest_edge * farthest * largest_size(source, b);
-  if (!source.table.is_met(b)) return source.frame.grid_distance(clear);
-  const double diagonal = std::numbers::sqrt3 * source.tree.cube(b).edge();
-  return std::max(source.frame.grid_distance(clear),
-                  1.1 * diagonal + source.frame.grid_distance(source.table.longest_edge[b]));
+  SurfaceReach reach;
+  reach.per_edge = source.frame.grid_distance(farthest);
+  reach.perturbation = 0.5 * std::numbers::sqrt3 * mean_edge_of_cell * source.options.perturbation;
+  for (BlockIndex b = first; b < last; ++b) {
+    const double clear = source.frame.grid_distance(farthest * largest_size(source, b));
+    double nearest = 0;
+    if (source.table.is_met(b)) {
+      const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.tree.cube(b).edge();
+      nearest = more_for_shear * half_diagonal +
+                source.frame.grid_distance(source.table.nearest[b] + inward * source.table.longest_edge[b]);
+    }
+    reach.of_blocks.push_back({smallest_edge * clear, largest_edge * clear, nearest});
+  }
+  return reach;
 }
 
 BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,

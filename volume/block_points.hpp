@@ -58,9 +58,9 @@ struct LatticeSource {
   std::span<const BlockChange> changes;  ///< per block
 };
 
-/// How far, in the grid, triangles matter to a block: for the clearance of its points, and for telling their
-/// region. Retries included.
-double reach_of_block(const LatticeSource& source, BlockIndex b);
+/// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
+/// the region of points there. Retries included.
+SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last);
 
 /// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the
 /// surface. `surface` has the triangles within reach of these blocks. A function of place, sizes and the

@@ -25,22 +25,46 @@ geometry::Box box_of(const parallel::Communicator& communicator, const mesh::Dis
   return box;
 }
 
+/// The triangles that matter to the blocks of each rank.
+std::vector<SurfaceTriangle> gather_triangles(const parallel::Communicator& communicator,
+                                              const VolumeInput& input, const Decomposition::Data& data,
+                                              parallel::StageClock& clock) {
+  SurfaceReach reach;
+  if (communicator.size() > 1) {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    reach = reach_of_blocks(data.source(input), data.shares[communicator.rank()],
+                            data.shares[communicator.rank() + 1]);
+  }
+  return deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, reach, input.surface,
+                         input.numbering, clock);
+}
+
 /// The surface near each rank's blocks.
 void share_surface(const parallel::Communicator& communicator, const VolumeInput& input,
                    Decomposition::Data& data, parallel::StageClock& clock) {
   data.table = tabulate_surface(communicator, *data.frame, *data.tree, input.surface, clock);
   data.changes.assign(data.tree->block_count(), {});
   data.shares = share_blocks(*data.tree, data.table, communicator.size());
-  const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
-  std::vector<double> reach;
-  if (communicator.size() > 1) {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
-    for (BlockIndex b = first; b < last; ++b) reach.push_back(reach_of_block(data.source(input), b));
-  }
-  data.triangles = deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, reach,
-                                   input.surface, input.numbering, clock);
+  data.triangles = gather_triangles(communicator, input, data, clock);
   const ScopedCpu task(clock, ScopedCpu::As::task);
   data.surface = std::make_unique<NearSurface>(data.triangles);
+}
+
+/// Once there are points, the triangles that do not meet this rank's blocks have served.
+void keep_own_triangles(const parallel::Communicator& communicator, Decomposition::Data& data,
+                        parallel::StageClock& clock) {
+  const ScopedCpu task(clock, ScopedCpu::As::task);
+  const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
+  std::vector<SurfaceTriangle> own;
+  if (communicator.size() > 1) {
+    for (const SurfaceTriangle& triangle : data.triangles) {
+      if (data.tree->any_block_in(grid_box(*data.frame, triangle.points),
+                                  [&](BlockIndex b) { return b >= first && b < last; }))
+        own.push_back(triangle);
+    }
+    own.shrink_to_fit();
+    data.triangles = std::move(own);
+  }
   data.of_blocks = std::make_unique<TrianglesOfBlocks>(*data.frame, *data.tree, first, last, data.triangles);
 }
 
@@ -88,9 +112,13 @@ void make_all_points(const parallel::Communicator& communicator, const VolumeInp
                      Decomposition::Data& data, parallel::StageClock& clock) {
   const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
   std::vector<std::uint8_t> mine;
+  std::vector<SurfaceTriangle> again;
+  if (!data.surface) again = gather_triangles(communicator, input, data, clock);
   parallel::agree(communicator, [&] {
     const ScopedCpu task(clock, ScopedCpu::As::task);
+    if (!data.surface) data.surface = std::make_unique<NearSurface>(again);
     data.points = make_points(data.source(input), first, last, *data.surface);
+    data.surface.reset();
     for (BlockIndex b = first; b < last; ++b) mine.push_back(static_cast<std::uint8_t>(data.points.count(b)));
   });
   data.counts = communicator.all_gather_items<std::uint8_t>(mine);
@@ -112,6 +140,7 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
     refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);
   make_all_points(communicator, input, *data, clock);
+  keep_own_triangles(communicator, *data, clock);
   divide(input, *data, clock);
   plan_all(communicator, input, *data, clock);
   return Decomposition(std::move(data));

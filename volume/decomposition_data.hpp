@@ -28,8 +28,8 @@ struct Decomposition::Data {
   DecompositionReport report;
 
   // Of this rank's blocks.
-  std::vector<SurfaceTriangle> triangles;
-  std::unique_ptr<const NearSurface> surface;
+  std::vector<SurfaceTriangle> triangles;      ///< that meet them
+  std::unique_ptr<const NearSurface> surface;  ///< while points are made
   std::unique_ptr<const TrianglesOfBlocks> of_blocks;
   BlockPoints points;
   ZonePlan plan;  ///< of all zones
@@ -42,7 +42,8 @@ struct Decomposition::Data {
   }
 };
 
-/// Makes the points of this rank's blocks (anew) and counts those of all. Collective.
+/// Makes the points of this rank's blocks (anew) and counts those of all; the surface they were made with is
+/// let go. Collective.
 void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
                      Decomposition::Data& data, parallel::StageClock& clock);
 

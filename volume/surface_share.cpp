@@ -1,10 +1,15 @@
 #include "volume/surface_share.hpp"
 
 #include "mesh/delivery.hpp"
+#include "volume/boundary_distance.hpp"
+#include "volume/met_blocks.hpp"
 #include "volume/near_boxes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -33,6 +38,7 @@ struct BlockRow {
   BlockIndex block;
   float longest_edge;
   std::int32_t triangles;
+  float nearest;
 };
 
 /// Rows of the same block become one.
@@ -44,11 +50,20 @@ void unite_rows(std::vector<BlockRow>& rows) {
       BlockRow& row = rows[kept - 1];
       row.longest_edge = std::max(row.longest_edge, rows[i].longest_edge);
       row.triangles += rows[i].triangles;
+      row.nearest = std::min(row.nearest, rows[i].nearest);
     } else {
       rows[kept++] = rows[i];
     }
   }
   rows.resize(kept);
+}
+
+/// How far a triangle is from the middle of a block, in space, rounded up.
+float distance_from_middle(const LatticeFrame& frame, const GridCube& block, const std::array<Vec3, 3>& p) {
+  const GridBox box = GridBox::of(block);
+  const Vec3 middle = frame.to_space(0.5 * (box.low + box.high));
+  const double distance = std::sqrt(BoundaryDistance::squared_distance(middle, {p[0], p[1], p[2]}).squared);
+  return std::nextafter(static_cast<float>(distance), std::numeric_limits<float>::infinity());
 }
 
 SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const mesh::GlobalIndex> numbers,
@@ -70,13 +85,114 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
   return triangle;
 }
 
+/// A rank wants what meets a block.
+struct Want {
+  BlockIndex block;
+  parallel::Rank rank;
+};
+
+/// The blocks of others that a rank wants the triangles of.
+class WantedBlocks {
+public:
+  WantedBlocks(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+               std::span<const BlockIndex> shares, const SurfaceReach& reach, parallel::Rank rank)
+      : _frame(frame),
+        _tree(tree),
+        _table(table),
+        _reach(reach),
+        _rank(rank),
+        _first(shares[rank]),
+        _last(shares[rank + 1]),
+        _is_wanted(tree.block_count(), 0) {}
+
+  std::vector<Want> list() {
+    for (BlockIndex b = _first; b < _last; ++b) look_from(b);
+    _of_all.build();
+    _of_large.build();
+    std::vector<Want> wants;
+    for (BlockIndex n = 0; n < _tree.block_count(); ++n) {
+      const bool is_own = n >= _first && n < _last;
+      if (!is_own && _table.is_met(n) && (_is_wanted[n] || is_within_reach(n))) wants.push_back({n, _rank});
+    }
+    return wants;
+  }
+
+private:
+  void look_from(BlockIndex b) {
+    BlockReach reach = _reach.of_blocks[b - _first];
+    const GridBox box = GridBox::of(_tree.cube(b));
+    const double farthest = std::max(reach.most, reach.nearest);
+    const auto [lowest, highest] = _tree.range_of(box.dilated(farthest));
+    if (lowest >= _first && highest < _last) return;
+    if (reach.nearest > 0 && sees_far_finer(b, reach.nearest)) {
+      want_nearest(b);
+    } else {
+      reach.least = std::max(reach.least, reach.nearest);
+      reach.most = farthest;
+    }
+    _of_all.add(box.dilated(reach.least));
+    _of_large.add(box.dilated(reach.most));
+  }
+
+  /// Whether there is so much within reach of the points of a block that they are worth a look one by one.
+  bool sees_far_finer(BlockIndex b, double reach) const {
+    constexpr int far_finer = 4;  // levels
+    const GridCube cube = _tree.cube(b);
+    return _tree.any_block_in(GridBox::of(cube).dilated(reach), [&](BlockIndex n) {
+      return _tree.cube(n).level >= cube.level + far_finer && _table.is_met(n);
+    });
+  }
+
+  /// What may be nearest to points of a block: to those of the lattice, in quarters of its edge, and to the
+  /// middles of faces of the blocks beside it, in eighths.
+  void want_nearest(BlockIndex b) {
+    if (!_met_blocks) _met_blocks.emplace(_frame, _tree, _table);
+    constexpr int parts = 8;
+    const GridCube cube = _tree.cube(b);
+    const double part = static_cast<double>(cube.edge()) / parts;
+    const Vec3 low = GridBox::of(cube).low;
+    const auto is_outermost = [](int i) { return i == 0 || i == parts; };
+    for (int i = 0; i <= parts; ++i) {
+      for (int j = 0; j <= parts; ++j) {
+        for (int k = 0; k <= parts; ++k) {
+          const bool is_on_face = is_outermost(i) || is_outermost(j) || is_outermost(k);
+          if (!is_on_face && ((i | j | k) & 1) != 0) continue;
+          _met_blocks->for_each_nearest(_frame.to_space(low + Vec3{part * i, part * j, part * k}),
+                                        _reach.perturbation * _frame.edge(cube.level),
+                                        [&](BlockIndex n) { _is_wanted[n] = 1; });
+        }
+      }
+    }
+  }
+
+  bool is_within_reach(BlockIndex n) const {
+    const GridBox box = GridBox::of(_tree.cube(n));
+    return _of_all.any_within(box, _reach.per_edge * _table.longest_edge[n]) && _of_large.any_within(box, 0);
+  }
+
+  const LatticeFrame& _frame;
+  const LatticeTree& _tree;
+  const SurfaceTable& _table;
+  const SurfaceReach& _reach;
+  parallel::Rank _rank;
+  BlockIndex _first, _last;
+  NearBoxes _of_all, _of_large;  // triangles
+  std::optional<MetBlocks> _met_blocks;
+  std::vector<std::uint8_t> _is_wanted;  // per block
+};
+
 /// Which ranks want what meets a block, beside the one that has the block.
 class Fringe {
 public:
   Fringe(const parallel::Communicator& communicator, const LatticeTree& tree, const SurfaceTable& table,
-         std::span<const BlockIndex> shares, std::span<const double> reach, parallel::StageClock& clock) {
+         const LatticeFrame& frame, std::span<const BlockIndex> shares, const SurfaceReach& reach,
+         parallel::StageClock& clock) {
     if (communicator.size() == 1) return;
-    std::vector<Want> mine = list_wants(communicator.rank(), tree, table, shares, reach, clock);
+    std::vector<Want> mine;
+    {
+      const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+      mine = WantedBlocks(frame, tree, table, shares, reach, communicator.rank()).list();
+    }
     _wants = communicator.all_gather_items<Want>(mine);
     std::sort(_wants.begin(), _wants.end(), [](const Want& a, const Want& b) { return a.block < b.block; });
   }
@@ -89,32 +205,6 @@ public:
   }
 
 private:
-  struct Want {
-    BlockIndex block;
-    parallel::Rank rank;
-  };
-
-  static std::vector<Want> list_wants(parallel::Rank rank, const LatticeTree& tree, const SurfaceTable& table,
-                                      std::span<const BlockIndex> shares, std::span<const double> reach,
-                                      parallel::StageClock& clock) {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    const BlockIndex first = shares[rank], last = shares[rank + 1];
-    NearBoxes within_reach;
-    for (BlockIndex b = first; b < last; ++b) {
-      const GridBox box = GridBox::of(tree.cube(b)).dilated(reach[b - first]);
-      const auto [lowest, highest] = tree.range_of(box);
-      if (lowest < first || highest >= last) within_reach.add(box);
-    }
-    within_reach.build();
-    std::vector<Want> wants;
-    for (BlockIndex n = 0; n < tree.block_count(); ++n) {
-      const bool is_own = n >= first && n < last;
-      if (!is_own && table.is_met(n) && within_reach.any_within(GridBox::of(tree.cube(n)), 0))
-        wants.push_back({n, rank});
-    }
-    return wants;
-  }
-
   std::vector<Want> _wants;
 };
 
@@ -136,9 +226,12 @@ SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const 
       for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
         const std::array<Vec3, 3> p = corners_of(piece, t);
         const auto edge = static_cast<float>(longest_edge(p));
-        tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) { rows.push_back({b, edge, 0}); });
+        tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) {
+          rows.push_back({b, edge, 0, distance_from_middle(frame, tree.cube(b), p)});
+        });
         const Vec3 center = frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]));
-        rows.push_back({tree.block_at(frame.cell_at(center)), edge, 1});
+        const BlockIndex its = tree.block_at(frame.cell_at(center));
+        rows.push_back({its, edge, 1, distance_from_middle(frame, tree.cube(its), p)});
       }
     }
     unite_rows(rows);
@@ -147,9 +240,11 @@ SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const 
   SurfaceTable table;
   table.longest_edge.assign(tree.block_count(), 0);
   table.triangles.assign(tree.block_count(), 0);
+  table.nearest.assign(tree.block_count(), std::numeric_limits<float>::infinity());
   for (const BlockRow& row : rows) {
     table.longest_edge[row.block] = std::max(table.longest_edge[row.block], row.longest_edge);
     table.triangles[row.block] += row.triangles;
+    table.nearest[row.block] = std::min(table.nearest[row.block], row.nearest);
   }
   return table;
 }
@@ -175,10 +270,9 @@ std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,
                                              const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                             std::span<const double> reach,
-                                             const mesh::DistributedMesh& surface,
+                                             const SurfaceReach& reach, const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering, parallel::StageClock& clock) {
-  const Fringe fringe(communicator, tree, table, shares, reach, clock);
+  const Fringe fringe(communicator, tree, table, frame, shares, reach, clock);
   struct Parcel {
     SurfaceTriangle triangle;
     std::int64_t rank;

@@ -34,6 +34,7 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<geometry::Vec3, 3>&
 struct SurfaceTable {
   std::vector<float> longest_edge;      ///< per block: of the triangles that meet it; 0: none does
   std::vector<std::int32_t> triangles;  ///< per block: those whose centre lies in it
+  std::vector<float> nearest;  ///< per block that is met: how far one of them is from its centre, at most
 
   bool is_met(BlockIndex b) const { return longest_edge[b] > 0; }
 };
@@ -47,13 +48,26 @@ SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const 
 /// depends on it.
 std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable& table, int ranks);
 
-/// The triangles a rank needs: those that meet its blocks, or come within `reach(b)`, in the grid, of block
-/// b. By number, each once. Collective.
+/// How far triangles matter to a block, in the grid: because they are near, or because one of them is the
+/// nearest.
+struct BlockReach {
+  double least;        ///< all of them
+  double most;         ///< those whose longest edge times `per_edge` is as much
+  double nearest = 0;  ///< one of them is so near to all points of the block; 0: which one does not matter
+};
+struct SurfaceReach {
+  std::vector<BlockReach> of_blocks;  ///< of this rank
+  double per_edge = 0;                ///< grid distance per length
+  double perturbation = 0;            ///< how far points may be off their places, in edges of their block
+};
+
+/// The triangles a rank needs: those that meet its blocks, or come within reach of them; of the triangles
+/// nearest to points, those of lattice points and of the middles of faces between blocks. By number, each
+/// once. Collective.
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,
                                              const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                             std::span<const double> reach,
-                                             const mesh::DistributedMesh& surface,
+                                             const SurfaceReach& reach, const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering, parallel::StageClock& clock);
 
 /// The triangles that meet each block of a range.

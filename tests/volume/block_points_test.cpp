@@ -216,10 +216,15 @@ TEST_P(WithinReach, are_all_triangles_that_points_need) {
     for (BlockIndex first = 0; first < tree.block_count(); first += 13) {
       const BlockIndex last = std::min(tree.block_count(), first + 13);
       std::set<std::int32_t> known;
+      const SurfaceReach reach = reach_of_blocks(made.source(), first, last);
       for (BlockIndex b = first; b < last; ++b) {
-        const double reach = reach_of_block(made.source(), b);
-        tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(reach), [&](BlockIndex n) {
-          known.insert(of_blocks.of(n).begin(), of_blocks.of(n).end());
+        const double least = std::max(reach.of_blocks[b - first].least, reach.of_blocks[b - first].nearest);
+        const double most = std::max(reach.of_blocks[b - first].most, least);
+        const GridBox box = GridBox::of(tree.cube(b));
+        tree.for_each_block_in(box.dilated(most), [&](BlockIndex n) {
+          const double edge = made.lattice.table.longest_edge[n];
+          if (box.gap_to(GridBox::of(tree.cube(n))) <= std::max(least, reach.per_edge * edge))
+            known.insert(of_blocks.of(n).begin(), of_blocks.of(n).end());
         });
       }
       std::vector<SurfaceTriangle> triangles;

@@ -15,7 +15,8 @@ inline sizing::SizeField uniform(double size, const geometry::Box& box = domain)
 }
 
 /// `smallest` on the unit sphere, growing away from it at the limit.
-inline sizing::SizeField around_unit_sphere(double smallest, double largest, double growth = 1.3) {
+inline sizing::SizeField around_unit_sphere(double smallest, double largest, double growth = 1.3,
+                                            const geometry::Box& box = domain) {
   std::vector<sizing::SizeSource> sources;
   const int rings = static_cast<int>(4 / smallest);
   for (int i = 0; i <= rings; ++i) {
@@ -28,7 +29,7 @@ inline sizing::SizeField around_unit_sphere(double smallest, double largest, dou
            smallest});
     }
   }
-  return sizing::SizeField::build(domain, sources, {smallest, largest, 12, growth});
+  return sizing::SizeField::build(box, sources, {smallest, largest, 12, growth});
 }
 
 }  // namespace aeroloom::volume::fields

@@ -87,9 +87,8 @@ struct Surroundings {
         regions(found.of_block) {}
 
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
-    std::vector<double> reach;
-    for (BlockIndex b = lattice.first(problem.communicator); b < lattice.last(problem.communicator); ++b)
-      reach.push_back(reach_of_block(lattice.source(problem, {}), b));
+    const SurfaceReach reach = reach_of_blocks(
+        lattice.source(problem, {}), lattice.first(problem.communicator), lattice.last(problem.communicator));
     return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
                            reach, problem.surface, problem.numbering, lattice.clock);
   }

@@ -29,8 +29,10 @@ struct Shared {
         lattice(problem, box_of(surface)) {}
 
   std::vector<SurfaceTriangle> deliver(double reach) {
-    const std::vector<double> reaches(
-        lattice.last(problem.communicator) - lattice.first(problem.communicator), reach);
+    const SurfaceReach reaches{
+        std::vector<BlockReach>(lattice.last(problem.communicator) - lattice.first(problem.communicator),
+                                {reach, reach}),
+        0};
     return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
                            reaches, problem.surface, problem.numbering, lattice.clock);
   }
@@ -158,6 +160,22 @@ TEST(DeliverSurface, brings_what_is_within_reach) {
     if (world.size() > 1 && in_space < 0.5) {
       EXPECT_LT(delivered.size(), shared.surface.triangles.size());
     }
+  }
+}
+
+/// Blocks at the far field are as large as a body is far off.
+TEST(DeliverSurface, leaves_a_body_to_the_ranks_around_it) {
+  const Communicator world = Communicator::world();
+  surfaces::Surface surface = surfaces::cube({0, 0, 0}, 20, 8);
+  surfaces::append(surface, surfaces::sphere({0, 0, 0}, 1, 24), surfaces::Turn::inward);
+  const Problem problem(world, surface,
+                        fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}}));
+  Lattice lattice(problem, box_of(surface));
+  const auto delivered = static_cast<std::int64_t>(Surroundings::deliver(problem, lattice).size());
+  const auto all = static_cast<std::int64_t>(surface.triangles.size());
+  EXPECT_GE(world.sum(delivered), all);
+  if (world.size() > 1) {
+    EXPECT_LT(world.sum(delivered), world.size() * all * 4 / 5);
   }
 }
 
