@@ -1,12 +1,17 @@
 #include "improve/pinned.hpp"
 
+#include "improve/curve_wedges.hpp"
+#include "improve/sharp_curves.hpp"
 #include "improve/strip_edges.hpp"
 #include "improve/tet_quality.hpp"
+#include "improve/wall_pairs.hpp"
 #include "mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 namespace aeroloom::improve {
@@ -19,6 +24,8 @@ using mesh::Piece;
 
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr int on_curve = 1;
+/// What is said of wedges holds up to this factor: curves are no lines, faces no planes.
+constexpr double wedge_slack = 2;
 /// Degrees by which rounding may set the two measures of an angle apart, at most.
 constexpr double angle_slack = 1e-6;
 
@@ -26,33 +33,8 @@ double largest_allowed(double target) {
   return 180 - 1.5 * target;
 }
 
-/// What one piece knows of an edge.
-struct EdgeShare {
-  std::int64_t edge, piece;
-  double angle;                       ///< degrees that its tetrahedra enclose
-  std::array<std::int32_t, 2> faces;  ///< CAD faces of its boundary triangles there, -1 for none
-};
-
-/// The angle that the boundary encloses at an edge.
-struct Wedge {
-  double angle = 0;
-  std::array<std::int32_t, 2> faces{-1, -1};
-};
-
-double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  const Vec3 axis = b - a;
-  const Vec3 left = cross(axis, c - a), right = cross(axis, d - a);
-  return degrees * std::atan2(norm(cross(left, right)), dot(left, right));
-}
-
 double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {
   return degrees * std::atan2(norm(cross(a - tip, b - tip)), dot(a - tip, b - tip));
-}
-
-void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
-  if (face < 0 || faces[0] == face || faces[1] == face) return;
-  (faces[0] < 0 ? faces[0] : faces[1]) = face;
-  if (faces[1] >= 0 && faces[0] > faces[1]) std::swap(faces[0], faces[1]);
 }
 
 class PinnedSearch {
@@ -64,7 +46,9 @@ public:
         _numbering(numbering),
         _suspects(suspects),
         _target(target),
-        _measure(target) {
+        _measure(target),
+        _vertex_faces(communicator, mesh),
+        _walls(_vertex_faces) {
     _report.smallest_angle = target;
     _report.largest_angle = largest_allowed(target);
     _report.pinned = _report.at_features = _report.rest = {0, target, largest_allowed(target)};
@@ -72,7 +56,8 @@ public:
 
   PinnedReport run() {
     collect_edges();
-    measure_wedges();
+    _wedges = measure_wedges(_communicator, _mesh, _numbering, _edges);
+    list_sharp_curves();
     _strips = find_strip_edges(_communicator, _mesh, _numbering, _edges);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
     return merge();
@@ -89,24 +74,23 @@ private:
     return {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
   }
   EdgeName name(std::size_t piece, LocalIndex a, LocalIndex b) const {
-    const GlobalIndex ga = _numbering.vertices[piece][a], gb = _numbering.vertices[piece][b];
-    return {std::min(ga, gb), std::max(ga, gb), _mesh.pieces[piece].region};
+    return name_edge(_mesh.pieces[piece], _numbering.vertices[piece], a, b);
   }
   /// The number of an edge among those looked at, -1 for others.
-  std::int64_t find(const EdgeName& edge) const {
-    const auto found = std::lower_bound(_edges.begin(), _edges.end(), edge);
-    return found != _edges.end() && *found == edge ? found - _edges.begin() : -1;
-  }
+  std::int64_t find(const EdgeName& edge) const { return find_edge(_edges, edge); }
 
   void collect_edges();
-  void measure_wedges();
-  void add_shares(std::size_t piece, std::vector<EdgeShare>& shares) const;
+  void list_sharp_curves();
   void judge(std::size_t piece);
   bool pinned_by_faces(std::size_t piece, const BadTet& bad);
   bool pinned_by_curves(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
   std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
-  bool is_at_feature(std::size_t piece, const BadTet& bad);
+  bool pinned_by_wedge(std::size_t piece, const BadTet& bad, const WallPair& walls);
+  bool is_at_strip(std::size_t piece, const BadTet& bad);
+  bool is_in_gap(std::size_t piece, const BadTet& bad, const WallPair& walls);
+  MissedTarget& kind_of(std::size_t piece, const BadTet& bad,
+                        const std::vector<std::array<LocalIndex, 4>>& corners);
   static void count(MissedTarget& kind, const mesh::DihedralRange& angles);
   void merge_features();
   void total(MissedTarget& kind) const;
@@ -118,6 +102,9 @@ private:
   const mesh::CellsBeyond& _suspects;
   double _target;
   TetQuality _measure;
+  VertexFaces _vertex_faces;
+  WallFinder _walls;
+  SharpCurves _sharp_curves;
   std::vector<std::vector<BadTet>> _bad;  // per piece
   std::vector<EdgeName> _edges;           // of bad tetrahedra on all ranks, ascending
   std::vector<Wedge> _wedges;             // per edge
@@ -149,61 +136,31 @@ void PinnedSearch::collect_edges() {
   _edges.erase(std::unique(_edges.begin(), _edges.end()), _edges.end());
 }
 
-void PinnedSearch::add_shares(std::size_t i, std::vector<EdgeShare>& shares) const {
-  const Piece& piece = _mesh.pieces[i];
-  std::vector<EdgeShare> mine;
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const LocalIndex* c = piece.cell(t);
-    int curved = 0;
-    for (int k = 0; k < 4; ++k) curved += piece.vertex_dimension[c[k]] <= on_curve;
-    if (curved < 2) continue;
-    for (int e = 0; e < 6; ++e) {
-      const auto& [a, b] = mesh::tetrahedron_edges[e];
-      if (piece.vertex_dimension[c[a]] > on_curve || piece.vertex_dimension[c[b]] > on_curve) continue;
-      const std::int64_t edge = find(name(i, c[a], c[b]));
-      if (edge < 0) continue;
-      const auto& [u, v] = mesh::tetrahedron_edges[5 - e];
-      const double angle =
-          dihedral_at(piece.point(c[a]), piece.point(c[b]), piece.point(c[u]), piece.point(c[v]));
-      mine.push_back({edge, piece.id, angle, {-1, -1}});
+/// Edges that belong to bad tetrahedra are all there are: whatever fills less than the target is bad.
+void PinnedSearch::list_sharp_curves() {
+  std::vector<SharpSegment> mine;
+  std::vector<std::int32_t> of_a, of_b, both;
+  for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) {
+    const Piece& piece = _mesh.pieces[i];
+    for (const BadTet& bad : _bad[i]) {
+      for (const auto& [from, to] : mesh::tetrahedron_edges) {
+        LocalIndex a = piece.cell(bad.tet)[from], b = piece.cell(bad.tet)[to];
+        const std::int64_t edge = find(name(i, a, b));
+        if (edge < 0 || _wedges[edge].angle >= _target) continue;
+        if (_numbering.vertices[i][a] > _numbering.vertices[i][b]) std::swap(a, b);
+        of_a.clear(), of_b.clear(), both.clear();
+        _vertex_faces.list(piece, a, of_a), _vertex_faces.list(piece, b, of_b);
+        std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(both));
+        for (auto low = both.begin(); low != both.end(); ++low) {
+          for (auto high = low + 1; high != both.end(); ++high) {
+            mine.push_back(
+                {edge, piece.region, 0, *low, *high, _wedges[edge].angle, piece.point(a), piece.point(b)});
+          }
+        }
+      }
     }
   }
-  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
-    const LocalIndex* v = piece.boundary_triangle(t);
-    for (int k = 0; k < 3; ++k) {
-      const LocalIndex a = v[k], b = v[(k + 1) % 3];
-      if (piece.vertex_dimension[a] > on_curve || piece.vertex_dimension[b] > on_curve) continue;
-      const std::int64_t edge = find(name(i, a, b));
-      if (edge >= 0) mine.push_back({edge, piece.id, 0, {piece.triangle_face[t], -1}});
-    }
-  }
-  // One record per edge.
-  std::stable_sort(mine.begin(), mine.end(),
-                   [](const EdgeShare& a, const EdgeShare& b) { return a.edge < b.edge; });
-  for (const EdgeShare& share : mine) {
-    if (shares.empty() || shares.back().edge != share.edge || shares.back().piece != share.piece) {
-      shares.push_back(share);
-      continue;
-    }
-    shares.back().angle += share.angle;
-    add_face(shares.back().faces, share.faces[0]);
-  }
-}
-
-void PinnedSearch::measure_wedges() {
-  std::vector<EdgeShare> mine;
-  if (!_edges.empty()) {
-    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) add_shares(i, mine);
-  }
-  std::vector<EdgeShare> all = _communicator.all_gather_items<EdgeShare>(mine);
-  std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
-    return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
-  });
-  _wedges.assign(_edges.size(), {});
-  for (const EdgeShare& share : all) {
-    _wedges[share.edge].angle += share.angle;
-    for (const std::int32_t face : share.faces) add_face(_wedges[share.edge].faces, face);
-  }
+  _sharp_curves = SharpCurves(_communicator, mine);
 }
 
 bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
@@ -266,8 +223,32 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
   return false;
 }
 
+/// Behind the first row of a wedge: as narrow as the wedge is so far from its curve, and no flatter.
+bool PinnedSearch::pinned_by_wedge(std::size_t i, const BadTet& bad, const WallPair& walls) {
+  const Piece& piece = _mesh.pieces[i];
+  const auto p = points(piece, bad.tet);
+  const auto curve =
+      _sharp_curves.nearest(piece.region, walls.low, walls.high, 0.25 * (p[0] + p[1] + p[2] + p[3]));
+  if (!curve || wedge_slack * bad.angles.smallest < curve->angle) return false;
+  if (wedge_slack * walls.gap < curve->distance * std::tan(curve->angle / degrees)) return false;
+  _entities.push_back({.faces = {walls.low, walls.high},
+                       .angle = curve->angle,
+                       .smallest_dihedral = bad.angles.smallest,
+                       .at = curve->at,
+                       .tetrahedra = 1});
+  return true;
+}
+
+bool PinnedSearch::is_in_gap(std::size_t i, const BadTet& bad, const WallPair& walls) {
+  if (walls.touching) return false;
+  const auto p = points(_mesh.pieces[i], bad.tet);
+  _features.push_back(
+      {walls.low, walls.high, walls.gap, bad.angles.smallest, 0.25 * (p[0] + p[1] + p[2] + p[3]), 1});
+  return true;
+}
+
 /// The narrowest strip that the tetrahedron reaches across counts.
-bool PinnedSearch::is_at_feature(std::size_t i, const BadTet& bad) {
+bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
   const LocalIndex* c = _mesh.pieces[i].cell(bad.tet);
   const StripEdge* narrowest = nullptr;
   for (const auto& [a, b] : mesh::tetrahedron_edges) {
@@ -278,7 +259,7 @@ bool PinnedSearch::is_at_feature(std::size_t i, const BadTet& bad) {
       narrowest = strip;
   }
   if (!narrowest) return false;
-  _features.push_back({narrowest->face, 0, narrowest->width, bad.angles.smallest, narrowest->at, 1});
+  _features.push_back({narrowest->face, -1, narrowest->width, bad.angles.smallest, narrowest->at, 1});
   return true;
 }
 
@@ -288,12 +269,18 @@ void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) 
   kind.largest_angle = std::max(kind.largest_angle, angles.largest);
 }
 
+MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
+                                    const std::vector<std::array<LocalIndex, 4>>& corners) {
+  if (pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners)) return _report.pinned;
+  const std::optional<WallPair> walls = _walls.find(_mesh.pieces[i], bad.tet);
+  if (walls && pinned_by_wedge(i, bad, *walls)) return _report.pinned;
+  if (is_at_strip(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
+  return _report.rest;
+}
+
 void PinnedSearch::judge(std::size_t i) {
   const std::vector<std::array<LocalIndex, 4>> corners = sharp_corners(_mesh.pieces[i]);
-  for (const BadTet& bad : _bad[i]) {
-    const bool pinned = pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners);
-    count(pinned ? _report.pinned : is_at_feature(i, bad) ? _report.at_features : _report.rest, bad.angles);
-  }
+  for (const BadTet& bad : _bad[i]) count(kind_of(i, bad, corners), bad.angles);
 }
 
 void PinnedSearch::total(MissedTarget& kind) const {
@@ -306,12 +293,13 @@ void PinnedSearch::total(MissedTarget& kind) const {
 void PinnedSearch::merge_features() {
   const auto merge = [](std::vector<UnresolvedFeature> rows) {
     std::sort(rows.begin(), rows.end(), [](const UnresolvedFeature& a, const UnresolvedFeature& b) {
-      return std::tie(a.face, a.width, a.at.x, a.at.y, a.at.z) <
-             std::tie(b.face, b.width, b.at.x, b.at.y, b.at.z);
+      return std::tie(a.face, a.opposite, a.width, a.at.x, a.at.y, a.at.z) <
+             std::tie(b.face, b.opposite, b.width, b.at.x, b.at.y, b.at.z);
     });
     std::vector<UnresolvedFeature> merged;
     for (const UnresolvedFeature& row : rows) {
-      if (merged.empty() || merged.back().face != row.face) {
+      if (merged.empty() ||
+          std::tie(merged.back().face, merged.back().opposite) != std::tie(row.face, row.opposite)) {
         merged.push_back(row);
         continue;
       }

@@ -29,14 +29,14 @@ struct PinningEntity {
   std::int64_t tetrahedra = 0;
 };
 
-/// A CAD face with a strip between two of its curves that are closer than the elements along them
-/// (strip_triangles.hpp).
+/// Walls nearer to each other than the elements on them are long: a CAD face with a strip between two of its
+/// curves (strip_triangles.hpp), or two faces with a gap between them (wall_pairs.hpp).
 struct UnresolvedFeature {
   std::int32_t face = -1;
-  std::int32_t unused = 0;       ///< no padding travels
-  double width = 0;              ///< where its strip is narrowest among the tetrahedra counted
+  std::int32_t opposite = -1;    ///< the other face of a gap, the higher one; -1 of a strip
+  double width = 0;              ///< where it is narrowest among the tetrahedra counted
   double smallest_dihedral = 0;  ///< degrees, of its tetrahedra
-  geometry::Vec3 at;             ///< across the strip, where it is narrowest
+  geometry::Vec3 at;             ///< inside, where it is narrowest
   std::int64_t tetrahedra = 0;
 };
 
@@ -48,9 +48,9 @@ struct MissedTarget {
 
 struct PinnedReport {
   std::vector<PinningEntity> entities;      ///< by kind, faces, vertex
-  std::vector<UnresolvedFeature> features;  ///< by face
+  std::vector<UnresolvedFeature> features;  ///< by faces
   MissedTarget pinned;                      ///< forced by an angle of the CAD
-  MissedTarget at_features;                 ///< not pinned, with an edge across such a strip
+  MissedTarget at_features;                 ///< not pinned, across such a strip or gap
   MissedTarget rest;
   std::int64_t tetrahedra = 0;  ///< those pinned
   std::int64_t others = 0;      ///< those that are not pinned
@@ -62,9 +62,11 @@ struct PinnedReport {
 mesh::DihedralRange suspect_angles(double target_angle);
 
 /// Which tetrahedra that miss the target angle (degrees, as in ImproveOptions) are pinned: those at an edge
-/// of a CAD curve where the boundary encloses less than the target, and those on a boundary triangle that
-/// fills a corner of less than the target between two curves. Of the others, those with an edge across a
-/// strip that is finer than its elements are at that feature. `suspects` are those beyond the angles above,
+/// of a CAD curve where the boundary encloses less than the target; those behind the first row there, between
+/// the same two faces, as narrow as the wedge is at their distance and no flatter, both to a factor of two;
+/// and those on a boundary triangle that fills a corner of less than the target between two curves. Of the
+/// others, those with an edge across a strip that is finer than its elements, or that reach across a gap
+/// between two faces which is, are at that feature. `suspects` are those beyond the angles above,
 /// as mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,

@@ -157,7 +157,10 @@ std::string face_name(const RunRecord& record, std::int32_t face) {
 Json unresolved_json(const RunRecord& record) {
   Json list = Json::array();
   for (const improve::UnresolvedFeature& feature : record.pinned.features) {
-    list.push_back({{"face", face_name(record, feature.face)},
+    const bool is_gap = feature.opposite >= 0;
+    list.push_back({{"kind", is_gap ? "gap" : "strip"},
+                    {"face", face_name(record, feature.face)},
+                    {"opposite", is_gap ? Json(face_name(record, feature.opposite)) : Json()},
                     {"width", feature.width},
                     {"at", to_json(feature.at)},
                     {"tetrahedra", feature.tetrahedra},

@@ -121,8 +121,7 @@ void log_pinned(const RunRecord& record) {
   };
   log_info(
       fmt::format("improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
-                  "are at strips of "
-                  "{} faces that are finer than their elements, {} are neither",
+                  "are at {} strips and gaps that are finer than their elements, {} are neither",
                   part(report.pinned), report.entities.size(), part(report.at_features),
                   report.features.size(), part(report.rest)));
 }

@@ -99,6 +99,38 @@ DistributedMesh make_corner(const parallel::Communicator& communicator, bool end
   return mesh;
 }
 
+/// Plane walls 0 and 1 that meet at the y axis, curve 1, at `angle` degrees, with the tetrahedron that fills
+/// the first row there, where there is one, and one further off on piece 1: its lower side lies on face 0,
+/// its upper vertex on face `upper` in the height of face 1 times `part`.
+DistributedMesh make_walls(const parallel::Communicator& communicator, double angle, bool with_curve,
+                           double part, std::int32_t upper) {
+  const double slope = std::tan(angle * std::numbers::pi / 180);
+  DistributedMesh mesh;
+  mesh.piece_count = 2;
+  mesh.patches = mesh.faces = {"lower", "upper"};
+  for (int i = 0; i < 2; ++i) {
+    if (i % communicator.size() != communicator.rank()) continue;
+    Piece piece;
+    piece.id = i;
+    if (i == 0 && with_curve) {
+      piece.coordinates = {0, 0, 0, 0, 1, 0, 1, 0.5, 0, 1, 0.5, slope};
+      piece.vertex_dimension = {1, 1, 2, 2};
+      piece.vertex_entity = {1, 1, 0, 1};
+      piece.cells = {0, 2, 1, 3};
+      add_triangle(piece, {0, 1, 2}, 0);
+      add_triangle(piece, {0, 3, 1}, 1);
+    } else if (i == 1) {
+      piece.coordinates = {1.6, 0, 0, 2.4, 0.5, 0, 1.6, 1, 0, 1.9, 0.5, 1.9 * slope * part};
+      piece.vertex_dimension = {2, 2, 2, 2};
+      piece.vertex_entity = {0, 0, 0, upper};
+      piece.cells = {0, 1, 2, 3};
+      add_triangle(piece, {0, 2, 1}, 0);
+    }
+    mesh.pieces.push_back(piece);
+  }
+  return mesh;
+}
+
 PinnedReport find(const DistributedMesh& mesh, double target) {
   const auto world = parallel::Communicator::world();
   const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
@@ -196,6 +228,45 @@ TEST(Pinned, TellsShortEdgesFromStrips) {
     EXPECT_EQ(report.at_features.tetrahedra, along ? 1 : 0);
     EXPECT_EQ(report.rest.tetrahedra, along ? 0 : 1);
   }
+}
+
+TEST(Pinned, FindsWhatAWedgeForcesBehindItsFirstRow) {
+  const PinnedReport report = find(make_walls(parallel::Communicator::world(), 4, true, 1, 1), 28);
+  EXPECT_EQ(report.pinned.tetrahedra, 2);
+  EXPECT_EQ(report.others, 0);
+  ASSERT_EQ(report.entities.size(), 1u);
+  EXPECT_EQ(report.entities[0].faces, (std::array<std::int32_t, 2>{0, 1}));
+  EXPECT_NEAR(report.entities[0].angle, 4, 1e-9);
+  EXPECT_EQ(report.entities[0].tetrahedra, 2);
+}
+
+TEST(Pinned, TellsGapsFinerThanTheElements) {
+  const auto world = parallel::Communicator::world();
+  const PinnedReport report = find(make_walls(world, 4, false, 1, 1), 28);
+  EXPECT_EQ(report.pinned.tetrahedra + report.rest.tetrahedra, 0);
+  EXPECT_EQ(report.at_features.tetrahedra, 1);
+  ASSERT_EQ(report.features.size(), 1u);
+  EXPECT_EQ(report.features[0].face, 0);
+  EXPECT_EQ(report.features[0].opposite, 1);
+  EXPECT_NEAR(report.features[0].width, 1.9 * std::tan(4 * std::numbers::pi / 180), 1e-12);
+  // Much narrower than the wedge from which it is seen: a gap all the same.
+  const PinnedReport slot = find(make_walls(world, 12, true, 0.2, 1), 28);
+  EXPECT_EQ(slot.pinned.tetrahedra, 1);
+  EXPECT_EQ(slot.at_features.tetrahedra, 1);
+}
+
+TEST(Pinned, DoesNotExcuseFlatTetrahedraThatReachAcrossNothing) {
+  const auto world = parallel::Communicator::world();
+  // On one wall.
+  EXPECT_EQ(find(make_walls(world, 4, true, 1, 0), 28).rest.tetrahedra, 1);
+  // Where the walls are as far apart as elements are long, however flat the tetrahedron is otherwise.
+  DistributedMesh mesh = make_walls(world, 16, true, 1, 1);
+  for (Piece& piece : mesh.pieces) {
+    if (piece.id == 1) piece.coordinates[3 * 1] = 1.7, piece.coordinates[3 * 3 + 2] = 0.8;
+  }
+  const PinnedReport wide = find(mesh, 28);
+  EXPECT_EQ(wide.rest.tetrahedra, 1);
+  EXPECT_LT(wide.rest.smallest_angle, 15);
 }
 
 TEST(Pinned, ListsNothingOfAGoodMesh) {
