@@ -47,7 +47,10 @@ bool leaves_a_choice(const SizingRequest& request) {
 /// What was chosen, overruled by what was asked for.
 sizing::SizingOptions overrule(const sizing::SizingOptions& chosen, const SizingRequest& request) {
   sizing::SizingOptions sizes = chosen;
-  if (request.minimum) sizes.minimum = *request.minimum, sizes.feature_minimum = sizes.strip_minimum = 0;
+  if (request.minimum) {
+    sizes.minimum = *request.minimum;
+    sizes.feature_minimum = sizes.strip_minimum = sizes.gap_minimum = 0;
+  }
   if (request.feature_minimum) sizes.feature_minimum = *request.feature_minimum, sizes.strip_minimum = 0;
   if (request.maximum) sizes.maximum = *request.maximum;
   if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;

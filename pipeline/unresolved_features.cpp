@@ -26,7 +26,7 @@ FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing:
 
 double FeatureReport::wanted_tetrahedra() const {
   if (strips.empty()) return tetrahedra;
-  return tetrahedra * share.resolved_share / share.share;
+  return tetrahedra * share.gap_share * share.resolved_share / share.share;
 }
 
 std::string describe(const FeatureReport& report) {
@@ -58,6 +58,8 @@ nlohmann::ordered_json to_json(const FeatureReport& report) {
   }
   return {{"smallest_size", report.share.floor},
           {"share", report.share.share},
+          {"smallest_gap_size", report.share.gap_floor},
+          {"gap_share", report.share.gap_share},
           {"predicted_tetrahedra", report.tetrahedra},
           {"wanted_tetrahedra", report.wanted_tetrahedra()},
           {"unresolved", std::move(strips)}};

@@ -127,6 +127,7 @@ private:
   /// kept.
   double judge(SizingOptions options) {
     if (_features.floor > 0) set_feature_floor(options, _features.floor);
+    if (_features.gap_floor > 0) set_gap_floor(options, _features.gap_floor);
     std::optional<Trial> trial;
     if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
     const std::optional<double> tetrahedra =

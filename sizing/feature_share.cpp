@@ -27,21 +27,27 @@ constexpr double slack = 4;
 /// Tries floors between one that is certainly within the budget and one that is not.
 class FloorSearch {
 public:
-  FloorSearch(const ModelSampler& sampler, const SizingOptions& options, double budget, double coarser,
-              std::int64_t most_leaves)
+  using SetFloor = void (*)(SizingOptions&, double);
+
+  FloorSearch(const ModelSampler& sampler, const SizingOptions& options, SetFloor set_floor, double budget,
+              double coarser, std::int64_t most_leaves)
       : _sampler(sampler),
         _options(options),
+        _set_floor(set_floor),
         _budget(budget),
         _coarser(coarser),
         _most_leaves(
             std::llround(std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves))) {}
 
-  FeatureShare run() {
-    FeatureShare found{_options.minimum, 1, false, 1, _options.minimum};
-    const double lowest = std::min(_options.minimum, std::max(finest_over_minimum * _options.minimum,
-                                                              finest_over_gap * _sampler.model().sewn_gap()));
+  /// Nothing is finer than `finest`. `base`: what is predicted without features, where that is known.
+  FeatureShare run(double finest, std::optional<double> base = {}) {
+    FeatureShare found{_options.minimum, 1, false, 1, _options.minimum, _options.minimum};
+    const double lowest =
+        std::min(_options.minimum, std::max({finest, finest_over_minimum * _options.minimum,
+                                             finest_over_gap * _sampler.model().sewn_gap()}));
     if (lowest == _options.minimum) return found;
-    const std::optional<double> base = count(_options.minimum);
+    if (!base) base = count(_options.minimum);
+    _tetrahedra = base;
     if (!base) {
       found.limited = true;
       return found;
@@ -55,6 +61,7 @@ public:
       if (tetrahedra && share <= _budget) {
         found.floor = high = floor;
         found.share = share;
+        _tetrahedra = tetrahedra;
         if (floor == lowest || share >= well_used * _budget) break;
       } else {
         low = floor;
@@ -67,6 +74,9 @@ public:
     found.resolved_share = found.limited ? share_at(lowest, known) : found.share;
     return found;
   }
+
+  /// Predicted with what was found.
+  std::optional<double> tetrahedra() const { return _tetrahedra; }
 
 private:
   /// A floor for which tetrahedra were predicted.
@@ -85,7 +95,7 @@ private:
 
   std::optional<double> count(double floor) const {
     SizingOptions options = _options;
-    set_feature_floor(options, floor);
+    _set_floor(options, floor);
     const std::optional<double> tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);
     parallel::log_verbose(
         tetrahedra ? fmt::format("sizing: features down to {:.3g}: {:.3g} tetrahedra", floor, *tetrahedra)
@@ -96,8 +106,10 @@ private:
 
   const ModelSampler& _sampler;
   SizingOptions _options;
+  SetFloor _set_floor;
   double _budget, _coarser;
   std::int64_t _most_leaves;
+  std::optional<double> _tetrahedra;
 };
 
 }  // namespace
@@ -107,13 +119,28 @@ void set_feature_floor(SizingOptions& options, double floor) {
   options.feature_minimum = std::max(options.strip_minimum, finest_point * options.minimum);
 }
 
+void set_gap_floor(SizingOptions& options, double floor) {
+  options.gap_minimum = std::min(floor, options.minimum);
+}
+
 FeatureShare share_of_features(const ModelSampler& sampler, const SizingOptions& options, double budget,
                                double coarser, std::int64_t most_leaves) {
   if (!(budget >= 1)) {
     throw std::invalid_argument(
         fmt::format("sizing: feature_budget must be at least 1, but it is {}", budget));
   }
-  return FloorSearch(sampler, options, budget, coarser, most_leaves).run();
+  FloorSearch search(sampler, options, set_feature_floor, budget, coarser, most_leaves);
+  FeatureShare found = search.run(0);
+  if (sampler.narrowest_gap() >= options.minimum || found.share >= well_used * budget) return found;
+  SizingOptions with_strips = options;
+  set_feature_floor(with_strips, found.floor);
+  const FeatureShare of_gaps =
+      FloorSearch(sampler, with_strips, set_gap_floor, budget / found.share, coarser, most_leaves)
+          .run(sampler.narrowest_gap(), search.tetrahedra());
+  found.gap_floor = of_gaps.floor;
+  found.gap_share = of_gaps.share;
+  found.share *= of_gaps.share;
+  return found;
 }
 
 }  // namespace aeroloom::sizing

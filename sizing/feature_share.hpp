@@ -17,18 +17,24 @@ struct FeatureShare {
   double floor = 0;           ///< the smallest size that strips may ask for; 0: the minimum
   double share = 1;           ///< predicted tetrahedra over those with the minimum as floor
   bool limited = false;       ///< by the budget: the floor is not the lowest
-  double resolved_share = 1;  ///< about, with the lowest floor; as `share` where that is within the budget
+  double resolved_share = 1;  ///< about, with the lowest floor; as that of strips where it is within the budget
   double minimum = 0;         ///< of everything else
+  double gap_floor = 0;       ///< as `floor`, of gaps
+  double gap_share = 1;       ///< the part of `share` that these bring on top of the others
 };
 
 /// Lets strips ask for sizes down to `floor`, short edges and sharp corners, around which elements grow from
 /// a point, down to that or a twentieth of the minimum; none of them for more than the minimum.
 void set_feature_floor(SizingOptions& options, double floor);
 
-/// The lowest floor, down to a thousandth of the minimum, with which the share is within the budget, under
-/// `options`, whose features ask for no less than their minimum. By fields whose sizes are `coarser` times as
-/// large; those with clearly more leaves than `most_leaves` count as far beyond the budget. Collective.
-/// Throws std::invalid_argument for a budget below one.
+/// Lets gaps ask for sizes down to `floor`.
+void set_gap_floor(SizingOptions& options, double floor);
+
+/// The lowest floors, that of gaps with what strips leave of the budget, down to a thousandth of the minimum,
+/// with which the share is within the budget, under `options`, whose features ask for no less than their
+/// minimum. By fields whose sizes are `coarser` times as large; those with clearly more leaves than
+/// `most_leaves` count as far beyond the budget. Collective. Throws std::invalid_argument for a budget below
+/// one.
 FeatureShare share_of_features(const ModelSampler& sampler, const SizingOptions& options, double budget,
                                double coarser, std::int64_t most_leaves);
 

@@ -54,17 +54,14 @@ bool only_far_field(const cad::Edge& edge, const std::vector<bool>& far_field) {
   return std::all_of(edge.faces.begin(), edge.faces.end(), [&](FaceId f) { return far_field[f]; });
 }
 
-struct FaceTriangle {
-  FaceId face;
-  Triangle corners;
-};
-
 // Gaps that are looked for, and the shortest edge of the facets rays start from, as parts of the body's
 // extent.
 constexpr double narrow_gap = 20, finest_gap = 400;
 // Rays on a facet that is bisected down to an edge, times the square of that edge, over its area; and how
 // many rays all faces together may take, about.
 constexpr double rays_per_area = 24, most_rays = 2e6;
+// And those that look closer at open gaps.
+constexpr double most_close_rays = 3e5;
 
 /// The shortest edge of the facets that rays start from, where all faces would need it.
 double finest_facet(double extent, double area) {
@@ -86,15 +83,20 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
          is_same(a.curvature_angle, b.curvature_angle) && is_same(a.proximity, b.proximity) &&
          is_same(a.chordal_deviation, b.chordal_deviation) &&
          is_same(smallest_feature_size(a), smallest_feature_size(b)) &&
-         is_same(smallest_strip_size(a), smallest_strip_size(b));
+         is_same(smallest_strip_size(a), smallest_strip_size(b)) &&
+         is_same(smallest_gap_size(a), smallest_gap_size(b));
 }
 
 /// What walls opposite to each other ask for.
-std::vector<SizeSource> gap_sources(const std::vector<Gap>& gaps, const SizingOptions& options) {
+std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& options) {
   std::vector<SizeSource> sources;
-  for (const Gap& gap : gaps) {
+  for (const Gap& gap : gaps.seen) {
     const double size = std::max(gap.width / options.proximity, options.minimum);
     if (size < options.maximum) sources.push_back({gap.point, size});
+  }
+  for (const Gap& gap : gaps.open) {
+    const double size = std::max(gap.width / options.proximity, smallest_gap_size(options));
+    if (size < options.minimum) sources.push_back({gap.point, size});
   }
   return sources;
 }
@@ -144,7 +146,7 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
       _areas.push_back(0);
       for (const FaceId member : members) _areas[f] += before._areas[member], number[member] = f;
     }
-    for (FaceId& face : _walls->faces) face = number[face];
+    for (Wall& wall : _walls->facets) wall.face = number[wall.face];
     take_faces(std::move(before._faces), number);
     list_corners();
   });
@@ -190,36 +192,40 @@ void ModelSampler::list_corners() {
 }
 
 void ModelSampler::gather_triangles() {
-  std::vector<FaceTriangle> mine;
-  for (const OwnFace& face : _faces) {
-    if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
-    const auto& points = face.facets.points;
-    for (const auto& t : face.facets.triangles)
-      mine.push_back({face.id, {points[t[0]], points[t[1]], points[t[2]]}});
-  }
-  std::vector<FaceTriangle> all = _communicator.all_gather_items<FaceTriangle>(mine);
+  std::vector<Wall> mine;
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (const OwnFace& face : _faces) {
+      if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
+      const auto& points = face.facets.points;
+      const std::vector<double> deviations = facet_deviations(_model, face.id, face.facets);
+      for (std::size_t i = 0; i < deviations.size(); ++i) {
+        const auto& [a, b, c] = face.facets.triangles[i];
+        mine.push_back({face.id, {points[a], points[b], points[c]}, deviations[i]});
+      }
+    }
+  });
+  std::vector<Wall> all = _communicator.all_gather_items<Wall>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
   ScopedCpu cpu(_clock, ScopedCpu::As::serial);
-  std::vector<Triangle> boundary, walls;
-  std::vector<FaceId> faces;
-  for (const FaceTriangle& t : all) {
+  std::vector<Triangle> boundary;
+  for (const Wall& t : all) {
     if (!_far_field[t.face]) {
       for (const geometry::Vec3 p : t.corners) _body_box.add(p);
     }
     if (_model.face(t.face).back == cad::no_entity) boundary.push_back(t.corners);
-    walls.push_back(t.corners);
-    faces.push_back(t.face);
   }
   // Without faces between regions the walls are the boundary: one tree serves both.
-  if (boundary.size() < walls.size()) _part_on_boundary.emplace(std::move(boundary));
-  _walls.emplace(walls, std::move(faces));
+  if (boundary.size() < all.size()) _part_on_boundary.emplace(std::move(boundary));
+  _walls.emplace(std::move(all));
   if (_body_box.empty()) _body_box = _model.bounds();
 }
 
 void ModelSampler::measure_gaps() {
+  const geometry::Vec3 size = _body_box.size();
+  const double extent = std::max({size.x, size.y, size.z}), widest = extent / narrow_gap;
+  std::vector<OwnFace*> looked_at;
   parallel::agree(_communicator, [&] {
-    const geometry::Vec3 size = _body_box.size();
-    const double extent = std::max({size.x, size.y, size.z});
     double area = 0;
     for (FaceId f = 0; f < _model.face_count(); ++f) area += _model.is_far_field(f) ? 0 : _areas[f];
     const double finest = finest_facet(extent, area);
@@ -230,9 +236,29 @@ void ModelSampler::measure_gaps() {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (OwnFace& face : _faces) {
       if (_layers <= 0 || face.gaps || _model.is_far_field(face.id)) continue;
-      face.gaps = find_gaps(_model, face.facets, *_walls, extent / narrow_gap, finest, _layers);
+      face.gaps = find_gaps(_model, face.id, face.facets, *_walls, widest, finest, _layers);
+      looked_at.push_back(&face);
     }
   });
+  look_closer(looked_at, widest);
+}
+
+void ModelSampler::look_closer(const std::vector<OwnFace*>& faces, double widest) {
+  std::int64_t rays = 0;
+  for (const OwnFace* face : faces) rays += count_rays(*face->gaps, _layers);
+  const double apart =
+      std::max(1.0, std::sqrt(static_cast<double>(_communicator.sum(rays)) / most_close_rays));
+  double narrowest = std::numeric_limits<double>::infinity();
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (OwnFace* face : faces)
+      sizing::look_closer(_model, face->id, face->facets, *_walls, widest, _layers, apart, *face->gaps);
+    for (const OwnFace& face : _faces) {
+      if (!face.gaps) continue;
+      for (const Gap& gap : face.gaps->open) narrowest = std::min(narrowest, gap.width);
+    }
+  });
+  _narrowest_gap = _communicator.minimum(narrowest);
 }
 
 std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) const {
@@ -353,7 +379,7 @@ SizeField ModelSampler::build_field(const SizingOptions& options) const {
 std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& options, double coarser,
                                                      std::int64_t most_leaves) const {
   SizingOptions coarse = options;
-  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum,
+  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum, &coarse.gap_minimum,
                        &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);

@@ -9,6 +9,7 @@
 #include "sizing/triangle_tree.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -63,6 +64,9 @@ public:
   /// Elements along both sides of all strips narrower than `minimum`, about, for each of some smallest sizes
   /// that strips may ask for: their lengths over their widths. Collective.
   std::vector<double> elements_along_strips(std::span<const double> floors, double minimum) const;
+  /// The width of the narrowest gap that sizes below the minimum resolve; infinite where there is none, or
+  /// none were looked for. The same on every rank.
+  double narrowest_gap() const { return _narrowest_gap; }
 
   const cad::Model& model() const { return _model; }
   /// The box of all faces that are not far field; of everything where there are none.
@@ -74,7 +78,7 @@ private:
     cad::FaceId id;
     cad::Facets facets;
     FaceSamples samples;
-    std::optional<std::vector<Gap>> gaps = {};  // seen from the face; nothing: not looked for yet
+    std::optional<Gaps> gaps = {};  // seen from the face; nothing: not looked for yet
     std::vector<EdgePair> closed_corners = {};
   };
   /// What estimate_tetrahedra() has found so far.
@@ -93,6 +97,8 @@ private:
   void list_corners();
   void gather_triangles();
   void measure_gaps();
+  /// In the open gaps of those faces; `widest` as they were looked for. Collective.
+  void look_closer(const std::vector<OwnFace*>& faces, double widest);
   /// What the faces and edges of this rank ask for.
   std::vector<SizeSource> sample_own(const SizingOptions& options) const;
   /// What all ask for, corners included, sizes multiplied by `factor`. Collective.
@@ -120,6 +126,7 @@ private:
   std::optional<Walls> _walls;                    // facets of all faces
   geometry::Box _body_box;
   mutable std::vector<Estimate> _estimates;
+  double _narrowest_gap = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace aeroloom::sizing

@@ -3,9 +3,11 @@
 #include "sizing/segment_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace aeroloom::sizing {
 namespace {
@@ -16,20 +18,65 @@ constexpr double facing = -0.5;          // largest cosine between normals of wa
 constexpr double edge_per_size = 4;      // of facets that one ray stands for
 constexpr double wedge_slenderness = 8;  // distance to the common edge over the gap
 constexpr int deepest_bisection = 24;
+// Walls that meet in an edge run together where the gap, at their angle, closes within so many times the way
+// to it.
+constexpr double closing_reach = 2;
+// Rays on a facet that is bisected down to an edge, times the square of that edge, over its area.
+constexpr double rays_per_area = 24;
+// Rays on the narrow facets of a face over those predicted, at most, and a few for those that have hardly
+// any.
+constexpr double most_over_predicted = 3;
+constexpr std::int64_t few_rays = 1000;
+// The middle of a facet's parameters is no point beside it where it is farther away, over the longest edge.
+constexpr double farthest_middle = 0.25;
+// An open gap over what walls may be off by, at least: the distance of both its facets from the surface and
+// the accuracy of the model, what was sewn or this part of the widest gap.
+constexpr double gap_over_error = 2, accuracy = 1e-5;
+constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 Vec3 unit_normal(const Triangle& t) {
   return normalized(cross(t[1] - t[0], t[2] - t[0]));
 }
 
+double area(const Triangle& t) {
+  return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
+}
+
+/// How long the parts of facets may be that see a gap.
+double edge_per_gap(double layers) {
+  return edge_per_size / std::max(1.0, layers);
+}
+
+struct LongestEdge {
+  int from = 0;
+  double length = 0;
+};
+
+LongestEdge longest_edge(const Triangle& t) {
+  LongestEdge longest;
+  for (int i = 0; i < 3; ++i) {
+    const double length = distance(t[i], t[(i + 1) % 3]);
+    if (length > longest.length) longest = {i, length};
+  }
+  return longest;
+}
+
+std::array<Triangle, 2> bisect(const Triangle& t, int from) {
+  const Vec3 &a = t[from], &b = t[(from + 1) % 3], &c = t[(from + 2) % 3], middle = 0.5 * (a + b);
+  return {{{a, middle, c}, {middle, b, c}}};
+}
+
 class GapFinder {
 public:
-  GapFinder(const cad::Model& model, const cad::Facets& facets, const Walls& walls, double widest,
-            double finest, double layers)
+  GapFinder(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+            double widest, double layers)
       : _facets(facets),
         _walls(walls),
         _widest(widest),
-        _finest(finest),
-        _edge_per_gap(edge_per_size / std::max(1.0, layers)) {
+        _edge_per_gap(edge_per_gap(layers)),
+        _accuracy(std::max(model.sewn_gap(), accuracy * widest)),
+        _meshed_beyond(model.face(face).back != cad::no_entity),
+        _deviations(facet_deviations(model, face, facets)) {
     std::map<cad::FaceId, std::vector<SegmentTree::Segment>> shared;
     for (const cad::Facets::BoundaryLine& line : facets.boundary) {
       for (const cad::FaceId user : model.edge(line.use.edge).faces) {
@@ -40,74 +87,159 @@ public:
     for (auto& [user, segments] : shared) _edges.emplace(user, std::move(segments));
   }
 
-  std::vector<Gap> run() {
-    for (const auto& t : _facets.triangles) {
+  Gaps find(double finest) {
+    _finest = finest;
+    for (std::size_t f = 0; f < _facets.triangles.size(); ++f) {
+      const auto& t = _facets.triangles[f];
+      _deviation = _deviations[f];
       cover({_facets.points[t[0]], _facets.points[t[1]], _facets.points[t[2]]}, 0);
     }
     return std::move(_gaps);
   }
 
+  void look_closer(double apart, std::int64_t most_rays, Gaps& gaps) {
+    _edge_per_gap *= apart;
+    _rays_left = most_rays;
+    _gaps = std::move(gaps);
+    for (const Gaps::Part& part : std::exchange(_gaps.narrow, {})) cover_narrow(part.triangle, part.gap, 0);
+    gaps = std::move(_gaps);
+  }
+
 private:
+  struct Seen {
+    double gap = nowhere, open = nowhere;
+  };
+
   void cover(const Triangle& t, int depth) {
     const Vec3 center = (t[0] + t[1] + t[2]) / 3;
     const Vec3 normal = unit_normal(t);
     if (!(norm(normal) > 0.5)) return;
-    const double gap = look(center, normal);
-    if (gap <= _widest) _gaps.push_back({center, gap});
-    int longest = 0;
-    double length = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double edge = distance(t[i], t[(i + 1) % 3]);
-      if (edge > length) length = edge, longest = i;
-    }
+    const auto [gap, open] = look_around(center, normal);
+    if (gap <= _widest) _gaps.seen.push_back({center, gap});
+    if (open <= _widest) _gaps.open.push_back({center, open});
+    const auto [from, length] = longest_edge(t);
     // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
     const double fine = std::max(_finest, _edge_per_gap * std::min(gap, _widest));
-    if (length <= fine || depth >= deepest_bisection) return;
-    const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
-    cover({a, middle, c}, depth + 1);
-    cover({middle, b, c}, depth + 1);
+    if (length > fine && depth < deepest_bisection) {
+      for (const Triangle& half : bisect(t, from)) cover(half, depth + 1);
+    } else if (length > _edge_per_gap * open) {
+      _gaps.narrow.push_back({t, open, _deviation});
+    }
   }
 
-  /// Distance along the normal, to either side, to the nearest wall that faces back, the lower one where two
+  /// `gap`: of the last larger part that saw one.
+  void cover_narrow(const Triangle& t, double gap, int depth) {
+    if (_rays_left <= 0) return;
+    --_rays_left;
+    const Vec3 center = (t[0] + t[1] + t[2]) / 3;
+    const Vec3 normal = unit_normal(t);
+    if (!(norm(normal) > 0.5)) return;
+    const double open = look_around(center, normal).open;
+    if (open <= _widest) _gaps.open.push_back({center, open}), gap = open;
+    const auto [from, length] = longest_edge(t);
+    if (length <= _edge_per_gap * gap || depth >= deepest_bisection) return;
+    for (const Triangle& half : bisect(t, from)) cover_narrow(half, gap, depth + 1);
+  }
+
+  /// Distances along the normal, to either side, to the nearest wall that faces back, the lower one where two
   /// are as near; infinity where there is none in reach.
-  double look(Vec3 from, Vec3 normal) const {
-    double nearest = std::numeric_limits<double>::infinity();
+  Seen look_around(Vec3 from, Vec3 normal) const {
     const auto faces_back = [&](std::int32_t triangle) {
       return dot(_walls.normals[triangle], normal) <= facing;
     };
-    for (const auto& [wall, away] : _walls.tree.nearest_crossings(from, normal, _widest, faces_back)) {
-      if (wall >= 0 && away < nearest && !in_wedge(from, _walls.faces[wall], away)) nearest = away;
-    }
-    return nearest;
+    const auto nearest = _walls.tree.nearest_crossings(from, normal, _widest, faces_back);
+    const Seen ahead = judge(nearest[0], from, normal, _meshed_beyond);
+    const Seen behind = judge(nearest[1], from, normal, true);
+    return {std::min(ahead.gap, behind.gap), std::min(ahead.open, behind.open)};
   }
 
-  /// Whether the face meets the opposite one (or itself) in an edge so near that gap and edge form a wedge.
-  bool in_wedge(Vec3 point, cad::FaceId opposite, double gap) const {
+  /// What a crossing means, on a side that is meshed or not.
+  Seen judge(const TriangleTree::Crossing& crossing, Vec3 from, Vec3 normal, bool meshed) const {
+    const auto& [wall, away] = crossing;
+    if (wall < 0) return {};
+    const auto& [opposite, corners, deviation] = _walls.facets[wall];
+    if (is_edge_within(wedge_slenderness * away, from, opposite)) return {};
+    if (!meshed || away < gap_over_error * (_deviation + deviation + _accuracy)) return {away, nowhere};
+    const double turn = norm(cross(_walls.normals[wall], normal));
+    const bool closes = turn > 0 && is_edge_within(nowhere, from, opposite, away / (closing_reach * turn));
+    return {away, closes ? nowhere : away};
+  }
+
+  /// Whether the face meets the opposite one (or itself) in an edge so near, but not nearer than `least`.
+  bool is_edge_within(double reach, Vec3 point, cad::FaceId opposite, double least = 0) const {
     const auto edges = _edges.find(opposite);
     if (edges == _edges.end()) return false;
-    const double reach = wedge_slenderness * gap;
-    return edges->second.nearest(point, reach, [](std::int32_t) { return true; }) < reach;
+    const double away = edges->second.nearest(point, reach, [](std::int32_t) { return true; });
+    return away < reach && away >= least;
   }
 
   const cad::Facets& _facets;
   const Walls& _walls;
   std::map<cad::FaceId, SegmentTree>
       _edges;  // that the face shares with each neighbour; all of them with itself
-  double _widest, _finest, _edge_per_gap;
-  std::vector<Gap> _gaps;
+  double _widest, _finest = 0, _edge_per_gap;
+  double _accuracy;
+  bool _meshed_beyond;
+  std::vector<double> _deviations;  // of the facets
+  double _deviation = 0;            // of the one looked from
+  std::int64_t _rays_left = 0;
+  Gaps _gaps;
 };
 
 }  // namespace
 
-Walls::Walls(const std::vector<Triangle>& triangles_of_walls, std::vector<cad::FaceId> faces_of_walls)
-    : tree(triangles_of_walls), faces(std::move(faces_of_walls)) {
-  normals.reserve(triangles_of_walls.size());
-  for (const Triangle& t : triangles_of_walls) normals.push_back(unit_normal(t));
+std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, const cad::Facets& facets) {
+  std::vector<double> deviations;
+  deviations.reserve(facets.triangles.size());
+  for (const auto& [a, b, c] : facets.triangles) {
+    double deviation = 0;
+    if (!model.is_planar(face)) {
+      const geometry::Vec2 middle = (facets.uv[a] + facets.uv[b] + facets.uv[c]) / 3;
+      const Triangle corners{facets.points[a], facets.points[b], facets.points[c]};
+      deviation =
+          std::min(distance(model.face_point(face, middle), (corners[0] + corners[1] + corners[2]) / 3),
+                   farthest_middle * longest_edge(corners).length);
+    }
+    deviations.push_back(deviation);
+  }
+  return deviations;
 }
 
-std::vector<Gap> find_gaps(const cad::Model& model, const cad::Facets& facets, const Walls& walls,
-                           double widest, double finest, double layers) {
-  return GapFinder(model, facets, walls, widest, finest, layers).run();
+namespace {
+
+std::vector<Triangle> corners_of(const std::vector<Wall>& walls) {
+  std::vector<Triangle> corners;
+  corners.reserve(walls.size());
+  for (const Wall& wall : walls) corners.push_back(wall.corners);
+  return corners;
+}
+
+}  // namespace
+
+Walls::Walls(std::vector<Wall> walls) : tree(corners_of(walls)), facets(std::move(walls)) {
+  normals.reserve(facets.size());
+  for (const Wall& wall : facets) normals.push_back(unit_normal(wall.corners));
+}
+
+Gaps find_gaps(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+               double widest, double finest, double layers) {
+  return GapFinder(model, face, facets, walls, widest, layers).find(finest);
+}
+
+std::int64_t count_rays(const Gaps& gaps, double layers) {
+  double rays = 0;
+  for (const Gaps::Part& part : gaps.narrow) {
+    const double edge = edge_per_gap(layers) * part.gap;
+    rays += rays_per_area * area(part.triangle) / (edge * edge);
+  }
+  return std::llround(std::min(rays, 1e15));
+}
+
+void look_closer(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+                 double widest, double layers, double apart, Gaps& gaps) {
+  const double predicted = static_cast<double>(count_rays(gaps, layers)) / (apart * apart);
+  GapFinder(model, face, facets, walls, widest, layers)
+      .look_closer(apart, few_rays + std::llround(most_over_predicted * predicted), gaps);
 }
 
 }  // namespace aeroloom::sizing

@@ -27,6 +27,7 @@ struct SizingOptions {
   double feature_minimum =
       0;                     ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
   double strip_minimum = 0;  ///< as `feature_minimum`, for narrow faces alone; 0: as that
+  double gap_minimum = 0;    ///< as `minimum`, for gaps between walls, where they do not meet; 0: minimum
   double chordal_deviation =
       0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
 
@@ -41,6 +42,11 @@ inline double smallest_feature_size(const SizingOptions& options) {
 /// Narrow faces may ask for sizes down to this.
 inline double smallest_strip_size(const SizingOptions& options) {
   return options.strip_minimum > 0 ? options.strip_minimum : smallest_feature_size(options);
+}
+
+/// Gaps may ask for sizes down to this.
+inline double smallest_gap_size(const SizingOptions& options) {
+  return options.gap_minimum > 0 ? options.gap_minimum : options.minimum;
 }
 
 /// A point that asks for a size.

@@ -14,8 +14,10 @@ constexpr double no_budget = 1e9;
 /// A sampler with its clock.
 class Sampled {
 public:
-  explicit Sampled(const cad::Model& model)
-      : _sampler(parallel::Communicator::world(), model, _clock, 0, Fields::several) {}
+  explicit Sampled(const cad::Model& model) : Sampled(model, 0) {}
+  /// With gaps looked for.
+  Sampled(const cad::Model& model, double layers)
+      : _sampler(parallel::Communicator::world(), model, _clock, layers, Fields::several) {}
 
   FeatureShare share(double budget, std::int64_t most_leaves = 1'000'000'000) {
     return share_of_features(_sampler, sizes(), budget, 1, most_leaves);
@@ -103,6 +105,19 @@ TEST(FeatureShare, WithoutFeaturesThereIsNone) {
   EXPECT_EQ(none.share, 1);
   EXPECT_FALSE(none.limited);
   EXPECT_LT(none.floor, Sampled::sizes().minimum);
+}
+
+TEST(FeatureShare, GapsGetWhatStripsLeave) {
+  cad::PrimitiveDimensions dimensions;
+  dimensions.box = {1, 1, 0.01};
+  Sampled slot(make_primitive_domain(cad::PrimitiveKind::box, dimensions), 1);
+  const FeatureShare all = slot.share(no_budget);
+  EXPECT_EQ(all.gap_floor, 0.01);
+  EXPECT_GT(all.gap_share, 1);
+  EXPECT_GE(all.share, all.gap_share);
+  const FeatureShare none = slot.share(all.share / all.gap_share);
+  EXPECT_EQ(none.gap_share, 1);
+  EXPECT_EQ(none.share, all.share / all.gap_share);
 }
 
 TEST(FeatureShare, RefusesBudgetsThatTakeElementsAway) {

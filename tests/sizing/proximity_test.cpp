@@ -38,8 +38,8 @@ Model plate(double thickness) {
   return make_primitive_domain(PrimitiveKind::box, dimensions);
 }
 
-/// A body with a sharp edge of the given angle, in a far field.
-Model wedge(double degrees) {
+/// A wedge with a sharp edge of the given angle: a body in a far field, or the fluid.
+Model wedge(double degrees, cad::DomainKind kind = cad::DomainKind::body) {
   const std::string file =
       (std::filesystem::temp_directory_path() / ("aeroloom_wedge_" + std::to_string(::getpid()) + ".brep"))
           .string();
@@ -48,7 +48,7 @@ Model wedge(double degrees) {
   BRepTools::Write(BRepPrimAPI_MakeWedge(1, height, 1, 0).Shape(), file.c_str());
   cad::DomainOptions options;
   options.file = file;
-  options.kind = cad::DomainKind::body;
+  options.kind = kind;
   Model model = prepare_domain(options).model;
   std::filesystem::remove(file);
   return model;
@@ -91,6 +91,55 @@ TEST(Proximity, ASharpEdgeDoesNotDriveSizesDown) {
     for (const Vec3 p : sharp.facets(f, 0.01, 0.3).points) least = std::min(least, field(p));
   }
   EXPECT_GT(least, 0.05);
+}
+
+namespace {
+
+SizeField build_with_gaps(const Model& model, double gap_minimum) {
+  SizingOptions options{0.1, 1, 30, 1.3, 0, 1};
+  options.feature_minimum = options.minimum;
+  options.gap_minimum = gap_minimum;
+  parallel::StageClock clock;
+  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+}
+
+}  // namespace
+
+TEST(OpenGaps, AskForLessThanTheMinimumWhereAllowedTo) {
+  // Narrower than a hundredth of what rays are apart at first.
+  const Model slot = plate(0.004);
+  EXPECT_GE(build_with_gaps(slot, 0)({0, 0, 0}), 0.0999);
+  const SizeField resolved = build_with_gaps(slot, 0.001);
+  for (double x = -0.97; x < 1; x += 0.113) {
+    const double h = resolved({x, 0.31, 0});
+    EXPECT_LE(h, 2 * 0.004);
+    EXPECT_GE(h, 0.5 * 0.004);
+  }
+  EXPECT_GE(build_with_gaps(slot, 0.05)({0, 0, 0}), 0.0499);
+}
+
+TEST(OpenGaps, AreMeshed) {
+  // The same plate as a body: nothing is between its sides.
+  cad::DomainOptions options;
+  options.kind = cad::DomainKind::body;
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("aeroloom_plate_" + std::to_string(::getpid()) + ".brep"))
+          .string();
+  BRepTools::Write(BRepPrimAPI_MakeWedge(2, 0.01, 2, 2).Shape(), file.c_str());
+  options.file = file;
+  const Model body = prepare_domain(options).model;
+  std::filesystem::remove(file);
+  EXPECT_GE(build_with_gaps(body, 0.001)({1, 0.01, 1}), 0.0999);
+}
+
+TEST(OpenGaps, AWedgeIsNone) {
+  const Model sharp = wedge(4, cad::DomainKind::fluid);
+  const SizeField field = build_with_gaps(sharp, 0.001);
+  double least = 1e300;
+  for (cad::FaceId f = 0; f < sharp.face_count(); ++f) {
+    for (const Vec3 p : sharp.facets(f, 0.01, 0.3).points) least = std::min(least, field(p));
+  }
+  EXPECT_GE(least, 0.0999);
 }
 
 // Behind the corners of the slender side faces elements fit between the edges, and nothing is finer than
