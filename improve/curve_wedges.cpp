@@ -89,8 +89,8 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
 }
 
 std::vector<Wedge> measure_wedges(const parallel::Communicator& communicator,
-                                 const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                 const std::vector<EdgeName>& edges) {
+                                  const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                  const std::vector<EdgeName>& edges) {
   std::vector<EdgeShare> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)

@@ -59,8 +59,8 @@ struct SizeSource {
 /// most the size asked for there (to single precision) and less only where a neighbour asks for less: a
 /// source asks for its size in the whole leaf around it, whose edge is at most that size. From there h grows
 /// by ln(growth) per length. minimum <= h <= maximum, except that `minimum` does not bind against short
-/// edges, narrow faces, sharp corners and what refined() asks for. Immutable and identical on every rank,
-/// held once per node where ranks built it together; cheap to copy.
+/// edges, narrow faces, sharp corners, open gaps and what refined() asks for. Immutable and identical on
+/// every rank, held once per node where ranks built it together; cheap to copy.
 class SizeField {
 public:
   /// Builds the field over `domain` from sources, their sizes raised to the minimum; sources outside count at
