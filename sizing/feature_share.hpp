@@ -14,13 +14,14 @@ inline constexpr double default_feature_budget = 5;
 
 /// What strips, short edges and sharp corners bring that are finer than the minimum of some sizes.
 struct FeatureShare {
-  double floor = 0;           ///< the smallest size that strips may ask for; 0: the minimum
-  double share = 1;           ///< predicted tetrahedra over those with the minimum as floor
-  bool limited = false;       ///< by the budget: the floor is not the lowest
-  double resolved_share = 1;  ///< about, with the lowest floor; as that of strips where it is within the budget
-  double minimum = 0;         ///< of everything else
-  double gap_floor = 0;       ///< as `floor`, of gaps
-  double gap_share = 1;       ///< the part of `share` that these bring on top of the others
+  double floor = 0;      ///< the smallest size that strips may ask for; 0: the minimum
+  double share = 1;      ///< predicted tetrahedra over those with the minimum as floor
+  bool limited = false;  ///< by the budget: the floor is not the lowest
+  double resolved_share =
+      1;                 ///< about, with the lowest floor; as that of strips where it is within the budget
+  double minimum = 0;    ///< of everything else
+  double gap_floor = 0;  ///< as `floor`, of gaps
+  double gap_share = 1;  ///< the part of `share` that these bring on top of the others
 };
 
 /// Lets strips ask for sizes down to `floor`, short edges and sharp corners, around which elements grow from
