@@ -34,6 +34,10 @@ std::vector<SurfaceTriangle> gather_triangles(const parallel::Communicator& comm
     const ScopedCpu task(clock, ScopedCpu::As::task);
     reach = reach_of_blocks(data.source(input), data.shares[communicator.rank()],
                             data.shares[communicator.rank() + 1]);
+    // Below 40 MB of them looking costs more than it spares: 0.2 of 7 s of an aircraft's run on two ranks.
+    constexpr std::int64_t worth_sparing = 250000;
+    reach.sparing = std::accumulate(data.table.triangles.begin(), data.table.triangles.end(),
+                                    std::int64_t{0}) > worth_sparing;
   }
   return deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, reach, input.surface,
                          input.numbering, clock);

@@ -124,7 +124,7 @@ private:
     const double farthest = std::max(reach.most, reach.nearest);
     const auto [lowest, highest] = _tree.range_of(box.dilated(farthest));
     if (lowest >= _first && highest < _last) return;
-    if (reach.nearest > 0 && sees_far_finer(b, reach.nearest)) {
+    if (_reach.sparing && reach.nearest > 0 && sees_far_finer(b, reach.nearest)) {
       want_nearest(b);
     } else {
       reach.least = std::max(reach.least, reach.nearest);

@@ -59,6 +59,7 @@ struct SurfaceReach {
   std::vector<BlockReach> of_blocks;  ///< of this rank
   double per_edge = 0;                ///< grid distance per length
   double perturbation = 0;            ///< how far points may be off their places, in edges of their block
+  bool sparing = true;  ///< far from a body each point is looked from, so that few triangles are brought
 };
 
 /// The triangles a rank needs: those that meet its blocks, or come within reach of them; of the triangles
