@@ -18,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 
+from whole_run import verdict
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CASES = ROOT / "configs/acceptance"
 DEFAULT_BUDGET = 5
@@ -61,14 +63,6 @@ def cpu_seconds(stage):
     return stage["cpu_seconds_mean"] + stage["check_seconds"] + stage["other_seconds"]
 
 
-def judge(options, folder):
-    if not options.arbiter:
-        return "–"
-    said = subprocess.run([options.arbiter, folder / "mesh.pvtu", "--surface", folder / "surface.pvtp"],
-                          capture_output=True, text=True, check=False).stdout
-    return "yes" if "VALID yes" in said else "NO"
-
-
 def least_angles(report):
     """Of all; apart from pinned; apart from pinned and unresolved ones; and how many of all are below 10 degrees."""
     kinds = report["improve"]["below_target"]
@@ -93,7 +87,7 @@ def row(options, label, case, settings, ranks, folder):
     told = "yes" if report["unresolved_features"] or report["sizing"]["features"]["unresolved"] else "no"
     return (f"| {label} | {predicted / 1e3:,.0f} | {made / 1e3:,.0f} | {predicted / made:.2f} | {least} | {unpinned} | {rest} | "
             f"{below:,} | {100 * stages['improve'] / sum(stages.values()):.0f} % | {report['wall_seconds']:.0f}"
-            f"{f' on {ranks} ranks' if ranks > 1 else ''} | {judge(options, folder)} | {told} | {report['mesh']['hash'][:8]} |"), log
+            f"{f' on {ranks} ranks' if ranks > 1 else ''} | {verdict(options, folder)} | {told} | {report['mesh']['hash'][:8]} |"), log
 
 
 def works(options, scratch):

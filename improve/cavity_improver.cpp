@@ -197,7 +197,7 @@ std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavit
 std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavities::Cavity& cavity,
                                                                      int trials, std::uint64_t seed,
                                                                      ImproveReport& report) {
-  // Of the vertices' shortest edges: about how far those beside the worst have to move to let go of it.
+  // Of the vertices' shortest edges; the only value that was tried.
   constexpr double share = 0.3;
   order_vertices(cavity);
   build_piece(cavity);

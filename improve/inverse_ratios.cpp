@@ -6,8 +6,8 @@
 namespace aeroloom::improve {
 namespace {
 
-/// The cube root of a positive number, to a few parts in 1e13: a guess from the exponent, within 5 %, and two
-/// of Halley's steps. The library's takes three times as long, half of what smoothing takes.
+/// The cube root of a positive number, to 1e-14 of it (tried from 1e-12 to 1e12): a guess from the exponent,
+/// within 3.3 %, and two of Halley's steps.
 double cube_root(double x) {
   double r = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 3 + 0x2a9f7893782da1ceULL);
   for (int i = 0; i < 2; ++i) {
