@@ -36,14 +36,14 @@ std::vector<char> near_borders(const Piece& piece) {
 }  // namespace
 
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad, const TetQuality& measure,
-                          int shift, cavities::CavityWishes& wishes) {
+                          int shift, Effort effort, cavities::CavityWishes& wishes) {
   std::int64_t count = 0;
   wishes.clear();
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
     if (bad.of_piece(i).empty()) continue;
-    const Reach reach(piece, measure);
+    const Reach reach = effort == Effort::unsparing ? Reach(measure) : Reach(piece, measure);
     std::vector<char> beside;  // a border, once needed
     for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
@@ -208,7 +208,7 @@ std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavit
   for (int trial = 0; trial < trials && best.second < 0; ++trial) {
     _piece = start;
     if (trial > 0) scatter(_piece, share, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
-    const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
+    const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::unsparing);
     const auto now = judge(_piece, _measure);
     if (now <= best) continue;
     best = now;

@@ -13,10 +13,11 @@
 
 namespace aeroloom::improve {
 
-/// Wishes for the stars of all vertices of tetrahedra that miss what is within reach (reach.hpp), grouped by
-/// place; `shift` as in cavities::cavity_at. Returns their number on this rank.
+/// Wishes for the stars of all vertices of tetrahedra that miss what is within reach (reach.hpp; the target,
+/// where nothing is to be spared), grouped by place; `shift` as in cavities::cavity_at. Returns their number
+/// on this rank.
 std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad, const TetQuality& measure,
-                          int shift, cavities::CavityWishes& wishes);
+                          int shift, Effort effort, cavities::CavityWishes& wishes);
 
 /// Improves the tetrahedra of cavities. What other tetrahedra have in common with a cavity stays, and so do
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.

@@ -1,6 +1,8 @@
 /// What the user may ask of the improvement stage.
 #pragma once
 
+#include <cstdint>
+
 namespace aeroloom::improve {
 
 struct ImproveOptions {
@@ -11,6 +13,12 @@ struct ImproveOptions {
   int relaxation = 1;        ///< passes of smoothing for the average (relaxation.hpp, border_relaxation.hpp)
   bool boundary_may_change = true;  ///< its triangles may flip and edges contract within one CAD face
   int shifted_rounds = 3;  ///< at most, across the borders of pieces; ends earlier when nothing is left
+};
+
+/// What is spent on tetrahedra beside strips that are narrower than their elements (reach.hpp).
+enum class Effort : std::int8_t {
+  sparing,   ///< what hardly ever gains there is left out, and the aim is what is within reach
+  unsparing  ///< as much as elsewhere, and the worst alone decides: for few
 };
 
 }  // namespace aeroloom::improve

@@ -40,7 +40,7 @@ double expected_work(const mesh::Piece& piece, const TetQuality& measure) {
 }  // namespace
 
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source,
-                            std::vector<mesh::LocalIndex>* numbered) {
+                            std::vector<mesh::LocalIndex>* numbered, Effort effort) {
   const TetQuality measure(options.target_angle);
   ImproveReport report;
   if (numbered) {
@@ -56,10 +56,11 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     return report;
   }
 
-  const Reach reach(piece, measure);
+  const Reach strips(piece, measure);
+  const Reach reach = effort == Effort::unsparing ? Reach(measure) : strips;
   TetMesh mesh(piece, measure, options.boundary_may_change);
   note_before(examine(mesh));
-  const ChangeLimits limits(source.sizes, &reach);
+  const ChangeLimits limits(source.sizes, &strips);
   Schedule schedule(mesh, reach, limits, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
   report.smoothed += Relaxation().run(mesh, options.relaxation);
@@ -121,10 +122,12 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
     mesh::forget_unshared(communicator, mesh);  // cavities name more than borders
   };
   int shift = 0;
-  const auto wish = [&] { return communicator.sum(wish_for_bad(mesh, bad, measure, shift, wishes)); };
-  for (; shift < options.shifted_rounds && wish() > 0; ++shift) refill({}, 1, shift);
+  const auto wish = [&](Effort effort) {
+    return communicator.sum(wish_for_bad(mesh, bad, measure, shift, effort, wishes));
+  };
+  for (; shift < options.shifted_rounds && wish(Effort::sparing) > 0; ++shift) refill({}, 1, shift);
   for (const int end = shift + last_rounds; options.shifted_rounds > 0 && shift < end; ++shift) {
-    const std::int64_t left = wish();
+    const std::int64_t left = wish(Effort::unsparing);
     if (left == 0 || !are_few(communicator, mesh, left)) break;
     refill(last_reach, last_trials, shift);
   }

@@ -23,7 +23,8 @@ namespace aeroloom::improve {
 /// collective. Throws std::invalid_argument when the target angle is not within (0, 50] degrees,
 /// std::logic_error when three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source = {},
-                            std::vector<mesh::LocalIndex>* numbered = nullptr);
+                            std::vector<mesh::LocalIndex>* numbered = nullptr,
+                            Effort effort = Effort::sparing);
 
 /// Improves all pieces of a mesh, dealt out anew by the work expected, their borders frozen; then borders for
 /// the average where they are (border_relaxation.hpp), and what is still bad in cavities in which borders are

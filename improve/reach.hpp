@@ -18,6 +18,8 @@ namespace aeroloom::improve {
 /// a triangle with fewer vertices comes in geometric steps between that and the target.
 class Reach {
 public:
+  /// The target is within reach everywhere.
+  explicit Reach(const TetQuality& measure) : _target(measure.target()) {}
   /// Reads the boundary triangles of a piece.
   Reach(const mesh::Piece& piece, const TetQuality& measure);
 

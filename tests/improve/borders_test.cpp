@@ -185,7 +185,7 @@ TEST(BadCells, FollowRounds) {
     cavities::CavityWishes wishes;
     parallel::StageClock clock;
     for (int shift = 0; shift < 4; ++shift) {
-      if (world.sum(wish_for_bad(mesh, bad, measure, shift, wishes)) == 0) break;
+      if (world.sum(wish_for_bad(mesh, bad, measure, shift, Effort::sparing, wishes)) == 0) break;
       bad.update(mesh, cavities::refill_cavities(world, mesh, wishes, {}, improve, clock));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
