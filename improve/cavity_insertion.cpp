@@ -16,6 +16,19 @@ constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not coun
 constexpr double gain_when_moved = 0.05;
 constexpr double gain_when_added = 0.12;
 
+/// 0: the centre; then most of the way to the corners, the edges' middles, the faces' centres.
+Vec3 start_in(const std::array<Vec3, 4>& p, int start) {
+  constexpr double to_corner = 0.6, to_edge = 0.8, to_face = 0.8;
+  const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  if (start == 0) return centre;
+  if (start < 5) return centre + to_corner * (p[start - 1] - centre);
+  if (start < 11) {
+    const auto& e = mesh::tetrahedron_edges[start - 5];
+    return centre + to_edge * (0.5 * (p[e[0]] + p[e[1]]) - centre);
+  }
+  return centre - to_face / 3 * (p[start - 11] - centre);
+}
+
 }  // namespace
 
 bool CavityInsertion::contains(LocalIndex t) const {
@@ -124,13 +137,12 @@ bool CavityInsertion::propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Re
   return propose(mesh, vertex, cavity);
 }
 
-bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, Replacement& cavity) {
+bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, Replacement& cavity) {
   _tets.assign(1, t);
-  const Corners& c = mesh.corners(t);
-  _point = 0.25 * (mesh.point(c[0]) + mesh.point(c[1]) + mesh.point(c[2]) + mesh.point(c[3]));
+  _point = start_in(mesh.points(t), start);
   if (propose(mesh, mesh.vertex_count(), cavity)) return true;
   const bool is_flat = mesh.quality(t) < flat * mesh.measure().target();
-  return is_flat && start_behind(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
+  return start == 0 && is_flat && start_behind(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
 }
 
 // From inside a tetrahedron that lies flat on the boundary every cone is flat.

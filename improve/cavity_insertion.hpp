@@ -20,8 +20,10 @@ public:
   /// changes yet.
   bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Replacement& cavity);
   /// Proposes a cavity grown from tetrahedron t around a new vertex, whose number in the cavity is
-  /// mesh.vertex_count().
-  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, Replacement& cavity);
+  /// mesh.vertex_count(). Growth begins at t's centre, or nearer to one of its corners, edges or faces: other
+  /// starts end in other cavities.
+  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, Replacement& cavity);
+  static constexpr int starts = 15;
   /// Where the free point of the last proposal goes.
   Vec3 position() const { return _point; }
 

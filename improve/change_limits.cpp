@@ -11,6 +11,7 @@ constexpr double least = 0.3, most = 3;  // of the size, the former also of the 
 
 constexpr double decent_ratio = 0.5;
 constexpr double flattening = 0.3;  // of the ratio before, where a severe case beside a strip gets better
+constexpr double unsparing_flattening = 0.5;  // where any does and nothing is spared
 
 double ratio_of(const std::array<Vec3, 4>& p) {
   return mesh::mean_ratio(p[0], p[1], p[2], p[3]);
@@ -84,8 +85,10 @@ bool ChangeLimits::allow(const TetMesh& mesh, const Replacement& cavity) const {
   if (!allow_sizes(mesh, cavity)) return false;
   double poorest = decent_ratio;
   for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));
-  if (_reach && _reach->is_severe(cavity.before) && is_beside_strip(mesh, cavity.old_tets))
-    poorest *= flattening;
+  if (_reach && (_effort == Effort::unsparing || _reach->is_severe(cavity.before)) &&
+      is_beside_strip(mesh, cavity.old_tets)) {
+    poorest *= _reach->is_severe(cavity.before) ? flattening : unsparing_flattening;
+  }
   return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
     return ratio_of({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])}) >= poorest;
   });

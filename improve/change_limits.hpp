@@ -1,6 +1,7 @@
 /// What a change must keep to beside the quality that it is made for: sizes and decent shapes.
 #pragma once
 
+#include "improve/improve_options.hpp"
 #include "improve/reach.hpp"
 #include "improve/tet_mesh.hpp"
 #include "sizing/size_field.hpp"
@@ -15,11 +16,13 @@ namespace aeroloom::improve {
 /// is, 0.3 times their mean. Where no size field is known, every length will do.
 /// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was; down to 0.3 times the
 /// poorest where severe cases beside strips (Reach) get better: large angles over a triangle that is longer
-/// than wide need a flat tetrahedron.
+/// than wide need a flat tetrahedron. Where nothing is spared, beside strips by as much as the worst angle
+/// gains.
 class ChangeLimits {
 public:
-  explicit ChangeLimits(const sizing::SizeField* field = nullptr, const Reach* reach = nullptr)
-      : _field(field), _reach(reach) {}
+  explicit ChangeLimits(const sizing::SizeField* field = nullptr, const Reach* reach = nullptr,
+                        Effort effort = Effort::sparing)
+      : _field(field), _reach(reach), _effort(effort) {}
 
   /// Whether the new tetrahedra of a cavity keep to that.
   bool allow(const TetMesh& mesh, const Replacement& cavity) const;
@@ -43,6 +46,7 @@ private:
 
   const sizing::SizeField* _field;
   const Reach* _reach;
+  Effort _effort;
 };
 
 }  // namespace aeroloom::improve

@@ -60,8 +60,8 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   const Reach reach = effort == Effort::unsparing ? Reach(measure) : strips;
   TetMesh mesh(piece, measure, options.boundary_may_change);
   note_before(examine(mesh));
-  const ChangeLimits limits(source.sizes, &strips);
-  Schedule schedule(mesh, reach, limits, options.boundary_may_change ? source.locator : nullptr);
+  const ChangeLimits limits(source.sizes, &strips, effort);
+  Schedule schedule(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
   report.smoothed += Relaxation().run(mesh, options.relaxation);
   const BadState after = examine(mesh);

@@ -43,10 +43,12 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-Schedule::Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, cad::PointLocator* locator)
+Schedule::Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, Effort effort,
+                   cad::PointLocator* locator)
     : _mesh(mesh),
       _reach(reach),
       _limits(limits),
+      _effort(effort),
       _smoothing(limits),
       _version(mesh.slot_count(), 0),
       _attempt(mesh.slot_count(), 0),
@@ -212,13 +214,23 @@ bool Schedule::move_cavity(LocalIndex t) {
 }
 
 bool Schedule::insert_vertex(LocalIndex t) {
-  if (!_insertion.propose_new_vertex(_mesh, t, _trial)) return false;
-  _mesh.add_vertex(_insertion.position(), _mesh.corners(t)[0]);
+  const int starts = _effort == Effort::unsparing ? CavityInsertion::starts : 1;
+  const LocalIndex beside = _mesh.corners(t)[0];
+  _best.clear();
+  Vec3 position;
+  for (int start = 0; start < starts; ++start) {
+    if (!_insertion.propose_new_vertex(_mesh, t, start, _trial) || _trial.after <= _best.after) continue;
+    if (starts > 1 && !is_allowed_with_vertex(_insertion.position(), beside)) continue;
+    std::swap(_best, _trial);
+    position = _insertion.position();
+  }
+  if (!_best.improves()) return false;
+  _mesh.add_vertex(position, beside);
   _changed.push_back(_now);
   _smoothed_in_vain.push_back(0);
   _slid_in_vain.push_back(0);
   _moved_in_vain.push_back(0);
-  if (apply(_trial)) {
+  if (apply(_best)) {
     ++_swaps;
     return true;
   }
@@ -230,17 +242,28 @@ bool Schedule::insert_vertex(LocalIndex t) {
   return false;
 }
 
+bool Schedule::is_allowed_with_vertex(Vec3 position, LocalIndex beside) {
+  _mesh.add_vertex(position, beside);
+  const bool allowed = is_allowed(_trial);
+  _mesh.drop_last_vertex();
+  return allowed;
+}
+
 bool Schedule::reconnect(LocalIndex t) {
   if (!_polyhedron.propose(_mesh, t, _mesh.quality(t), _trial) || !apply(_trial)) return false;
   ++_swaps;
   return true;
 }
 
-bool Schedule::apply(const Replacement& cavity) {
+bool Schedule::is_allowed(const Replacement& cavity) const {
   for (const Corners& c : cavity.new_tets) {
     if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
   }
-  if (!_reach.pays(_mesh, cavity) || !_limits.allow(_mesh, cavity)) return false;
+  return _reach.pays(_mesh, cavity) && _limits.allow(_mesh, cavity);
+}
+
+bool Schedule::apply(const Replacement& cavity) {
+  if (!is_allowed(cavity)) return false;
   _mesh.replace(cavity, _placed);
   _version.resize(_mesh.slot_count(), 0);
   _attempt.resize(_mesh.slot_count(), 0);

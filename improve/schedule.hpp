@@ -6,6 +6,7 @@
 #include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
+#include "improve/improve_options.hpp"
 #include "improve/reach.hpp"
 #include "improve/sliding.hpp"
 #include "improve/small_polyhedron.hpp"
@@ -24,7 +25,7 @@ namespace aeroloom::improve {
 class Schedule {
 public:
   /// With a locator, vertices of the boundary slide on its model.
-  Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits,
+  Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, Effort effort = Effort::sparing,
            cad::PointLocator* locator = nullptr);
 
   /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
@@ -55,7 +56,10 @@ private:
   bool contract(LocalIndex t);
   bool move_cavity(LocalIndex t);
   bool insert_vertex(LocalIndex t);
+  /// Whether `_trial` may be done, whose new vertex stands there.
+  bool is_allowed_with_vertex(Vec3 position, LocalIndex beside);
   bool reconnect(LocalIndex t);
+  bool is_allowed(const Replacement& cavity) const;
   bool apply(const Replacement& cavity);
   /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
   void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
@@ -71,6 +75,7 @@ private:
   TetMesh& _mesh;
   const Reach& _reach;
   const ChangeLimits& _limits;
+  const Effort _effort;
   EdgeRemoval _edge_removal;
   BoundaryFlip _boundary_flip;
   FaceRemoval _face_removal;
