@@ -221,7 +221,7 @@ TEST(CavityInsertion, PlacesANewVertexInAFlatCavity) {
   TetMesh mesh(piece, measure);
   CavityInsertion insertion;
   Replacement cavity;
-  ASSERT_TRUE(insertion.propose_new_vertex(mesh, 4, cavity));
+  ASSERT_TRUE(insertion.propose_new_vertex(mesh, 4, 0, cavity));
   EXPECT_EQ(cavity.old_tets.size(), 5u);
   mesh.add_vertex(insertion.position(), 0);
   std::vector<LocalIndex> placed;
@@ -251,7 +251,7 @@ TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
   TetMesh mesh(piece, measure);
   CavityInsertion insertion;
   Replacement cavity;
-  ASSERT_TRUE(insertion.propose_new_vertex(mesh, 3, cavity));
+  ASSERT_TRUE(insertion.propose_new_vertex(mesh, 3, 0, cavity));
   EXPECT_LT(cavity.before, 1e-6);
   mesh.add_vertex(insertion.position(), 0);
   std::vector<LocalIndex> placed;

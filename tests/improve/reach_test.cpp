@@ -95,6 +95,22 @@ TEST(Reach, LetsSevereCasesGetFlatter) {
   EXPECT_TRUE(ChangeLimits(nullptr, &reach).allow(mesh, cavity));
 }
 
+TEST(Reach, LetsOthersGetFlatterWhereNothingIsSpared) {
+  mesh::Piece piece = make_strip({0.45, 0.25}, 1);
+  const Reach reach(piece, measure);
+  TetMesh mesh(piece, measure, false);
+  const Replacement cavity = replace_first(mesh, 1);
+  ASSERT_FALSE(reach.is_severe(cavity.before));
+  EXPECT_FALSE(ChangeLimits(nullptr, &reach).allow(mesh, cavity));
+  EXPECT_TRUE(ChangeLimits(nullptr, &reach, Effort::unsparing).allow(mesh, cavity));
+}
+
+TEST(Reach, IsTheTargetEverywhereWhereNothingIsSpared) {
+  const Reach reach(measure);
+  EXPECT_EQ(reach(Corners{0, 1, 2, 3}), measure.target());
+  EXPECT_FALSE(reach.is_limited(Corners{0, 1, 2, 3}));
+}
+
 TEST(Reach, LetsSevereCasesGetFlatterByMoves) {
   mesh::Piece piece = make_strip({0.9}, 1);
   const Reach reach(piece, measure);
