@@ -15,7 +15,7 @@
 namespace aeroloom::volume {
 
 struct LatticeOptions {
-  double clearance = 0.75;      ///< distance from the surface, in local sizes
+  double clearance = 0.5;       ///< distance from the surface, in local sizes
   double perturbation = 0.005;  ///< in mean edges of the lattice
 };
 

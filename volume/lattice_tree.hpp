@@ -38,7 +38,7 @@ public:
   /// centre. Cubes off `box` are not split. Ranks share the asking for sizes. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
               const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock);
-  static constexpr double coarsest_edge = 1.47;
+  static constexpr double coarsest_edge = 1.53;
 
   BlockIndex block_count() const { return static_cast<BlockIndex>(_blocks.keys.size()); }
   GridCube cube(BlockIndex b) const { return {sizing::grid_point(_blocks.keys[b]), _blocks.levels[b]}; }

@@ -11,9 +11,9 @@ namespace aeroloom::volume {
 struct VolumeOptions {
   /// Wanted size of a zone, and so of a piece of the mesh, tetrahedra; empty: what suits their number.
   std::optional<std::int64_t> piece_tets = {};
-  double lattice_clearance = 0.75;  ///< distance lattice points keep from the surface, in local sizes
-  double perturbation = 0.005;      ///< of lattice points, in mean edges of the lattice
-  double halo = 1.2;                ///< width of what a zone knows around it, in the largest sizes there
+  double lattice_clearance = 0.5;  ///< distance lattice points keep from the surface, in local sizes
+  double perturbation = 0.005;     ///< of lattice points, in mean edges of the lattice
+  double halo = 1.2;               ///< width of what a zone knows around it, in the largest sizes there
   std::int64_t largest_zone = 20'000'000;  ///< predicted tetrahedra above which a zone is refused
   int retries = 3;                         ///< rungs of the ladder after the first try
   parallel::Sabotage sabotage = parallel::Sabotage::none;  ///< of zones, for tests of containment

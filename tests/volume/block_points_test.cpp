@@ -197,8 +197,8 @@ TEST_F(LatticePoints, keep_off_triangles_of_any_size) {
   for (const double size : {0.1, 0.14}) {
     const Made made(Communicator::self(), uneven(), fields::uniform(size));
     const double least = least_clearance(made, made.make());
-    EXPECT_GE(least, 0.75);
-    EXPECT_LT(least, 1.0);
+    EXPECT_GE(least, LatticeOptions{}.clearance);
+    EXPECT_LT(least, 1.3 * LatticeOptions{}.clearance);
   }
 }
 
@@ -248,7 +248,7 @@ TEST_F(LatticePoints, keep_farther_off_where_a_retry_wants_it) {
   for (BlockChange& change : made.lattice.changes) change.farther = 1;
   const BlockPoints after = made.make();
   EXPECT_LT(after.points.size(), before.points.size());
-  EXPECT_GE(least_clearance(made, after), 1.6 * 0.75);
+  EXPECT_GE(least_clearance(made, after), 1.6 * LatticeOptions{}.clearance);
   // In its own blocks only.
   const BlockIndex changed = made.lattice.tree.block_count() / 2;
   for (BlockIndex b = 0; b < changed; ++b) made.lattice.changes[b].farther = 0;

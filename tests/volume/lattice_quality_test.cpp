@@ -46,7 +46,7 @@ TEST_F(EndlessLattice, has_a_good_delaunay_mesh_across_all_levels) {
   for (const double growth : {1.2, 1.3}) {
     for (const Vec3 anchor : {Vec3{0, 0, 0}, Vec3{0.23, -0.11, 0.37}}) {
       const std::vector<sizing::SizeSource> sources{{{0.31, -0.2, 0.13}, 0.02}, {{-0.6, 0.5, 0.4}, 0.05}};
-      const geometry::Box box{Vec3{-1.4, -1.4, -1.4} + anchor, Vec3{1.4, 1.4, 1.4} + anchor};
+      const geometry::Box box{Vec3{-2, -2, -2} + anchor, Vec3{2, 2, 2} + anchor};
       const auto field = sizing::SizeField::build(box, sources, {0.02, 0.5, 12, growth});
       const Endless lattice(field, box);
       std::vector<double> coordinates;
