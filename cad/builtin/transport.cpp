@@ -3,6 +3,7 @@
 #include "cad/builtin/transport_parts.hpp"
 #include "cad/model/named_shape.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/repair/volumes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,7 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepCheck_Analyzer.hxx>
-#include <BRepGProp.hxx>
 #include <BRepLib.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
@@ -107,12 +106,6 @@ Part mirror(const Part& part, const std::string& from, const std::string& to) {
   return result;
 }
 
-double volume(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  return properties.Mass();
-}
-
 std::vector<Part> make_parts(const TransportDimensions& d) {
   const Fuselage fuselage(d);
   const double radius = 0.5 * d.fuselage_diameter;
@@ -136,9 +129,10 @@ std::vector<Part> make_parts(const TransportDimensions& d) {
 
 /// Checks what a boolean operation that reports success may still have got wrong.
 void check_union(const TopoDS_Shape& shape, const std::vector<Part>& parts) {
+  Volumes volumes;
   double sum = 0;
-  for (const Part& part : parts) sum += volume(part.solid);
-  const double total = volume(shape), fuselage = volume(parts.front().solid);
+  for (const Part& part : parts) sum += volumes.of(part.solid);
+  const double total = volumes.of(shape), fuselage = volumes.of(parts.front().solid);
   if (!(total > fuselage && total < sum) || !BRepCheck_Analyzer(shape).IsValid()) {
     throw CadError(
         fmt::format("transport: the dimensions do not unite to one valid body (fuselage {:.6g} m^3, sum of "

@@ -1,4 +1,5 @@
 #include "cad/model/closed_edges_data.hpp"
+#include "cad/model/face_integrals.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/sheets.hpp"
@@ -7,8 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include <BRepGProp.hxx>
-#include <GProp_GProps.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
@@ -275,10 +274,6 @@ bool Model::is_seam(EdgeId id) const {
   return uses > 1;
 }
 
-/// Relative error asked of areas. Without one the CAD library takes the most points its rules have in every
-/// span of a spline, ten times as long.
-constexpr double area_precision = 1e-3;
-
 double Model::face_area(FaceId id) const {
   if (const JoinedFaces* joined = _data->joined.get()) {
     double area = 0;
@@ -287,11 +282,8 @@ double Model::face_area(FaceId id) const {
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.area < 0) {
-    face.area = guarded("integrating the area of " + _data->describe_face(id), [&] {
-      GProp_GProps properties;
-      BRepGProp::SurfaceProperties(face.shape, properties, area_precision);
-      return std::abs(properties.Mass());
-    });
+    face.area = guarded("integrating the area of " + _data->describe_face(id),
+                        [&] { return std::abs(integrate_face(face.shape, face.surface, {}).area); });
   }
   return face.area;
 }

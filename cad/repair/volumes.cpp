@@ -1,29 +1,20 @@
 #include "cad/repair/volumes.hpp"
 
-#include <BRepGProp_Domain.hxx>
-#include <BRepGProp_Face.hxx>
-#include <BRepGProp_Vinert.hxx>
+#include "cad/model/face_integrals.hpp"
+#include "cad/model/model.hpp"
+
 #include <BRep_Tool.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Iterator.hxx>
 
 namespace aeroloom::cad {
 namespace {
 
-/// A third of the flux of the position, seen from the reference point, through the face turned forward.
+/// Of the face turned forward.
 double flux(const TopoDS_Face& face, const gp_Pnt& reference) {
-  BRepGProp_Face integrand;
-  integrand.Load(TopoDS::Face(face.Oriented(TopAbs_FORWARD)));
-  BRepGProp_Vinert integral;
-  integral.SetLocation(reference);
-  if (TopoDS_Iterator(face).More()) {
-    BRepGProp_Domain domain(TopoDS::Face(face.Oriented(TopAbs_FORWARD)));
-    integral.Perform(integrand, domain);
-  } else {
-    integral.Perform(integrand);
-  }
-  return integral.Mass();
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (surface.IsNull()) throw CadError("a face has no surface (a bare triangulation)");
+  return integrate_face(face, SurfaceEvaluator(surface), {reference.X(), reference.Y(), reference.Z()}).flux;
 }
 
 }  // namespace

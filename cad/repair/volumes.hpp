@@ -12,8 +12,8 @@ namespace aeroloom::cad {
 /// faces come back in shells, solids and unions: they are kept.
 class Volumes {
 public:
-  /// Of a shape bounded by closed shells; negative when they are turned inside out. The CAD library
-  /// integrates trimmed spline faces to three or four digits.
+  /// Of a shape bounded by closed shells; negative when they are turned inside out. Each
+  /// face counts to four digits or more (face_integrals.hpp).
   double of(const TopoDS_Shape& shape);
 
 private:
