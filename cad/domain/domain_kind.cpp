@@ -151,7 +151,7 @@ KindDecision decide_kind(const HullComparison& hull) {
 std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const HullComparison* hull) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(domain.shape, TopAbs_FACE, faces);
-  const Box all = tight_box(domain.shape);
+  const Box all = kind == DomainKind::fluid ? tight_box(domain.shape) : Box{};
   const std::vector<std::vector<int>> solids = solids_around_faces(domain.shape);
   std::vector<FaceTag> tags;
   for (int i = 1; i <= faces.Extent(); ++i) {

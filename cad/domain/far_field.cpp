@@ -120,6 +120,10 @@ void require_clearance(const FarFieldOptions& options, const Box& body, const gp
                   options.extent, reference, 1.01 * needed));
 }
 
+bool holds(const Box& outer, const Box& inner) {
+  return outer.contains(inner.low) && outer.contains(inner.high);
+}
+
 /// The shells that face the fluid. A body's cavities hold no outside fluid; a body in another's cavity never
 /// meets it.
 std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volumes, Changes& changes) {
@@ -134,15 +138,21 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
       changes.push_back(
           {fmt::format("{} closed cavities inside a body do not reach the fluid: left out", voids)});
   }
+  if (shells.size() == 1) return shells;
   const std::vector<TopoDS_Solid> nested = nest_shells(shells, volumes);
-  std::vector<TopoDS_Shell> outermost;
+  std::vector<TopoDS_Shell> outermost, outer;
+  std::vector<Box> boxes;
   for (const TopoDS_Solid& solid : nested) {
-    const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
-    const bool buried = std::any_of(nested.begin(), nested.end(), [&](const TopoDS_Solid& other) {
-      return !other.IsSame(solid) &&
-             nest_shells({BRepClass3d::OuterShell(other), outer}, volumes).size() == 1;
-    });
-    if (!buried) outermost.push_back(outer);
+    outer.push_back(BRepClass3d::OuterShell(solid));
+    boxes.push_back(nested.size() > 1 ? tight_box(outer.back()) : Box{});
+  }
+  for (std::size_t i = 0; i < nested.size(); ++i) {
+    bool buried = false;
+    for (std::size_t j = 0; j < nested.size() && !buried; ++j) {
+      const bool may_nest = i != j && (holds(boxes[i], boxes[j]) || holds(boxes[j], boxes[i]));
+      buried = may_nest && nest_shells({outer[j], outer[i]}, volumes).size() == 1;
+    }
+    if (!buried) outermost.push_back(outer[i]);
   }
   if (outermost.size() < shells.size()) {
     changes.push_back({fmt::format("{} bodies lie inside others and do not reach the fluid: left out",
@@ -151,8 +161,8 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
   return outermost;
 }
 
-/// The CAD library integrates trimmed spline faces to about four digits; what this is to find is a body that
-/// vanished or counts twice.
+/// Trimmed spline faces are integrated to about four digits; what this is to find is a body that vanished or
+/// counts twice.
 void require_volume(double far_field, double body, double fluid) {
   const double error = std::abs(far_field - body - fluid);
   if (error <= 1e-3 * std::abs(body) + 1e-12 * far_field && body > 0) return;
@@ -332,10 +342,13 @@ void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {
 NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
   tell_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
-  const double reference = largest_extent(tight_box(bodies.shape));
+  Box box = tight_box(bodies.shape);
+  const double reference = largest_extent(box);
   if (symmetry) changes.push_back({describe(*symmetry)});
-  if (symmetry) bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
-  const Box box = tight_box(bodies.shape);
+  if (symmetry) {
+    bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
+    box = tight_box(bodies.shape);
+  }
   gp_Pnt center(box.center().x, box.center().y, box.center().z);
   if (symmetry) center.SetCoord(symmetry->axis + 1, symmetry->position);
   require_clearance(options, box, center, reference);

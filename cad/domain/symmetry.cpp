@@ -182,16 +182,16 @@ std::string describe(const SymmetryPlane& symmetry) {
 }
 
 std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies) {
-  const Box box = tight_box(bodies);
+  const auto on_axis = [&](int axis) { return find_on_axis(axis, options, bodies, tight_box(bodies)); };
   switch (options.symmetry) {
     case Symmetry::x:
-      return find_on_axis(0, options, bodies, box);
+      return on_axis(0);
     case Symmetry::y:
-      return find_on_axis(1, options, bodies, box);
+      return on_axis(1);
     case Symmetry::z:
-      return find_on_axis(2, options, bodies, box);
+      return on_axis(2);
     case Symmetry::automatic:
-      if (options.shape == FarFieldShape::hemisphere) return find_automatic(bodies, box);
+      if (options.shape == FarFieldShape::hemisphere) return find_automatic(bodies, tight_box(bodies));
       return std::nullopt;
     case Symmetry::none:
       break;

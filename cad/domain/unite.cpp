@@ -20,6 +20,7 @@ namespace {
 
 /// Groups solids whose boxes touch, each group ascending.
 std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_Solid>& solids) {
+  if (solids.size() == 1) return {solids};
   std::vector<Box> boxes;
   Box all;
   for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));

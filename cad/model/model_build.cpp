@@ -64,15 +64,18 @@ private:
   std::size_t _at = 0;
 };
 
-Box body_box(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>& tags, const Box& all) {
-  const bool any = std::any_of(tags.begin(), tags.end(), [](const FaceTag& tag) { return tag.far_field; });
-  if (!any) return all;
-  std::vector<TopoDS_Shape> body;
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    if (!tags[i - 1].far_field) body.push_back(faces(i));
-  }
-  const Box box = tight_box(body);
-  return box.empty() ? all : box;
+/// Of everything, and of all that is not far field.
+struct Bounds {
+  Box all, body;
+};
+
+Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>& tags) {
+  std::vector<TopoDS_Shape> body, far_field;
+  for (int i = 1; i <= faces.Extent(); ++i) (tags[i - 1].far_field ? far_field : body).push_back(faces(i));
+  const Box of_body = tight_box(body), beyond = tight_box(far_field);
+  Box all = beyond;
+  if (!of_body.empty()) all.add(of_body);
+  return {all, of_body.empty() ? all : of_body};
 }
 
 /// A region is called as the solid of its faces; a face between two regions may carry the other one's label.
@@ -164,9 +167,9 @@ Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
     ByteWriter writer;
     writer.put(magic);
     put_labels(named, tags, writer);
-    const Box bounds = tight_box(named.shape);
-    writer.put(bounds);
-    writer.put(body_box(faces, tags, bounds));
+    const Bounds bounds = bounds_of(faces, tags);
+    writer.put(bounds.all);
+    writer.put(bounds.body);
     std::ostringstream stream;
     BinTools::Write(named.shape, stream, false, false, BinTools_FormatVersion_CURRENT);
     writer.put_text(stream.str());

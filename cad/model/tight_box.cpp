@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
@@ -59,31 +60,59 @@ void refine(Function&& height, double low, double high) {
   }
 }
 
-void add_edge(Box& box, const TopoDS_Edge& edge) {
-  if (BRep_Tool::Degenerated(edge)) return;
-  const BRepAdaptor_Curve curve(edge);
-  const int samples = 8 * std::min(200, curve.NbIntervals(GeomAbs_C2)) + 8;
-  const double first = curve.FirstParameter(), step = (curve.LastParameter() - first) / samples;
-  std::array<int, 2 * axes> best{};
-  std::array<double, 2 * axes> reach;
-  reach.fill(-std::numeric_limits<double>::max());
-  for (int i = 0; i <= samples; ++i) {
-    const gp_Pnt p = curve.Value(first + i * step);
-    add_point(box, p);
-    for (int side = 0; side < 2 * axes; ++side) {
-      const double height = (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
-      if (height > reach[side]) reach[side] = height, best[side] = i;
+/// Extremes of an edge: samples, then golden section around the best of them.
+class EdgeExtremes {
+public:
+  explicit EdgeExtremes(const TopoDS_Edge& edge) : _curve(edge) {}
+
+  void add_samples(Box& box) {
+    _samples = 8 * std::min(200, _curve.NbIntervals(GeomAbs_C2)) + 8;
+    _first = _curve.FirstParameter(), _step = (_curve.LastParameter() - _first) / _samples;
+    std::array<double, 2 * axes> reach;
+    reach.fill(-std::numeric_limits<double>::max());
+    for (int i = 0; i <= _samples; ++i) {
+      const gp_Pnt p = _curve.Value(_first + i * _step);
+      add_point(box, p);
+      for (int side = 0; side < 2 * axes; ++side) {
+        const double height = (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
+        if (height > reach[side]) reach[side] = height, _best[side] = i;
+      }
     }
   }
-  if (curve.GetType() == GeomAbs_Line) return;
-  for (int side = 0; side < 2 * axes; ++side) {
-    const auto height = [&](double parameter) {
-      const gp_Pnt p = curve.Value(parameter);
-      add_point(box, p);
-      return (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
-    };
-    refine(height, first + std::max(0, best[side] - 1) * step,
-           first + std::min(samples, best[side] + 1) * step);
+
+  bool is_line() const { return _curve.GetType() == GeomAbs_Line; }
+
+  void refine_samples(Box& box) const {
+    for (int side = 0; side < 2 * axes; ++side) {
+      const auto height = [&](double parameter) {
+        const gp_Pnt p = _curve.Value(parameter);
+        add_point(box, p);
+        return (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
+      };
+      refine(height, _first + std::max(0, _best[side] - 1) * _step,
+             _first + std::min(_samples, _best[side] + 1) * _step);
+    }
+  }
+
+private:
+  BRepAdaptor_Curve _curve;
+  int _samples = 0;
+  double _first = 0, _step = 0;
+  std::array<int, 2 * axes> _best{};
+};
+
+/// Only edges whose control points reach beyond the samples of all can add to these.
+void add_edges(Box& box, const TopTools_IndexedMapOfShape& edges) {
+  std::vector<std::pair<int, EdgeExtremes>> curved;
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    EdgeExtremes extremes(edge);
+    extremes.add_samples(box);
+    if (!extremes.is_line()) curved.emplace_back(i, std::move(extremes));
+  }
+  for (const auto& [i, extremes] : curved) {
+    if (!inside(loose_box(edges(i)), box)) extremes.refine_samples(box);
   }
 }
 
@@ -177,7 +206,7 @@ Box tight_box(const std::vector<TopoDS_Shape>& shapes) {
     TopExp::MapShapes(shape, TopAbs_EDGE, edges);
     TopExp::MapShapes(shape, TopAbs_FACE, faces);
   }
-  for (int i = 1; i <= edges.Extent(); ++i) add_edge(box, TopoDS::Edge(edges(i)));
+  add_edges(box, edges);
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD));
     if (BRepAdaptor_Surface(face, false).GetType() == GeomAbs_Plane) continue;

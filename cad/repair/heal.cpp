@@ -104,9 +104,11 @@ void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
   }
 }
 
-void require_volume(const std::vector<TopoDS_Solid>& solids, Volumes& volumes) {
+/// `boxes`: of the solids.
+void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<Box>& boxes,
+                    Volumes& volumes) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    const Box box = tight_box(solids[i]);
+    const Box& box = boxes[i];
     const double volume = volumes.of(solids[i]);
     if (volume > 1e-9 * std::pow(box.diagonal(), 3)) continue;
     const Vec3 at = box.center();
@@ -158,8 +160,11 @@ NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volu
   if (solids.empty()) throw CadError("there are no faces to make a solid of");
   drop_faces(parts.loose_faces, solids, changes);
   named.shape = make_compound(solids);
-  repair_edges(named.shape, 1e-6 * tight_box(named.shape).diagonal(), changes);
-  require_volume(solids, volumes);
+  std::vector<Box> boxes;
+  Box all;
+  for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));
+  repair_edges(named.shape, 1e-6 * all.diagonal(), changes);
+  require_volume(solids, boxes, volumes);
   return named;
 }
 

@@ -77,7 +77,7 @@ std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, V
   Box all;
   for (const TopoDS_Shell& shell : shells) {
     const TopoDS_Solid solid = solid_of(shell, volumes);
-    bodies.push_back({solid, tight_box(solid)});
+    bodies.push_back({solid, shells.size() > 1 ? tight_box(solid) : Box{}});
     all.add(bodies.back().box);
   }
   const std::size_t count = bodies.size();
