@@ -27,15 +27,11 @@ struct Burden {
 }  // namespace
 
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks) {
-  return assign_largest_first(loads, std::vector<double>(static_cast<std::size_t>(ranks), 0.0));
-}
-
-std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens) {
   std::vector<int> order(loads.size());
   std::iota(order.begin(), order.end(), 0);
   sort_largest_first(order, loads);
   std::priority_queue<Burden, std::vector<Burden>, std::greater<>> least_burdened;
-  for (std::size_t r = 0; r < burdens.size(); ++r) least_burdened.push({burdens[r], static_cast<Rank>(r)});
+  for (Rank r = 0; r < ranks; ++r) least_burdened.push({0, r});
   std::vector<Rank> assignment(loads.size());
   for (const int task : order) {
     Burden burden = least_burdened.top();

@@ -12,8 +12,6 @@ namespace aeroloom::parallel {
 /// doi:10.1137/0117039); ties go to the lower task and the lower rank. Returns the rank of each task. The
 /// same on every rank, without communication. Loads are any non-negative unit.
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks);
-/// The same where each rank has carried `burdens[rank]` before, in the unit of the loads.
-std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens);
 
 /// The tasks of `rank` in the order it should run them: largest first.
 std::vector<int> tasks_of_rank(std::span<const Rank> assignment, std::span<const double> loads, Rank rank);

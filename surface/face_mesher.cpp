@@ -52,7 +52,8 @@ cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const Surf
 PieceSeed seed_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
                        const sizing::SizeField& field, const SurfaceOptions& options) {
   PieceSeed seed;
-  seed.support = build_support(model, face, curves, support_facets(model, face, options), seed.vertices);
+  seed.support =
+      build_support(model, face, curves, support_facets(model, face, options), field, seed.vertices);
   seed.load = predict_triangles(seed.support, field);
   return seed;
 }

@@ -17,6 +17,9 @@ using geometry::Vec3;
 /// a triangle that leans away from the normals of its corners (30 degrees), in so many rounds.
 constexpr double turning_cosine = 0.94, leaning_cosine = 0.87;
 constexpr int dividing_rounds = 4;
+/// Unless the edge is shorter than this part of the elements: where sizes do not resolve the curvature,
+/// facets as short in every direction would be many times as many.
+constexpr double finest_over_size = 0.125;
 
 SurfaceMetric metric_of(const SurfaceFrame& frame) {
   return {dot(frame.du, frame.du), dot(frame.du, frame.dv), dot(frame.dv, frame.dv)};
@@ -35,7 +38,7 @@ int OpenFacets::parameter_orientation() const {
   return area >= 0 ? 1 : -1;
 }
 
-void OpenFacets::fit_to_surface() {
+void OpenFacets::fit_to_surface(const sizing::SizeField& field) {
   std::vector<SurfaceFrame> frames;
   const auto frame_new_points = [&] {
     for (std::size_t i = frames.size(); i < _uv.size(); ++i) {
@@ -48,7 +51,7 @@ void OpenFacets::fit_to_surface() {
     triangulate_again(frames);
     flip(frames);
   }
-  for (int round = 0; round < dividing_rounds && divide_turning_edges(frames); ++round) {
+  for (int round = 0; round < dividing_rounds && divide_turning_edges(frames, field); ++round) {
     frame_new_points();
     flip(frames);
   }
@@ -139,12 +142,15 @@ std::vector<char> OpenFacets::find_turning_edges(const std::vector<geometry::Hal
   return marked;
 }
 
-bool OpenFacets::divide_turning_edges(const std::vector<SurfaceFrame>& frames) {
+bool OpenFacets::divide_turning_edges(const std::vector<SurfaceFrame>& frames,
+                                      const sizing::SizeField& field) {
   const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(_support.triangles);
   const std::vector<char> marked = find_turning_edges(twins, frames);
   std::vector<EdgePoint> divisions;
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (!marked[h]) continue;
+    const Vec3 from = _support.points[start_of(_support, h)], to = _support.points[end_of(_support, h)];
+    if (distance(from, to) < finest_over_size * field(0.5 * (from + to))) continue;
     const auto index = static_cast<std::int32_t>(_support.points.size());
     const Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
     divisions.push_back({h, 0.5, index, uv});

@@ -21,8 +21,9 @@ public:
   /// Gives both passages along each seam nodes at the same parameters.
   void match_seams();
   /// Connects the points as they lie on the surface, whatever the facets were before curve vertices came in,
-  /// and adds points where the surface turns more than a facet should.
-  void fit_to_surface();
+  /// and adds points where the surface turns more than a facet should; not where elements of these sizes are
+  /// far too large to turn as much.
+  void fit_to_surface(const sizing::SizeField& field);
   /// Joins what is one point: both passages of a seam, the nodes of a degenerate edge, the ends of lines at a
   /// CAD vertex, and points at no distance from each other. Triangles that collapse vanish.
   Support close(const CurveMesh& curves, FaceVertices& vertices);
@@ -63,7 +64,7 @@ private:
   /// Per half-edge, whether its edge is to be divided; marked on the lower half-edge of the two.
   std::vector<char> find_turning_edges(const std::vector<geometry::HalfEdge>& twins,
                                        const std::vector<cad::SurfaceFrame>& frames) const;
-  bool divide_turning_edges(const std::vector<cad::SurfaceFrame>& frames);
+  bool divide_turning_edges(const std::vector<cad::SurfaceFrame>& frames, const sizing::SizeField& field);
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 
   const cad::Model& _model;

@@ -19,11 +19,8 @@ using cad::FaceId;
 using parallel::ScopedCpu;
 using sizing::SizeField;
 
-/// Triangles meshed in a second, about: what the time spent on dividing faces is worth when pieces are dealt
-/// out. And what a piece costs besides its triangles. No result depends on either.
-constexpr double triangles_per_second = 4e5, piece_overhead = 150;
-/// Of the time that meshing a heavy piece takes, its division takes about this part.
-constexpr double dividing_part = 0.1;
+/// What a piece costs besides its triangles, in triangles. No result depends on it.
+constexpr double piece_overhead = 150;
 
 std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
   std::vector<double> sizes(piece.vertex_count());
@@ -99,7 +96,6 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
   Seeds seeds;
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    const double start = parallel::cpu_seconds();
     std::vector<double> loads;
     for (const FaceId face : faces) {
       const auto counts = edge_vertices(curves, face);
@@ -111,7 +107,6 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
       seeds.emplace(Key{faces[task], 0, 0}, seed_of_face(_model, faces[task], curves, field, _options));
       _clock.note_task({"face", faces[task], loads[task], parallel::cpu_seconds() - begin});
     }
-    _divide_seconds += parallel::cpu_seconds() - start;
   });
   return seeds;
 }
@@ -125,16 +120,6 @@ std::vector<PiecePool::Row> PiecePool::tabulate(const Seeds& seeds) const {
   rows = _communicator.all_gather_items<Row>(rows);
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
   return rows;
-}
-
-/// What each rank has done in this round so far, in triangles meshed.
-std::vector<double> PiecePool::burdens() const {
-  std::vector<double> result;
-  const std::vector<double> mine{_divide_seconds};
-  for (const double seconds : _communicator.all_gather_items<double>(mine)) {
-    result.push_back(seconds * triangles_per_second);
-  }
-  return result;
 }
 
 /// Sends seeds to their owners, by row.
@@ -186,9 +171,9 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& si
   std::vector<double> loads;
   loads.reserve(rows.size());
   for (const Row& row : rows) {
-    loads.push_back(is_to_divide(row, level) ? dividing_part * row.load : 0);
+    loads.push_back(is_to_divide(row, level) ? row.load : 0);
   }
-  auto owners = parallel::assign_largest_first(loads, burdens());
+  auto owners = parallel::assign_largest_first(loads, _communicator.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // What is not divided stays with whoever has it.
     if (!is_to_divide(rows[i], level)) owners[i] = _communicator.rank();
@@ -197,7 +182,6 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& si
   Seeds divided;
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    const double start = parallel::cpu_seconds();
     for (auto& [key, seed] : seeds) {
       if (!is_to_divide({key, seed.load, 0}, level)) {
         divided.emplace(key, std::move(seed));
@@ -212,7 +196,6 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& si
       }
       _angles[key] = std::move(pieces.angles);
     }
-    _divide_seconds += parallel::cpu_seconds() - start;
   });
   return divided;
 }
@@ -220,7 +203,6 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& si
 /// From faces to the seeds of pieces.
 PiecePool::Seeds PiecePool::divide(const std::vector<FaceId>& faces, const CurveMesh& curves,
                                    const SizeField& field) {
-  _divide_seconds = 0;
   Seeds seeds = make_face_seeds(faces, curves, field);
   CoarseSizes sizes(field);
   for (const int level : {1, 2}) seeds = divide_heavy(std::move(seeds), level, sizes);
@@ -280,7 +262,7 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
     places[row.key] = _parts[row.key[0]]++;
     loads.push_back(row.load + piece_overhead + row.facets);
   }
-  seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, burdens()));
+  seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, _communicator.size()));
   Conflicts conflicts;
   parallel::agree(_communicator, [&] { conflicts = mesh_seeds(seeds, places, curves, field); });
   return conflicts;

@@ -72,7 +72,6 @@ private:
   Seeds divide_heavy(Seeds seeds, int level, CoarseSizes& sizes);
   bool is_to_divide(const Row& row, int level) const;
   std::vector<Row> tabulate(const Seeds& seeds) const;
-  std::vector<double> burdens() const;
   Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
   Conflicts mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places, const CurveMesh& curves,
                        const sizing::SizeField& field);
@@ -86,7 +85,6 @@ private:
   std::vector<char> _whole;                      // per face: 1 where it must not be divided
   std::map<Key, Meshed> _meshed;                 // on this rank
   std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
-  double _divide_seconds = 0;                    // on this rank, in this round
 };
 
 }  // namespace aeroloom::surface

@@ -55,11 +55,11 @@ void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const Su
 }  // namespace
 
 Support build_support(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                      const cad::Facets& facets, FaceVertices& vertices) {
+                      const cad::Facets& facets, const sizing::SizeField& field, FaceVertices& vertices) {
   OpenFacets open(model, face, facets);
   open.insert_curve_vertices(curves);
   open.match_seams();
-  open.fit_to_surface();
+  open.fit_to_surface(field);
   Support support = open.close(curves, vertices);
   flip_to_delaunay(support);
   support.loop_edges = trace_loop_edges(support, geometry::match_half_edges(support.triangles));

@@ -43,9 +43,10 @@ struct FaceVertices {
 
 /// Builds the support of a whole face from its facets: closes seams and poles, splits boundary edges at the
 /// curve vertices, and reconnects and refines it in the parameter plane until it follows the surface, however
-/// coarse the facets are next to the sizes. `vertices` receives the curve vertices of the face, ascending.
+/// coarse the facets are next to the sizes, as far as elements of these sizes can. `vertices` receives the
+/// curve vertices of the face, ascending.
 /// Throws SurfaceError where the facets do not fit the loops of the face.
 Support build_support(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                      const cad::Facets& facets, FaceVertices& vertices);
+                      const cad::Facets& facets, const sizing::SizeField& field, FaceVertices& vertices);
 
 }  // namespace aeroloom::surface

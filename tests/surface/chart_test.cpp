@@ -33,7 +33,7 @@ struct ChartedFace {
 ChartedFace chart_face(const Model& model, cad::FaceId face, const CurveMesh& curves,
                        const sizing::SizeField& field) {
   ChartedFace result;
-  result.whole = build_support(model, face, curves, facets_of(model, face), result.vertices);
+  result.whole = build_support(model, face, curves, facets_of(model, face), field, result.vertices);
   result.charts = make_charts(model, field, result.whole, {}, result.vertices);
   return result;
 }

@@ -27,9 +27,9 @@ struct Built {
   std::size_t loops = 0;
 };
 
-Built build(const Model& model, cad::FaceId face, const CurveMesh& curves) {
+Built build(const Model& model, cad::FaceId face, const CurveMesh& curves, const sizing::SizeField& field) {
   Built built;
-  built.support = build_support(model, face, curves, facets_of(model, face), built.vertices);
+  built.support = build_support(model, face, curves, facets_of(model, face), field, built.vertices);
   built.twins = geometry::match_half_edges(built.support.triangles);
   const auto open = std::count(built.twins.begin(), built.twins.end(), -1);
   built.euler = static_cast<std::int64_t>(built.support.points.size()) -
@@ -70,7 +70,8 @@ void expect_sound(const Model& model, const Built& built) {
 
 TEST(Support, SphereClosesToASphere) {
   const Model model = make_primitive_domain(PrimitiveKind::sphere);
-  const Built built = build(model, 0, curves_of(model, uniform_field(model, 0.1)));
+  const auto field = uniform_field(model, 0.1);
+  const Built built = build(model, 0, curves_of(model, field), field);
   EXPECT_EQ(built.loops, 0u);
   EXPECT_EQ(built.euler, 2);
   EXPECT_TRUE(built.support.loop_edges.empty());
@@ -80,7 +81,8 @@ TEST(Support, SphereClosesToASphere) {
 
 TEST(Support, TorusClosesToATorus) {
   const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
-  const Built built = build(model, 0, curves_of(model, uniform_field(model, 0.1)));
+  const auto field = uniform_field(model, 0.1);
+  const Built built = build(model, 0, curves_of(model, field), field);
   EXPECT_EQ(built.loops, 0u);
   EXPECT_EQ(built.euler, 0);
   expect_sound(model, built);
@@ -88,10 +90,11 @@ TEST(Support, TorusClosesToATorus) {
 
 TEST(Support, CylinderHasATubeAndTwoDisks) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  const CurveMesh curves = curves_of(model, uniform_field(model, 0.05));
+  const auto field = uniform_field(model, 0.05);
+  const CurveMesh curves = curves_of(model, field);
   double area = 0;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    const Built built = build(model, f, curves);
+    const Built built = build(model, f, curves, field);
     EXPECT_EQ(built.loops, model.is_planar(f) ? 1u : 2u);
     EXPECT_EQ(built.euler, model.is_planar(f) ? 1 : 0);
     EXPECT_EQ(built.support.loop_edges.size(), 31 * built.loops);
@@ -104,9 +107,10 @@ TEST(Support, CylinderHasATubeAndTwoDisks) {
 TEST(Support, MeshVerticesDivideCoarseFacets) {
   // Sizes far below the facets: each side of a box face has two triangles at most and 200 mesh vertices.
   const Model model = make_primitive_domain(PrimitiveKind::box);
-  const CurveMesh curves = curves_of(model, uniform_field(model, 0.005));
+  const auto field = uniform_field(model, 0.005);
+  const CurveMesh curves = curves_of(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    const Built built = build(model, f, curves);
+    const Built built = build(model, f, curves, field);
     EXPECT_EQ(built.support.loop_edges.size(), 800u);
     EXPECT_EQ(built.euler, 1);
     EXPECT_NEAR(support_area(built.support), 1, 1e-12);
@@ -118,11 +122,12 @@ TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
   // Mesh vertices lie on the circles, well outside the chords of the facets: no triangle may turn over for
   // it.
   const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.radius = 0.25, .height = 0.004});
-  const CurveMesh curves = curves_of(model, uniform_field(model, 0.002));
+  const auto field = uniform_field(model, 0.002);
+  const CurveMesh curves = curves_of(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Facets coarse = model.facets(f, 0.05, 1.2);
     FaceVertices vertices;
-    const Support support = build_support(model, f, curves, coarse, vertices);
+    const Support support = build_support(model, f, curves, coarse, field, vertices);
     for (std::size_t t = 0; t < support.triangles.size(); ++t) {
       const auto& uv = support.corner_uv[t];
       const Vec3 normal = model.face_frame(f, (uv[0] + uv[1] + uv[2]) / 3).normal;
@@ -132,11 +137,27 @@ TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
   }
 }
 
+TEST(Support, IsNoFinerThanElementsThatCannotTurn) {
+  const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.radius = 0.25, .height = 0.5});
+  const auto large = uniform_field(model, 10), small = uniform_field(model, 0.5);
+  const CurveMesh curves = curves_of(model, large);
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.is_planar(f)) continue;
+    const cad::Facets coarse = model.facets(f, 0.05, 1.2);
+    FaceVertices vertices, fine_vertices;
+    const Support support = build_support(model, f, curves, coarse, large, vertices);
+    const Support fine = build_support(model, f, curves, coarse, small, fine_vertices);
+    EXPECT_LT(support.triangles.size(), 40u);
+    EXPECT_GT(fine.triangles.size(), 2 * support.triangles.size());
+  }
+}
+
 TEST(Support, FacetNodesBetweenMeshVerticesRemain) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  const CurveMesh curves = curves_of(model, uniform_field(model, 10));
+  const auto field = uniform_field(model, 10);
+  const CurveMesh curves = curves_of(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    const Built built = build(model, f, curves);
+    const Built built = build(model, f, curves, field);
     EXPECT_EQ(built.support.loop_edges.size(), 4 * built.loops);
     EXPECT_GT(std::count(built.twins.begin(), built.twins.end(), -1), 20 * static_cast<long>(built.loops));
     expect_sound(model, built);
