@@ -2,6 +2,8 @@
 
 #include "parallel/timers.hpp"
 
+#include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +24,21 @@ Session& current() {
 MessageTime& spent() {
   static MessageTime instance;
   return instance;
+}
+
+/// Whether the launcher says that all ranks are on this machine, or there is none.
+bool is_on_one_machine() {
+  const char* const ranks = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  if (ranks != nullptr && here != nullptr) return std::strcmp(ranks, here) == 0;
+  return std::getenv("PMIX_RANK") == nullptr && std::getenv("PMI_RANK") == nullptr;
+}
+
+/// Open MPI looks for every kind of network before it starts, for a quarter of a second; on one machine there
+/// is none to be found. What the user or the launcher asked for stays.
+void skip_networks() {
+  constexpr int keep = 0;
+  if (is_on_one_machine()) setenv("OMPI_MCA_pml", "ob1", keep);
 }
 
 /// Frees the group, unless the library has ended before.
@@ -60,6 +77,7 @@ std::shared_ptr<CommunicatorHandle> duplicate(MPI_Comm original) {
 void start(int& argc, char**& argv) {
   if (is_running()) throw std::logic_error("parallel::Environment is constructed a second time");
   if (!is_library_running()) {
+    skip_networks();
     int provided = MPI_THREAD_SINGLE;
     check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "starting");
     current().started_library = true;

@@ -1,5 +1,6 @@
 #include "parallel/communicator.hpp"
 
+#include <cstdlib>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -17,6 +18,13 @@ Bytes letter(Rank from, Rank to, std::size_t length) {
                                         static_cast<std::size_t>(to) * 13);
   }
   return content;
+}
+
+TEST(Session, LooksForNoNetworkOnOneMachine) {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) GTEST_SKIP() << "not started by Open MPI";
+  const char* const asked_for = std::getenv("OMPI_MCA_pml");
+  ASSERT_NE(asked_for, nullptr);
+  EXPECT_STREQ(asked_for, "ob1");
 }
 
 class CommunicatorTest : public testing::Test {
