@@ -105,6 +105,33 @@ void collect_cells(tetgenmesh& mesh, std::span<const std::uint8_t> asked_for, Te
   }
 }
 
+/// Lays out all segments or triangles for recovery. The last one laid out comes first.
+void lay_out(tetgenmesh& mesh, tetgenmesh::memorypool& all, tetgenmesh::arraypool& stack) {
+  std::vector<tetgenmesh::face> items(static_cast<std::size_t>(all.items));
+  all.traversalinit();
+  for (tetgenmesh::face& item : items) item.sh = mesh.shellfacetraverse(&all);
+  for (std::size_t i = items.size(); i-- > 0;) {
+    void* place = nullptr;
+    stack.newindex(&place);
+    *static_cast<tetgenmesh::face*>(place) = items[i];
+  }
+}
+
+/// Recovers what needs no more than the first flips, which is nearly everything, in the order it was given
+/// in. recoverboundary() goes through all of it in random order, and waits for memory twice as long as it
+/// works; what it finds recovered it skips, what is left climbs its ladder of flips and points.
+void recover_in_order(tetgenmesh& mesh) {
+  constexpr int log_of_block = 8;
+  tetgenmesh::arraypool missing(sizeof(tetgenmesh::face), log_of_block);
+  mesh.checksubsegflag = 1;
+  lay_out(mesh, *mesh.subsegs, *mesh.subsegstack);
+  mesh.recoversegments(&missing, 0, 0);
+  if (missing.objects > 0) return;  // triangles need all of theirs
+  mesh.checksubfaceflag = 1;
+  lay_out(mesh, *mesh.subfaces, *mesh.subfacstack);
+  mesh.recoversubfaces(&missing, 0);
+}
+
 /// The order of tetrahedralize(), without two of its passes: carveholes(), since the hull is kept and others
 /// tell inside from outside; recoverdelaunay(), for which hardly anything is left to do where all points are
 /// given at once, and which nearly doubles time and memory.
@@ -116,6 +143,7 @@ void run_phases(tetgenmesh& mesh) {
   mesh.incrementaldelaunay(unused);
   if (mesh.in->numberoffacets == 0) return;
   mesh.meshsurface();
+  recover_in_order(mesh);
   mesh.recoverboundary(unused);
   if (mesh.subvertstack->objects > 0) mesh.suppresssteinerpoints();
 }
