@@ -33,7 +33,8 @@ public:
         _mesh(mesh),
         _first_lattice(static_cast<LocalIndex>(problem.surface_points())),
         _first_added(static_cast<LocalIndex>(problem.points.size())),
-        _visit(mesh.cells.size(), 0) {}
+        _visit(mesh.cells.size(), 0),
+        _found(mesh.cells.size(), unknown_region) {}
 
   /// The region told by a lattice vertex of the zone among the cell's vertices; false: there is none. Those
   /// of other zones do not count: the cell may reach them through triangles that this zone does not know.
@@ -46,8 +47,25 @@ public:
     return false;
   }
 
-  /// Searches the star of vertex v, one of the cell's.
+  /// The region of a cell with vertex v, told by the star of v. What the search met on its way lies on the
+  /// same side and need not be searched for again.
   RegionId region_in_star(std::int32_t cell, LocalIndex v) {
+    if (_found[cell] != unknown_region) return _found[cell];
+    const RegionId region = search_star(cell, v);
+    if (v >= _first_added) return region;  // there may be triangles around it that this zone does not know
+    for (const std::int32_t c : _open) _found[c] = region;
+    return region;
+  }
+
+  RegionId region_beside(std::int32_t cell, int face, std::int32_t triangle) const {
+    const bool front = same_turn(face_of(_mesh.cells[cell], face), _problem.triangles[triangle]);
+    return front ? _problem.front[triangle] : _problem.back[triangle];
+  }
+
+private:
+  static constexpr RegionId unknown_region = mesh::no_region - 1;
+
+  RegionId search_star(std::int32_t cell, LocalIndex v) {
     ++_round;
     _open.assign(1, cell);
     _visit[cell] = _round;
@@ -68,12 +86,6 @@ public:
     throw std::runtime_error("a point of the surface has no triangle around it");
   }
 
-  RegionId region_beside(std::int32_t cell, int face, std::int32_t triangle) const {
-    const bool front = same_turn(face_of(_mesh.cells[cell], face), _problem.triangles[triangle]);
-    return front ? _problem.front[triangle] : _problem.back[triangle];
-  }
-
-private:
   /// Around a point that TetGen added there may be neither; then other points of the zone in its star tell,
   /// or what bounds the star.
   RegionId region_around_added() {
@@ -99,7 +111,8 @@ private:
   const TetgenMesh& _mesh;
   LocalIndex _first_lattice, _first_added;
   std::vector<std::int32_t> _visit;
-  std::vector<std::int32_t> _open;
+  std::vector<RegionId> _found;     // per cell, where a search met it
+  std::vector<std::int32_t> _open;  // cells of the last search
   std::int32_t _round = 0;
 };
 
