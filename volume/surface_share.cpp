@@ -41,29 +41,24 @@ struct BlockRow {
   float nearest;
 };
 
-/// Rows of the same block become one.
-void unite_rows(std::vector<BlockRow>& rows) {
-  std::sort(rows.begin(), rows.end(), [](const BlockRow& a, const BlockRow& b) { return a.block < b.block; });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (kept > 0 && rows[kept - 1].block == rows[i].block) {
-      BlockRow& row = rows[kept - 1];
-      row.longest_edge = std::max(row.longest_edge, rows[i].longest_edge);
-      row.triangles += rows[i].triangles;
-      row.nearest = std::min(row.nearest, rows[i].nearest);
-    } else {
-      rows[kept++] = rows[i];
-    }
-  }
-  rows.resize(kept);
-}
-
 /// How far a triangle is from the middle of a block, in space, rounded up.
 float distance_from_middle(const LatticeFrame& frame, const GridCube& block, const std::array<Vec3, 3>& p) {
   const GridBox box = GridBox::of(block);
   const Vec3 middle = frame.to_space(0.5 * (box.low + box.high));
   const double distance = std::sqrt(BoundaryDistance::squared_distance(middle, {p[0], p[1], p[2]}).squared);
   return std::nextafter(static_cast<float>(distance), std::numeric_limits<float>::infinity());
+}
+
+/// Calls add(row) for what a triangle adds to the rows of blocks.
+template <class Add>
+void tabulate(const LatticeFrame& frame, const LatticeTree& tree, const std::array<Vec3, 3>& p,
+              const Add& add) {
+  const auto edge = static_cast<float>(longest_edge(p));
+  const BlockIndex middle = tree.block_at(frame.cell_at(frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]))));
+  add(BlockRow{middle, edge, 1, distance_from_middle(frame, tree.cube(middle), p)});
+  tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) {
+    if (b != middle) add(BlockRow{b, edge, 0, distance_from_middle(frame, tree.cube(b), p)});
+  });
 }
 
 SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const mesh::GlobalIndex> numbers,
@@ -219,33 +214,30 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
 SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const LatticeFrame& frame,
                               const LatticeTree& tree, const mesh::DistributedMesh& surface,
                               parallel::StageClock& clock) {
-  std::vector<BlockRow> rows;
-  {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    for (const Piece& piece : surface.pieces) {
-      for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-        const std::array<Vec3, 3> p = corners_of(piece, t);
-        const auto edge = static_cast<float>(longest_edge(p));
-        tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) {
-          rows.push_back({b, edge, 0, distance_from_middle(frame, tree.cube(b), p)});
-        });
-        const Vec3 center = frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]));
-        const BlockIndex its = tree.block_at(frame.cell_at(center));
-        rows.push_back({its, edge, 1, distance_from_middle(frame, tree.cube(its), p)});
-      }
-    }
-    unite_rows(rows);
-  }
-  rows = communicator.all_gather_items<BlockRow>(rows);
   SurfaceTable table;
   table.longest_edge.assign(tree.block_count(), 0);
   table.triangles.assign(tree.block_count(), 0);
   table.nearest.assign(tree.block_count(), std::numeric_limits<float>::infinity());
-  for (const BlockRow& row : rows) {
+  const auto add = [&table](const BlockRow& row) {
     table.longest_edge[row.block] = std::max(table.longest_edge[row.block], row.longest_edge);
     table.triangles[row.block] += row.triangles;
     table.nearest[row.block] = std::min(table.nearest[row.block], row.nearest);
+  };
+  std::vector<BlockRow> rows;
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (const Piece& piece : surface.pieces) {
+      for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t)
+        tabulate(frame, tree, corners_of(piece, t), add);
+    }
+    if (communicator.size() == 1) return table;
+    for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+      if (table.is_met(b)) rows.push_back({b, table.longest_edge[b], table.triangles[b], table.nearest[b]});
+    }
+    for (const BlockRow& row : rows) table.triangles[row.block] = 0;  // or they would count twice
   }
+  rows = communicator.all_gather_items<BlockRow>(rows);
+  for (const BlockRow& row : rows) add(row);
   return table;
 }
 
