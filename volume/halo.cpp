@@ -53,11 +53,23 @@ double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, c
 
 ZoneSurroundings::ZoneSurroundings(const LatticeFrame& frame, const LatticeTree& tree,
                                    const SurfaceTable& table, const Zones& zones)
-    : _frame(frame), _tree(tree), _table(table), _zones(zones), _sizes(tree.block_count(), 0) {}
+    : _frame(frame),
+      _tree(tree),
+      _table(table),
+      _zones(zones),
+      _sizes(tree.block_count(), 0),
+      _alike_to(tree.block_count()) {
+  for (BlockIndex b = tree.block_count(); b-- > 0;) {
+    const bool goes_on = b + 1 < tree.block_count() && zones.is_whole(b) && zones.is_whole(b + 1) &&
+                         zones.of(b, 0) == zones.of(b + 1, 0);
+    _alike_to[b] = goes_on ? _alike_to[b + 1] : b + 1;
+  }
+}
 
 bool ZoneSurroundings::is_beside_others(BlockIndex b) const {
-  return _tree.any_block_in(GridBox::of(_tree.cube(b)).dilated(0.5),
-                            [&](BlockIndex n) { return !is_all_own(n); });
+  return _tree.any_block_in(
+      GridBox::of(_tree.cube(b)).dilated(0.5), [&](BlockIndex n) { return !is_all_own(n); },
+      [&](BlockIndex first, BlockIndex last) { return _alike_to[first] >= last && is_all_own(first); });
 }
 
 void ZoneSurroundings::move_to(ZoneIndex zone, std::span<const BlockIndex> own_blocks) {

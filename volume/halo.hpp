@@ -65,8 +65,9 @@ private:
   const Zones& _zones;
   ZoneIndex _zone = no_zone;
   std::vector<BlockIndex> _border;
-  NearBoxes _boxes;           // those of the border
-  std::vector<float> _sizes;  // per block: largest size around, 0 where not asked for yet
+  NearBoxes _boxes;                   // those of the border
+  std::vector<float> _sizes;          // per block: largest size around, 0 where not asked for yet
+  std::vector<BlockIndex> _alike_to;  // per block: up to before this one, blocks are whole and of its zone
 };
 
 /// Takes the leaves that zones know something of: their own, and those near them.

@@ -70,7 +70,12 @@ public:
   }
   /// Whether holds(b) for a block that touches the box; it is not asked any further then.
   template <class Holds>
-  bool any_block_in(const GridBox& box, const Holds& holds) const;
+  bool any_block_in(const GridBox& box, const Holds& holds) const {
+    return any_block_in(box, holds, [](BlockIndex, BlockIndex) { return false; });
+  }
+  /// As before; of the blocks from `first` to before `last` none is asked where skips(first, last).
+  template <class Holds, class Skips>
+  bool any_block_in(const GridBox& box, const Holds& holds, const Skips& skips) const;
 
 private:
   /// The finest cube that holds a place in the grid; the nearest one for places outside.
@@ -80,17 +85,17 @@ private:
     };
     return {clamp(place.x), clamp(place.y), clamp(place.z)};
   }
-  template <class Holds>
+  template <class Holds, class Skips>
   bool any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
-                 const Holds& holds) const;
+                 const Holds& holds, const Skips& skips) const;
 
   sizing::SplitCubes::Leaves _blocks;
   std::vector<std::uint8_t> _split;
   sizing::LeafTable _table;
 };
 
-template <class Holds>
-bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds) const {
+template <class Holds, class Skips>
+bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds, const Skips& skips) const {
   const std::uint64_t low = sizing::morton_key(nearest_cube(box.low));
   const std::uint64_t high = sizing::morton_key(nearest_cube(box.high));
   // The smallest cube that holds both corners.
@@ -101,18 +106,19 @@ bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds) const {
   const std::uint64_t next = key + (1ULL << shift);
   const BlockIndex last = next >> 3 * sizing::finest_level != 0 ? end : _table.find(next);
   if (last <= first) return holds(first);
-  return any_below(box, key, sizing::finest_level - shift / 3, first, last, holds);
+  return any_below(box, key, sizing::finest_level - shift / 3, first, last, holds, skips);
 }
 
-template <class Holds>
+template <class Holds, class Skips>
 bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first,
-                            BlockIndex last, const Holds& holds) const {
+                            BlockIndex last, const Holds& holds, const Skips& skips) const {
+  if (skips(first, last)) return false;
   if (last - first == 1) return GridBox::of(cube(first)).overlaps(box) && holds(first);
   if (!GridBox::of({sizing::grid_point(key), level}).overlaps(box)) return false;
   const int shift = 3 * (sizing::finest_level - level - 1);
   for (std::uint64_t child = 0; child < 8; ++child) {
     const BlockIndex end = child == 7 ? last : _table.find(key + ((child + 1) << shift));
-    if (any_below(box, key + (child << shift), level + 1, first, end, holds)) return true;
+    if (any_below(box, key + (child << shift), level + 1, first, end, holds, skips)) return true;
     first = end;
   }
   return false;
