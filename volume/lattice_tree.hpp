@@ -8,6 +8,7 @@
 #include "volume/lattice_frame.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -114,12 +115,22 @@ bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, Bl
                             BlockIndex last, const Holds& holds, const Skips& skips) const {
   if (skips(first, last)) return false;
   if (last - first == 1) return GridBox::of(cube(first)).overlaps(box) && holds(first);
-  if (!GridBox::of({sizing::grid_point(key), level}).overlaps(box)) return false;
+  const GridBox whole = GridBox::of({sizing::grid_point(key), level});
+  if (!whole.overlaps(box)) return false;
+  // Which halves the box touches, along each axis: looking up where children begin is what costs.
+  const geometry::Vec3 middle = 0.5 * (whole.low + whole.high);
+  std::array<std::array<bool, 2>, 3> touched;
+  for (int axis = 0; axis < 3; ++axis)
+    touched[axis] = {box.low[axis] <= middle[axis], box.high[axis] >= middle[axis]};
   const int shift = 3 * (sizing::finest_level - level - 1);
+  std::uint64_t found = 0;  // the child that begins at `first`
   for (std::uint64_t child = 0; child < 8; ++child) {
+    if (!touched[0][child & 1] || !touched[1][child >> 1 & 1] || !touched[2][child >> 2]) continue;
+    if (child != found) first = _table.find(key + (child << shift));
     const BlockIndex end = child == 7 ? last : _table.find(key + ((child + 1) << shift));
     if (any_below(box, key + (child << shift), level + 1, first, end, holds, skips)) return true;
     first = end;
+    found = child + 1;
   }
   return false;
 }
