@@ -293,12 +293,21 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
       }
     }
   }
+  const std::vector<Parcel> arrived =
+      mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; });
+  // Triangles are large: their numbers are sorted, and each triangle is moved once.
+  struct Arrival {
+    mesh::GlobalIndex number;
+    std::size_t place;
+  };
+  std::vector<Arrival> order;
+  order.reserve(arrived.size());
+  for (const Parcel& parcel : arrived) order.push_back({parcel.triangle.number, order.size()});
+  std::sort(order.begin(), order.end(),
+            [](const Arrival& a, const Arrival& b) { return a.number < b.number; });
   std::vector<SurfaceTriangle> result;
-  for (const Parcel& parcel :
-       mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; }))
-    result.push_back(parcel.triangle);
-  std::sort(result.begin(), result.end(),
-            [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
+  result.reserve(arrived.size());
+  for (const Arrival& arrival : order) result.push_back(arrived[arrival.place].triangle);
   return result;
 }
 
