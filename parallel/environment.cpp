@@ -8,6 +8,9 @@
 #include <exception>
 
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace aeroloom::parallel {
 
@@ -35,9 +38,20 @@ constexpr int exit_bug = 70;
   abort_all_ranks(exit_bug);
 }
 
+/// Large arrays are mapped one by one and go back to the system when they are freed. Left alone, the
+/// allocator moves the bound up to the largest one that was freed, and keeps their memory for what may come.
+void return_large_arrays() {
+#ifdef __GLIBC__
+  constexpr int large = 2 << 20, kept_at_most = 16 << 20;
+  mallopt(M_MMAP_THRESHOLD, large);
+  mallopt(M_TRIM_THRESHOLD, kept_at_most);
+#endif
+}
+
 }  // namespace
 
 Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
+  if (!session::is_library_running()) return_large_arrays();
   if (!session::is_library_running() && !is_containment_ready())
     _server = std::make_unique<ContainedServer>();
   session::start(argc, argv);

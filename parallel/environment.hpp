@@ -10,10 +10,11 @@ class ContainedServer;
 /// Starts, in this order: the worker server of contained runs (a small process forked before the message
 /// passing library registers any memory, see contained.hpp), then the message passing library. Ends both.
 /// Construct exactly one, first thing in main, after every contained task is registered. Works under mpirun
-/// and without. Where the host program runs MPI already that is used and left running, and contained runs
-/// take place in the rank itself unless the host has started the server before (contained.hpp). From then on
-/// an uncaught exception is printed and ends all ranks with exit code 70, and so does an exception that
-/// leaves the scope of the environment.
+/// and without. Large arrays that are freed go back to the system at once. Where the host program runs MPI
+/// already that is used and left running, the allocator left alone, and contained runs take place in the rank
+/// itself unless the host has started the server before (contained.hpp). From then on an uncaught exception
+/// is printed and ends all ranks with exit code 70, and so does an exception that leaves the scope of the
+/// environment.
 class Environment {
 public:
   Environment(int& argc, char**& argv);
