@@ -3,6 +3,7 @@
 #include "mesh/mixing.hpp"
 #include "volume/empty_balls.hpp"
 #include "volume/near_triangles.hpp"
+#include "volume/within_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +57,13 @@ double clearance_of(const LatticeSource& source, BlockIndex b) {
 /// Makes the points of one block after the other.
 class PointMaker {
 public:
-  PointMaker(const LatticeSource& source, const NearSurface& surface, BlockPoints& result)
-      : _source(source), _surface(surface), _result(result) {}
+  PointMaker(const LatticeSource& source, const NearSurface& surface, const SurfaceReach& reach,
+             BlockPoints& result)
+      : _source(source),
+        _surface(surface),
+        _reach(reach),
+        _result(result),
+        _within(source.frame, source.tree, source.table, surface) {}
 
   void make(BlockIndex b) {
     const bool met = _source.table.is_met(b);
@@ -156,6 +162,10 @@ private:
   /// The region of a point in a block that the surface meets.
   mesh::RegionId region_of(Vec3 p) {
     if (const auto known = _balls.region_at(p)) return *known;
+    if (_reach.is_from_within(_block - _result.first)) {
+      const auto seen = _within.look(_block, p);
+      return seen ? seen->region : mesh::no_region;
+    }
     std::optional<BoundaryDistance::Nearest> nearest = _triangles.nearest(p);
     if (!nearest) nearest = _surface.distance().nearest(p, _guess);
     _guess = nearest->triangle;
@@ -166,7 +176,9 @@ private:
 
   const LatticeSource& _source;
   const NearSurface& _surface;
+  const SurfaceReach& _reach;
   BlockPoints& _result;
+  WithinBlocks _within;
   BlockIndex _block = 0;
   std::vector<Offer> _offered;  // in the block
   geometry::Box _box;           // of them
@@ -175,35 +187,54 @@ private:
   EmptyBalls _balls;
 };
 
+constexpr double more_for_shear = 1.1;
+
+/// Whether there are far smaller triangles within reach of the points of a block.
+bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
+  constexpr int far_finer = 4;  // levels
+  const GridCube cube = source.tree.cube(b);
+  return source.tree.any_block_in(GridBox::of(cube).dilated(reach), [&](BlockIndex n) {
+    return source.tree.cube(n).level >= cube.level + far_finer && source.table.is_met(n);
+  });
+}
+
+/// How far from a block the way may lead from one of its points to a triangle whose box meets it.
+double reach_from_within(const LatticeSource& source, BlockIndex b) {
+  const double perturbation = source.options.perturbation * source.tree.cube(b).edge();
+  return more_for_shear * source.frame.grid_distance(source.table.longest_edge[b]) + perturbation;
+}
+
 }  // namespace
 
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
-SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last) {
-  constexpr double more_for_shear = 1.1, inward = 0.1;
+SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last, FarBlocks far) {
+  constexpr double inward = 0.1;
   const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
   SurfaceReach reach;
   reach.per_edge = source.frame.grid_distance(farthest);
-  reach.perturbation = 0.5 * std::numbers::sqrt3 * mean_edge_of_cell * source.options.perturbation;
   for (BlockIndex b = first; b < last; ++b) {
     const double clear = source.frame.grid_distance(farthest * largest_size(source, b));
     double nearest = 0;
+    bool from_within = false;
     if (source.table.is_met(b)) {
       const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.tree.cube(b).edge();
       nearest = more_for_shear * half_diagonal +
                 source.frame.grid_distance(source.table.nearest[b] + inward * source.table.longest_edge[b]);
+      from_within = far == FarBlocks::from_within && sees_far_finer(source, b, nearest);
+      if (from_within) nearest = reach_from_within(source, b);
     }
-    reach.of_blocks.push_back({smallest_edge * clear, largest_edge * clear, nearest});
+    reach.of_blocks.push_back({smallest_edge * clear, largest_edge * clear, nearest, from_within});
   }
   return reach;
 }
 
 BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                        const NearSurface& surface) {
+                        const NearSurface& surface, const SurfaceReach& reach) {
   BlockPoints result;
   result.first = first;
   result.starts.push_back(0);
-  PointMaker maker(source, surface, result);
+  PointMaker maker(source, surface, reach, result);
   for (BlockIndex b = first; b < last; ++b) {
     maker.make(b);
     result.starts.push_back(static_cast<std::int64_t>(result.points.size()));

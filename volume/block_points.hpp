@@ -58,14 +58,19 @@ struct LatticeSource {
   std::span<const BlockChange> changes;  ///< per block
 };
 
+/// How regions are told in blocks far from a body, which are as large as it is far off and where one of its
+/// many triangles may be the nearest.
+enum class FarBlocks { by_nearest, from_within };
+
 /// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
 /// the region of points there. Retries included.
-SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last);
+SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last,
+                             FarBlocks far = FarBlocks::from_within);
 
 /// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the
-/// surface. `surface` has the triangles within reach of these blocks. A function of place, sizes and the
+/// surface. `surface` has the triangles within this reach of these blocks. A function of place, sizes and the
 /// surface nearby.
 BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                        const NearSurface& surface);
+                        const NearSurface& surface, const SurfaceReach& reach = {});
 
 }  // namespace aeroloom::volume

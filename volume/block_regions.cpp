@@ -2,6 +2,7 @@
 
 #include "geometry/disjoint_sets.hpp"
 #include "volume/empty_balls.hpp"
+#include "volume/within_blocks.hpp"
 
 #include <algorithm>
 #include <map>
@@ -73,34 +74,59 @@ std::vector<Witness> unite(std::vector<Witness> all) {
   return united;
 }
 
+/// Looks for the region of places in blocks that the surface meets.
+class Look {
+public:
+  Look(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+       const NearSurface& surface, const SurfaceReach& reach)
+      : _frame(frame), _surface(surface), _reach(reach), _within(frame, tree, table, surface) {}
+
+  Vec3 place_of(const Contact& contact) const { return _frame.to_space(contact.place); }
+  /// Where an empty ball tells it.
+  std::optional<RegionId> known_region_at(Vec3 p) const { return _balls.region_at(p); }
+  /// From a place in a block, which has this place in the rank's share.
+  std::optional<WithinBlocks::Seen> from(BlockIndex b, std::size_t in_share, Vec3 p) {
+    if (_reach.is_from_within(in_share)) return _within.look(b, p);
+    _nearest = _surface.distance().nearest(p, _nearest.triangle);
+    const auto region = _surface.region_at(p, _nearest);
+    if (!region) return std::nullopt;
+    _balls.remember(p, _nearest.distance, *region);
+    return WithinBlocks::Seen{*region, _nearest.triangle};
+  }
+
+private:
+  const LatticeFrame& _frame;
+  const NearSurface& _surface;
+  const SurfaceReach& _reach;
+  WithinBlocks _within;
+  BoundaryDistance::Nearest _nearest;
+  EmptyBalls _balls;
+};
+
 /// What is seen from the contacts of which blocks first to last are the met ones. The first place of each
 /// kind is looked at for what it tells; others in an empty ball, whose region is known, only count.
 std::vector<Witness> witnesses_of(std::span<const Contact> contacts, BlockIndex first, BlockIndex last,
-                                  const LatticeFrame& frame, BlockSets& sets,
-                                  std::span<const SurfaceTriangle> triangles, const NearSurface& surface) {
+                                  BlockSets& sets, std::span<const SurfaceTriangle> triangles, Look& look) {
   std::vector<Witness> mine;
-  BoundaryDistance::Nearest nearest;
-  EmptyBalls balls;
   std::map<std::pair<BlockIndex, RegionId>, std::size_t> known;  // of `mine`
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
     if (contact.met < first || contact.met >= last) continue;
-    const Vec3 p = frame.to_space(contact.place);
+    const Vec3 p = look.place_of(contact);
     const BlockIndex set = sets.root(contact.free);
-    if (const auto region = balls.region_at(p)) {
+    if (const auto region = look.known_region_at(p)) {
       const auto witness = known.find({set, *region});
       if (witness != known.end()) {
         ++mine[witness->second].places;
         continue;
       }
     }
-    nearest = surface.distance().nearest(p, nearest.triangle);
-    const auto region = surface.region_at(p, nearest);
-    if (!region) continue;
-    balls.remember(p, nearest.distance, *region);
-    const auto [witness, is_new] = known.insert({{set, *region}, mine.size()});
+    const auto seen = look.from(contact.met, contact.met - first, p);
+    if (!seen) continue;
+    const auto [witness, is_new] = known.insert({{set, seen->region}, mine.size()});
     if (is_new)
-      mine.push_back({set, *region, static_cast<std::int64_t>(i), 1, triangles[nearest.triangle].number, p});
+      mine.push_back(
+          {set, seen->region, static_cast<std::int64_t>(i), 1, triangles[seen->triangle].number, p});
     else
       ++mine[witness->second].places;
   }
@@ -125,7 +151,7 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
                                 const LatticeTree& tree, const SurfaceTable& table,
                                 std::span<const BlockIndex> shares,
                                 std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
-                                parallel::StageClock& clock) {
+                                const SurfaceReach& reach, parallel::StageClock& clock) {
   const BlockIndex count = tree.block_count();
   BlockSets sets(count);
   std::vector<Contact> contacts;
@@ -142,7 +168,8 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
-    mine = witnesses_of(contacts, first, last, frame, sets, triangles, surface);
+    Look look(frame, tree, table, surface, reach);
+    mine = witnesses_of(contacts, first, last, sets, triangles, look);
   }
   const std::vector<Witness> witnesses = unite(communicator.all_gather_items<Witness>(mine));
   BlockRegions found{std::vector<RegionId>(count, mesh::no_region), find_contradiction(witnesses)};

@@ -34,6 +34,6 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
                                 const LatticeTree& tree, const SurfaceTable& table,
                                 std::span<const BlockIndex> shares,
                                 std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
-                                parallel::StageClock& clock);
+                                const SurfaceReach& reach, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

@@ -27,20 +27,15 @@ geometry::Box box_of(const parallel::Communicator& communicator, const mesh::Dis
 
 /// The triangles that matter to the blocks of each rank.
 std::vector<SurfaceTriangle> gather_triangles(const parallel::Communicator& communicator,
-                                              const VolumeInput& input, const Decomposition::Data& data,
+                                              const VolumeInput& input, Decomposition::Data& data,
                                               parallel::StageClock& clock) {
-  SurfaceReach reach;
   if (communicator.size() > 1) {
     const ScopedCpu task(clock, ScopedCpu::As::task);
-    reach = reach_of_blocks(data.source(input), data.shares[communicator.rank()],
-                            data.shares[communicator.rank() + 1]);
-    // Below 40 MB of them looking costs more than it spares: 0.2 of 7 s of an aircraft's run on two ranks.
-    constexpr std::int64_t worth_sparing = 250000;
-    reach.sparing = std::accumulate(data.table.triangles.begin(), data.table.triangles.end(),
-                                    std::int64_t{0}) > worth_sparing;
+    data.reach = reach_of_blocks(data.source(input), data.shares[communicator.rank()],
+                                 data.shares[communicator.rank() + 1]);
   }
-  return deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, reach, input.surface,
-                         input.numbering, clock);
+  return deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, data.reach,
+                         input.surface, input.numbering, clock);
 }
 
 /// The surface near each rank's blocks.
@@ -121,7 +116,7 @@ void make_all_points(const parallel::Communicator& communicator, const VolumeInp
   parallel::agree(communicator, [&] {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     if (!data.surface) data.surface = std::make_unique<NearSurface>(again);
-    data.points = make_points(data.source(input), first, last, *data.surface);
+    data.points = make_points(data.source(input), first, last, *data.surface, data.reach);
     data.surface.reset();
     for (BlockIndex b = first; b < last; ++b) mine.push_back(static_cast<std::uint8_t>(data.points.count(b)));
   });
@@ -138,8 +133,9 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
                                              data->frame->grid_box(box), clock);
   data->report.blocks = data->tree->block_count();
   share_surface(communicator, input, *data, clock);
-  BlockRegions regions = find_block_regions(communicator, *data->frame, *data->tree, data->table,
-                                            data->shares, data->triangles, *data->surface, clock);
+  BlockRegions regions =
+      find_block_regions(communicator, *data->frame, *data->tree, data->table, data->shares, data->triangles,
+                         *data->surface, data->reach, clock);
   if (regions.contradiction)
     refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);

@@ -78,6 +78,17 @@ std::optional<NearSurface::Sight> NearSurface::first_on_way(Vec3 p, Vec3 q, std:
   return first;
 }
 
+std::optional<mesh::RegionId> NearSurface::region_towards(Vec3 p, Vec3 q, std::int32_t triangle) const {
+  geometry::Box way;
+  way.add(p);
+  way.add(q);
+  std::vector<std::int32_t> candidates;
+  _distance->for_each_in(
+      way, [&](const BoundaryDistance::Measured& near) { candidates.push_back(near.triangle); });
+  const auto sight = first_on_way(p, q, triangle, candidates);
+  return sight ? std::optional(region_of(*sight)) : std::nullopt;
+}
+
 std::optional<mesh::RegionId> NearSurface::region_at(Vec3 p, const BoundaryDistance::Nearest& nearest) const {
   if (nearest.in_face) {
     const int side = side_of(p, nearest.triangle);

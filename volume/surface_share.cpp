@@ -2,14 +2,12 @@
 
 #include "mesh/delivery.hpp"
 #include "volume/boundary_distance.hpp"
-#include "volume/met_blocks.hpp"
 #include "volume/near_boxes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -97,8 +95,7 @@ public:
         _reach(reach),
         _rank(rank),
         _first(shares[rank]),
-        _last(shares[rank + 1]),
-        _is_wanted(tree.block_count(), 0) {}
+        _last(shares[rank + 1]) {}
 
   std::vector<Want> list() {
     for (BlockIndex b = _first; b < _last; ++b) look_from(b);
@@ -107,7 +104,7 @@ public:
     std::vector<Want> wants;
     for (BlockIndex n = 0; n < _tree.block_count(); ++n) {
       const bool is_own = n >= _first && n < _last;
-      if (!is_own && _table.is_met(n) && (_is_wanted[n] || is_within_reach(n))) wants.push_back({n, _rank});
+      if (!is_own && _table.is_met(n) && is_within_reach(n)) wants.push_back({n, _rank});
     }
     return wants;
   }
@@ -119,45 +116,10 @@ private:
     const double farthest = std::max(reach.most, reach.nearest);
     const auto [lowest, highest] = _tree.range_of(box.dilated(farthest));
     if (lowest >= _first && highest < _last) return;
-    if (_reach.sparing && reach.nearest > 0 && sees_far_finer(b, reach.nearest)) {
-      want_nearest(b);
-    } else {
-      reach.least = std::max(reach.least, reach.nearest);
-      reach.most = farthest;
-    }
+    reach.least = std::max(reach.least, reach.nearest);
+    reach.most = farthest;
     _of_all.add(box.dilated(reach.least));
     _of_large.add(box.dilated(reach.most));
-  }
-
-  /// Whether there is so much within reach of the points of a block that they are worth a look one by one.
-  bool sees_far_finer(BlockIndex b, double reach) const {
-    constexpr int far_finer = 4;  // levels
-    const GridCube cube = _tree.cube(b);
-    return _tree.any_block_in(GridBox::of(cube).dilated(reach), [&](BlockIndex n) {
-      return _tree.cube(n).level >= cube.level + far_finer && _table.is_met(n);
-    });
-  }
-
-  /// What may be nearest to points of a block: to those of the lattice, in quarters of its edge, and to the
-  /// middles of faces of the blocks beside it, in eighths.
-  void want_nearest(BlockIndex b) {
-    if (!_met_blocks) _met_blocks.emplace(_frame, _tree, _table);
-    constexpr int parts = 8;
-    const GridCube cube = _tree.cube(b);
-    const double part = static_cast<double>(cube.edge()) / parts;
-    const Vec3 low = GridBox::of(cube).low;
-    const auto is_outermost = [](int i) { return i == 0 || i == parts; };
-    for (int i = 0; i <= parts; ++i) {
-      for (int j = 0; j <= parts; ++j) {
-        for (int k = 0; k <= parts; ++k) {
-          const bool is_on_face = is_outermost(i) || is_outermost(j) || is_outermost(k);
-          if (!is_on_face && ((i | j | k) & 1) != 0) continue;
-          _met_blocks->for_each_nearest(_frame.to_space(low + Vec3{part * i, part * j, part * k}),
-                                        _reach.perturbation * _frame.edge(cube.level),
-                                        [&](BlockIndex n) { _is_wanted[n] = 1; });
-        }
-      }
-    }
   }
 
   bool is_within_reach(BlockIndex n) const {
@@ -172,8 +134,6 @@ private:
   parallel::Rank _rank;
   BlockIndex _first, _last;
   NearBoxes _of_all, _of_large;  // triangles
-  std::optional<MetBlocks> _met_blocks;
-  std::vector<std::uint8_t> _is_wanted;  // per block
 };
 
 /// Which ranks want what meets a block, beside the one that has the block.

@@ -54,16 +54,18 @@ struct BlockReach {
   double least;        ///< all of them
   double most;         ///< those whose longest edge times `per_edge` is as much
   double nearest = 0;  ///< one of them is so near to all points of the block; 0: which one does not matter
+  bool from_within =
+      false;  ///< regions there are told by what meets the block (WithinBlocks), not the nearest
 };
 struct SurfaceReach {
   std::vector<BlockReach> of_blocks;  ///< of this rank
   double per_edge = 0;                ///< grid distance per length
-  double perturbation = 0;            ///< how far points may be off their places, in edges of their block
-  bool sparing = true;  ///< far from a body each point is looked from, so that few triangles are brought
+
+  /// Of a rank's block, by its place in its share.
+  bool is_from_within(std::size_t i) const { return i < of_blocks.size() && of_blocks[i].from_within; }
 };
 
-/// The triangles a rank needs: those that meet its blocks, or come within reach of them; of the triangles
-/// nearest to points, those of lattice points and of the middles of faces between blocks. By number, each
+/// The triangles a rank needs: those that meet its blocks, or come within reach of them. By number, each
 /// once. Collective.
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,

@@ -50,7 +50,7 @@ struct Made {
     return make(lattice.first(problem.communicator), lattice.last(problem.communicator));
   }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
-    return make_points(source(), first, last, around.surface);
+    return make_points(source(), first, last, around.surface, reach_of_blocks(source(), first, last));
   }
 
   surfaces::Surface surface;
@@ -202,6 +202,24 @@ TEST_F(LatticePoints, keep_off_triangles_of_any_size) {
   }
 }
 
+/// Regions told from within blocks, by what meets these, are those that the nearest triangle tells.
+TEST_F(LatticePoints, have_their_regions_from_within_blocks_too) {
+  surfaces::Surface body = surfaces::cube({0, 0, 0}, 20, 8);
+  surfaces::append(body, surfaces::sphere({0, 0, 0}, 1, 24), surfaces::Turn::inward);
+  const auto far = fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}});
+  for (const Made& made : {Made(Communicator::self(), body, far), Made(Communicator::self())}) {
+    const BlockIndex count = made.lattice.tree.block_count();
+    SurfaceReach reach = reach_of_blocks(made.source(), 0, count);
+    for (BlockIndex b = 0; b < count; ++b) reach.of_blocks[b].from_within = made.lattice.table.is_met(b);
+    const BlockPoints near = make_points(made.source(), 0, count, made.around.surface);
+    const BlockPoints within = make_points(made.source(), 0, count, made.around.surface, reach);
+
+    EXPECT_EQ(within.slots, near.slots);
+    EXPECT_EQ(within.regions, near.regions);
+    EXPECT_GT(near.slots.size(), 0U);
+  }
+}
+
 /// A rank has no other triangles than those within reach of its blocks.
 class WithinReach : public OnOneRank, public testing::WithParamInterface<double> {};
 
@@ -230,7 +248,7 @@ TEST_P(WithinReach, are_all_triangles_that_points_need) {
       std::vector<SurfaceTriangle> triangles;
       for (const std::int32_t t : known) triangles.push_back(made.around.triangles[t]);
       fewest = std::min(fewest, triangles.size());
-      const BlockPoints part = make_points(made.source(), first, last, NearSurface(triangles));
+      const BlockPoints part = make_points(made.source(), first, last, NearSurface(triangles), reach);
       const auto from = static_cast<std::ptrdiff_t>(whole.starts[first]);
       ASSERT_EQ(static_cast<std::int64_t>(part.points.size()), whole.starts[last] - whole.starts[first]);
       EXPECT_TRUE(std::equal(part.points.begin(), part.points.end(), whole.points.begin() + from));

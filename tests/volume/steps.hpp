@@ -80,19 +80,23 @@ struct Lattice {
 /// The triangles within reach of a rank's blocks, and the regions of all blocks.
 struct Surroundings {
   Surroundings(const Problem& problem, Lattice& lattice)
-      : triangles(deliver(problem, lattice)),
+      : reach(reach_of(problem, lattice)),
+        triangles(deliver(problem, lattice)),
         surface(triangles),
         found(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table,
-                                 lattice.shares, triangles, surface, lattice.clock)),
+                                 lattice.shares, triangles, surface, reach, lattice.clock)),
         regions(found.of_block) {}
 
+  static SurfaceReach reach_of(const Problem& problem, Lattice& lattice) {
+    return reach_of_blocks(lattice.source(problem, {}), lattice.first(problem.communicator),
+                           lattice.last(problem.communicator));
+  }
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
-    const SurfaceReach reach = reach_of_blocks(
-        lattice.source(problem, {}), lattice.first(problem.communicator), lattice.last(problem.communicator));
     return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
-                           reach, problem.surface, problem.numbering, lattice.clock);
+                           reach_of(problem, lattice), problem.surface, problem.numbering, lattice.clock);
   }
 
+  SurfaceReach reach;
   std::vector<SurfaceTriangle> triangles;
   NearSurface surface;
   BlockRegions found;
