@@ -25,10 +25,9 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A memory figure of /proc/self/status, in bytes; 0 where the system does not tell. Resource usage would not
-/// do instead: its peak survives exec and may be that of the launcher.
-std::int64_t status_bytes(const char* key) {
-  std::FILE* status = std::fopen("/proc/self/status", "r");
+/// A memory figure of a file of /proc/self, in bytes; 0 where the system does not tell.
+std::int64_t bytes_of(const char* path, const char* key) {
+  std::FILE* status = std::fopen(path, "r");
   if (!status) return 0;
   char line[256];
   long long kibibytes = 0;
@@ -38,6 +37,24 @@ std::int64_t status_bytes(const char* key) {
   }
   std::fclose(status);
   return 1024 * static_cast<std::int64_t>(kibibytes);
+}
+
+/// Resource usage would not do instead: its peak survives exec and may be that of the launcher.
+std::int64_t status_bytes(const char* key) {
+  return bytes_of("/proc/self/status", key);
+}
+
+/// Resident pages of files and of shared memory.
+std::int64_t shared_bytes() {
+  return status_bytes("RssFile") + status_bytes("RssShmem");
+}
+
+/// This process's share of those: each page over the number of processes that have it. All of them where the
+/// system does not tell.
+std::int64_t share_of_shared_bytes() {
+  const char* path = "/proc/self/smaps_rollup";
+  const std::int64_t share = bytes_of(path, "Pss_File") + bytes_of(path, "Pss_Shmem");
+  return share > 0 ? share : shared_bytes();
 }
 
 /// The peak before the system's own counter was last reset.
@@ -121,6 +138,7 @@ void StageClock::begin(const std::string& name) {
   _scoped_start = _scoped_cpu;
   _message_wall_start = session::message_time().wall_seconds;
   _message_cpu_start = session::message_time().cpu_seconds;
+  _shared_at_start = shared_bytes();
 }
 
 void StageClock::end() {
@@ -131,7 +149,11 @@ void StageClock::end() {
   cost.waiting_seconds += messages.wall_seconds - _message_wall_start;
   const double known = _scoped_cpu - _scoped_start + messages.cpu_seconds - _message_cpu_start;
   cost.other_cpu_seconds += std::max(0.0, cpu_seconds() - _cpu_start - known);
-  cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, status_bytes("VmHWM"));
+  const std::int64_t peak = status_bytes("VmHWM");
+  cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, peak);
+  // What was shared at the peak is not known: the least that it may have been leaves the most for the rest.
+  const std::int64_t own = peak - std::min(_shared_at_start, shared_bytes()) + share_of_shared_bytes();
+  cost.peak_own_bytes = std::max(cost.peak_own_bytes, std::min(own, peak));
   _open = false;
 }
 
@@ -161,8 +183,11 @@ void StageClock::note_task(TaskRecord task) {
 
 void StageClock::note_child_memory(std::int64_t bytes) {
   if (!_open) return;
-  std::int64_t& peak = current().peak_resident_bytes;
-  peak = std::max(peak, resident_bytes() + bytes);
+  StageCost& cost = current();
+  const std::int64_t here = resident_bytes();
+  cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, here + bytes);
+  const std::int64_t own = here - shared_bytes() + share_of_shared_bytes();
+  cost.peak_own_bytes = std::max(cost.peak_own_bytes, own + bytes);
 }
 
 std::vector<StageSummary> StageClock::summarise(const Communicator& communicator) const {
@@ -184,6 +209,8 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.pieces = communicator.sum(cost.pieces);
     summary.peak_resident_bytes_max = communicator.maximum(cost.peak_resident_bytes);
     summary.peak_resident_bytes_sum = communicator.sum(cost.peak_resident_bytes);
+    summary.peak_own_bytes_max = communicator.maximum(cost.peak_own_bytes);
+    summary.peak_own_bytes_sum = communicator.sum(cost.peak_own_bytes);
     summaries.push_back(summary);
   }
   return summaries;

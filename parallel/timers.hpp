@@ -46,6 +46,9 @@ struct StageCost {
   double other_cpu_seconds = 0;  ///< CPU of this rank that is none of these
   std::int64_t pieces = 0;
   std::int64_t peak_resident_bytes = 0;  ///< this rank within the stage, children included
+  /// As that, at most; of pages that several processes have in memory (program, libraries, arrays held once
+  /// per node) this rank's share alone.
+  std::int64_t peak_own_bytes = 0;
 };
 
 /// A stage's cost over all ranks, the same on every rank.
@@ -59,6 +62,7 @@ struct StageSummary {
   double waiting_seconds_mean = 0, waiting_seconds_max = 0;  ///< wall
   std::int64_t pieces = 0;                                   ///< sum over ranks
   std::int64_t peak_resident_bytes_max = 0, peak_resident_bytes_sum = 0;
+  std::int64_t peak_own_bytes_max = 0, peak_own_bytes_sum = 0;
 };
 
 /// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
@@ -97,6 +101,7 @@ private:
   double _scoped_cpu = 0;  // of the calling thread that stands on a clock, since the start of the program
   double _scoped_start = 0;
   double _message_wall_start = 0, _message_cpu_start = 0;
+  std::int64_t _shared_at_start = 0;  // resident bytes that other processes may have in memory too
 };
 
 /// Adds the CPU time of a scope to the open stage, as task time, as serial work, or as a check of what was

@@ -258,7 +258,9 @@ Json stages_json(const std::vector<parallel::StageSummary>& stages) {
                     {"waiting_seconds_max", stage.waiting_seconds_max},
                     {"pieces", stage.pieces},
                     {"peak_rss_bytes_max", stage.peak_resident_bytes_max},
-                    {"peak_rss_bytes_sum", stage.peak_resident_bytes_sum}});
+                    {"peak_rss_bytes_sum", stage.peak_resident_bytes_sum},
+                    {"peak_own_bytes_max", stage.peak_own_bytes_max},
+                    {"peak_own_bytes_sum", stage.peak_own_bytes_sum}});
   }
   return json;
 }
@@ -331,14 +333,15 @@ std::string improve_report_json(const std::string& file, const Case& input, cons
 
 std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
                          int ranks) {
-  std::string text =
-      fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>11}\n", "stage", "wall s",
-                  "cpu min", "cpu mean", "cpu max", "checks", "other", "waiting", "pieces", "memory MiB");
+  std::string text = fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>11} {:>8}\n",
+                                 "stage", "wall s", "cpu min", "cpu mean", "cpu max", "checks", "other",
+                                 "waiting", "pieces", "memory MiB", "own MiB");
   for (const parallel::StageSummary& s : stages) {
     text += fmt::format(
-        "{:<10} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8} {:>11.0f}\n", s.name,
-        s.wall_seconds, s.cpu_seconds_min, s.cpu_seconds_mean, s.cpu_seconds_max, s.check_seconds,
-        s.other_seconds, s.waiting_seconds_mean, s.pieces, double(s.peak_resident_bytes_max) / (1 << 20));
+        "{:<10} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8} {:>11.0f} {:>8.0f}\n",
+        s.name, s.wall_seconds, s.cpu_seconds_min, s.cpu_seconds_mean, s.cpu_seconds_max, s.check_seconds,
+        s.other_seconds, s.waiting_seconds_mean, s.pieces, double(s.peak_resident_bytes_max) / (1 << 20),
+        double(s.peak_own_bytes_max) / (1 << 20));
   }
   text += fmt::format("{:<10} {:>9.2f}  on {} rank(s)\n", "total", record.wall_seconds, ranks);
   if (!record.quality) return text;

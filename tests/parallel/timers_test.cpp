@@ -4,9 +4,11 @@
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace aeroloom::parallel {
@@ -53,6 +55,35 @@ TEST(StageClockTest, PeaksAreThoseOfTheStage) {
   clock.end();
   EXPECT_LT(clock.costs()[1].peak_resident_bytes, clock.costs()[0].peak_resident_bytes - 90'000'000);
   EXPECT_GE(peak_resident_bytes(), clock.costs()[0].peak_resident_bytes);
+}
+
+TEST(StageClockTest, TellsOwnMemoryFromShared) {
+  constexpr auto size = static_cast<std::int64_t>(hundred_megabytes);
+  const std::vector<char> mine(hundred_megabytes, 1);
+  void* shared = mmap(nullptr, hundred_megabytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  std::memset(shared, 1, hundred_megabytes);
+  int ready[2], done[2];
+  ASSERT_EQ(pipe(ready) + pipe(done), 0);
+  const pid_t other = fork();
+  if (other == 0) {
+    long sum = 0;
+    for (std::size_t i = 0; i < hundred_megabytes; i += 4096) sum += static_cast<const char*>(shared)[i];
+    char go = static_cast<char>(sum);
+    const bool told = write(ready[1], &go, 1) == 1 && read(done[0], &go, 1) == 1;
+    _exit(told ? 0 : 1);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  StageClock clock;
+  clock.begin("both");
+  clock.end();
+  const StageCost& cost = clock.costs()[0];
+  EXPECT_GE(cost.peak_own_bytes, size);
+  EXPECT_LT(cost.peak_own_bytes, cost.peak_resident_bytes - size / 3);  // half of what two processes have
+  ASSERT_EQ(write(done[1], &byte, 1), 1);
+  waitpid(other, nullptr, 0);
+  munmap(shared, hundred_megabytes);
 }
 
 TEST(StageClockTest, AddsToTheOpenStageOnly) {
