@@ -2,8 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace aeroloom::improve {
+
+/// At most this part of the tetrahedra has a smaller dihedral angle.
+struct PercentileTarget {
+  double part, angle;  ///< of 1; degrees
+};
 
 struct ImproveOptions {
   bool enabled = true;
@@ -13,6 +19,9 @@ struct ImproveOptions {
   int relaxation = 1;        ///< passes of smoothing for the average (relaxation.hpp, border_relaxation.hpp)
   bool boundary_may_change = true;  ///< its triangles may flip and edges contract within one CAD face
   int shifted_rounds = 3;  ///< at most, across the borders of pieces; ends earlier when nothing is left
+  /// Where one is missed afterwards, the stage works once more with its angle, at most 50 degrees, as the
+  /// target, the least angle first.
+  std::vector<PercentileTarget> percentiles = {};
 };
 
 /// What is spent on tetrahedra beside strips that are narrower than their elements (reach.hpp).

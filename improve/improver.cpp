@@ -136,11 +136,10 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   total.min_angle_after = after.least_angle;
 }
 
-}  // namespace
-
-ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const ImproveOptions& options, parallel::StageClock& clock,
-                           const MeshSource& source) {
+/// For one target.
+ImproveReport improve_for_target(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                                 const ImproveOptions& options, parallel::StageClock& clock,
+                                 const MeshSource& source) {
   ImproveReport total;
   total.min_angle_before = total.min_angle_after = 180;
   std::vector<double> work;
@@ -180,6 +179,62 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
   }
   for (double* angle : {&total.min_angle_before, &total.min_angle_after})
     *angle = communicator.minimum(*angle);
+  return total;
+}
+
+/// The part of all tetrahedra with a smaller angle. Collective.
+double part_below(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                  double angle) {
+  std::int64_t below = 0, cells = 0;
+  for (const mesh::Piece& piece : mesh.pieces) {
+    cells += piece.cell_count();
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* c = piece.cell(t);
+      below +=
+          mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3]))
+              .smallest < angle;
+    }
+  }
+  below = communicator.sum(below);
+  return static_cast<double>(below) / static_cast<double>(std::max<std::int64_t>(1, communicator.sum(cells)));
+}
+
+/// What a report says about the target once more has been done. Collective.
+void examine_again(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                   const TetQuality& measure, ImproveReport& report) {
+  std::int64_t bad = 0;
+  double least = 180;
+  for (const mesh::Piece& piece : mesh.pieces) {
+    const BadState state = examine(piece, measure);
+    bad += state.bad;
+    least = std::min(least, state.least_angle);
+  }
+  report.bad_after = communicator.sum(bad);
+  report.min_angle_after = communicator.minimum(least);
+}
+
+}  // namespace
+
+ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
+                           const ImproveOptions& options, parallel::StageClock& clock,
+                           const MeshSource& source) {
+  constexpr double largest_target = 50;  // degrees
+  ImproveReport total = improve_for_target(communicator, mesh, options, clock, source);
+  if (!options.enabled || options.percentiles.empty()) return total;
+  std::vector<PercentileTarget> targets = options.percentiles;
+  std::sort(targets.begin(), targets.end(),
+            [](const PercentileTarget& a, const PercentileTarget& b) { return a.angle < b.angle; });
+  for (const PercentileTarget& target : targets) {
+    if (part_below(communicator, mesh, target.angle) <= target.part) continue;
+    ImproveOptions more = options;
+    more.target_angle = std::min(target.angle, largest_target);
+    const ImproveReport done = improve_for_target(communicator, mesh, more, clock, source);
+    total.smoothed += done.smoothed;
+    total.slid += done.slid;
+    total.swaps += done.swaps;
+    total.changed_triangles += done.changed_triangles;
+  }
+  examine_again(communicator, mesh, TetQuality(options.target_angle), total);
   return total;
 }
 

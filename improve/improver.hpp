@@ -28,8 +28,9 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 
 /// Improves all pieces of a mesh, dealt out anew by the work expected, their borders frozen; then borders for
 /// the average where they are (border_relaxation.hpp), and what is still bad in cavities in which borders are
-/// inside (cavities/rounds.hpp), shifted from round to round; the last ones by several trials. The report
-/// counts the whole mesh, the same on every rank. Collective. Throws CollectiveError.
+/// inside (cavities/rounds.hpp), shifted from round to round; the last ones by several trials. All of it once
+/// more for percentiles that are missed. The report counts the whole mesh, the same on every rank.
+/// Collective. Throws CollectiveError.
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock,
                            const MeshSource& source = {});

@@ -42,7 +42,7 @@ constexpr int exit_bug = 70;
 /// allocator moves the bound up to the largest one that was freed, and keeps their memory for what may come.
 void return_large_arrays() {
 #ifdef __GLIBC__
-  constexpr int large = 2 << 20, kept_at_most = 16 << 20;
+  constexpr int large = 8 << 20, kept_at_most = 32 << 20;
   mallopt(M_MMAP_THRESHOLD, large);
   mallopt(M_TRIM_THRESHOLD, kept_at_most);
 #endif
@@ -51,9 +51,10 @@ void return_large_arrays() {
 }  // namespace
 
 Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
-  if (!session::is_library_running()) return_large_arrays();
   if (!session::is_library_running() && !is_containment_ready())
     _server = std::make_unique<ContainedServer>();
+  // Not in contained runs, whose memory goes with them.
+  if (!session::is_library_running()) return_large_arrays();
   session::start(argc, argv);
   std::set_terminate(report_and_abort);
 }

@@ -44,7 +44,9 @@ void require_valid(const std::string& what, const mesh::ValidityReport& report) 
 void improve_volume(const Communicator& communicator, const Case& input, const improve::MeshSource& source,
                     mesh::DistributedMesh& volume, RunRecord& record) {
   if (!input.improve.enabled) return;
-  record.improve = improve::improve_mesh(communicator, volume, input.improve, record.clock, source);
+  improve::ImproveOptions options = input.improve;
+  options.percentiles = percentile_targets(input.gate);
+  record.improve = improve::improve_mesh(communicator, volume, options, record.clock, source);
   log_improve(record);
 }
 

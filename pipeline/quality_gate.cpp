@@ -6,6 +6,14 @@
 
 namespace aeroloom::pipeline {
 
+std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate) {
+  std::vector<improve::PercentileTarget> targets;
+  if (gate.percentile_01) targets.push_back({0.001, *gate.percentile_01});
+  if (gate.percentile_1) targets.push_back({0.01, *gate.percentile_1});
+  if (gate.percentile_5) targets.push_back({0.05, *gate.percentile_5});
+  return targets;
+}
+
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
                           const improve::PinnedReport& pinned) {
   std::string text;

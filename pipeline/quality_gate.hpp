@@ -1,11 +1,13 @@
 /// What a mesh has to be like for the run to count as a success.
 #pragma once
 
+#include "improve/improve_options.hpp"
 #include "improve/pinned.hpp"
 #include "mesh/quality.hpp"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace aeroloom::pipeline {
 
@@ -17,6 +19,9 @@ struct QualityGate {
   std::optional<double> percentile_01, percentile_1, percentile_5;  ///< of the smallest angles
   std::optional<double> min_mean_ratio, mean_mean_ratio;
 };
+
+/// What improvement is to work on beside its target.
+std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate);
 
 /// The limits that the mesh misses, with what it has and where the worst tetrahedron is; empty: none.
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,

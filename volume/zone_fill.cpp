@@ -1,7 +1,6 @@
 #include "volume/zone_fill.hpp"
 
 #include "parallel/contained.hpp"
-#include "parallel/timers.hpp"
 #include "volume/cell_order.hpp"
 #include "volume/volume_mesher.hpp"
 #include "volume/zones.hpp"
@@ -112,7 +111,6 @@ Bytes fill_task(std::span<const std::byte> input) {
     mine.reserve(problem.owners.size());
     for (const Owner owner : problem.owners) mine.push_back(owner == Owner::mine);
     const TetgenMesh mesh = run_tetgen(unit, problem.triangles, mine);
-    parallel::return_free_memory();  // TetGen's pools: what follows need not come on top
     for (std::size_t s = 0; s < mesh.added.size(); s += 3)
       added.push_back(frame.from_unit({mesh.added[s], mesh.added[s + 1], mesh.added[s + 2]}));
     points.insert(points.end(), added.begin(), added.end());

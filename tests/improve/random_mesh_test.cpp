@@ -160,6 +160,43 @@ TEST(RandomMeshes, GetBetterBesideStripsWhereNothingIsSpared) {
   EXPECT_GT(better, valid / 2);
 }
 
+TEST(RandomMeshes, AreWorkedOnOnceMoreForPercentiles) {
+  const auto self = parallel::Communicator::self();
+  constexpr double target = 20, wanted = 32, part = 0.05;
+  const auto improved = [&](const std::vector<PercentileTarget>& percentiles) {
+    DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(8, 3, 25, 42), 3);
+    ImproveOptions options;
+    options.target_angle = target;
+    options.percentiles = percentiles;
+    parallel::StageClock clock;
+    const ImproveReport report = improve_mesh(self, mesh, options, clock);
+    EXPECT_EQ(report.bad_after, examine(mesh.pieces, target).bad);
+    EXPECT_EQ(report.min_angle_after, examine(mesh.pieces, target).angle);
+    expect_valid(self, mesh);
+    return mesh.pieces;
+  };
+  const auto part_below = [&](const std::vector<Piece>& pieces) {
+    double cells = 0;
+    for (const Piece& piece : pieces) cells += piece.cell_count();
+    double below = 0;
+    for (const Piece& piece : pieces) {
+      for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+        const LocalIndex* c = piece.cell(t);
+        below +=
+            mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3]))
+                .smallest < wanted;
+      }
+    }
+    return below / cells;
+  };
+  const std::vector<Piece> plain = improved({}), steered = improved({{part, wanted}});
+  EXPECT_GT(part_below(plain), part);
+  EXPECT_LT(part_below(steered), 0.5 * part_below(plain));
+  EXPECT_GE(examine(steered, target).quality, examine(plain, target).quality);
+  const std::vector<Piece> met = improved({{1.0, wanted}});
+  EXPECT_EQ(met[0].coordinates, plain[0].coordinates) << "nothing to do";
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomMesh, testing::Range(0u, 12u));
 
 }  // namespace
