@@ -81,16 +81,18 @@ namespace {
 
 /// The rounds for the last ones: larger cavities, the surface in them, the best of several trials each, so
 /// that no order of changes decides.
-constexpr int last_rounds = 2;
-constexpr int last_trials = 8;
+constexpr int last_rounds = 3;
+constexpr int most_trials = 8;
 constexpr cavities::Reach last_reach{2, true};
 
-/// So few that trials are no burden: each takes about as long as improving ten thousand tetrahedra.
-bool are_few(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-             std::int64_t bad) {
+/// So many that they are no burden, for each of the bad ones: one takes about as long as improving ten
+/// thousand tetrahedra. None where too many are left.
+int affordable_trials(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                      std::int64_t bad) {
   std::int64_t cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) cells += piece.cell_count();
-  return bad <= 20 + communicator.sum(cells) / 50000;
+  const std::int64_t budget = 320 + communicator.sum(cells) / 3000;
+  return static_cast<int>(std::min<std::int64_t>(most_trials, budget / std::max<std::int64_t>(1, bad)));
 }
 
 /// The rounds in which borders of pieces are inside of cavities.
@@ -111,7 +113,7 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   const auto refill = [&](cavities::Reach reach, int trials, int shift) {
     const auto improve = [&](const cavities::Cavity& cavity) {
       const double begin = parallel::cpu_seconds();
-      auto refilling = trials > 1 ? improver.improve_by_trials(cavity, trials, shift, total)
+      auto refilling = trials > 0 ? improver.improve_by_trials(cavity, trials, shift, total)
                                   : improver.improve(cavity, total);
       clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id),
                        static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
@@ -125,11 +127,12 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   const auto wish = [&](Effort effort) {
     return communicator.sum(wish_for_bad(mesh, bad, measure, shift, effort, wishes));
   };
-  for (; shift < options.shifted_rounds && wish(Effort::sparing) > 0; ++shift) refill({}, 1, shift);
+  for (; shift < options.shifted_rounds && wish(Effort::sparing) > 0; ++shift) refill({}, 0, shift);
   for (const int end = shift + last_rounds; options.shifted_rounds > 0 && shift < end; ++shift) {
     const std::int64_t left = wish(Effort::unsparing);
-    if (left == 0 || !are_few(communicator, mesh, left)) break;
-    refill(last_reach, last_trials, shift);
+    const int trials = affordable_trials(communicator, mesh, left);
+    if (left == 0 || trials == 0) break;
+    refill(last_reach, trials, shift);
   }
   const BadState after = bad.state(mesh);
   total.bad_after = after.bad;
