@@ -54,9 +54,9 @@ struct BlockReach {
   double least;        ///< all of them
   double most;         ///< those whose longest edge times `per_edge` is as much
   double nearest = 0;  ///< one of them is so near to all points of the block; 0: which one does not matter
-  bool from_within =
-      false;  ///< regions there are told by what meets the block (WithinBlocks), not the nearest
+  bool from_within = false;  ///< what meets the block tells the regions there (within_blocks.hpp)
 };
+
 struct SurfaceReach {
   std::vector<BlockReach> of_blocks;  ///< of this rank
   double per_edge = 0;                ///< grid distance per length
