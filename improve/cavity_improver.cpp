@@ -164,13 +164,6 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
 
 namespace {
 
-void add_changes(ImproveReport& report, const ImproveReport& of) {
-  report.smoothed += of.smoothed;
-  report.slid += of.slid;
-  report.swaps += of.swaps;
-  report.changed_triangles += of.changed_triangles;
-}
-
 /// The worst quality, then how many miss the target: what is greater is better.
 std::pair<double, std::int64_t> judge(const Piece& piece, const TetQuality& measure) {
   std::pair<double, std::int64_t> result{std::numeric_limits<double>::max(), 0};
@@ -190,7 +183,7 @@ std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavit
   build_piece(cavity);
   const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
   if (mine.smoothed + mine.slid + mine.swaps == 0 || is_worse_than(cavity)) return std::nullopt;
-  add_changes(report, mine);
+  report.add_changes(mine);
   return build_refilling(cavity);
 }
 
@@ -215,7 +208,7 @@ std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavit
     changes = mine;
     result = build_refilling(cavity);
   }
-  if (result) add_changes(report, changes);
+  if (result) report.add_changes(changes);
   return result;
 }
 

@@ -12,6 +12,14 @@ struct ImproveReport {
   std::int64_t slid = 0;                             ///< vertices moved along CAD faces and curves
   std::int64_t swaps = 0;                            ///< cavities filled anew
   std::int64_t changed_triangles = 0;                ///< of the boundary
+
+  /// What another run has changed, on top.
+  void add_changes(const ImproveReport& of) {
+    smoothed += of.smoothed;
+    slid += of.slid;
+    swaps += of.swaps;
+    changed_triangles += of.changed_triangles;
+  }
 };
 
 }  // namespace aeroloom::improve

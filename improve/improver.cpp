@@ -166,10 +166,7 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
           {"improved piece", piece.id, cells, parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
       total.bad_before += mine.bad_before;
       total.bad_after += mine.bad_after;
-      total.smoothed += mine.smoothed;
-      total.slid += mine.slid;
-      total.swaps += mine.swaps;
-      total.changed_triangles += mine.changed_triangles;
+      total.add_changes(mine);
       total.min_angle_before = std::min(total.min_angle_before, mine.min_angle_before);
       total.min_angle_after = std::min(total.min_angle_after, mine.min_angle_after);
       clock.add_pieces(1);
@@ -231,11 +228,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
     if (part_below(communicator, mesh, target.angle) <= target.part) continue;
     ImproveOptions more = options;
     more.target_angle = std::min(target.angle, largest_target);
-    const ImproveReport done = improve_for_target(communicator, mesh, more, clock, source);
-    total.smoothed += done.smoothed;
-    total.slid += done.slid;
-    total.swaps += done.swaps;
-    total.changed_triangles += done.changed_triangles;
+    total.add_changes(improve_for_target(communicator, mesh, more, clock, source));
   }
   examine_again(communicator, mesh, TetQuality(options.target_angle), total);
   return total;
