@@ -1,6 +1,7 @@
 /// The distributed mesh: pieces spread over ranks.
 #pragma once
 
+#include "mesh/patch.hpp"
 #include "mesh/piece.hpp"
 
 #include <algorithm>
@@ -20,10 +21,11 @@ struct FaceSides {
 /// The pieces of one mesh that live on this rank. Data and queries; algorithms are free functions.
 struct DistributedMesh {
   CellKind kind = CellKind::tetrahedron;
-  PieceId piece_count = 0;           ///< of the whole mesh; ids run from 0
-  std::vector<Piece> pieces;         ///< on this rank, ascending id
-  std::vector<std::string> patches;  ///< names by patch index, the same on every rank
-  std::vector<std::string> faces;    ///< CAD face names by face id, the same on every rank
+  PieceId piece_count = 0;             ///< of the whole mesh; ids run from 0
+  std::vector<Piece> pieces;           ///< on this rank, ascending id
+  std::vector<std::string> patches;    ///< names by patch index, the same on every rank
+  std::vector<PatchType> patch_types;  ///< by patch index, the same on every rank; those left out are walls
+  std::vector<std::string> faces;      ///< CAD face names by face id, the same on every rank
   std::vector<FaceSides> sides;      ///< by face id, the same on every rank; empty: all faces bound region 0
   std::vector<std::string> regions;  ///< names by region id, the same on every rank; empty: one, unnamed
   std::int32_t cavity_rounds = 0;    ///< that changed the pieces so far (cavities/rounds.hpp), on every rank

@@ -1,0 +1,44 @@
+/// What readers make of a file: each rank a share of its points, cells and boundary faces, as they stand
+/// there.
+#pragma once
+
+#include "io/file_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io {
+
+/// The share of one rank. Shares follow each other by rank: the order of the file is that of all shares one
+/// after another. Points are known by the ids of the file: any distinct numbers from 0 to 2^62.
+struct RawMesh {
+  std::vector<double> coordinates;           ///< (n,3)
+  std::vector<mesh::GlobalIndex> point_ids;  ///< (n); a point may come several times, with the same bits
+  std::array<std::vector<mesh::GlobalIndex>, cell_shape_count>
+      cells;  ///< (m, corners) of ids, in CellShape's order
+  std::array<std::vector<std::int32_t>, cell_shape_count> cell_regions;  ///< (m)
+  std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;  ///< (k, corners) of ids, any direction
+  std::array<std::vector<std::int32_t>, face_shape_count> face_patches;  ///< (k)
+  std::vector<mesh::Patch> patches;                                      ///< the same on every rank
+  std::vector<std::string> regions;  ///< the same on every rank, one at least
+};
+
+/// Puts the shares together as a mesh with `parts` parts (0: of what suits its size), in the order of the
+/// file: part k gets the k-th share of cells and owns the k-th share of vertices. repartition() makes compact
+/// parts. Cells whose corners come in mirrored order are turned over, faces turned out of the fluid; points
+/// that no cell uses are dropped; vertices are numbered in the order of ids. Faces of cells that the file
+/// leaves open become a patch `unnamed` (between regions: REGION_to_REGION). Throws CollectiveError (input)
+/// with `path` and the place: a point that does not exist, twice the same cell corner, coordinates that are
+/// no numbers, a cell without volume, more than two cells at a face, a boundary face that belongs to no cell,
+/// no cells. Collective; the same for any number of ranks.
+struct Assembled {
+  FileMesh mesh;
+  mesh::GlobalIndex turned_cells = 0, dropped_points = 0, unnamed_faces = 0;
+};
+Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
+                   std::int32_t parts);
+
+}  // namespace aeroloom::io

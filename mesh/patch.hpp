@@ -1,0 +1,34 @@
+/// What a solver makes of a patch of the boundary.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace aeroloom::mesh {
+
+/// `interior` is no condition: faces between two regions.
+enum class PatchType : unsigned char { wall, slip, symmetry, farfield, inlet, outlet, interior };
+inline constexpr std::array<std::string_view, 7> patch_type_names = {
+    "wall", "slip", "symmetry", "farfield", "inlet", "outlet", "interior"};
+
+inline std::string_view name_of(PatchType type) {
+  return patch_type_names[static_cast<std::size_t>(type)];
+}
+/// Empty where no type has this name.
+inline std::optional<PatchType> patch_type_of(std::string_view name) {
+  for (std::size_t i = 0; i < patch_type_names.size(); ++i) {
+    if (patch_type_names[i] == name) return static_cast<PatchType>(i);
+  }
+  return std::nullopt;
+}
+
+/// A patch as solvers know it.
+struct Patch {
+  std::string name;
+  PatchType type = PatchType::wall;
+  friend bool operator==(const Patch&, const Patch&) = default;
+};
+
+}  // namespace aeroloom::mesh

@@ -1,0 +1,39 @@
+/// One file that all ranks write, each at offsets of its own.
+#pragma once
+
+#include "parallel/communicator.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace aeroloom::parallel {
+
+/// A file that write_shared_file has opened.
+class SharedFile {
+public:
+  struct Handle;
+  explicit SharedFile(Handle& handle) : _handle(handle) {}
+  /// Writes at `offset` bytes from the beginning; above 2^31 bytes too. Not collective. Throws
+  /// std::filesystem::filesystem_error with the reason.
+  void write(std::int64_t offset, std::span<const std::byte> bytes);
+  template <Transferable T>
+  void write_items(std::int64_t offset, std::span<const T> items) {
+    write(offset, std::as_bytes(items));
+  }
+
+private:
+  Handle& _handle;
+};
+
+/// Creates PATH.unfinished, and its folder where there is none, has every rank write what it has by `work`,
+/// and gives the file its name when all have succeeded. `work` calls no collectives. Whatever stood at PATH
+/// goes at the beginning, so that nothing is ever half old. Collective; throws CollectiveError (files) on all
+/// ranks and removes the unfinished file where anything fails.
+void write_shared_file(const Communicator& communicator, const std::string& path,
+                       const std::function<void(SharedFile&)>& work);
+
+}  // namespace aeroloom::parallel
