@@ -75,6 +75,7 @@ public:
 
 private:
   friend class NodeMemory;
+  friend struct HostAccess;
   const CommunicatorHandle& usable_handle() const;
   /// The number of bytes of every rank.
   std::vector<std::uint64_t> all_sizes(std::uint64_t mine) const;

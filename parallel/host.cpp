@@ -12,4 +12,19 @@ Communicator communicator_of(MPI_Comm host) {
   return Communicator(session::duplicate(host));
 }
 
+/// May look into a communicator.
+struct HostAccess {
+  static MPI_Comm handle_of(const Communicator& communicator) {
+    return communicator.usable_handle().communicator;
+  }
+};
+
+MPI_Comm host_communicator(const Communicator& communicator) {
+  return HostAccess::handle_of(communicator);
+}
+
+MPI_Info no_hints() {
+  return MPI_INFO_NULL;
+}
+
 }  // namespace aeroloom::parallel

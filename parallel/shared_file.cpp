@@ -1,0 +1,97 @@
+#include "parallel/shared_file.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/host.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace aeroloom::parallel {
+
+namespace fs = std::filesystem;
+
+struct SharedFile::Handle {
+  std::string path;
+  MPI_File file = MPI_FILE_NULL;
+};
+
+namespace {
+
+/// Counts of the library are 32-bit.
+constexpr std::size_t largest_part = std::size_t{1} << 28;
+
+void require_success(int code, const char* what, const std::string& path) {
+  if (code == MPI_SUCCESS) return;
+  std::array<char, MPI_MAX_ERROR_STRING + 1> text{};
+  int length = 0, error_class = 0;
+  MPI_Error_string(code, text.data(), &length);
+  MPI_Error_class(code, &error_class);
+  const auto reason = error_class == MPI_ERR_NO_SPACE ? std::errc::no_space_on_device
+                      : error_class == MPI_ERR_ACCESS ? std::errc::permission_denied
+                      : error_class == MPI_ERR_QUOTA  ? std::errc::no_space_on_device
+                                                      : std::errc::io_error;
+  throw fs::filesystem_error(fmt::format("{} ({})", what, text.data()), path, std::make_error_code(reason));
+}
+
+/// An empty place, and a folder for it.
+void prepare(const std::string& path, const std::string& unfinished) {
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty()) fs::create_directories(folder);
+  fs::remove(path);
+  fs::remove(unfinished);
+}
+
+}  // namespace
+
+void SharedFile::write(std::int64_t offset, std::span<const std::byte> bytes) {
+  for (std::size_t begin = 0; begin < bytes.size(); begin += largest_part) {
+    const std::size_t count = std::min(largest_part, bytes.size() - begin);
+    MPI_Status status;
+    require_success(MPI_File_write_at(_handle.file, offset + static_cast<std::int64_t>(begin),
+                                      bytes.data() + begin, static_cast<int>(count), MPI_BYTE, &status),
+                    "cannot write", _handle.path);
+    int written = 0;
+    MPI_Get_count(&status, MPI_BYTE, &written);
+    if (static_cast<std::size_t>(written) != count) {
+      throw fs::filesystem_error(fmt::format("wrote {} of {} bytes", written, count), _handle.path,
+                                 std::make_error_code(std::errc::no_space_on_device));
+    }
+  }
+}
+
+void write_shared_file(const Communicator& communicator, const std::string& path,
+                       const std::function<void(SharedFile&)>& work) {
+  SharedFile::Handle handle{path + ".unfinished", MPI_FILE_NULL};
+  agree(communicator, [&] {
+    if (communicator.is_root()) prepare(path, handle.path);
+  });
+  const int opened = MPI_File_open(host_communicator(communicator), handle.path.c_str(),
+                                   MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &handle.file);
+  agree(communicator, [&] { require_success(opened, "cannot create", handle.path); });
+  try {
+    agree(communicator, [&] {
+      SharedFile file(handle);
+      work(file);
+    });
+  } catch (const CollectiveError&) {
+    MPI_File_close(&handle.file);
+    if (communicator.is_root()) {
+      std::error_code ignored;
+      fs::remove(handle.path, ignored);
+    }
+    communicator.barrier();
+    throw;
+  }
+  const int closed = MPI_File_close(&handle.file);
+  agree(communicator, [&] { require_success(closed, "cannot close", handle.path); });
+  agree(communicator, [&] {
+    if (communicator.is_root()) fs::rename(handle.path, path);
+  });
+}
+
+}  // namespace aeroloom::parallel

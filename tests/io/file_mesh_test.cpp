@@ -1,0 +1,109 @@
+#include "io/file_mesh.hpp"
+
+#include "io/face_links.hpp"
+#include "tests/io/mixed_mesh.hpp"
+#include "tests/mesh/meshes.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::io {
+namespace {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using parallel::Communicator;
+
+/// Of all cells, by the divergence integral over their faces.
+double volume_of(const FilePart& part, CellShape shape, LocalIndex cell) {
+  const LocalIndex* v = part.cells[static_cast<std::size_t>(shape)].item(cell);
+  double volume = 0;
+  for (const CellFace& face : faces_of(shape)) {
+    const geometry::Vec3 a = part.point(v[face[0]]);
+    for (int k = 1; k + 1 < (face[3] < 0 ? 3 : 4); ++k)
+      volume += dot(a, cross(part.point(v[face[k]]) - a, part.point(v[face[k + 1]]) - a)) / 6;
+  }
+  return volume;
+}
+
+TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  EXPECT_EQ(mesh.cell_count(CellShape::prism), 32);
+  EXPECT_EQ(mesh.cell_count(CellShape::pyramid), 20);
+  EXPECT_EQ(mesh.cell_count(CellShape::tetrahedron), 96 + 8);
+  EXPECT_EQ(mesh.region_cells[1][0], 96);
+  EXPECT_EQ(mesh.vertex_count, 25 * 3 + 10 + 4);
+  EXPECT_EQ(mesh.patch_faces[examples::MixedMesh::interface][0], 32);
+  GlobalIndex owned = 0;
+  double volume = 0;
+  for (const FilePart& part : mesh.parts) {
+    owned += part.owned_count;
+    for (const CellShape shape : cell_shapes) {
+      for (LocalIndex c = 0; c < part.cells[static_cast<std::size_t>(shape)].count(); ++c) {
+        const double of_cell = volume_of(part, shape, c);
+        EXPECT_GT(of_cell, 0);
+        volume += of_cell;
+      }
+    }
+  }
+  EXPECT_EQ(world.sum(owned), mesh.vertex_count);
+  const double determinant = 2 * 1.5 + 0.25 * 0.125 * 0.0625;
+  EXPECT_NEAR(world.sum(volume), 36 * determinant, 1e-9);
+}
+
+TEST(FileMesh, LinksAreMutualAndLeaveNothingOpen) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
+  const FaceLinks links = link_faces(world, mesh);
+  EXPECT_EQ(links.defects.crowded_faces + links.defects.stray_faces + links.defects.repeated_faces, 0);
+  EXPECT_EQ(links.defects.open_faces, 0);
+  GlobalIndex inner = 0, boundary = 0, both = 0;
+  for (const PartLinks& part : links.parts) {
+    for (std::size_t s = 0; s < part.behind.size(); ++s) {
+      const bool bounded = part.boundary_face[s] >= 0, linked = part.behind[s].exists();
+      EXPECT_TRUE(bounded || linked);
+      inner += linked ? 1 : 0;
+      boundary += bounded && !linked ? 1 : 0;
+      both += bounded && linked ? 1 : 0;
+    }
+  }
+  const GlobalIndex sides = 4 * mesh.cell_count(CellShape::tetrahedron) +
+                            5 * (mesh.cell_count(CellShape::pyramid) + mesh.cell_count(CellShape::prism));
+  EXPECT_EQ(world.sum(inner + boundary), sides);
+  EXPECT_EQ(world.sum(boundary),
+            mesh.boundary_count(FaceShape::triangle) + mesh.boundary_count(FaceShape::quadrilateral));
+  EXPECT_GE(world.sum(both), mesh.patch_faces[examples::MixedMesh::interface][0]);
+}
+
+TEST(FileMesh, PiecesBecomePartsWithoutCopies) {
+  const Communicator world = Communicator::world();
+  const mesh::DistributedMesh pieces = mesh::examples::two_tets(world);
+  const mesh::Numbering numbering = mesh::number_mesh(world, pieces);
+  const FileMesh mesh = file_mesh_of(world, pieces, numbering);
+  EXPECT_EQ(mesh.part_count, 2);
+  EXPECT_EQ(mesh.vertex_count, 5);
+  EXPECT_EQ(mesh.cell_count(), 2);
+  EXPECT_EQ(mesh.boundary_count(FaceShape::triangle), 6);
+  ASSERT_EQ(mesh.patches.size(), 1U);
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    EXPECT_EQ(mesh.parts[i].coordinates.data(), pieces.pieces[i].coordinates.data());
+    EXPECT_EQ(mesh.parts[i].cells[0].before, mesh.parts[i].id);
+    EXPECT_EQ(mesh.parts[i].faces[0].runs[0].before, 3 * mesh.parts[i].id);
+  }
+}
+
+TEST(FileMesh, BrokenArraysAreRefusedEverywhere) {
+  const Communicator world = Communicator::world();
+  std::vector<OwnedPart> mine;
+  if (world.is_root()) {
+    mine.push_back({0, std::make_unique<PartArrays>()});
+    mine[0].arrays->cells[0] = {0, 1, 2, 3};
+    mine[0].arrays->cell_regions[0] = {0};
+  }
+  EXPECT_THROW(make_file_mesh(world, 1, std::move(mine), {}, {"fluid"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace aeroloom::io
