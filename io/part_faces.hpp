@@ -35,6 +35,15 @@ FaceKey<Index> corners_at(const CellFace& face, const Index* cell) {
   return corners;
 }
 
+/// Whether two ways round the same corners have the same direction.
+template <class Index>
+bool same_direction(const FaceKey<Index>& a, const FaceKey<Index>& b) {
+  const std::size_t corners = a[3] < 0 ? 3 : 4;
+  std::size_t at = 0;
+  while (at < corners && b[at] != a[0]) ++at;
+  return b[(at + 1) % corners] == a[1];
+}
+
 /// One that has the face: a side of a cell (cell and side), or a boundary face (side -1 and its number).
 struct FaceUser {
   mesh::LocalIndex item = -1;
@@ -114,6 +123,18 @@ public:
         sink(FaceKey<mesh::LocalIndex>{v[0], v[1], v[2], block.corners == 4 ? v[3] : -1}, face);
       }
     }
+  }
+
+  FaceKey<mesh::LocalIndex> side(mesh::LocalIndex cell, std::int32_t side) const {
+    const CellOfPart place = cell_of(_part, cell);
+    return corners_at(faces_of(place.shape)[static_cast<std::size_t>(side)],
+                      _part.cells[static_cast<std::size_t>(place.shape)].item(place.index));
+  }
+  FaceKey<mesh::LocalIndex> face(mesh::LocalIndex face) const {
+    const bool triangle = face < _part.faces[0].count();
+    const mesh::LocalIndex* v =
+        triangle ? _part.faces[0].item(face) : _part.faces[1].item(face - _part.faces[0].count());
+    return {v[0], v[1], v[2], triangle ? -1 : v[3]};
   }
 
 private:

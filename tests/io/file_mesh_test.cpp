@@ -105,5 +105,46 @@ TEST(FileMesh, BrokenArraysAreRefusedEverywhere) {
   EXPECT_THROW(make_file_mesh(world, 1, std::move(mine), {}, {"fluid"}), std::runtime_error);
 }
 
+/// Volumes by region and shape.
+std::vector<double> volumes(const Communicator& world, const FileMesh& mesh) {
+  std::vector<double> sums(3 * mesh.regions.size(), 0);
+  for (const FilePart& part : mesh.parts) {
+    for (const CellShape shape : cell_shapes) {
+      for (const Run& run : part.cells[static_cast<std::size_t>(shape)].runs) {
+        for (LocalIndex c = run.begin; c < run.end; ++c)
+          sums[static_cast<std::size_t>(3 * run.id + static_cast<int>(shape))] += volume_of(part, shape, c);
+      }
+    }
+  }
+  for (double& sum : sums) sum = world.sum(sum);
+  return sums;
+}
+
+TEST(FileMesh, RepartitionedMeshIsTheSameMesh) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  for (const auto& [parts, by_region] : {std::pair(1, false), {2, false}, {7, false}, {4, true}}) {
+    const FileMesh cut = repartition(world, mesh, parts, by_region);
+    EXPECT_EQ(cut.part_count, parts);
+    EXPECT_EQ(cut.vertex_count, mesh.vertex_count);
+    EXPECT_EQ(cut.region_cells, mesh.region_cells);
+    EXPECT_EQ(cut.patch_faces, mesh.patch_faces);
+    const auto before = volumes(world, mesh), after = volumes(world, cut);
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-9);
+    const FaceLinks links = link_faces(world, cut);
+    EXPECT_EQ(links.defects.open_faces + links.defects.stray_faces + links.defects.crowded_faces, 0);
+    for (const FilePart& part : cut.parts) {
+      EXPECT_NEAR(static_cast<double>(part.cell_count()), static_cast<double>(mesh.cell_count()) / parts,
+                  by_region ? 40 : 1.5);
+      if (!by_region) continue;
+      std::set<std::int32_t> regions;
+      for (const Block& block : part.cells) {
+        for (const auto& run : block.runs) regions.insert(run.id);
+      }
+      EXPECT_EQ(regions.size(), 1U);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aeroloom::io

@@ -1,0 +1,130 @@
+#include "io/point_store.hpp"
+
+#include "mesh/delivery.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace aeroloom::io {
+
+using mesh::GlobalIndex;
+
+parallel::Rank KeyRanges::rank_of(GlobalIndex key) const {
+  const auto found = std::upper_bound(first.begin(), first.end() - 1, key);
+  return static_cast<parallel::Rank>(std::max<std::ptrdiff_t>(1, found - first.begin()) - 1);
+}
+
+KeyRanges even_ranges(int ranks, GlobalIndex limit) {
+  KeyRanges ranges;
+  const GlobalIndex width = limit / ranks + 1;
+  for (int r = 0; r <= ranks; ++r) ranges.first.push_back(width * r);
+  return ranges;
+}
+
+GlobalIndex lowest_of_all(const parallel::Communicator& communicator, GlobalIndex mine) {
+  constexpr GlobalIndex none = std::numeric_limits<GlobalIndex>::max();
+  const GlobalIndex lowest = communicator.minimum(static_cast<std::int64_t>(mine < 0 ? none : mine));
+  return lowest == none ? -1 : lowest;
+}
+
+PointStore::PointStore(const parallel::Communicator& communicator, KeyRanges ranges,
+                       std::vector<KeyedPoint> points)
+    : _communicator(communicator), _ranges(std::move(ranges)) {
+  _points = mesh::deliver(communicator, std::move(points),
+                          [&](const KeyedPoint& point) { return _ranges.rank_of(point.key); });
+  std::stable_sort(_points.begin(), _points.end(),
+                   [](const KeyedPoint& a, const KeyedPoint& b) { return a.key < b.key; });
+  std::size_t kept = 0;
+  for (const KeyedPoint& point : _points) {
+    if (kept > 0 && _points[kept - 1].key == point.key) {
+      const bool equal = std::memcmp(_points[kept - 1].at.data(), point.at.data(), sizeof point.at) == 0;
+      if (!equal && _clash < 0) _clash = point.key;
+    } else {
+      _points[kept++] = point;
+    }
+  }
+  _points.resize(kept);
+  _clash = lowest_of_all(communicator, _clash);
+  _count = communicator.sum(static_cast<std::int64_t>(kept));
+}
+
+std::vector<PointStore::Question> PointStore::ask(const std::vector<GlobalIndex>& keys) const {
+  std::vector<Question> questions;
+  questions.reserve(keys.size());
+  for (const GlobalIndex key : keys) questions.push_back({key, _communicator.rank()});
+  return mesh::deliver(_communicator, std::move(questions),
+                       [&](const Question& question) { return _ranges.rank_of(question.key); });
+}
+
+std::int64_t PointStore::position(GlobalIndex key) const {
+  const auto found =
+      std::lower_bound(_points.begin(), _points.end(), key,
+                       [](const KeyedPoint& point, GlobalIndex wanted) { return point.key < wanted; });
+  return found != _points.end() && found->key == key ? found - _points.begin() : -1;
+}
+
+// Ranges ascend with ranks, and each rank answers in the order it was asked: answers arrive in the order of
+// the keys.
+PointStore::Found PointStore::fetch(const std::vector<GlobalIndex>& keys) const {
+  struct Answer {
+    std::array<double, 3> at;
+    std::int64_t rank;
+  };
+  Found found;
+  std::vector<Answer> answers;
+  for (const Question& question : ask(keys)) {
+    const std::int64_t at = position(question.key);
+    if (at < 0 && (found.missing < 0 || question.key < found.missing)) found.missing = question.key;
+    if (at >= 0) answers.push_back({_points[at].at, question.rank});
+  }
+  const auto arrived = mesh::deliver(_communicator, std::move(answers), [](const Answer& answer) {
+    return static_cast<parallel::Rank>(answer.rank);
+  });
+  found.points.reserve(arrived.size());
+  for (const Answer& answer : arrived) found.points.push_back(answer.at);
+  found.missing = lowest_of_all(_communicator, found.missing);
+  return found;
+}
+
+std::vector<GlobalIndex> PointStore::number(const std::vector<GlobalIndex>& keys) {
+  struct Answer {
+    GlobalIndex number;
+    std::int64_t rank;
+  };
+  const std::vector<Question> questions = ask(keys);
+  std::vector<GlobalIndex> numbers(_points.size(), -1);
+  for (const Question& question : questions) {
+    if (const std::int64_t at = position(question.key); at >= 0) numbers[at] = 0;
+  }
+  const auto used = static_cast<GlobalIndex>(std::count(numbers.begin(), numbers.end(), 0));
+  GlobalIndex next = _communicator.exclusive_scan(used);
+  for (GlobalIndex& number : numbers) {
+    if (number == 0) number = next++;
+  }
+  std::vector<Answer> answers;
+  answers.reserve(questions.size());
+  for (const Question& question : questions) {
+    const std::int64_t at = position(question.key);
+    answers.push_back({at < 0 ? -1 : numbers[at], question.rank});
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < _points.size(); ++i) {
+    if (numbers[i] >= 0) _points[kept++] = {numbers[i], _points[i].at};
+  }
+  _points.resize(kept);
+  const std::vector<GlobalIndex> first{next - used};
+  _ranges.first = _communicator.all_gather_items(std::span<const GlobalIndex>(first));
+  _count = _communicator.sum(static_cast<std::int64_t>(kept));
+  _ranges.first.push_back(_count);
+  std::vector<GlobalIndex> result;
+  result.reserve(keys.size());
+  for (const Answer& answer : mesh::deliver(_communicator, std::move(answers), [](const Answer& item) {
+         return static_cast<parallel::Rank>(item.rank);
+       }))
+    result.push_back(answer.number);
+  return result;
+}
+
+}  // namespace aeroloom::io
