@@ -88,42 +88,50 @@ PointStore::Found PointStore::fetch(const std::vector<GlobalIndex>& keys) const 
   return found;
 }
 
-std::vector<GlobalIndex> PointStore::number(const std::vector<GlobalIndex>& keys) {
+/// Numbers by position, to those who asked for them.
+std::vector<GlobalIndex> PointStore::answer(const std::vector<Question>& questions,
+                                            const std::vector<GlobalIndex>& numbers) const {
   struct Answer {
     GlobalIndex number;
     std::int64_t rank;
   };
-  const std::vector<Question> questions = ask(keys);
-  std::vector<GlobalIndex> numbers(_points.size(), -1);
-  for (const Question& question : questions) {
-    if (const std::int64_t at = position(question.key); at >= 0) numbers[at] = 0;
-  }
-  const auto used = static_cast<GlobalIndex>(std::count(numbers.begin(), numbers.end(), 0));
-  GlobalIndex next = _communicator.exclusive_scan(used);
-  for (GlobalIndex& number : numbers) {
-    if (number == 0) number = next++;
-  }
   std::vector<Answer> answers;
   answers.reserve(questions.size());
   for (const Question& question : questions) {
     const std::int64_t at = position(question.key);
     answers.push_back({at < 0 ? -1 : numbers[at], question.rank});
   }
+  std::vector<GlobalIndex> result;
+  for (const Answer& item : mesh::deliver(_communicator, std::move(answers), [](const Answer& answer) {
+         return static_cast<parallel::Rank>(answer.rank);
+       }))
+    result.push_back(item.number);
+  return result;
+}
+
+PointStore::Numbers PointStore::number(const std::vector<GlobalIndex>& used,
+                                       const std::vector<GlobalIndex>& others) {
+  const std::vector<Question> questions = ask(used);
+  std::vector<GlobalIndex> numbers(_points.size(), -1);
+  for (const Question& question : questions) {
+    if (const std::int64_t at = position(question.key); at >= 0) numbers[at] = 0;
+  }
+  const auto mine = static_cast<GlobalIndex>(std::count(numbers.begin(), numbers.end(), 0));
+  const GlobalIndex first = _communicator.exclusive_scan(mine);
+  GlobalIndex next = first;
+  for (GlobalIndex& number : numbers) {
+    if (number == 0) number = next++;
+  }
+  Numbers result{answer(questions, numbers), answer(ask(others), numbers)};
   std::size_t kept = 0;
   for (std::size_t i = 0; i < _points.size(); ++i) {
     if (numbers[i] >= 0) _points[kept++] = {numbers[i], _points[i].at};
   }
   _points.resize(kept);
-  const std::vector<GlobalIndex> first{next - used};
-  _ranges.first = _communicator.all_gather_items(std::span<const GlobalIndex>(first));
-  _count = _communicator.sum(static_cast<std::int64_t>(kept));
+  const std::vector<GlobalIndex> here{first};
+  _ranges.first = _communicator.all_gather_items(std::span<const GlobalIndex>(here));
+  _count = _communicator.sum(mine);
   _ranges.first.push_back(_count);
-  std::vector<GlobalIndex> result;
-  result.reserve(keys.size());
-  for (const Answer& answer : mesh::deliver(_communicator, std::move(answers), [](const Answer& item) {
-         return static_cast<parallel::Rank>(item.rank);
-       }))
-    result.push_back(answer.number);
   return result;
 }
 

@@ -37,9 +37,13 @@ public:
   };
   Found fetch(const std::vector<mesh::GlobalIndex>& keys) const;
 
-  /// Numbers the points that anyone asks for, in the order of their keys, and drops the others; their numbers
-  /// become their keys. Returns the numbers of `keys` (as in fetch; -1 where there is no point). Collective.
-  std::vector<mesh::GlobalIndex> number(const std::vector<mesh::GlobalIndex>& keys);
+  /// Numbers the points that anyone names among `used`, in the order of their keys, and drops the others;
+  /// their numbers become their keys. Returns the numbers of `used` and of `others` (both as in fetch; -1
+  /// where there is no such point any more). Collective.
+  struct Numbers {
+    std::vector<mesh::GlobalIndex> used, others;
+  };
+  Numbers number(const std::vector<mesh::GlobalIndex>& used, const std::vector<mesh::GlobalIndex>& others);
 
   mesh::GlobalIndex clash() const { return _clash; }
   mesh::GlobalIndex count() const { return _count; }               ///< of all ranks
@@ -52,6 +56,8 @@ private:
   };
   std::vector<Question> ask(const std::vector<mesh::GlobalIndex>& keys) const;
   std::int64_t position(mesh::GlobalIndex key) const;
+  std::vector<mesh::GlobalIndex> answer(const std::vector<Question>& questions,
+                                        const std::vector<mesh::GlobalIndex>& numbers) const;
 
   parallel::Communicator _communicator;
   KeyRanges _ranges;

@@ -27,16 +27,18 @@ struct RawMesh {
 };
 
 /// Puts the shares together as a mesh with `parts` parts (0: of what suits its size), in the order of the
-/// file: part k gets the k-th share of cells and owns the k-th share of vertices. repartition() makes compact
-/// parts. Cells whose corners come in mirrored order are turned over, faces turned out of the fluid; points
-/// that no cell uses are dropped; vertices are numbered in the order of ids. Faces of cells that the file
-/// leaves open become a patch `unnamed` (between regions: REGION_to_REGION). Throws CollectiveError (input)
-/// with `path` and the place: a point that does not exist, twice the same cell corner, coordinates that are
-/// no numbers, a cell without volume, more than two cells at a face, a boundary face that belongs to no cell,
-/// no cells. Collective; the same for any number of ranks.
+/// file: part k gets the k-th share of cells (tetrahedra first, then pyramids, then prisms) and owns the k-th
+/// share of vertices. repartition() makes compact parts. Cells whose corners come in mirrored order are
+/// turned over, faces turned out of the fluid; points that no cell uses are dropped; vertices are numbered in
+/// the order of ids. Faces of cells that the file leaves open become patches `boundary_of_REGION` or
+/// `REGION_to_REGION`. Throws CollectiveError (input) with `path` and the place: a point that does not exist
+/// or comes twice with different coordinates, a corner twice, coordinates that are no numbers, a tetrahedron
+/// without volume, cells that do not conform, no cells at all. Collective; the same for any number of ranks.
 struct Assembled {
   FileMesh mesh;
-  mesh::GlobalIndex turned_cells = 0, dropped_points = 0, unnamed_faces = 0;
+  mesh::GlobalIndex turned_cells = 0, dropped_points = 0;
+  mesh::GlobalIndex unnamed_faces = 0;   ///< without a patch in the file
+  mesh::GlobalIndex left_out_faces = 0;  ///< inside a region, of no cell, or given twice
 };
 Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
                    std::int32_t parts);

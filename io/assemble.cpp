@@ -1,0 +1,298 @@
+#include "io/part_items.hpp"
+#include "io/point_store.hpp"
+#include "io/raw_faces.hpp"
+#include "io/raw_mesh.hpp"
+#include "mesh/quality.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+
+/// Cells of a part where nothing else decides.
+constexpr GlobalIndex suitable_part_cells = 250'000;
+constexpr GlobalIndex largest_id = GlobalIndex{1} << 62;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw parallel::CollectiveError(parallel::FailureKind::input, fmt::format("'{}': {}", path, what));
+}
+
+void require_ids(const std::vector<GlobalIndex>& ids, const char* whose) {
+  for (const GlobalIndex id : ids) {
+    if (id < 0 || id > largest_id) throw std::runtime_error(fmt::format("{} refers to point {}", whose, id));
+  }
+}
+
+template <class Ids>
+void require_names(const Ids& ids, std::size_t count, const char* what) {
+  for (const std::int32_t id : ids) {
+    if (id < 0 || static_cast<std::size_t>(id) >= count)
+      throw std::logic_error(fmt::format("{} {}", what, id));
+  }
+}
+
+/// What can be said of a share alone.
+void require_sound(const RawMesh& raw) {
+  if (raw.coordinates.size() != 3 * raw.point_ids.size()) throw std::logic_error("points and ids differ");
+  require_ids(raw.point_ids, "a point");
+  for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {
+    if (!std::isfinite(raw.coordinates[i]))
+      throw std::runtime_error(fmt::format("a coordinate of point {} is no number", raw.point_ids[i / 3]));
+  }
+  for (const CellShape shape : cell_shapes) {
+    const auto s = static_cast<std::size_t>(shape);
+    const auto n = static_cast<std::size_t>(corners_of(shape));
+    if (raw.cells[s].size() != n * raw.cell_regions[s].size())
+      throw std::logic_error("cells and regions differ");
+    require_ids(raw.cells[s], "a cell");
+    require_names(raw.cell_regions[s], raw.regions.size(), "there is no region");
+    for (std::size_t c = 0; c < raw.cells[s].size(); c += n) {
+      for (std::size_t i = 0; i < n * n; ++i) {
+        if (i / n < i % n && raw.cells[s][c + i / n] == raw.cells[s][c + i % n])
+          throw std::runtime_error(fmt::format("a cell has point {} twice", raw.cells[s][c + i / n]));
+      }
+    }
+  }
+  for (const FaceShape shape : face_shapes) {
+    const auto s = static_cast<std::size_t>(shape);
+    if (raw.faces[s].size() != static_cast<std::size_t>(corners_of(shape)) * raw.face_patches[s].size())
+      throw std::logic_error("faces and patches differ");
+    require_ids(raw.faces[s], "a boundary face");
+    require_names(raw.face_patches[s], raw.patches.size(), "there is no patch");
+  }
+}
+
+/// What comes before the share of this rank, and totals.
+struct CellPlaces {
+  std::array<GlobalIndex, cell_shape_count> first{};  ///< among all cells: tetrahedra, pyramids, prisms
+  GlobalIndex total = 0;
+};
+
+CellPlaces place_cells(const parallel::Communicator& communicator, const RawMesh& raw) {
+  CellPlaces places;
+  for (std::size_t s = 0; s < cell_shape_count; ++s) {
+    const auto mine = static_cast<std::int64_t>(raw.cell_regions[s].size());
+    places.first[s] = places.total + communicator.exclusive_scan(mine);
+    places.total += communicator.sum(mine);
+  }
+  return places;
+}
+
+/// The ids that cells of the share use, ascending.
+std::vector<GlobalIndex> used_ids(const RawMesh& raw) {
+  std::vector<GlobalIndex> used;
+  for (const auto& cells : raw.cells) used.insert(used.end(), cells.begin(), cells.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  used.shrink_to_fit();
+  return used;
+}
+
+template <std::size_t N>
+geometry::Vec3 at(const std::vector<std::array<double, 3>>& points, const std::array<LocalIndex, N>& corners,
+                  std::size_t k) {
+  const auto& p = points[static_cast<std::size_t>(corners[k])];
+  return {p[0], p[1], p[2]};
+}
+
+/// Six times the volume, by the divergence integral over the faces seen from the first corner.
+template <std::size_t N>
+double volume6(CellShape shape, const std::vector<std::array<double, 3>>& points,
+               const std::array<LocalIndex, N>& corners) {
+  const geometry::Vec3 origin = at(points, corners, 0);
+  const auto seen = [&](std::int8_t k) { return at(points, corners, static_cast<std::size_t>(k)) - origin; };
+  double volume = 0;
+  for (const CellFace& face : faces_of(shape)) {
+    volume += dot(seen(face[0]), cross(seen(face[1]), seen(face[2])));
+    if (face[3] >= 0) volume += dot(seen(face[0]), cross(seen(face[2]), seen(face[3])));
+  }
+  return volume;
+}
+
+/// The corners of the mirror image.
+template <std::size_t N>
+void turn_over(std::array<LocalIndex, N>& c) {
+  if constexpr (N == 4) std::swap(c[0], c[1]);
+  if constexpr (N == 5) std::swap(c[1], c[3]);
+  if constexpr (N == 6) std::swap(c[1], c[2]), std::swap(c[4], c[5]);
+}
+
+/// The share of a rank on its way from ids to numbers.
+class ShareBuilder {
+public:
+  ShareBuilder(const RawMesh& raw, const std::vector<GlobalIndex>& ids,
+               const std::vector<std::array<double, 3>>& points)
+      : _raw(raw), _ids(ids), _points(points) {}
+
+  void add_cells(const CellPlaces& places, std::int32_t parts, NumberedShare& share, PartItems& items) {
+    for_each_cell_shape([&](auto s) {
+      constexpr std::size_t n = s + 4;
+      const std::vector<GlobalIndex>& ids = _raw.cells[s];
+      auto& out = std::get<s>(items.cells);
+      out.reserve(ids.size() / n);
+      share.cells[s].reserve(ids.size());
+      for (std::size_t c = 0; c < ids.size(); c += n) {
+        std::array<LocalIndex, n> corners;
+        for (std::size_t k = 0; k < n; ++k) corners[k] = place(ids[c + k]);
+        require_volume<n>(cell_shapes[s], corners, ids[c]);
+        share.cells[s].insert(share.cells[s].end(), corners.begin(), corners.end());
+        const GlobalIndex order = places.first[s] + static_cast<GlobalIndex>(c / n);
+        const auto part =
+            static_cast<std::int32_t>(static_cast<double>(order) / static_cast<double>(places.total) * parts);
+        const std::int32_t region = _raw.cell_regions[s][c / n];
+        share.parts[s].push_back(std::min(part, parts - 1));
+        PartItem<n>& item = out.emplace_back();
+        for (std::size_t k = 0; k < n; ++k) item.corners[k] = share.numbers[corners[k]];
+        item.order = order;
+        item.part = share.parts[s].back();
+        item.id = region;
+      }
+      share.regions[s] = _raw.cell_regions[s];
+    });
+  }
+
+  GlobalIndex turned = 0;
+
+private:
+  LocalIndex place(GlobalIndex id) const {
+    return static_cast<LocalIndex>(std::lower_bound(_ids.begin(), _ids.end(), id) - _ids.begin());
+  }
+
+  template <std::size_t N>
+  void require_volume(CellShape shape, std::array<LocalIndex, N>& corners, GlobalIndex first) {
+    const double volume = volume6(shape, _points, corners);
+    if (volume < 0) turn_over(corners), ++turned;
+    if (volume != 0) return;
+    const geometry::Vec3 p = at(_points, corners, 0);
+    throw std::runtime_error(
+        fmt::format("a cell at point {} ({:.10g}, {:.10g}, {:.10g}) has no volume", first, p.x, p.y, p.z));
+  }
+
+  const RawMesh& _raw;
+  const std::vector<GlobalIndex>& _ids;
+  const std::vector<std::array<double, 3>>& _points;
+};
+
+/// The ids that faces of the share use, ascending.
+std::vector<GlobalIndex> face_ids(const RawMesh& raw) {
+  std::vector<GlobalIndex> ids;
+  for (const auto& faces : raw.faces) ids.insert(ids.end(), faces.begin(), faces.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// The faces of the file by numbers. Those with a point that no cell uses belong to no cell: they are left
+/// out, and counted.
+GlobalIndex number_faces(const RawMesh& raw, const std::vector<GlobalIndex>& ids,
+                         const std::vector<GlobalIndex>& numbers, NumberedShare& share) {
+  GlobalIndex left_out = 0;
+  for (const FaceShape shape : face_shapes) {
+    const auto s = static_cast<std::size_t>(shape);
+    const auto n = static_cast<std::size_t>(corners_of(shape));
+    for (std::size_t f = 0; f < raw.face_patches[s].size(); ++f) {
+      const std::size_t before = share.faces[s].size();
+      bool complete = true;
+      for (std::size_t k = 0; k < n; ++k) {
+        const auto at = std::lower_bound(ids.begin(), ids.end(), raw.faces[s][n * f + k]) - ids.begin();
+        share.faces[s].push_back(numbers[at]);
+        complete = complete && numbers[at] >= 0;
+      }
+      if (complete) {
+        share.patches[s].push_back(raw.face_patches[s][f]);
+      } else {
+        share.faces[s].resize(before);
+        ++left_out;
+      }
+    }
+  }
+  return left_out;
+}
+
+PointStore store_points(const parallel::Communicator& communicator, RawMesh& raw, const std::string& path) {
+  GlobalIndex limit = 0;
+  for (const GlobalIndex id : raw.point_ids) limit = std::max(limit, id + 1);
+  for (const auto& cells : raw.cells) {
+    for (const GlobalIndex id : cells) limit = std::max(limit, id + 1);
+  }
+  limit = communicator.maximum(limit);
+  std::vector<KeyedPoint> points(raw.point_ids.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double* p = raw.coordinates.data() + 3 * i;
+    points[i] = {raw.point_ids[i], {p[0], p[1], p[2]}};
+  }
+  raw.coordinates = {};
+  raw.point_ids = {};
+  PointStore store(communicator, even_ranges(communicator.size(), limit), std::move(points));
+  if (store.clash() >= 0)
+    refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));
+  return store;
+}
+
+std::int32_t suitable_parts(GlobalIndex cells) {
+  return static_cast<std::int32_t>(
+      std::max<GlobalIndex>(1, (cells + suitable_part_cells / 2) / suitable_part_cells));
+}
+
+/// Runs what one share alone may find wrong. Collective.
+template <class Work>
+void agree_on(const parallel::Communicator& communicator, const std::string& path, const Work& work) {
+  parallel::agree(communicator, [&] {
+    try {
+      work();
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("'{}': {}", path, error.what()));
+    }
+  });
+}
+
+}  // namespace
+
+Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
+                   std::int32_t parts) {
+  agree_on(communicator, path, [&] { require_sound(raw); });
+  const CellPlaces places = place_cells(communicator, raw);
+  if (places.total == 0) refuse(path, "there are no tetrahedra, pyramids or prisms in it");
+  if (parts <= 0) parts = suitable_parts(places.total);
+  Assembled result;
+  PointStore store = store_points(communicator, raw, path);
+  const GlobalIndex in_file = store.count();
+  const std::vector<GlobalIndex> ids = used_ids(raw);
+  PartItems items;
+  NumberedShare share;
+  {
+    const PointStore::Found found = store.fetch(ids);
+    if (found.missing >= 0)
+      refuse(path, fmt::format("a cell refers to point {}, which there is not", found.missing));
+    const std::vector<GlobalIndex> of_faces = face_ids(raw);
+    PointStore::Numbers numbers = store.number(ids, of_faces);
+    share.numbers = std::move(numbers.used);
+    result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
+    ShareBuilder builder(raw, ids, found.points);
+    agree_on(communicator, path, [&] { builder.add_cells(places, parts, share, items); });
+    result.turned_cells = communicator.sum(builder.turned);
+  }
+  result.dropped_points = in_file - store.count();
+  raw.cells = {}, raw.faces = {};
+  MatchedFaces matched = match_boundary(communicator, share, std::move(raw.patches), raw.regions, path);
+  share = {};
+  result.unnamed_faces = matched.unnamed;
+  result.left_out_faces += matched.left_out;
+  items.faces = std::move(matched.items);
+  result.mesh = build_parts(communicator, std::move(items), store, parts, Ownership::by_number,
+                            std::move(matched.patches), std::move(raw.regions));
+  return result;
+}
+
+}  // namespace aeroloom::io

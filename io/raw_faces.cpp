@@ -1,0 +1,270 @@
+#include "io/raw_faces.hpp"
+
+#include "io/part_faces.hpp"
+#include "mesh/delivery.hpp"
+#include "mesh/mixing.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+
+constexpr std::int32_t none = -1;
+
+/// What comes to a face: a side of a cell (region and part), or a face of the file (patch and order).
+struct Comer {
+  FaceKey<GlobalIndex> key, corners;
+  GlobalIndex order;          ///< of a face of the file
+  std::int32_t region, part;  ///< of a cell
+  std::int32_t patch;         ///< of a face of the file
+  std::int32_t unused;
+
+  bool is_cell() const { return region != none; }
+};
+
+/// The cells of a share, for match_faces.
+class ShareFaces {
+public:
+  explicit ShareFaces(const NumberedShare& share) : _share(share) {}
+
+  template <class Sink>
+  void for_each_side(const Sink& sink) const {
+    LocalIndex cell = 0;
+    for (const CellShape shape : cell_shapes) {
+      const auto& corners = _share.cells[static_cast<std::size_t>(shape)];
+      for (std::size_t i = 0; i < corners.size(); i += static_cast<std::size_t>(corners_of(shape)), ++cell) {
+        std::int32_t side = 0;
+        for (const CellFace& face : faces_of(shape)) sink(corners_at(face, corners.data() + i), cell, side++);
+      }
+    }
+  }
+  template <class Sink>
+  void for_each_face(const Sink&) const {}
+
+  Comer comer(const FaceUser& user) const {
+    LocalIndex cell = user.item;
+    std::size_t s = 0;
+    while (cell >= static_cast<LocalIndex>(_share.regions[s].size()))
+      cell -= static_cast<LocalIndex>(_share.regions[s++].size());
+    const auto corners =
+        corners_at(faces_of(cell_shapes[s])[static_cast<std::size_t>(user.side)],
+                   _share.cells[s].data() +
+                       static_cast<std::size_t>(cell) * static_cast<std::size_t>(corners_of(cell_shapes[s])));
+    Comer comer{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.parts[s][cell], none, 0};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (corners[k] >= 0) comer.corners[k] = _share.numbers[corners[k]];
+    }
+    comer.key = face_key(comer.corners);
+    return comer;
+  }
+
+private:
+  const NumberedShare& _share;
+};
+
+/// Sides of cells that are not matched inside one region here, and all faces of the file.
+std::vector<Comer> comers_of(const parallel::Communicator& communicator, const NumberedShare& share) {
+  std::vector<Comer> comers;
+  const ShareFaces faces(share);
+  std::vector<Comer> met;
+  match_faces(share.numbers.size(), faces, [&](const FaceKey<LocalIndex>&, std::span<const FaceUser> users) {
+    met.clear();
+    for (const FaceUser& user : users) met.push_back(faces.comer(user));
+    const bool settled =
+        met.size() == 2 && met[0].region == met[1].region && !same_direction(met[0].corners, met[1].corners);
+    if (!settled) comers.insert(comers.end(), met.begin(), met.end());
+  });
+  GlobalIndex count = 0;
+  for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
+  GlobalIndex order = communicator.exclusive_scan(count);
+  for (const FaceShape shape : face_shapes) {
+    const auto s = static_cast<std::size_t>(shape);
+    for (std::size_t f = 0; f < share.patches[s].size(); ++f) {
+      const GlobalIndex* v = share.faces[s].data() + f * static_cast<std::size_t>(corners_of(shape));
+      Comer comer{{},      {v[0], v[1], v[2], shape == FaceShape::triangle ? -1 : v[3]},
+                  order++, none,
+                  none,    share.patches[s][f],
+                  0};
+      comer.key = face_key(comer.corners);
+      comers.push_back(comer);
+    }
+  }
+  return comers;
+}
+
+/// A boundary face and the regions on its sides, before it has a patch.
+struct Found {
+  FaceKey<GlobalIndex> corners;
+  GlobalIndex order;
+  std::int32_t part, patch, region, behind;
+};
+
+/// The first place where cells do not fit together.
+struct Misfit {
+  FaceKey<GlobalIndex> key{-1, -1, -1, -1};
+  std::int64_t cells = 0;
+};
+
+/// What comes together on this rank.
+class Meeting {
+public:
+  explicit Meeting(std::vector<Comer> met) : _met(std::move(met)) {
+    std::sort(_met.begin(), _met.end(), [](const Comer& a, const Comer& b) {
+      return std::tie(a.key, a.region, a.patch, a.order, a.corners) <
+             std::tie(b.key, b.region, b.patch, b.order, b.corners);
+    });
+    for (std::size_t i = 0, j = 0; i < _met.size(); i = j) {
+      for (j = i; j < _met.size() && _met[j].key == _met[i].key;) ++j;
+      settle(std::span(_met).subspan(i, j - i));
+    }
+  }
+
+  std::vector<Found> found;
+  std::vector<Misfit> misfits;
+  GlobalIndex left_out = 0;
+
+private:
+  /// Faces of the file come first (their region is -1), then cells by region.
+  void settle(std::span<const Comer> group) {
+    std::size_t faces = 0;
+    while (faces < group.size() && !group[faces].is_cell()) ++faces;
+    const auto cells = group.subspan(faces);
+    if (cells.size() > 2 || (cells.size() == 2 && same_direction(cells[0].corners, cells[1].corners))) {
+      misfits.push_back({group[0].key, static_cast<std::int64_t>(cells.size())});
+      return;
+    }
+    const bool bounds = cells.size() == 1 || (cells.size() == 2 && cells[0].region != cells[1].region);
+    left_out += static_cast<GlobalIndex>(bounds && faces > 0 ? faces - 1 : faces);
+    if (!bounds) return;
+    Found& face = found.emplace_back();
+    face.corners = cells[0].corners;
+    face.part = cells[0].part;
+    face.region = cells[0].region;
+    face.behind = cells.size() == 2 ? cells[1].region : none;
+    const Comer* given = faces > 0 ? &group[0] : nullptr;
+    for (std::size_t f = 1; f < faces; ++f) {
+      if (group[f].order < given->order) given = &group[f];
+    }
+    face.order = given != nullptr ? given->order : -1;
+    face.patch = given != nullptr ? given->patch : none;
+  }
+
+  std::vector<Comer> _met;
+};
+
+void require_fit(const parallel::Communicator& communicator, const std::vector<Misfit>& mine,
+                 const std::string& path) {
+  const GlobalIndex count = communicator.sum(static_cast<std::int64_t>(mine.size()));
+  if (count == 0) return;
+  const auto less = [](const Misfit& a, const Misfit& b) { return a.key < b.key; };
+  std::vector<Misfit> first;
+  if (!mine.empty()) first.push_back(*std::min_element(mine.begin(), mine.end(), less));
+  const auto all = communicator.all_gather_items(std::span<const Misfit>(first));
+  const Misfit& worst = *std::min_element(all.begin(), all.end(), less);
+  throw parallel::CollectiveError(
+      parallel::FailureKind::input,
+      fmt::format("'{}': {} at the face of points {}, {} and {} (counted from 0 in the order of the file): "
+                  "the mesh does not conform; {} such faces",
+                  path, worst.cells > 2 ? "more than two cells meet" : "two cells lie on the same side",
+                  worst.key[0], worst.key[1], worst.key[2], count));
+}
+
+/// Patches of faces that the file left without, and those that are split, by what they are for.
+class PatchTable {
+public:
+  PatchTable(const parallel::Communicator& communicator, std::vector<mesh::Patch> patches,
+             const std::vector<std::string>& regions, const std::vector<Found>& found)
+      : _patches(std::move(patches)) {
+    std::vector<Use> uses;
+    for (const Found& face : found) uses.push_back(use_of(face));
+    std::sort(uses.begin(), uses.end());
+    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+    uses = communicator.all_gather_items(std::span<const Use>(uses));
+    std::sort(uses.begin(), uses.end());
+    const auto given = static_cast<std::int32_t>(_patches.size());
+    for (std::int32_t p = 0; p < given; ++p) {
+      if (std::binary_search(uses.begin(), uses.end(), Use{p, none, none})) {
+        if (_patches[p].type == mesh::PatchType::interior) _patches[p].type = mesh::PatchType::wall;
+        _targets[{p, none, none}] = p;
+      }
+    }
+    for (const Use& use : uses) add(use, regions);
+  }
+
+  std::int32_t patch_of(const Found& face) const { return _targets.at(use_of(face)); }
+  std::vector<mesh::Patch> take() { return std::move(_patches); }
+
+private:
+  /// Patch and regions; regions count for faces without a patch, `behind` as 0 for others between regions.
+  using Use = std::array<std::int32_t, 3>;
+
+  static Use use_of(const Found& face) {
+    if (face.patch == none) return {none, face.region, face.behind};
+    return {face.patch, none, face.behind == none ? none : 0};
+  }
+
+  void add(const Use& use, const std::vector<std::string>& regions) {
+    if (_targets.count(use)) return;
+    const auto [patch, region, behind] = use;
+    if (patch != none && !_targets.count({patch, none, none})) {
+      _patches[patch].type = mesh::PatchType::interior;
+      _targets[use] = patch;
+      return;
+    }
+    std::string name = patch != none    ? _patches[patch].name + "_interior"
+                       : behind == none ? "boundary_of_" + regions[region]
+                                        : regions[region] + "_to_" + regions[behind];
+    const auto taken = [&] {
+      return std::any_of(_patches.begin(), _patches.end(),
+                         [&](const mesh::Patch& p) { return p.name == name; });
+    };
+    while (taken()) name += "_";
+    _targets[use] = static_cast<std::int32_t>(_patches.size());
+    _patches.push_back({name, behind == none ? mesh::PatchType::wall : mesh::PatchType::interior});
+  }
+
+  std::vector<mesh::Patch> _patches;
+  std::map<Use, std::int32_t> _targets;
+};
+
+}  // namespace
+
+MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
+                            std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
+                            const std::string& path) {
+  Meeting meeting(mesh::deliver(communicator, comers_of(communicator, share), [&](const Comer& comer) {
+    std::uint64_t mixed = 0;
+    for (const GlobalIndex v : comer.key) mixed = mesh::mix_in(mixed, static_cast<std::uint64_t>(v));
+    return mesh::meeting_rank(mixed, communicator.size());
+  }));
+  require_fit(communicator, meeting.misfits, path);
+  PatchTable table(communicator, std::move(patches), regions, meeting.found);
+  MatchedFaces matched;
+  for (const Found& face : meeting.found) {
+    matched.unnamed += face.patch == none ? 1 : 0;
+    const auto& c = face.corners;
+    const std::int32_t patch = table.patch_of(face);
+    if (c[3] < 0) {
+      std::get<0>(matched.items).push_back({{c[0], c[1], c[2]}, face.order, face.part, patch});
+    } else {
+      std::get<1>(matched.items).push_back({c, face.order, face.part, patch});
+    }
+  }
+  matched.patches = table.take();
+  matched.unnamed = communicator.sum(matched.unnamed);
+  matched.left_out = communicator.sum(meeting.left_out);
+  return matched;
+}
+
+}  // namespace aeroloom::io

@@ -1,0 +1,40 @@
+/// The boundary of a mesh as a file has it: matched with its cells. Internal to io/.
+#pragma once
+
+#include "io/part_items.hpp"
+#include "io/raw_mesh.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io {
+
+/// The share of one rank with its points numbered: corners are places in `numbers`.
+struct NumberedShare {
+  std::vector<mesh::GlobalIndex> numbers;  ///< ascending; of the points that cells here use
+  std::array<std::vector<mesh::LocalIndex>, cell_shape_count> cells;
+  std::array<std::vector<std::int32_t>, cell_shape_count> regions;
+  std::array<std::vector<std::int32_t>, cell_shape_count> parts;  ///< where each cell goes
+  /// By number of point in the whole mesh, any direction.
+  std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;
+  std::array<std::vector<std::int32_t>, face_shape_count> patches;
+};
+
+/// What became of the boundary.
+struct MatchedFaces {
+  decltype(PartItems::faces) items;
+  std::vector<mesh::Patch> patches;
+  mesh::GlobalIndex unnamed = 0;   ///< faces that the file left without a patch
+  mesh::GlobalIndex left_out = 0;  ///< faces of the file inside a region, of no cell, or given twice
+};
+
+/// Gives each boundary face the part of its cell and turns it out of that; faces that the file left out get
+/// patches of their own, `boundary_of_REGION` and `REGION_to_REGION`. A patch with faces between regions
+/// beside others becomes two. Throws CollectiveError (input) with `path` where more than two cells meet at a
+/// face, or two on the same side of it. Collective.
+MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
+                            std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
+                            const std::string& path);
+
+}  // namespace aeroloom::io
