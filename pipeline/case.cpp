@@ -2,6 +2,8 @@
 
 #include "pipeline/yaml_reader.hpp"
 
+#include <algorithm>
+#include <deque>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -24,6 +26,7 @@ struct Draft {
   cad::FarFieldOptions far_field;
   bool far_field_given = false;
   std::optional<double> sharpen_width;
+  std::deque<PatchRule> patches;  ///< they stay where they are while others are added
 };
 
 void declare_lifting_surface(KeyTable& keys, cad::LiftingSurface& surface) {
@@ -100,6 +103,22 @@ void declare_geometry(KeyTable& root, Draft& draft) {
   far_field.number("symmetry_position", draft.far_field.symmetry_position, {});
 }
 
+void declare_patches(KeyTable& root, Draft& draft) {
+  root.named_sections("patches", [&draft](const std::string& name, KeyTable& keys) {
+    const auto known = std::find_if(draft.patches.begin(), draft.patches.end(),
+                                    [&](const PatchRule& rule) { return rule.name == name; });
+    PatchRule& rule =
+        known != draft.patches.end() ? *known : draft.patches.emplace_back(PatchRule{name, {}, {}});
+    keys.texts("faces", rule.faces);
+    using mesh::PatchType;
+    std::vector<std::pair<std::string, std::optional<PatchType>>> types;
+    for (const PatchType type : {PatchType::wall, PatchType::slip, PatchType::symmetry, PatchType::farfield,
+                                 PatchType::inlet, PatchType::outlet})
+      types.emplace_back(mesh::name_of(type), type);
+    keys.choice("type", rule.type, types);
+  });
+}
+
 void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   keys.number("minimum", sizing.minimum, Range::above(0, length));
   keys.number("feature_minimum", sizing.feature_minimum, Range::above(0, length));
@@ -149,6 +168,10 @@ void declare_stages(KeyTable& root, Case& result) {
   gate.number("mean_mean_ratio", result.gate.mean_mean_ratio, ratio);
   KeyTable& output = root.section("output");
   output.text("directory", result.output.directory);
+  std::vector<std::pair<std::string, io::FileFormat>> formats;
+  for (const io::FormatName& format : io::format_names) formats.emplace_back(format.name, format.format);
+  output.choices("formats", result.output.formats, formats);
+  output.integer("parts", result.output.parts, Range::between(0, 1e6));
   output.flag("tasks", result.output.tasks);
   output.choice<io::Compression>(
       "compression", result.output.compression,
@@ -162,6 +185,7 @@ void declare_stages(KeyTable& root, Case& result) {
 /// All keys of a case, bound to the draft.
 void declare_keys(KeyTable& root, Draft& draft) {
   declare_geometry(root, draft);
+  declare_patches(root, draft);
   declare_sizing(root.section("sizing"), draft.result.sizing);
   declare_stages(root, draft.result);
 }
@@ -228,6 +252,7 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   check_geometry(keys, draft, file);
   check_sizing(keys, draft.result.sizing);
   Case result = draft.result;
+  result.patches.assign(draft.patches.begin(), draft.patches.end());
   result.domain.file = locate(result.domain.file, file);
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   if (draft.far_field_given) result.domain.far_field = draft.far_field;
@@ -257,8 +282,10 @@ std::string resolved_yaml(const Case& input) {
     draft.far_field = *input.domain.far_field;
     draft.far_field_given = true;
   }
+  draft.patches.assign(input.patches.begin(), input.patches.end());
   KeyTable keys;
   declare_keys(keys, draft);
+  for (const PatchRule& rule : input.patches) keys.add_named("patches", rule.name);
   return keys.write();
 }
 

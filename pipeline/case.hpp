@@ -3,9 +3,11 @@
 
 #include "cad/domain/domain.hpp"
 #include "improve/improve_options.hpp"
+#include "io/file_formats.hpp"
 #include "io/vtk_writer.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
+#include "pipeline/patch_rules.hpp"
 #include "pipeline/quality_gate.hpp"
 #include "sizing/feature_share.hpp"
 #include "surface/surface_options.hpp"
@@ -37,7 +39,9 @@ struct SizingRequest {
 enum class NarrowFaces { join, keep };
 
 struct OutputOptions {
-  std::string directory = "out";                        ///< relative to the working directory
+  std::string directory = "out";                                ///< relative to the working directory
+  std::vector<io::FileFormat> formats = {io::FileFormat::vtu};  ///< that are written, each once
+  std::int64_t parts = 0;  ///< of formats that come in parts; 0: what suits the size
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
   bool tasks = false;                                   ///< writes tasks.csv, a row for each task
   io::Compression compression = io::Compression::none;  ///< of mesh.pvtu and its like
@@ -52,6 +56,7 @@ struct Case {
   volume::VolumeOptions volume;
   improve::ImproveOptions improve;
   QualityGate gate;
+  std::vector<PatchRule> patches;  ///< the first that a face matches holds
   OutputOptions output;
 };
 

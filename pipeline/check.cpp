@@ -92,7 +92,7 @@ std::vector<PatchSum> sum_patches(const cad::Model& model) {
   return sums;
 }
 
-std::string describe_domain(const cad::Domain& domain) {
+std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::PatchType>& types) {
   std::string text;
   for (const cad::Change& change : domain.report.changes) {
     text += "healed: " + cad::describe(change) + "\n";
@@ -100,8 +100,8 @@ std::string describe_domain(const cad::Domain& domain) {
   text += fmt::format("domain: {}; {} region(s)\n", domain.report.reason, domain.model.region_count());
   const std::vector<PatchSum> sums = sum_patches(domain.model);
   for (std::size_t p = 0; p < sums.size(); ++p) {
-    text += fmt::format("patch {:<28} {:>6} faces, area {:.6g}\n", domain.model.patches()[p], sums[p].faces,
-                        sums[p].area);
+    text += fmt::format("patch {:<28} {:<9} {:>6} faces, area {:.6g}\n", domain.model.patches()[p],
+                        mesh::name_of(types.at(p)), sums[p].faces, sums[p].area);
   }
   return text;
 }
@@ -137,7 +137,7 @@ Json read_json(const Case& input, const cad::Diagnosis& found) {
   return json;
 }
 
-Json domain_json(const cad::Domain& domain) {
+Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& types) {
   Json json = {{"kind", domain.report.kind == cad::DomainKind::fluid ? "fluid" : "body"},
                {"reason", domain.report.reason},
                {"changes", to_json(domain.report.changes)}};
@@ -148,8 +148,10 @@ Json domain_json(const cad::Domain& domain) {
   json["patches"] = Json::array();
   const std::vector<PatchSum> sums = sum_patches(domain.model);
   for (std::size_t p = 0; p < sums.size(); ++p) {
-    json["patches"].push_back(
-        {{"name", domain.model.patches()[p]}, {"faces", sums[p].faces}, {"area", sums[p].area}});
+    json["patches"].push_back({{"name", domain.model.patches()[p]},
+                               {"type", mesh::name_of(types.at(p))},
+                               {"faces", sums[p].faces},
+                               {"area", sums[p].area}});
   }
   return json;
 }
@@ -182,7 +184,7 @@ Json record_json(const Case& input, const CheckRecord& record) {
     json["failure"] = record.diagnosis.failure;
     return json;
   }
-  json["domain"] = domain_json(*record.diagnosis.domain);
+  json["domain"] = domain_json(*record.diagnosis.domain, record.patch_types);
   json["forecast"] = forecast_json(record.forecast);
   return json;
 }
@@ -200,7 +202,7 @@ void print_record(const Case& input, const CheckRecord& record, int ranks) {
   const cad::Diagnosis& found = record.diagnosis;
   std::string text = describe_reading(input, found) + describe_findings(record);
   if (found.domain) {
-    text += describe_domain(*found.domain) + describe_forecast(record.forecast, ranks);
+    text += describe_domain(*found.domain, record.patch_types) + describe_forecast(record.forecast, ranks);
   } else {
     text += "no volume can be meshed: " + found.failure + "\n";
   }
@@ -221,7 +223,10 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (meshable) {
-    const cad::Model model = share_model(communicator, std::move(bytes), clock);
+    TypedPatches patches =
+        apply_patch_rules(share_model(communicator, std::move(bytes), clock), input.patches);
+    const cad::Model& model = patches.model;
+    record.patch_types = patches.types;
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
     record.forecast = forecast_run(communicator, model, input);

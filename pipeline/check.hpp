@@ -37,6 +37,7 @@ struct CheckRecord {
   cad::Diagnosis diagnosis;
   std::vector<FaceContact> contacts;  ///< at most 20
   std::int64_t contact_count = 0;
+  std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
   Forecast forecast;
 };
 
@@ -45,7 +46,8 @@ std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t
 
 /// Diagnoses the geometry, prints what was found on rank 0 and writes check.json to the output directory.
 /// Returns ok when a volume can be meshed, cad when not. Collective; throws CollectiveError when the file
-/// cannot be read or check.json cannot be written.
+/// cannot be read or check.json cannot be written, std::invalid_argument for a patch of the case that matches
+/// no face.
 ExitCode check_case(const parallel::Communicator& communicator, const Case& input);
 
 }  // namespace aeroloom::pipeline

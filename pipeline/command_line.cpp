@@ -113,6 +113,8 @@ int check(const Communicator& communicator, const Case& input) {
     const ExitCode code = check_case(communicator, input);
     communicator.barrier();
     return static_cast<int>(code);
+  } catch (const std::invalid_argument& error) {
+    return fail(communicator, ExitCode::usage, error.what());
   } catch (const parallel::CollectiveError& error) {
     const bool files = error.kind() == parallel::FailureKind::files;
     return fail(communicator, files ? ExitCode::files : ExitCode::cad, error.what());

@@ -200,6 +200,7 @@ Json patches_json(const RunRecord& record) {
   Json json = Json::array();
   for (const PatchRow& patch : record.patches) {
     json.push_back({{"name", patch.name},
+                    {"type", mesh::name_of(patch.type)},
                     {"area", patch.area},
                     {"cad_area", patch.cad_area},
                     {"triangles", patch.triangles},
@@ -352,9 +353,11 @@ std::string report_table(const RunRecord& record, const std::vector<parallel::St
       record.counts.cells, record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
       record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
       record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
-  text += fmt::format("{:<28} {:>10} {:>14} {:>14}\n", "patch", "triangles", "area", "CAD area");
+  text +=
+      fmt::format("{:<28} {:<9} {:>10} {:>14} {:>14}\n", "patch", "type", "triangles", "area", "CAD area");
   for (const PatchRow& p : record.patches) {
-    text += fmt::format("{:<28} {:>10} {:>14.8g} {:>14.8g}\n", p.name, p.triangles, p.area, p.cad_area);
+    text += fmt::format("{:<28} {:<9} {:>10} {:>14.8g} {:>14.8g}\n", p.name, mesh::name_of(p.type),
+                        p.triangles, p.area, p.cad_area);
   }
   return text;
 }

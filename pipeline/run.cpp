@@ -48,7 +48,8 @@ SizedDomain build_sizes(const Communicator& communicator, const cad::Model& mode
 
 /// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
 std::vector<PatchRow> table_of_patches(const Communicator& communicator, const cad::Model& model,
-                                       const mesh::DistributedMesh& surface) {
+                                       const mesh::DistributedMesh& surface,
+                                       const std::vector<mesh::PatchType>& types) {
   struct PieceRow {
     mesh::PieceId piece;
     cad::FaceId face;
@@ -68,7 +69,8 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const c
   std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
   std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
   std::vector<PatchRow> patches;
-  for (const std::string& name : model.patches()) patches.push_back({.name = name});
+  for (std::size_t p = 0; p < model.patches().size(); ++p)
+    patches.push_back({.name = model.patches()[p], .type = types.at(p)});
   std::vector<char> counted(model.face_count(), 0);
   for (const PieceRow& row : rows) {
     PatchRow& patch = patches[model.face(row.face).patch];
@@ -105,7 +107,7 @@ void inspect_surface(const Communicator& communicator, const cad::Model& model, 
   const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
-  record.patches = table_of_patches(communicator, model, surface.mesh);
+  record.patches = table_of_patches(communicator, model, surface.mesh, record.patch_types);
 }
 
 FinishedSurface build_surface(const Communicator& communicator, const cad::Model& model,
@@ -231,10 +233,12 @@ void write_surfaces(const Communicator& communicator, const NumberedMesh& surfac
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
   const cad::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
-    cad::Model model =
+    const cad::Model model =
         load_domain(communicator, input.domain, record.clock, record.domain, input.geometry_sabotage);
-    describe_domain(model, record);
-    return model;
+    TypedPatches patches = apply_patch_rules(model, input.patches);
+    record.patch_types = std::move(patches.types);
+    describe_domain(patches.model, record);
+    return std::move(patches.model);
   });
   SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
     return build_sizes(communicator, loaded, input, input.narrow_faces, record);
@@ -260,6 +264,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     record.conformity = measure_conformity(communicator, volume, surface.field);
     return finished;
   });
+  volume.patch_types = record.patch_types;
   run_stage(record, "output", ExitCode::files, [&] {
     io::write_volume(communicator, volume, numbering, input.output.directory, "mesh",
                      input.output.compression);

@@ -25,6 +25,7 @@ namespace aeroloom::pipeline {
 /// A boundary patch of the finished mesh.
 struct PatchRow {
   std::string name;
+  mesh::PatchType type = mesh::PatchType::wall;
   double area = 0;      ///< of the triangles, in the square of the model's unit
   double cad_area = 0;  ///< of the CAD faces
   std::int64_t triangles = 0;
@@ -46,8 +47,9 @@ struct RunRecord {
   double unit_in_metres = 0;
   geometry::Box bounds;
   std::int32_t regions = 0, faces = 0, edges = 0;
-  std::vector<std::string> face_names;  ///< by face id
-  cad::Changes joined_faces;            ///< narrow faces that vanished in their neighbours
+  std::vector<std::string> face_names;       ///< by face id
+  std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
+  cad::Changes joined_faces;                 ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;
   std::int64_t size_field_leaves = 0;

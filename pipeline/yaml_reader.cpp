@@ -145,6 +145,21 @@ std::size_t YamlValue::choice(const std::vector<std::string>& names) const {
   return static_cast<std::size_t>(found - names.begin());
 }
 
+std::vector<std::size_t> YamlValue::choices(const std::vector<std::string>& names) const {
+  std::vector<std::size_t> all;
+  const auto add = [&](const YAML::Node& item) {
+    const std::size_t chosen = YamlValue(item, _path, _where).choice(names);
+    if (std::find(all.begin(), all.end(), chosen) == all.end()) all.push_back(chosen);
+  };
+  if (!_node.IsSequence()) {
+    add(_node);
+  } else {
+    for (const auto& item : _node) add(item);
+  }
+  if (all.empty()) refuse("one at least of " + joined(names));
+  return all;
+}
+
 /// What is being read.
 struct KeyTable::Source {
   std::string name;  // a file, or "--set a.b=c"
@@ -223,6 +238,20 @@ void KeyTable::texts(const std::string& name, std::vector<std::string>& target) 
   _entries.back().listed = [&target] { return target; };
 }
 
+void KeyTable::named_sections(const std::string& name,
+                              std::function<void(const std::string&, KeyTable&)> declare) {
+  section(name)._declare_named = std::move(declare);
+}
+
+void KeyTable::add_named(const std::string& name, const std::string& made_up) {
+  find(name)->below->make_named(made_up);
+}
+
+KeyTable::Entry& KeyTable::make_named(const std::string& name) {
+  _declare_named(name, section(name));
+  return _entries.back();
+}
+
 void KeyTable::retired(const std::string& name, const std::string& why) {
   Entry entry;
   entry.name = name;
@@ -274,6 +303,7 @@ void KeyTable::read(const YAML::Node& node, const Source& source) {
     if (!key.IsScalar()) throw CaseError(fmt::format("{}: expected a key, got {}", where, describe(key)));
     const std::string& name = key.Scalar();
     Entry* entry = find(name);
+    if (!entry && _declare_named) entry = &make_named(name);
     if (!entry) {
       const std::string place = _path.empty() ? "" : " in '" + _path + "'";
       throw CaseError(
@@ -354,6 +384,7 @@ void KeyTable::write(YAML::Emitter& emitter) const {
     if (entry.is_retired()) continue;
     if (entry.below) {
       if (entry.given && !*entry.given) continue;
+      if (entry.below->_declare_named && entry.below->_entries.empty()) continue;
       emitter << YAML::Key << entry.name << YAML::Value;
       entry.below->write(emitter);
     } else if (entry.listed) {

@@ -49,6 +49,8 @@ public:
   std::vector<std::string> texts() const;
   /// The position among `names`.
   std::size_t choice(const std::vector<std::string>& names) const;
+  /// The positions of a list, or of one alone, each once.
+  std::vector<std::size_t> choices(const std::vector<std::string>& names) const;
 
 private:
   [[noreturn]] void refuse(const std::string& expectation) const;
@@ -82,6 +84,16 @@ public:
   /// One of the names, each standing for a value of the enumeration.
   template <class Enum>
   void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values);
+  /// A list of such names; the empty one is not written.
+  template <class Enum>
+  void choices(const std::string& name, std::vector<Enum>& target,
+               const std::vector<std::pair<std::string, Enum>>& values);
+  /// Declares a key whose keys below are names that the user makes up. Each gets a table, which
+  /// `declare(name, table)` fills, when it is read, or by add_named(). Nothing is written while there is
+  /// none.
+  void named_sections(const std::string& name, std::function<void(const std::string&, KeyTable&)> declare);
+  /// Below the key of named_sections(), of which `name` is the name.
+  void add_named(const std::string& name, const std::string& made_up);
   /// A key of earlier versions: giving it is an error that says why it is no longer needed. It is neither
   /// written nor suggested.
   void retired(const std::string& name, const std::string& why);
@@ -115,6 +127,7 @@ private:
   void read(const YAML::Node& node, const Source& source);
   void read_entry(Entry& entry, const YAML::Node& node, const Source& source);
   Entry* find(const std::string& name);
+  Entry& make_named(const std::string& name);
   std::string path_of(const std::string& name) const { return _path.empty() ? name : _path + "." + name; }
   std::string advice(const std::string& unknown, const KeyTable& root) const;
   void collect_paths(std::vector<std::string>& paths) const;
@@ -122,6 +135,7 @@ private:
 
   std::string _path;  // of the section; empty at the top
   std::vector<Entry> _entries;
+  std::function<void(const std::string&, KeyTable&)> _declare_named;  // where keys are names made up
 };
 
 template <class Enum>
@@ -138,6 +152,30 @@ void KeyTable::choice(const std::string& name, Enum& target,
         }
         return std::nullopt;
       });
+}
+
+template <class Enum>
+void KeyTable::choices(const std::string& name, std::vector<Enum>& target,
+                       const std::vector<std::pair<std::string, Enum>>& values) {
+  std::vector<std::string> names;
+  names.reserve(values.size());
+  for (const auto& value : values) names.push_back(value.first);
+  add(
+      name,
+      [&target, names, values](const YamlValue& value) {
+        target.clear();
+        for (const std::size_t i : value.choices(names)) target.push_back(values[i].second);
+      },
+      [] { return std::nullopt; });
+  _entries.back().listed = [&target, values] {
+    std::vector<std::string> chosen;
+    for (const Enum item : target) {
+      for (const auto& value : values) {
+        if (value.second == item) chosen.push_back(value.first);
+      }
+    }
+    return chosen;
+  };
 }
 
 }  // namespace aeroloom::pipeline

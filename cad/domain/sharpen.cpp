@@ -2,6 +2,7 @@
 
 #include "cad/model/blunt_edges.hpp"
 #include "cad/model/closed_edges.hpp"
+#include "cad/model/patches.hpp"
 #include "cad/model/step_trace.hpp"
 
 #include <algorithm>
@@ -103,23 +104,6 @@ Model close_what_closes(const Model& model, std::vector<BluntEdge> strips, Chang
 }
 
 }  // namespace
-
-bool matches_pattern(const std::string& name, const std::string& pattern) {
-  // Where the last star was, and where in the name what follows it was tried.
-  std::size_t n = 0, p = 0, star = std::string::npos, tried = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++, tried = n;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
-      ++p, ++n;
-    } else if (star != std::string::npos) {
-      p = star + 1, n = ++tried;
-    } else {
-      return false;
-    }
-  }
-  return pattern.find_first_not_of('*', p) == std::string::npos;
-}
 
 Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes) {
   if (options.treatment == TrailingEdges::keep) return model;

@@ -10,7 +10,4 @@ namespace aeroloom::cad {
 /// face's name matches.
 Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes);
 
-/// Whether a name is like a pattern, in which * stands for any letters and ? for one.
-bool matches_pattern(const std::string& name, const std::string& pattern);
-
 }  // namespace aeroloom::cad

@@ -1,0 +1,41 @@
+#include "cad/model/patches.hpp"
+
+#include "cad/model/model_data.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+namespace aeroloom::cad {
+
+bool matches_pattern(const std::string& name, const std::string& pattern) {
+  // Where the last star was, and where in the name what follows it was tried.
+  std::size_t n = 0, p = 0, star = std::string::npos, tried = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++, tried = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p, ++n;
+    } else if (star != std::string::npos) {
+      p = star + 1, n = ++tried;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
+Model with_patches(const Model& model, const std::vector<std::string>& patch_of_face) {
+  auto data = std::make_shared<Model::Data>(model.data());
+  if (patch_of_face.size() != data->faces.size())
+    throw std::logic_error("patches and faces differ in number");
+  data->patches.clear();
+  for (std::size_t f = 0; f < patch_of_face.size(); ++f) {
+    const auto found = std::find(data->patches.begin(), data->patches.end(), patch_of_face[f]);
+    data->faces[f].patch = static_cast<std::int32_t>(found - data->patches.begin());
+    if (found == data->patches.end()) data->patches.push_back(patch_of_face[f]);
+  }
+  return Model(std::move(data));
+}
+
+}  // namespace aeroloom::cad

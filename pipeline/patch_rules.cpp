@@ -1,0 +1,130 @@
+#include "pipeline/patch_rules.hpp"
+
+#include "cad/model/patches.hpp"
+#include "pipeline/nearest_name.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+namespace {
+
+using mesh::PatchType;
+
+bool is_like(const cad::Model& model, cad::FaceId face, const std::string& pattern) {
+  const cad::Face& f = model.face(face);
+  return cad::matches_pattern(f.name, pattern) || cad::matches_pattern(model.patches()[f.patch], pattern);
+}
+
+/// Names of patches first, then those of faces, each once.
+std::vector<std::string> names_of(const cad::Model& model) {
+  std::vector<std::string> names = model.patches();
+  std::set<std::string> known(names.begin(), names.end());
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (known.insert(model.face(f).name).second) names.push_back(model.face(f).name);
+  }
+  return names;
+}
+
+[[noreturn]] void refuse_pattern(const cad::Model& model, const PatchRule& rule, const std::string& pattern) {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> names = names_of(model);
+  const auto distance = [&](const std::string& name) { return edit_distance(pattern, name); };
+  std::stable_sort(names.begin(), names.end(),
+                   [&](const std::string& a, const std::string& b) { return distance(a) < distance(b); });
+  std::string nearest;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+    nearest += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
+  throw std::invalid_argument(fmt::format(
+      "patches.{}: no face and no patch of this model is like '{}'; the nearest names are {}. Remedy: "
+      "`aeroloom check` lists the patches; * stands for any letters, ? for one",
+      rule.name, pattern, nearest));
+}
+
+/// The faces that a rule takes from those that are still free.
+void take_faces(const cad::Model& model, const PatchRule& rule, std::vector<std::string>& patch_of_face,
+                std::vector<char>& taken) {
+  const std::vector<std::string> own{rule.name};
+  for (const std::string& pattern : rule.faces.empty() ? own : rule.faces) {
+    bool any = false;
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+      if (!is_like(model, f, pattern)) continue;
+      any = true;
+      if (taken[f]) continue;
+      taken[f] = 1;
+      patch_of_face[f] = rule.name;
+    }
+    if (!any) refuse_pattern(model, rule, pattern);
+  }
+}
+
+PatchType default_type(const cad::Model& model, std::int32_t patch) {
+  bool far = true, inner = true;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.face(f).patch != patch) continue;
+    far = far && model.is_far_field(f);
+    inner = inner && model.face(f).back != cad::no_entity;
+  }
+  if (inner) return PatchType::interior;
+  if (far) return PatchType::farfield;
+  return patch_type_by_name(model.patches()[patch]).value_or(PatchType::wall);
+}
+
+/// Small letters alone.
+std::string letters_of(const std::string& name) {
+  std::string letters;
+  for (const char c : name) {
+    if (std::isalpha(static_cast<unsigned char>(c)))
+      letters.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
+  }
+  return letters;
+}
+
+}  // namespace
+
+std::optional<PatchType> patch_type_by_name(const std::string& name) {
+  using Name = std::pair<std::string_view, PatchType>;
+  constexpr std::array<Name, 10> names = {{{"symmetry", PatchType::symmetry},
+                                           {"symmetryplane", PatchType::symmetry},
+                                           {"sym", PatchType::symmetry},
+                                           {"symm", PatchType::symmetry},
+                                           {"farfield", PatchType::farfield},
+                                           {"freestream", PatchType::farfield},
+                                           {"inlet", PatchType::inlet},
+                                           {"inflow", PatchType::inlet},
+                                           {"outlet", PatchType::outlet},
+                                           {"outflow", PatchType::outlet}}};
+  const std::string letters = letters_of(name);
+  for (const auto& [known, type] : names) {
+    if (letters == known) return type;
+  }
+  return std::nullopt;
+}
+
+TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules) {
+  std::vector<std::string> patch_of_face(model.face_count());
+  std::vector<char> taken(model.face_count(), 0);
+  for (cad::FaceId f = 0; f < model.face_count(); ++f)
+    patch_of_face[f] = model.patches()[model.face(f).patch];
+  for (const PatchRule& rule : rules) take_faces(model, rule, patch_of_face, taken);
+  TypedPatches result{rules.empty() ? model : cad::with_patches(model, patch_of_face), {}};
+  const std::vector<std::string>& patches = result.model.patches();
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    PatchType type = default_type(result.model, static_cast<std::int32_t>(p));
+    for (const PatchRule& rule : rules) {
+      if (rule.name == patches[p] && rule.type && type != PatchType::interior) type = *rule.type;
+    }
+    result.types.push_back(type);
+  }
+  return result;
+}
+
+}  // namespace aeroloom::pipeline
