@@ -1,0 +1,65 @@
+#include "tests/io/damage.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+
+namespace aeroloom::io {
+namespace {
+
+using parallel::Communicator;
+
+/// A file of this test: a count, then so many bytes.
+std::string good_file() {
+  return std::string("\x10\0\0\0\0\0\0\0", 8) + "sixteen letters!";
+}
+
+std::string path_of(const Communicator& communicator) {
+  const auto id = communicator.sum(communicator.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
+  return (std::filesystem::temp_directory_path() / ("aeroloom_damage_" + std::to_string(id))).string();
+}
+
+/// Reads such a file on rank 0 with or without a look at its size.
+void read_counted(const Communicator& communicator, const std::string& path, bool careful) {
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    const std::string bytes = damage::file_bytes(path);
+    if (bytes.size() < 8) throw std::runtime_error("'" + path + "' ends before its count");
+    std::uint64_t count = 0;
+    std::memcpy(&count, bytes.data(), 8);
+    if (careful && count != bytes.size() - 8) throw std::runtime_error("'" + path + "': the count is wrong");
+    if (count > std::uint64_t{1} << 62) throw std::bad_alloc();
+  });
+}
+
+TEST(Damage, IsNoMatterToAReaderThatLooksFirst) {
+  const auto world = Communicator::world();
+  const std::string path = path_of(world);
+  const damage::Outcome outcome =
+      damage::survive(world, good_file(), path, [&](const std::string& p) { read_counted(world, p, true); });
+  EXPECT_EQ(outcome.cases, outcome.refused + outcome.accepted);
+  EXPECT_GT(outcome.refused, 100);
+  EXPECT_GT(outcome.accepted, 50) << "changed letters do not matter";
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Damage, ShowsAReaderThatTrustsItsCounts) {
+  const auto world = Communicator::world();
+  if (!world.is_root()) return;
+  const auto self = Communicator::self();
+  const std::string path = path_of(self);
+  testing::TestPartResultArray failures;
+  {
+    const testing::ScopedFakeTestPartResultReporter reporter(
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ALL_THREADS, &failures);
+    damage::survive(self, good_file(), path, [&](const std::string& p) { read_counted(self, p, false); });
+  }
+  ASSERT_GT(failures.size(), 0);
+  EXPECT_NE(std::string(failures.GetTestPartResult(0).message()).find("kind 2"), std::string::npos)
+      << failures.GetTestPartResult(0).message();
+}
+
+}  // namespace
+}  // namespace aeroloom::io
