@@ -3,7 +3,7 @@
 ///
 /// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
 /// on a border between pieces of one CAD face. Needles: below 10 degrees, below 5, the least angle.
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "parallel/environment.hpp"

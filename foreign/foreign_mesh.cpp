@@ -1,6 +1,6 @@
 #include "foreign/foreign_mesh.hpp"
 
-#include "io/vtk_reader.hpp"
+#include "io/vtk/vtk_reader.hpp"
 #include "mesh/tet_faces.hpp"
 #include "mesh/tokens.hpp"
 #include "parallel/collective_error.hpp"

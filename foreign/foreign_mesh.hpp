@@ -10,7 +10,7 @@
 
 namespace aeroloom::foreign {
 
-/// Reads a file (io/vtk_reader.hpp) and deals it out in pieces of about `piece_tets` tetrahedra (empty: of
+/// Reads a file (io/vtk/vtk_reader.hpp) and deals it out in pieces of about `piece_tets` tetrahedra (empty: of
 /// what suits their number). Each region of the file stays one; its outer boundary and the boundary between
 /// two regions become one face each. The same pieces for any number of ranks; rank 0 reads and cuts.
 /// Collective. Throws CollectiveError when the file cannot be read or is no conforming mesh of tetrahedra.

@@ -4,7 +4,7 @@
 #include "cad/domain/domain.hpp"
 #include "improve/improve_options.hpp"
 #include "io/file_formats.hpp"
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
 #include "pipeline/patch_rules.hpp"

@@ -1,7 +1,7 @@
 #include "pipeline/improve_file.hpp"
 
 #include "foreign/foreign_mesh.hpp"
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/stage.hpp"

@@ -1,6 +1,6 @@
 #include "pipeline/run.hpp"
 
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"

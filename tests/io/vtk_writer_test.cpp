@@ -1,4 +1,4 @@
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 
 #include "mesh/quality.hpp"
 #include "parallel/collective_error.hpp"

@@ -1,6 +1,6 @@
-#include "io/vtk_files.hpp"
-#include "io/vtk_parts.hpp"
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_files.hpp"
+#include "io/vtk/vtk_parts.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "mesh/quality.hpp"
 
 #include <cstdint>

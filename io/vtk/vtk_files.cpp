@@ -1,4 +1,4 @@
-#include "io/vtk_files.hpp"
+#include "io/vtk/vtk_files.hpp"
 
 #include <cerrno>
 #include <cstring>

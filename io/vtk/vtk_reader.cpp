@@ -1,4 +1,4 @@
-#include "io/vtk_reader.hpp"
+#include "io/vtk/vtk_reader.hpp"
 
 #include "geometry/predicates.hpp"
 #include "mesh/piece.hpp"

@@ -1,7 +1,7 @@
-/// What the writers of VTK files share. Included by io/vtk_*.cpp alone: it names VTK.
+/// What the writers of VTK files share. Included by io/vtk/*.cpp alone: it names VTK.
 #pragma once
 
-#include "io/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 
 #include <cstdint>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "io/vtk_parts.hpp"
+#include "io/vtk/vtk_parts.hpp"
 
 #include "mesh/delivery.hpp"
 #include "parallel/collective_error.hpp"
