@@ -10,6 +10,7 @@
 #include <vtkDataObject.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 
 namespace aeroloom::io {
@@ -89,16 +90,21 @@ vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates) {
   return points;
 }
 
-vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int32_t>& connectivity,
-                                         int vertices_per_cell) {
-  const auto cell_count = static_cast<vtkIdType>(connectivity.size()) / vertices_per_cell;
-  vtkNew<vtkTypeInt32Array> offsets;
-  offsets->SetNumberOfValues(cell_count + 1);
-  for (vtkIdType i = 0; i <= cell_count; ++i)
-    offsets->SetValue(i, static_cast<std::int32_t>(i * vertices_per_cell));
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, make_array<vtkTypeInt32Array>("connectivity", connectivity));
-  return cells;
+vtkSmartPointer<vtkCellArray> make_cells(const CellsOfShapes& cells) {
+  auto result = vtkSmartPointer<vtkCellArray>::New();
+  result->SetData(make_array<vtkTypeInt32Array>("offsets", cells.offsets),
+                  make_array<vtkTypeInt32Array>("connectivity", cells.connectivity));
+  return result;
+}
+
+void add_patches(vtkFieldData& fields, const std::vector<mesh::Patch>& patches) {
+  std::vector<std::string> names, types;
+  for (const mesh::Patch& patch : patches) {
+    names.push_back(patch.name);
+    types.emplace_back(name_of(patch.type));
+  }
+  fields.AddArray(make_array<vtkStringArray>("patch_names", names));
+  fields.AddArray(make_array<vtkStringArray>("patch_types", types));
 }
 
 std::string index_text(const char* grid_type, std::span<const IndexArray> point_arrays,

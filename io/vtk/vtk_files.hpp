@@ -2,15 +2,19 @@
 #pragma once
 
 #include "io/vtk/vtk_writer.hpp"
+#include "mesh/patch.hpp"
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include <vtkCellArray.h>
+#include <vtkFieldData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLWriter.h>
@@ -24,9 +28,23 @@ void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string
 
 /// Points in double precision from (n,3) coordinates.
 vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates);
-/// Cells of equal size from their connectivity; its offsets, too, must fit 32 bits.
-vtkSmartPointer<vtkCellArray> make_cells(const std::vector<std::int32_t>& connectivity,
-                                         int vertices_per_cell);
+
+/// Cells of several sizes; their offsets, too, must fit 32 bits.
+struct CellsOfShapes {
+  std::vector<std::int32_t> connectivity;
+  std::vector<std::int32_t> offsets = {0};
+
+  /// Ends the cell whose corners were appended last. Throws std::length_error where they are too many.
+  void close_cell() {
+    if (connectivity.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+      throw std::length_error("a file would get more corners than its 32-bit offsets can count");
+    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+  }
+};
+vtkSmartPointer<vtkCellArray> make_cells(const CellsOfShapes& cells);
+
+/// Field arrays `patch_names` and `patch_types`.
+void add_patches(vtkFieldData& fields, const std::vector<mesh::Patch>& patches);
 
 /// A VTK array of type `Array` that holds a copy of `values`.
 template <class Array, class Value>

@@ -1,9 +1,9 @@
 #include "io/vtk/vtk_parts.hpp"
 
-#include "mesh/delivery.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -44,73 +44,148 @@ void prepare_folder(const PartFiles& files) {
   for (const fs::path& file : stale) fs::remove(file);
 }
 
-/// What becomes of a part, the same on every rank.
-struct PartPlan {
+mesh::GlobalIndex items_of(const FilePart& part, PartContent content) {
+  return content == PartContent::cells ? part.cell_count() : part.face_count();
+}
+
+/// The blocks of a part that go into the files.
+std::span<const Block> blocks_of(const FilePart& part, PartContent content) {
+  if (content == PartContent::cells) return part.cells;
+  return part.faces;
+}
+
+/// What becomes of a file, the same on every rank.
+struct FilePlan {
   parallel::Rank writer = 0;
-  std::size_t turn = 0;  ///< the parts of this writer before it
+  std::size_t turn = 0;  ///< the files of this writer before it
 };
 
-/// Which piece goes into which part, a function of the mesh alone, and who writes that.
+/// Which part goes into which file, a function of the mesh alone, and who writes that.
 struct Plan {
-  std::vector<std::size_t> part_of;  ///< per piece
-  std::vector<PartPlan> parts;
+  std::vector<std::size_t> file_of;  ///< per part
+  std::vector<FilePlan> files;
   std::size_t turns = 0;  ///< that the busiest writer takes
+
+  const FilePlan& plan_of(const PartPiece& piece) const { return files[file_of[piece.part.id]]; }
 };
 
-Plan plan_parts(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                mesh::GlobalIndex cells_per_part) {
-  struct Row {
-    mesh::GlobalIndex cells;
-    std::int64_t rank;
-  };
-  std::vector<Row> mine;
-  for (const mesh::Piece& piece : mesh.pieces) mine.push_back({piece.cell_count(), communicator.rank()});
+/// A part and where it lives.
+struct PlaceRow {
+  mesh::GlobalIndex items;
+  std::int32_t id, rank;
+};
+
+/// The rows of all parts by id.
+std::vector<PlaceRow> gather_rows(const parallel::Communicator& communicator,
+                                  std::span<const PartPiece> pieces, PartContent content) {
+  std::vector<PlaceRow> mine;
+  for (const PartPiece& piece : pieces)
+    mine.push_back({items_of(piece.part, content), piece.part.id, communicator.rank()});
+  auto rows = communicator.all_gather_items(std::span<const PlaceRow>(mine));
+  std::sort(rows.begin(), rows.end(), [](const PlaceRow& a, const PlaceRow& b) { return a.id < b.id; });
+  return rows;
+}
+
+Plan plan_files(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
+                PartContent content, mesh::GlobalIndex items_per_file) {
   Plan plan;
   std::vector<std::size_t> turns(communicator.size(), 0);
-  std::map<parallel::Rank, mesh::GlobalIndex> held;  // of the part that is being filled
+  std::map<parallel::Rank, mesh::GlobalIndex> held;  // of the file that is being filled
   mesh::GlobalIndex filled = 0;
   const auto close = [&] {
     const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
     const parallel::Rank writer = std::max_element(held.begin(), held.end(), less)->first;
-    plan.parts.push_back({writer, turns[writer]++});
+    plan.files.push_back({writer, turns[writer]++});
     plan.turns = std::max(plan.turns, turns[writer]);
     held.clear();
     filled = 0;
   };
-  for (const Row& row : mesh::gather_by_piece(communicator, mesh, mine)) {
-    plan.part_of.push_back(plan.parts.size());
-    held[static_cast<parallel::Rank>(row.rank)] += row.cells;
-    filled += row.cells;
-    if (filled >= cells_per_part) close();
+  for (const PlaceRow& row : gather_rows(communicator, mine, content)) {
+    plan.file_of.push_back(plan.files.size());
+    held[row.rank] += row.items;
+    filled += row.items;
+    if (filled >= items_per_file) close();
   }
   if (!held.empty()) close();
   return plan;
 }
 
-PartPiece view(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& numbers) {
-  PartPiece result{piece.id, piece.region, piece.coordinates, numbers, piece.cells, {}, {}};
-  if (piece.kind != mesh::CellKind::triangle) return result;
-  result.triangle_face = piece.triangle_face;
-  result.triangle_patch = piece.triangle_patch;
-  return result;
+template <class T>
+void pack_items(parallel::Packer& packer, std::span<const T> items) {
+  packer.array(std::vector<T>(items.begin(), items.end()));
 }
 
-/// A piece that came from another rank.
+/// A part that came from another rank. Its arrays stay where they are when it moves.
 struct BroughtPiece {
-  mesh::Piece piece;
+  struct Items {
+    std::vector<mesh::LocalIndex> connectivity;
+    std::vector<Run> runs;
+  };
+  std::int32_t id = 0;
+  std::vector<double> coordinates;
   std::vector<mesh::GlobalIndex> numbers;
+  std::array<Items, cell_shape_count> cells;
+  std::array<Items, face_shape_count> faces;
+  std::vector<std::int32_t> triangle_face, triangle_patch;
 };
 
-/// Brings the pieces that the parts of this turn lack on their writers.
+void pack_piece(parallel::Packer& packer, const PartPiece& piece) {
+  packer.value(piece.part.id);
+  pack_items(packer, piece.part.coordinates);
+  pack_items(packer, piece.part.numbers);
+  const auto pack_block = [&](const Block& block) {
+    pack_items(packer, block.connectivity);
+    packer.array(block.runs);
+  };
+  for (const Block& block : piece.part.cells) pack_block(block);
+  for (const Block& block : piece.part.faces) pack_block(block);
+  pack_items(packer, piece.triangle_face);
+  pack_items(packer, piece.triangle_patch);
+}
+
+BroughtPiece unpack_piece(parallel::Unpacker& unpacker) {
+  BroughtPiece piece;
+  piece.id = unpacker.value<std::int32_t>();
+  piece.coordinates = unpacker.array<double>();
+  piece.numbers = unpacker.array<mesh::GlobalIndex>();
+  const auto unpack_items = [&](BroughtPiece::Items& items) {
+    items.connectivity = unpacker.array<mesh::LocalIndex>();
+    items.runs = unpacker.array<Run>();
+  };
+  for (auto& items : piece.cells) unpack_items(items);
+  for (auto& items : piece.faces) unpack_items(items);
+  piece.triangle_face = unpacker.array<std::int32_t>();
+  piece.triangle_patch = unpacker.array<std::int32_t>();
+  return piece;
+}
+
+PartPiece view(const BroughtPiece& brought) {
+  PartPiece piece;
+  piece.part.id = brought.id;
+  piece.part.coordinates = brought.coordinates;
+  piece.part.numbers = brought.numbers;
+  for (const CellShape shape : cell_shapes) {
+    const auto& items = brought.cells[static_cast<std::size_t>(shape)];
+    piece.part.cells[static_cast<std::size_t>(shape)] = {corners_of(shape), items.connectivity, items.runs,
+                                                         0};
+  }
+  for (const FaceShape shape : face_shapes) {
+    const auto& items = brought.faces[static_cast<std::size_t>(shape)];
+    piece.part.faces[static_cast<std::size_t>(shape)] = {corners_of(shape), items.connectivity, items.runs,
+                                                         0};
+  }
+  piece.triangle_face = brought.triangle_face;
+  piece.triangle_patch = brought.triangle_patch;
+  return piece;
+}
+
+/// Brings the parts that the files of this turn lack on their writers.
 std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicator,
-                                       const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                       const Plan& plan, std::size_t turn) {
+                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t turn) {
   std::map<parallel::Rank, parallel::Packer> packers;
-  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    const PartPlan& part = plan.parts[plan.part_of[mesh.pieces[i].id]];
-    if (part.turn != turn || part.writer == communicator.rank()) continue;
-    packers[part.writer].array(mesh::pack_piece(mesh.pieces[i]));
-    packers[part.writer].array(numbering.vertices[i]);
+  for (const PartPiece& piece : mine) {
+    const FilePlan& file = plan.plan_of(piece);
+    if (file.turn == turn && file.writer != communicator.rank()) pack_piece(packers[file.writer], piece);
   }
   std::vector<parallel::Parcel> parcels;
   parcels.reserve(packers.size());
@@ -118,43 +193,46 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   std::vector<BroughtPiece> pieces;
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) {
-      BroughtPiece& brought = pieces.emplace_back();
-      brought.piece = mesh::unpack_piece(unpacker.array<std::byte>());
-      brought.numbers = unpacker.array<mesh::GlobalIndex>();
-    }
+    while (!unpacker.at_end()) pieces.push_back(unpack_piece(unpacker));
     parcel.content = {};
   }
   return pieces;
 }
 
-/// The pieces of this rank's part of a turn, ascending; none where its parts are written.
+/// The parts of this rank's file of a turn, ascending; none where its files are written.
 std::vector<PartPiece> pieces_of_turn(const parallel::Communicator& communicator,
-                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                      const Plan& plan, std::size_t turn,
+                                      std::span<const PartPiece> mine, const Plan& plan, std::size_t turn,
                                       const std::vector<BroughtPiece>& brought) {
   std::vector<PartPiece> pieces;
-  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    const PartPlan& part = plan.parts[plan.part_of[mesh.pieces[i].id]];
-    if (part.turn == turn && part.writer == communicator.rank())
-      pieces.push_back(view(mesh.pieces[i], numbering.vertices[i]));
+  for (const PartPiece& piece : mine) {
+    const FilePlan& file = plan.plan_of(piece);
+    if (file.turn == turn && file.writer == communicator.rank()) pieces.push_back(piece);
   }
-  for (const BroughtPiece& other : brought) pieces.push_back(view(other.piece, other.numbers));
-  std::sort(pieces.begin(), pieces.end(), [](const PartPiece& a, const PartPiece& b) { return a.id < b.id; });
+  for (const BroughtPiece& other : brought) pieces.push_back(view(other));
+  std::sort(pieces.begin(), pieces.end(),
+            [](const PartPiece& a, const PartPiece& b) { return a.part.id < b.part.id; });
   return pieces;
 }
 
 }  // namespace
 
-// Numbers tell which vertices of several pieces are one: the first use of each makes the point.
-PartPoints merge_points(const std::vector<PartPiece>& pieces) {
+std::vector<PartPiece> pieces_of(const FileMesh& mesh) {
+  std::vector<PartPiece> pieces;
+  for (const FilePart& part : mesh.parts) pieces.push_back({part, {}, {}});
+  return pieces;
+}
+
+// Numbers tell which vertices of several parts are one: the first use of each makes the point.
+PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent content) {
   PartPoints points;
   std::vector<std::pair<mesh::GlobalIndex, std::size_t>> uses;
   for (const PartPiece& piece : pieces) {
-    auto& places = points.of_piece.emplace_back(piece.numbers.size(), -1);
-    for (const mesh::LocalIndex v : piece.cells) places[v] = 0;
+    auto& places = points.of_piece.emplace_back(piece.part.numbers.size(), -1);
+    for (const Block& block : blocks_of(piece.part, content)) {
+      for (const mesh::LocalIndex v : block.connectivity) places[v] = 0;
+    }
     for (std::size_t v = 0; v < places.size(); ++v) {
-      if (places[v] == 0) uses.emplace_back(piece.numbers[v], uses.size());
+      if (places[v] == 0) uses.emplace_back(piece.part.numbers[v], uses.size());
     }
   }
   if (uses.size() > static_cast<std::size_t>(std::numeric_limits<PartIndex>::max()))
@@ -173,8 +251,8 @@ PartPoints merge_points(const std::vector<PartPiece>& pieces) {
       if (place < 0) continue;
       if (first_use[use] == use) {
         place_of[use] = static_cast<PartIndex>(points.numbers.size());
-        points.numbers.push_back(pieces[p].numbers[v]);
-        const auto point = pieces[p].coordinates.begin() + static_cast<std::ptrdiff_t>(3 * v);
+        points.numbers.push_back(pieces[p].part.numbers[v]);
+        const auto point = pieces[p].part.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * v);
         points.coordinates.insert(points.coordinates.end(), point, point + 3);
       }
       place = place_of[first_use[use++]];
@@ -189,25 +267,30 @@ std::string PartFiles::index_path() const {
 std::string PartFiles::part_source(std::size_t part) const {
   return fmt::format("{0}/{0}_{1:06}.{2}", name, part, part_extension);
 }
+std::vector<std::string> PartFiles::part_sources(std::size_t parts) const {
+  std::vector<std::string> sources;
+  for (std::size_t i = 0; i < parts; ++i) sources.push_back(part_source(i));
+  return sources;
+}
 std::string PartFiles::part_path(std::size_t part) const {
   return (fs::path(directory) / part_source(part)).string();
 }
 
-std::size_t write_parts(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                        const mesh::Numbering& numbering, mesh::GlobalIndex cells_per_part,
-                        const PartFiles& files, const PartWriter& write) {
+std::size_t write_parts(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
+                        PartContent content, mesh::GlobalIndex items_per_file, const PartFiles& files,
+                        const PartWriter& write) {
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) prepare_folder(files);
   });
-  const Plan plan = plan_parts(communicator, mesh, cells_per_part);
+  const Plan plan = plan_files(communicator, mine, content, items_per_file);
   for (std::size_t turn = 0; turn < plan.turns; ++turn) {
-    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mesh, numbering, plan, turn);
-    const std::vector<PartPiece> pieces = pieces_of_turn(communicator, mesh, numbering, plan, turn, brought);
+    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, turn);
+    const std::vector<PartPiece> pieces = pieces_of_turn(communicator, mine, plan, turn, brought);
     parallel::agree(communicator, [&] {
-      if (!pieces.empty()) write(pieces, files.part_path(plan.part_of[pieces[0].id]));
+      if (!pieces.empty()) write(pieces, files.part_path(plan.file_of[pieces[0].part.id]));
     });
   }
-  return plan.parts.size();
+  return plan.files.size();
 }
 
 void write_index(const parallel::Communicator& communicator, const std::string& path,

@@ -23,45 +23,95 @@ namespace aeroloom::io {
 
 namespace {
 
-constexpr mesh::GlobalIndex triangles_per_part = 50'000;
+constexpr mesh::GlobalIndex faces_per_part = 50'000;
 
 /// The cell arrays of a part.
-struct TriangleArrays {
-  std::vector<PartIndex> connectivity;
+struct FaceArrays {
+  CellsOfShapes cells;
   std::vector<std::int32_t> piece, face, patch;
   std::vector<float> quality;
 };
 
-void append_cells(const PartPiece& piece, const std::vector<PartIndex>& places, TriangleArrays& arrays) {
-  for (std::size_t c = 0; c + 2 < piece.cells.size(); c += 3) {
-    const mesh::LocalIndex* v = piece.cells.data() + c;
-    for (int k = 0; k < 3; ++k) arrays.connectivity.push_back(places[v[k]]);
+void append_corners(const Block& block, mesh::LocalIndex face, const std::vector<PartIndex>& places,
+                    FaceArrays& arrays) {
+  for (int k = 0; k < block.corners; ++k) arrays.cells.connectivity.push_back(places[block.item(face)[k]]);
+  arrays.cells.close_cell();
+}
+
+void append_triangles(const PartPiece& piece, const std::vector<PartIndex>& places, FaceArrays& arrays) {
+  const Block& triangles = piece.part.faces[0];
+  for (mesh::LocalIndex t = 0; t < triangles.count(); ++t) {
+    append_corners(triangles, t, places, arrays);
+    const mesh::LocalIndex* v = triangles.item(t);
     arrays.quality.push_back(static_cast<float>(
-        mesh::triangle_mean_ratio(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]))));
+        mesh::triangle_mean_ratio(piece.part.point(v[0]), piece.part.point(v[1]), piece.part.point(v[2]))));
   }
-  arrays.piece.resize(arrays.piece.size() + piece.cells.size() / 3, piece.id);
+  arrays.piece.resize(arrays.quality.size(), piece.part.id);
   arrays.face.insert(arrays.face.end(), piece.triangle_face.begin(), piece.triangle_face.end());
   arrays.patch.insert(arrays.patch.end(), piece.triangle_patch.begin(), piece.triangle_patch.end());
 }
 
-/// Names go into every part: a reader of the index takes field data from the parts.
-void write_part(const std::vector<PartPiece>& pieces, const std::vector<std::string>& faces,
-                const std::vector<std::string>& patches, const std::string& path, Compression compression) {
-  const PartPoints points = merge_points(pieces);
-  TriangleArrays arrays;
-  for (std::size_t i = 0; i < pieces.size(); ++i) append_cells(pieces[i], points.of_piece[i], arrays);
-  vtkNew<vtkPolyData> surface;
+void append_faces(const FilePart& part, const std::vector<PartIndex>& places, FaceArrays& arrays) {
+  for (const Block& block : part.faces) {
+    for (const Run& run : block.runs) {
+      for (mesh::LocalIndex f = run.begin; f < run.end; ++f) append_corners(block, f, places, arrays);
+      arrays.patch.resize(arrays.patch.size() + static_cast<std::size_t>(run.end - run.begin), run.id);
+    }
+  }
+  arrays.piece.resize(arrays.patch.size(), part.id);
+}
+
+vtkSmartPointer<vtkPolyData> make_surface(const PartPoints& points, const FaceArrays& arrays) {
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(make_points(points.coordinates));
-  surface->SetPolys(make_cells(arrays.connectivity, 3));
+  surface->SetPolys(make_cells(arrays.cells));
   surface->GetPointData()->AddArray(make_array<vtkTypeInt64Array>("global_id", points.numbers));
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("piece", arrays.piece));
+  return surface;
+}
+
+/// Names go into every part: a reader of the index takes field data from the parts.
+void write_triangle_part(const std::vector<PartPiece>& pieces, const mesh::DistributedMesh& mesh,
+                         const std::string& path, Compression compression) {
+  const PartPoints points = merge_points(pieces, PartContent::faces);
+  FaceArrays arrays;
+  for (std::size_t i = 0; i < pieces.size(); ++i) append_triangles(pieces[i], points.of_piece[i], arrays);
+  const auto surface = make_surface(points, arrays);
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("face", arrays.face));
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("patch", arrays.patch));
   surface->GetCellData()->AddArray(make_array<vtkFloatArray>("quality", arrays.quality));
-  surface->GetFieldData()->AddArray(make_array<vtkStringArray>("face_names", faces));
-  surface->GetFieldData()->AddArray(make_array<vtkStringArray>("patch_names", patches));
+  surface->GetFieldData()->AddArray(make_array<vtkStringArray>("face_names", mesh.faces));
+  surface->GetFieldData()->AddArray(make_array<vtkStringArray>("patch_names", mesh.patches));
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_vtk_file(*writer, *surface, path, compression);
+}
+
+void write_face_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, const std::string& path,
+                     Compression compression) {
+  const PartPoints points = merge_points(pieces, PartContent::faces);
+  FaceArrays arrays;
+  for (std::size_t i = 0; i < pieces.size(); ++i) append_faces(pieces[i].part, points.of_piece[i], arrays);
+  const auto surface = make_surface(points, arrays);
+  surface->GetCellData()->AddArray(make_array<vtkIntArray>("patch", arrays.patch));
+  add_patches(*surface->GetFieldData(), mesh.patches);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  write_vtk_file(*writer, *surface, path, compression);
+}
+
+/// The triangles of a surface as faces without runs.
+std::vector<PartPiece> pieces_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering) {
+  std::vector<PartPiece> pieces;
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    const mesh::Piece& piece = surface.pieces[i];
+    PartPiece& view = pieces.emplace_back();
+    view.part.id = piece.id;
+    view.part.coordinates = piece.coordinates;
+    view.part.numbers = numbering.vertices[i];
+    view.part.faces[0] = {3, piece.cells, {}, 0};
+    view.triangle_face = piece.triangle_face;
+    view.triangle_patch = piece.triangle_patch;
+  }
+  return pieces;
 }
 
 }  // namespace
@@ -71,30 +121,45 @@ void write_surface(const parallel::Communicator& communicator, const mesh::Distr
                    Compression compression) {
   const PartFiles files{directory, name, "pvtp", "vtp"};
   const std::size_t parts =
-      write_parts(communicator, surface, numbering, triangles_per_part, files,
+      write_parts(communicator, pieces_of(surface, numbering), PartContent::faces, faces_per_part, files,
                   [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_part(pieces, surface.faces, surface.patches, path, compression);
+                    write_triangle_part(pieces, surface, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {
       {"Int32", "piece"}, {"Int32", "face"}, {"Int32", "patch"}, {"Float32", "quality"}};
-  std::vector<std::string> sources;
-  for (std::size_t i = 0; i < parts; ++i) sources.push_back(files.part_source(i));
-  write_index(communicator, files.index_path(), index_text("PPolyData", point_arrays, cell_arrays, sources));
+  write_index(communicator, files.index_path(),
+              index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
+}
+
+void write_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
+                   const std::string& directory, const std::string& name, Compression compression) {
+  const PartFiles files{directory, name, "pvtp", "vtp"};
+  const std::size_t parts =
+      write_parts(communicator, pieces_of(mesh), PartContent::faces, faces_per_part, files,
+                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
+                    write_face_part(pieces, mesh, path, compression);
+                  });
+  constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
+  constexpr IndexArray cell_arrays[] = {{"Int32", "piece"}, {"Int32", "patch"}};
+  write_index(communicator, files.index_path(),
+              index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
 void write_triangles(const std::vector<geometry::Vec3>& points,
                      const std::vector<std::array<mesh::LocalIndex, 3>>& triangles, const std::string& file) {
   std::vector<double> coordinates;
   for (const geometry::Vec3 p : points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
-  std::vector<std::int32_t> connectivity;
-  for (const auto& triangle : triangles)
-    connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
+  CellsOfShapes cells;
+  for (const auto& triangle : triangles) {
+    cells.connectivity.insert(cells.connectivity.end(), triangle.begin(), triangle.end());
+    cells.close_cell();
+  }
   const auto folder = std::filesystem::path(file).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(make_points(coordinates));
-  surface->SetPolys(make_cells(connectivity, 3));
+  surface->SetPolys(make_cells(cells));
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_vtk_file(*writer, *surface, file, Compression::none);
 }

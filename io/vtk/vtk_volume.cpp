@@ -1,14 +1,16 @@
+#include "io/vtk/cell_quality.hpp"
 #include "io/vtk/vtk_files.hpp"
 #include "io/vtk/vtk_parts.hpp"
 #include "io/vtk/vtk_writer.hpp"
-#include "mesh/quality.hpp"
+#include "io/vtk_order.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <vtkCellData.h>
-#include <vtkCellType.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
@@ -16,6 +18,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -25,71 +28,122 @@ namespace {
 
 /// Enough for a viewer to load parts side by side, little enough for the memory of one rank. Viewers see
 /// faces between parts as boundary: meshes of common size are one or two parts.
-constexpr mesh::GlobalIndex tetrahedra_per_part = 1'000'000;
+constexpr mesh::GlobalIndex cells_per_part = 1'000'000;
 
 /// The cell arrays of a part.
-struct TetrahedronArrays {
-  std::vector<PartIndex> connectivity;
+struct CellArrays {
+  CellsOfShapes cells;
+  std::vector<std::uint8_t> types;
   std::vector<std::int32_t> piece, region;
   std::vector<float> mean_ratio, min_dihedral;
 
-  void reserve(std::size_t cells) {
-    connectivity.reserve(4 * cells);
-    piece.reserve(cells), region.reserve(cells);
-    mean_ratio.reserve(cells), min_dihedral.reserve(cells);
+  void reserve(std::size_t count) {
+    types.reserve(count), piece.reserve(count), region.reserve(count);
+    mean_ratio.reserve(count), min_dihedral.reserve(count);
   }
 };
 
-void append_cells(const PartPiece& piece, const std::vector<PartIndex>& places, TetrahedronArrays& arrays) {
-  for (std::size_t c = 0; c + 3 < piece.cells.size(); c += 4) {
-    const mesh::LocalIndex* v = piece.cells.data() + c;
-    const geometry::Vec3 p[4] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
-    for (int k = 0; k < 4; ++k) arrays.connectivity.push_back(places[v[k]]);
-    arrays.piece.push_back(piece.id);
-    arrays.region.push_back(piece.region);
-    arrays.mean_ratio.push_back(static_cast<float>(mesh::mean_ratio(p[0], p[1], p[2], p[3])));
-    arrays.min_dihedral.push_back(static_cast<float>(mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest));
+void append_cell(const FilePart& part, CellShape shape, const mesh::LocalIndex* corners,
+                 const std::vector<PartIndex>& places, CellArrays& arrays) {
+  const auto s = static_cast<std::size_t>(shape);
+  const int count = corners_of(shape);
+  std::array<geometry::Vec3, 6> p;
+  for (int k = 0; k < count; ++k) {
+    p[k] = part.point(corners[k]);
+    arrays.cells.connectivity.push_back(places[corners[to_vtk[s][k]]]);
+  }
+  arrays.cells.close_cell();
+  arrays.types.push_back(vtk_cell_type[s]);
+  const std::span<const geometry::Vec3> points(p.data(), static_cast<std::size_t>(count));
+  arrays.mean_ratio.push_back(static_cast<float>(mean_ratio(shape, points)));
+  arrays.min_dihedral.push_back(static_cast<float>(smallest_dihedral(shape, points)));
+}
+
+void append_cells(const FilePart& part, const std::vector<PartIndex>& places, CellArrays& arrays) {
+  for (const CellShape shape : cell_shapes) {
+    const Block& block = part.cells[static_cast<std::size_t>(shape)];
+    for (const Run& run : block.runs) {
+      for (mesh::LocalIndex c = run.begin; c < run.end; ++c) {
+        append_cell(part, shape, block.item(c), places, arrays);
+        arrays.region.push_back(run.id);
+      }
+    }
+  }
+  arrays.piece.resize(arrays.region.size(), part.id);
+}
+
+/// The boundary faces of a part by the numbers of their vertices.
+struct BoundaryArrays {
+  std::vector<mesh::GlobalIndex> corners, offsets = {0};
+  std::vector<std::int32_t> patch;
+};
+
+void append_boundary(const FilePart& part, BoundaryArrays& arrays) {
+  for (const Block& block : part.faces) {
+    for (const Run& run : block.runs) {
+      for (mesh::LocalIndex f = run.begin; f < run.end; ++f) {
+        for (int k = 0; k < block.corners; ++k) arrays.corners.push_back(part.numbers[block.item(f)[k]]);
+        arrays.offsets.push_back(static_cast<mesh::GlobalIndex>(arrays.corners.size()));
+        arrays.patch.push_back(run.id);
+      }
+    }
   }
 }
 
-void write_part(const std::vector<PartPiece>& pieces, const std::vector<std::string>& regions,
-                const std::string& path, Compression compression) {
-  const PartPoints points = merge_points(pieces);
-  TetrahedronArrays arrays;
-  std::size_t cells = 0;
-  for (const PartPiece& piece : pieces) cells += piece.cells.size() / 4;
-  arrays.reserve(cells);
-  for (std::size_t i = 0; i < pieces.size(); ++i) append_cells(pieces[i], points.of_piece[i], arrays);
+/// Names go into every part: a reader of the index takes field data from the parts.
+void add_fields(vtkUnstructuredGrid& grid, const std::vector<PartPiece>& pieces, const FileMesh& mesh) {
+  BoundaryArrays boundary;
+  for (const PartPiece& piece : pieces) append_boundary(piece.part, boundary);
+  vtkFieldData& fields = *grid.GetFieldData();
+  fields.AddArray(make_array<vtkStringArray>("region_names", mesh.regions));
+  add_patches(fields, mesh.patches);
+  fields.AddArray(make_array<vtkTypeInt64Array>("boundary_corners", boundary.corners));
+  fields.AddArray(make_array<vtkTypeInt64Array>("boundary_offsets", boundary.offsets));
+  fields.AddArray(make_array<vtkIntArray>("boundary_patch", boundary.patch));
+}
+
+void write_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, const std::string& path,
+                Compression compression) {
+  const PartPoints points = merge_points(pieces, PartContent::cells);
+  CellArrays arrays;
+  std::size_t count = 0;
+  for (const PartPiece& piece : pieces) count += static_cast<std::size_t>(piece.part.cell_count());
+  arrays.reserve(count);
+  for (std::size_t i = 0; i < pieces.size(); ++i) append_cells(pieces[i].part, points.of_piece[i], arrays);
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(make_points(points.coordinates));
-  grid->SetCells(VTK_TETRA, make_cells(arrays.connectivity, 4));
+  grid->SetCells(make_array<vtkUnsignedCharArray>("types", arrays.types), make_cells(arrays.cells));
   grid->GetPointData()->AddArray(make_array<vtkTypeInt64Array>("global_id", points.numbers));
   grid->GetCellData()->AddArray(make_array<vtkIntArray>("piece", arrays.piece));
   grid->GetCellData()->AddArray(make_array<vtkIntArray>("region", arrays.region));
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("mean_ratio", arrays.mean_ratio));
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("min_dihedral", arrays.min_dihedral));
-  grid->GetFieldData()->AddArray(make_array<vtkStringArray>("region_names", regions));
+  add_fields(*grid, pieces, mesh);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   write_vtk_file(*writer, *grid, path, compression);
 }
 
 }  // namespace
 
-void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                  const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
-                  Compression compression) {
+void write_volume(const parallel::Communicator& communicator, const FileMesh& mesh,
+                  const std::string& directory, const std::string& name, Compression compression) {
   const PartFiles files{directory, name, "pvtu", "vtu"};
-  const std::size_t parts = write_parts(communicator, mesh, numbering, tetrahedra_per_part, files,
-                                        [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                                          write_part(pieces, mesh.regions, path, compression);
-                                        });
+  const std::size_t parts =
+      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_part, files,
+                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
+                    write_part(pieces, mesh, path, compression);
+                  });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {
       {"Int32", "piece"}, {"Int32", "region"}, {"Float32", "mean_ratio"}, {"Float32", "min_dihedral"}};
-  std::vector<std::string> sources;
-  for (std::size_t i = 0; i < parts; ++i) sources.push_back(files.part_source(i));
   write_index(communicator, files.index_path(),
-              index_text("PUnstructuredGrid", point_arrays, cell_arrays, sources));
+              index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
+}
+
+void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                  const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
+                  Compression compression) {
+  write_volume(communicator, file_mesh_of(communicator, mesh, numbering), directory, name, compression);
 }
 
 }  // namespace aeroloom::io

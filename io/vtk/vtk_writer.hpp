@@ -2,6 +2,7 @@
 /// numbers have 64 bits, the points of a cell, which are numbers within a part, 32.
 #pragma once
 
+#include "io/file_mesh.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
 
@@ -14,10 +15,18 @@ namespace aeroloom::io {
 /// Of the arrays in a file, in blocks.
 enum class Compression { none, lz4, zlib };
 
-/// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/. Tetrahedra only. Cell arrays `piece`,
-/// `region`, `mean_ratio`, `min_dihedral`; field array `region_names`; point array `global_id`. One part is
-/// in VTK's form at a time on each rank. The files are the same bytes for any number of ranks. Collective;
-/// throws on all ranks when a file cannot be written.
+/// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/, each of consecutive parts of the mesh until
+/// they have a million cells. Cells by part, then shape, then region. Cell arrays `piece`, `region`,
+/// `mean_ratio` and `min_dihedral` (io/vtk/cell_quality.hpp); point array `global_id`. Field arrays
+/// `region_names`, and the boundary of these cells, with patches between regions: `patch_names`,
+/// `patch_types` (mesh/patch.hpp), `boundary_patch` (k), `boundary_corners` (global ids, CellShape's
+/// direction) and `boundary_offsets` (k + 1, from 0). Vertices that no cell uses are left out. One part is in
+/// VTK's form at a time on each rank. The files are the same bytes for any number of ranks. Collective;
+/// throws CollectiveError (files) when a file cannot be written.
+void write_volume(const parallel::Communicator& communicator, const FileMesh& mesh,
+                  const std::string& directory, const std::string& name,
+                  Compression compression = Compression::none);
+/// The same of a mesh of tetrahedra.
 void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                   const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
@@ -27,6 +36,12 @@ void write_volume(const parallel::Communicator& communicator, const mesh::Distri
 /// write_volume.
 void write_surface(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                    const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
+                   Compression compression = Compression::none);
+/// The boundary faces of a mesh, with patches between regions: triangles and quadrilaterals by part, then
+/// shape, then patch. Cell arrays `piece` and `patch`; field arrays `patch_names` and `patch_types`; point
+/// array `global_id`, of the volume mesh. Collective, as write_volume.
+void write_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
+                   const std::string& directory, const std::string& name,
                    Compression compression = Compression::none);
 
 /// Writes single triangles, e.g. offenders of a failure, to one .vtp file. Not collective.
