@@ -14,7 +14,7 @@ if(AEROLOOM_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
 find_package(CGAL REQUIRED)
-find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOLegacy IOXML)
+find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOLegacy IOXML IOXMLParser)
 
 find_path(TETGEN_INCLUDE_DIR tetgen.h REQUIRED)
 find_library(TETGEN_LIBRARY tet REQUIRED)

@@ -1,0 +1,125 @@
+#include "io/vtk/vtk_grid.hpp"
+
+#include "io/vtk/vtk_labels.hpp"
+#include "io/vtk/vtk_part.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUtilities.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+/// Keeps the first thing that VTK complains of; nothing is printed.
+class Complaints : public vtkOutputWindow {
+public:
+  vtkTypeMacro(Complaints, vtkOutputWindow)
+  static Complaints* New();
+  void DisplayText(const char*) override {}
+  void DisplayWarningText(const char*) override {}
+  void DisplayGenericWarningText(const char*) override {}
+  void DisplayErrorText(const char* text) override {
+    if (_first.empty() && text != nullptr) _first = text;
+  }
+  /// Without the place in VTK's source; empty where there was none.
+  std::string first() const {
+    const auto place = _first.find("): ");
+    std::string text = place == std::string::npos ? _first : _first.substr(place + 3);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text.size() > 300 ? text.substr(0, 300) + " ..." : text;
+  }
+
+private:
+  std::string _first;
+};
+vtkStandardNewMacro(Complaints);
+
+/// While it lives, complaints come here.
+class Listening {
+public:
+  Listening() : _before(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(_complaints); }
+  ~Listening() { vtkOutputWindow::SetInstance(_before); }
+  Listening(const Listening&) = delete;
+  Listening& operator=(const Listening&) = delete;
+  void require_silence() const {
+    if (!_complaints->first().empty())
+      throw std::runtime_error("VTK cannot read it: " + _complaints->first());
+  }
+
+private:
+  vtkSmartPointer<vtkOutputWindow> _before;
+  vtkNew<Complaints> _complaints;
+};
+
+/// Others are not read at all.
+void select_arrays(vtkXMLUnstructuredGridReader& reader) {
+  vtkDataArraySelection& arrays = *reader.GetCellDataArraySelection();
+  arrays.DisableAllArrays();
+  arrays.EnableArray(vtkDataSetAttributes::GhostArrayName());
+  for (const char* name : region_arrays) arrays.EnableArray(name);
+  for (const char* name : patch_arrays) arrays.EnableArray(name);
+}
+
+void find_sources(vtkXMLDataElement& grid, std::vector<std::string>& sources) {
+  for (int i = 0; i < grid.GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement& piece = *grid.GetNestedElement(i);
+    if (piece.GetName() == nullptr || std::string(piece.GetName()) != "Piece") continue;
+    const char* source = piece.GetAttribute("Source");
+    if (source == nullptr || *source == '\0')
+      throw std::runtime_error(fmt::format("piece {} names no file (attribute Source)", sources.size()));
+    sources.emplace_back(source);
+  }
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path) {
+  const Listening listening;
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".vtk") {
+    vtkNew<vtkUnstructuredGridReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    grid = reader->GetOutput();
+  } else {
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->UpdateInformation();
+    listening.require_silence();
+    select_arrays(*reader);
+    reader->Update();
+    grid = reader->GetOutput();
+  }
+  listening.require_silence();
+  if (grid == nullptr) throw std::runtime_error("it holds no unstructured grid");
+  return grid;
+}
+
+std::vector<std::string> extract_vtk_sources(const std::string& path) {
+  const Listening listening;
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  listening.require_silence();
+  vtkXMLDataElement* grid = root != nullptr ? root->FindNestedElementWithName("PUnstructuredGrid") : nullptr;
+  if (grid == nullptr) throw std::runtime_error("it is no index of unstructured grids (PUnstructuredGrid)");
+  std::vector<std::string> sources;
+  find_sources(*grid, sources);
+  return sources;
+}
+
+}  // namespace aeroloom::io

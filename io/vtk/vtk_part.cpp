@@ -1,0 +1,157 @@
+#include "io/vtk/vtk_part.hpp"
+
+#include "parallel/contained.hpp"
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+constexpr const char* part_task = "read a VTK file";
+constexpr const char* sources_task = "read an index of VTK files";
+
+/// Compressed arrays and text grow in memory, but not beyond measure.
+parallel::ContainedLimits limits_of(std::int64_t file_bytes) {
+  parallel::ContainedLimits limits;
+  limits.cpu_seconds = 10 + 4e-6 * static_cast<double>(file_bytes);
+  limits.address_space_bytes = (std::int64_t{1} << 30) + 100 * file_bytes;
+  return limits;
+}
+
+void pack_labels(parallel::Packer& packer, const std::vector<VtkLabel>& labels) {
+  packer.value(static_cast<std::uint64_t>(labels.size()));
+  for (const VtkLabel& label : labels) {
+    packer.value(label.value);
+    packer.text(label.named.name);
+    packer.value(label.named.type);
+  }
+}
+
+std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker) {
+  std::vector<VtkLabel> labels;
+  for (auto left = unpacker.value<std::uint64_t>(); left > 0; --left) {
+    VtkLabel& label = labels.emplace_back();
+    label.value = unpacker.value<std::int64_t>();
+    label.named.name = unpacker.text();
+    label.named.type = unpacker.value<mesh::PatchType>();
+  }
+  return labels;
+}
+
+/// Packs an array and lets go of it: the whole is never there twice.
+template <class T>
+void hand_over(parallel::Packer& packer, std::vector<T>& items) {
+  packer.array(items);
+  items = {};
+}
+
+parallel::Bytes pack(VtkPart part) {
+  parallel::Packer packer;
+  hand_over(packer, part.coordinates);
+  hand_over(packer, part.ids);
+  for (auto& items : part.cells) hand_over(packer, items);
+  for (auto& items : part.cell_labels) hand_over(packer, items);
+  for (auto& items : part.faces) hand_over(packer, items);
+  for (auto& items : part.face_labels) hand_over(packer, items);
+  pack_labels(packer, part.regions);
+  pack_labels(packer, part.patches);
+  return packer.take();
+}
+
+VtkPart unpack(const parallel::Bytes& bytes) {
+  parallel::Unpacker unpacker(bytes);
+  VtkPart part;
+  part.coordinates = unpacker.array<double>();
+  part.ids = unpacker.array<mesh::GlobalIndex>();
+  for (auto& items : part.cells) items = unpacker.array<mesh::GlobalIndex>();
+  for (auto& items : part.cell_labels) items = unpacker.array<std::int32_t>();
+  for (auto& items : part.faces) items = unpacker.array<mesh::GlobalIndex>();
+  for (auto& items : part.face_labels) items = unpacker.array<std::int32_t>();
+  part.regions = unpack_labels(unpacker);
+  part.patches = unpack_labels(unpacker);
+  return part;
+}
+
+std::string text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+parallel::Bytes run_part_task(std::span<const std::byte> input) {
+  return pack(extract_vtk_part(text_of(input)));
+}
+
+parallel::Bytes run_sources_task(std::span<const std::byte> input) {
+  parallel::Packer packer;
+  const std::vector<std::string> sources = extract_vtk_sources(text_of(input));
+  packer.value(static_cast<std::uint64_t>(sources.size()));
+  for (const std::string& source : sources) packer.text(source);
+  return packer.take();
+}
+
+/// Before any server of contained runs starts.
+const bool tasks_are_known = [] {
+  parallel::register_contained_task(part_task, run_part_task);
+  parallel::register_contained_task(sources_task, run_sources_task);
+  return true;
+}();
+
+parallel::Bytes run(const char* task, const std::string& path) {
+  if (!tasks_are_known) throw std::logic_error("the tasks of VTK files are not registered");
+  const parallel::ContainedLimits limits = limits_of(readable_bytes(path));
+  parallel::ContainedResult result = parallel::run_contained(task, std::as_bytes(std::span(path)), limits);
+  switch (result.status) {
+    case parallel::ContainedStatus::ok:
+      return std::move(result.output);
+    case parallel::ContainedStatus::threw:
+      throw std::runtime_error(fmt::format("'{}': {}", path, result.message));
+    case parallel::ContainedStatus::out_of_memory:
+      throw std::runtime_error(
+          fmt::format("'{}': VTK's reader asks for more than {} MiB of memory, too much for a file of this "
+                      "size; it is damaged, or compressed beyond measure",
+                      path, limits.address_space_bytes >> 20));
+    case parallel::ContainedStatus::out_of_time:
+      throw std::runtime_error(fmt::format("'{}': VTK's reader does not end within {:.0f} s; it is damaged",
+                                           path, limits.cpu_seconds));
+    case parallel::ContainedStatus::aborted:
+      break;
+  }
+  throw std::runtime_error(
+      fmt::format("'{}': VTK's reader crashes on it ({}); it is damaged", path, result.message));
+}
+
+}  // namespace
+
+std::int64_t readable_bytes(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (!fs::is_regular_file(path))
+    throw fs::filesystem_error("cannot open", path,
+                               std::make_error_code(std::errc::no_such_file_or_directory));
+  errno = 0;
+  if (!std::ifstream(path, std::ios::binary))
+    throw fs::filesystem_error("cannot open", path,
+                               std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
+  return static_cast<std::int64_t>(fs::file_size(path));
+}
+
+VtkPart read_vtk_part(const std::string& path) {
+  return unpack(run(part_task, path));
+}
+
+std::vector<std::string> read_vtk_sources(const std::string& path) {
+  const parallel::Bytes bytes = run(sources_task, path);
+  parallel::Unpacker unpacker(bytes);
+  std::vector<std::string> sources;
+  for (auto left = unpacker.value<std::uint64_t>(); left > 0; --left) sources.push_back(unpacker.text());
+  return sources;
+}
+
+}  // namespace aeroloom::io
