@@ -1,265 +1,224 @@
 #include "foreign/foreign_mesh.hpp"
 
-#include "io/vtk/vtk_reader.hpp"
-#include "mesh/tet_faces.hpp"
+#include "io/face_links.hpp"
+#include "io/point_store.hpp"
+#include "io/read_mesh.hpp"
+#include "mesh/delivery.hpp"
 #include "mesh/tokens.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
-#include "partition/graph_partition.hpp"
 #include "partition/piece_size.hpp"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
+#include <array>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace aeroloom::foreign {
 namespace {
 
+using mesh::GlobalIndex;
 using mesh::LocalIndex;
-using mesh::Piece;
-using mesh::PieceId;
 using mesh::RegionId;
 
-/// Cuts regions into pieces and builds them on the rank that read the file.
-class ForeignMesh {
-public:
-  ForeignMesh(io::TetrahedraFile file, const std::string& path, std::optional<std::int64_t> piece_tets)
-      : _file(std::move(file)),
-        _path(path),
-        _piece_tets(
-            piece_tets.value_or(partition::suitable_piece_tets(static_cast<double>(_file.tets.size())))),
-        _faces(mesh::sorted_faces(_file.tets)) {}
-
-  mesh::DistributedMesh build() {
-    require_conformity();
-    mesh::DistributedMesh mesh;
-    mesh.kind = mesh::CellKind::tetrahedron;
-    mesh.regions = _file.region_names;
-    cut();
-    name_faces(mesh);
-    mesh.piece_count = _pieces;
-    build_pieces(mesh);
-    return mesh;
-  }
-
-private:
-  void require_conformity() const {
-    for (std::size_t i = 2; i < _faces.size(); ++i) {
-      if (_faces[i].key != _faces[i - 2].key) continue;
-      throw std::runtime_error(fmt::format(
-          "'{}': more than two tetrahedra share the face of points {}, {} and {}; the mesh does not conform",
-          _path, _faces[i].key[0], _faces[i].key[1], _faces[i].key[2]));
-    }
-  }
-
-  void cut();
-  void cut_region(const std::vector<LocalIndex>& tets);
-  void name_faces(mesh::DistributedMesh& mesh);
-  void build_pieces(mesh::DistributedMesh& mesh);
-  std::vector<char> vertices_in_several_pieces() const;
-
-  io::TetrahedraFile _file;
-  std::string _path;
-  std::int64_t _piece_tets;
-  std::vector<mesh::TetFace> _faces;
-  std::vector<PieceId> _piece_of;  // per tetrahedron
-  PieceId _pieces = 0;
-  struct Triangle {
-    std::array<LocalIndex, 3> vertices;
-    std::int32_t tet, face;
-  };
-  std::vector<Triangle> _triangles;
+/// A face of the model: a patch where it bounds one region, or lies between two.
+struct Face {
+  std::int32_t patch;
+  RegionId front, back;
+  friend auto operator<=>(const Face&, const Face&) = default;
 };
 
-void ForeignMesh::cut() {
-  _piece_of.assign(_file.tets.size(), 0);
-  for (std::size_t r = 0; r < _file.region_names.size(); ++r) {
-    std::vector<LocalIndex> tets;
-    for (std::size_t t = 0; t < _file.tets.size(); ++t) {
-      if (_file.region[t] == static_cast<RegionId>(r)) tets.push_back(static_cast<LocalIndex>(t));
-    }
-    cut_region(tets);
-  }
+/// The region of each part; empty parts have the first.
+std::vector<RegionId> regions_of_parts(const parallel::Communicator& communicator, const io::FileMesh& mesh) {
+  std::vector<std::array<std::int32_t, 2>> mine;
+  for (const io::FilePart& part : mesh.parts)
+    mine.push_back({part.id, part.cells[0].runs.empty() ? 0 : part.cells[0].runs.front().id});
+  std::vector<RegionId> regions(mesh.part_count, 0);
+  for (const auto& [part, region] :
+       communicator.all_gather_items(std::span<const std::array<std::int32_t, 2>>(mine)))
+    regions[part] = region;
+  return regions;
 }
 
-void ForeignMesh::cut_region(const std::vector<LocalIndex>& tets) {
-  const auto count = static_cast<std::int64_t>(tets.size());
-  const auto parts = static_cast<std::int32_t>((count + _piece_tets / 2) / _piece_tets);
-  if (2 * count <= 3 * _piece_tets || parts < 2) {
-    for (const LocalIndex t : tets) _piece_of[t] = _pieces;
-    ++_pieces;
-    return;
+/// The face that each boundary triangle of each part lies on.
+std::vector<std::vector<Face>> faces_of_triangles(const parallel::Communicator& communicator,
+                                                  const io::FileMesh& mesh) {
+  const std::vector<RegionId> region = regions_of_parts(communicator, mesh);
+  const io::FaceLinks links = io::link_faces(communicator, mesh);
+  std::vector<std::vector<Face>> faces;
+  for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+    const io::FilePart& part = mesh.parts[p];
+    auto& of_part = faces.emplace_back(part.faces[0].count());
+    for (const io::Run& run : part.faces[0].runs) {
+      for (LocalIndex t = run.begin; t < run.end; ++t)
+        of_part[t] = {run.id, region[part.id], mesh::no_region};
+    }
+    for (std::size_t s = 0; s < links.parts[p].behind.size(); ++s) {
+      const LocalIndex triangle = links.parts[p].boundary_face[s];
+      const io::CellBehind& behind = links.parts[p].behind[s];
+      if (triangle >= 0 && behind.exists()) of_part[triangle].back = region[behind.part];
+    }
   }
-  std::vector<LocalIndex> node(_file.tets.size(), -1);
-  for (std::size_t i = 0; i < tets.size(); ++i) node[tets[i]] = static_cast<LocalIndex>(i);
-  partition::WeightedGraph graph;
-  graph.first.assign(tets.size() + 1, 0);
-  std::vector<std::array<std::int32_t, 2>> pairs;
-  mesh::for_each_face(
-      _faces,
-      [&](std::int32_t a, std::int32_t b) {
-        if (node[a] < 0 || node[b] < 0) return;
-        pairs.push_back({node[a], node[b]});
-        ++graph.first[node[a] + 1];
-        ++graph.first[node[b] + 1];
-      },
-      [](const mesh::TetFace&) {});
-  std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());
-  graph.neighbours.resize(2 * pairs.size());
-  std::vector<std::int32_t> next(graph.first.begin(), graph.first.end() - 1);
-  for (const auto& [a, b] : pairs) {
-    graph.neighbours[next[a]++] = b;
-    graph.neighbours[next[b]++] = a;
-  }
-  graph.arc_weights.assign(graph.neighbours.size(), 1);
-  graph.node_weights.assign(tets.size(), 1);
-  const std::vector<std::int32_t> part = partition::partition_graph(graph, parts);
-  // Parts that METIS left empty get no number.
-  std::vector<PieceId> number(parts, -1);
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    PieceId& piece = number[part[i]];
-    if (piece < 0) piece = _pieces++;
-    _piece_of[tets[i]] = piece;
-  }
+  return faces;
 }
 
-void ForeignMesh::name_faces(mesh::DistributedMesh& mesh) {
-  std::map<std::array<RegionId, 2>, std::int32_t> known;
-  const auto face_between = [&](RegionId front, RegionId back) {
-    const auto [entry, is_new] =
-        known.try_emplace({front, back}, static_cast<std::int32_t>(mesh.faces.size()));
-    if (is_new) {
-      const std::string& name = mesh.regions[front];
-      mesh.faces.push_back(back == mesh::no_region ? "boundary_of_" + name
-                                                   : name + "_to_" + mesh.regions[back]);
-      mesh.sides.push_back({front, back});
-    }
-    return entry->second;
+/// All faces of the mesh, ascending. Collective.
+std::vector<Face> all_faces(const parallel::Communicator& communicator,
+                            const std::vector<std::vector<Face>>& of_triangles) {
+  std::vector<Face> faces;
+  const auto sort_unique = [&] {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   };
-  mesh::for_each_face(
-      _faces,
-      [&](std::int32_t a, std::int32_t b) {
-        if (_file.region[a] == _file.region[b]) return;
-        const std::int32_t front = _file.region[a] < _file.region[b] ? a : b, back = a + b - front;
-        const auto& c = _file.tets[front];
-        for (const auto& f : mesh::tetrahedron_faces) {
-          const std::array<LocalIndex, 3> corners{c[f[0]], c[f[1]], c[f[2]]};
-          const auto in_back = [&](LocalIndex v) {
-            return std::find(_file.tets[back].begin(), _file.tets[back].end(), v) != _file.tets[back].end();
-          };
-          if (std::all_of(corners.begin(), corners.end(), in_back))
-            _triangles.push_back({corners, front, face_between(_file.region[front], _file.region[back])});
-        }
-      },
-      [&](const mesh::TetFace& face) {
-        _triangles.push_back(
-            {face.vertices, face.tet, face_between(_file.region[face.tet], mesh::no_region)});
-      });
-  mesh.patches = mesh.faces;
+  for (const auto& some : of_triangles) faces.insert(faces.end(), some.begin(), some.end());
+  sort_unique();
+  faces = communicator.all_gather_items(std::span<const Face>(faces));
+  sort_unique();
+  return faces;
 }
 
-std::vector<char> ForeignMesh::vertices_in_several_pieces() const {
-  const std::size_t count = _file.coordinates.size() / 3;
-  std::vector<PieceId> first(count, -1);
-  std::vector<char> several(count, 0);
-  for (std::size_t t = 0; t < _file.tets.size(); ++t) {
-    for (const LocalIndex v : _file.tets[t]) {
-      if (first[v] < 0) first[v] = _piece_of[t];
-      several[v] = several[v] || first[v] != _piece_of[t];
+/// What parts know of a vertex: the largest face around it (-1: none), and whether several know it.
+struct VertexNote {
+  GlobalIndex number;
+  std::int32_t face, part, place, rank;
+};
+
+/// Notes of all vertices that several parts know, or whose face another part told.
+std::vector<VertexNote> exchange_notes(const parallel::Communicator& communicator, const io::FileMesh& mesh,
+                                       std::vector<VertexNote> notes, std::vector<VertexNote>& shared) {
+  const io::KeyRanges ranges = io::even_ranges(communicator.size(), mesh.vertex_count);
+  std::vector<VertexNote> met = mesh::deliver(
+      communicator, std::move(notes), [&](const VertexNote& note) { return ranges.rank_of(note.number); });
+  std::sort(met.begin(), met.end(), [](const VertexNote& a, const VertexNote& b) {
+    return std::tie(a.number, a.part) < std::tie(b.number, b.part);
+  });
+  std::vector<VertexNote> answers;
+  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
+    std::int32_t face = -1;
+    for (j = i; j < met.size() && met[j].number == met[i].number; ++j) face = std::max(face, met[j].face);
+    if (j - i < 2) continue;
+    for (std::size_t k = i; k < j; ++k) {
+      met[k].face = face;
+      answers.push_back(met[k]);
     }
   }
-  return several;
+  shared = mesh::deliver(communicator, std::move(answers),
+                         [](const VertexNote& note) { return static_cast<parallel::Rank>(note.rank); });
+  std::sort(shared.begin(), shared.end(), [](const VertexNote& a, const VertexNote& b) {
+    return std::tie(a.part, a.place) < std::tie(b.part, b.place);
+  });
+  return std::move(shared);
 }
 
-void ForeignMesh::build_pieces(mesh::DistributedMesh& mesh) {
-  const std::vector<char> several = vertices_in_several_pieces();
-  const std::size_t vertices = several.size();
-  std::vector<std::int32_t> face_of(vertices, -1);
-  for (const Triangle& triangle : _triangles) {
-    for (const LocalIndex v : triangle.vertices) face_of[v] = std::max(face_of[v], triangle.face);
+/// One part as a piece, but for what others know of its vertices.
+mesh::Piece piece_of(const io::FilePart& part, RegionId region, const std::vector<Face>& of_triangles,
+                     const std::vector<Face>& faces) {
+  mesh::Piece piece;
+  piece.id = part.id;
+  piece.region = region;
+  piece.coordinates.assign(part.coordinates.begin(), part.coordinates.end());
+  piece.cells.assign(part.cells[0].connectivity.begin(), part.cells[0].connectivity.end());
+  piece.boundary.assign(part.faces[0].connectivity.begin(), part.faces[0].connectivity.end());
+  piece.vertex_dimension.assign(part.vertex_count(), 3);
+  piece.vertex_entity.assign(part.vertex_count(), -1);
+  for (std::size_t t = 0; t < of_triangles.size(); ++t) {
+    const auto face = static_cast<std::int32_t>(
+        std::lower_bound(faces.begin(), faces.end(), of_triangles[t]) - faces.begin());
+    piece.triangle_face.push_back(face);
+    piece.triangle_patch.push_back(of_triangles[t].patch);
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::int32_t& entity = piece.vertex_entity[piece.boundary[3 * t + k]];
+      entity = std::max(entity, face);
+    }
   }
-  std::vector<std::vector<LocalIndex>> tets(_pieces), triangles(_pieces);
-  for (std::size_t t = 0; t < _piece_of.size(); ++t) tets[_piece_of[t]].push_back(static_cast<LocalIndex>(t));
-  for (std::size_t i = 0; i < _triangles.size(); ++i)
-    triangles[_piece_of[_triangles[i].tet]].push_back(static_cast<LocalIndex>(i));
-  std::vector<LocalIndex> local(vertices, -1);
-  for (PieceId id = 0; id < _pieces; ++id) {
-    Piece& piece = mesh.pieces.emplace_back();
-    piece.id = id;
-    piece.region = _file.region[tets[id].front()];
-    std::vector<LocalIndex> used;
-    for (const LocalIndex t : tets[id]) used.insert(used.end(), _file.tets[t].begin(), _file.tets[t].end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      const LocalIndex v = used[i];
-      local[v] = static_cast<LocalIndex>(i);
-      const double* p = _file.coordinates.data() + 3 * static_cast<std::size_t>(v);
-      piece.coordinates.insert(piece.coordinates.end(), p, p + 3);
-      piece.vertex_dimension.push_back(face_of[v] < 0 ? 3 : 2);
-      piece.vertex_entity.push_back(face_of[v] < 0 ? piece.region : face_of[v]);
-      if (!several[v]) continue;
-      piece.shared_vertices.push_back(static_cast<LocalIndex>(i));
-      piece.shared_tokens.push_back(mesh::running_token(v));
-    }
-    for (const LocalIndex t : tets[id]) {
-      for (const LocalIndex v : _file.tets[t]) piece.cells.push_back(local[v]);
-    }
-    for (const LocalIndex i : triangles[id]) {
-      for (const LocalIndex v : _triangles[i].vertices) piece.boundary.push_back(local[v]);
-      piece.triangle_face.push_back(_triangles[i].face);
-      piece.triangle_patch.push_back(_triangles[i].face);
+  return piece;
+}
+
+/// What all parts know of the vertices: which lie on faces, and which are shared.
+void settle_vertices(const parallel::Communicator& communicator, const io::FileMesh& mesh,
+                     std::vector<mesh::Piece>& pieces) {
+  std::vector<VertexNote> notes, shared;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (LocalIndex v = 0; v < pieces[p].vertex_count(); ++v)
+      notes.push_back(
+          {mesh.parts[p].numbers[v], pieces[p].vertex_entity[v], pieces[p].id, v, communicator.rank()});
+  }
+  for (const VertexNote& note : exchange_notes(communicator, mesh, std::move(notes), shared)) {
+    const auto piece =
+        std::lower_bound(pieces.begin(), pieces.end(), note.part,
+                         [](const mesh::Piece& item, std::int32_t id) { return item.id < id; });
+    piece->vertex_entity[note.place] = note.face;
+    piece->shared_vertices.push_back(note.place);
+    piece->shared_tokens.push_back(mesh::running_token(note.number));
+  }
+  for (mesh::Piece& piece : pieces) {
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      piece.vertex_dimension[v] = piece.vertex_entity[v] < 0 ? 3 : 2;
+      if (piece.vertex_entity[v] < 0) piece.vertex_entity[v] = piece.region;
     }
   }
 }
 
-void broadcast_names(const parallel::Communicator& communicator, std::vector<std::string>& names) {
-  std::vector<char> text;
-  for (const std::string& name : names) {
-    text.insert(text.end(), name.begin(), name.end());
-    text.push_back('\0');
+/// Faces are called as their patch, and by their regions where a patch has several.
+void name_faces(const io::FileMesh& mesh, const std::vector<Face>& faces, mesh::DistributedMesh& result) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Face& face = faces[f];
+    const bool alone = (f == 0 || faces[f - 1].patch != face.patch) &&
+                       (f + 1 == faces.size() || faces[f + 1].patch != face.patch);
+    std::string name = mesh.patches[face.patch].name;
+    if (!alone) name += "_" + mesh.regions[face.front];
+    if (!alone && face.back != mesh::no_region) name += "_" + mesh.regions[face.back];
+    result.faces.push_back(std::move(name));
+    result.sides.push_back({face.front, face.back});
   }
-  communicator.broadcast_items(text);
-  names.clear();
-  for (auto begin = text.begin(); begin != text.end();) {
-    const auto end = std::find(begin, text.end(), '\0');
-    names.emplace_back(begin, end);
-    begin = end + 1;
+  for (const mesh::Patch& patch : mesh.patches) {
+    result.patches.push_back(patch.name);
+    result.patch_types.push_back(patch.type);
   }
+  result.regions = mesh.regions;
 }
 
 }  // namespace
 
+mesh::DistributedMesh pieces_of(const parallel::Communicator& communicator, const io::FileMesh& mesh,
+                                const std::string& path, std::optional<std::int64_t> piece_tets) {
+  const GlobalIndex tets = mesh.cell_count(io::CellShape::tetrahedron), others = mesh.cell_count() - tets;
+  if (others > 0) {
+    throw parallel::CollectiveError(
+        parallel::FailureKind::input,
+        fmt::format(
+            "'{}' has {} pyramids and prisms beside {} tetrahedra. Remedy: give a mesh of tetrahedra alone; "
+            "`aeroloom convert` and `aeroloom quality` take the others too",
+            path, others, tets));
+  }
+  const std::int64_t size = piece_tets.value_or(partition::suitable_piece_tets(static_cast<double>(tets)));
+  const bool one = 2 * tets <= 3 * size;
+  const io::FileMesh cut = io::repartition(
+      communicator, mesh, one ? 1 : static_cast<std::int32_t>((tets + size / 2) / size), true);
+  mesh::DistributedMesh result;
+  result.kind = mesh::CellKind::tetrahedron;
+  result.piece_count = cut.part_count;
+  const std::vector<std::vector<Face>> of_triangles = faces_of_triangles(communicator, cut);
+  const std::vector<Face> faces = all_faces(communicator, of_triangles);
+  const std::vector<RegionId> region = regions_of_parts(communicator, cut);
+  for (std::size_t p = 0; p < cut.parts.size(); ++p)
+    result.pieces.push_back(piece_of(cut.parts[p], region[cut.parts[p].id], of_triangles[p], faces));
+  settle_vertices(communicator, cut, result.pieces);
+  name_faces(cut, faces, result);
+  return result;
+}
+
 mesh::DistributedMesh load_foreign_mesh(const parallel::Communicator& communicator, const std::string& path,
                                         std::optional<std::int64_t> piece_tets) {
-  mesh::DistributedMesh mesh;
-  std::vector<std::int64_t> sizes;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    io::TetrahedraFile file = io::read_tetrahedra(path);
-    parallel::log_info(fmt::format(
-        "input: {} tetrahedra, {} points, {} region(s); {} turned over, {} cells of lower dimension left out",
-        file.tets.size(), file.coordinates.size() / 3, file.region_names.size(), file.turned, file.ignored));
-    mesh = ForeignMesh(std::move(file), path, piece_tets).build();
-    for (const Piece& piece : mesh.pieces) sizes.push_back(piece.cell_count());
-  });
-  communicator.broadcast_items(sizes);
-  mesh.kind = mesh::CellKind::tetrahedron;
-  mesh.piece_count = static_cast<PieceId>(sizes.size());
-  for (std::vector<std::string>* names : {&mesh.patches, &mesh.faces, &mesh.regions})
-    broadcast_names(communicator, *names);
-  communicator.broadcast_items(mesh.sides);
-  const std::int64_t total = std::accumulate(sizes.begin(), sizes.end(), std::int64_t{0});
-  std::vector<parallel::Rank> owner;
-  std::int64_t before = 0;
-  for (const std::int64_t size : sizes) {
-    owner.push_back(static_cast<parallel::Rank>((before + size / 2) * communicator.size() / total));
-    before += size;
+  io::Assembled file = io::read_mesh(communicator, path, 0);
+  if (communicator.is_root()) {
+    parallel::log_info(fmt::format("input: {} tetrahedra, {} points, {} region(s), {} patch(es); {}",
+                                   file.mesh.cell_count(), file.mesh.vertex_count, file.mesh.regions.size(),
+                                   file.mesh.patches.size(), io::describe(file)));
   }
-  mesh::migrate(communicator, mesh, owner);
-  return mesh;
+  return pieces_of(communicator, file.mesh, path, piece_tets);
 }
 
 }  // namespace aeroloom::foreign

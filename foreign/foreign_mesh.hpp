@@ -1,6 +1,7 @@
 /// A mesh that another program made, as a distributed mesh.
 #pragma once
 
+#include "io/file_mesh.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
 
@@ -10,10 +11,15 @@
 
 namespace aeroloom::foreign {
 
-/// Reads a file (io/vtk/vtk_reader.hpp) and deals it out in pieces of about `piece_tets` tetrahedra (empty: of
-/// what suits their number). Each region of the file stays one; its outer boundary and the boundary between
-/// two regions become one face each. The same pieces for any number of ranks; rank 0 reads and cuts.
-/// Collective. Throws CollectiveError when the file cannot be read or is no conforming mesh of tetrahedra.
+/// Cuts a mesh of tetrahedra into pieces of about `piece_tets` tetrahedra (empty: of what suits their
+/// number), of one region each, along a space-filling curve. Each patch becomes a face for each region that
+/// it bounds (and each two, between regions). The same pieces for any number of ranks. Collective. Throws
+/// CollectiveError (input), naming `path`, where there are pyramids or prisms.
+mesh::DistributedMesh pieces_of(const parallel::Communicator& communicator, const io::FileMesh& mesh,
+                                const std::string& path, std::optional<std::int64_t> piece_tets);
+
+/// Reads a file (io/read_mesh.hpp) and cuts it. Collective. Throws CollectiveError when the file cannot be
+/// read or is no conforming mesh of tetrahedra.
 mesh::DistributedMesh load_foreign_mesh(const parallel::Communicator& communicator, const std::string& path,
                                         std::optional<std::int64_t> piece_tets);
 

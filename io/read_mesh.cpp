@@ -1,0 +1,64 @@
+#include "io/read_mesh.hpp"
+
+#include "io/vtk/vtk_reader.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using Reader = RawMesh (*)(const parallel::Communicator&, const std::string&);
+
+/// Who reads files with this end of their name.
+struct NamedReader {
+  std::string_view extension;
+  Reader read;
+};
+
+constexpr std::array<NamedReader, 3> readers = {{
+    {".vtu", read_vtk},
+    {".pvtu", read_vtk},
+    {".vtk", read_vtk},
+}};
+
+}  // namespace
+
+Assembled read_mesh(const parallel::Communicator& communicator, const std::string& path, std::int32_t parts) {
+  const auto found = std::find_if(readers.begin(), readers.end(), [&](const NamedReader& reader) {
+    return path.ends_with(reader.extension);
+  });
+  if (found == readers.end()) {
+    std::string known;
+    for (const NamedReader& reader : readers)
+      known += fmt::format("{}{}", known.empty() ? "" : ", ", reader.extension);
+    throw parallel::CollectiveError(
+        parallel::FailureKind::files,
+        fmt::format("'{}': no format of meshes that is read here ends like this; known are {}", path, known));
+  }
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root() && !std::filesystem::exists(path))
+      throw std::ios_base::failure(fmt::format("'{}': no such file", path));
+  });
+  return assemble(communicator, found->read(communicator, path), path, parts);
+}
+
+std::string describe(const Assembled& file) {
+  std::string text;
+  const auto add = [&](mesh::GlobalIndex count, std::string_view what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add(file.turned_cells, "cells turned over");
+  add(file.dropped_points, "points without a cell dropped");
+  add(file.unnamed_faces, "boundary faces without a patch");
+  add(file.left_out_faces, "boundary faces inside a region or beside all cells left out");
+  return text.empty() ? "nothing to mend" : text;
+}
+
+}  // namespace aeroloom::io
