@@ -16,6 +16,14 @@ endif()
 find_package(CGAL REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOLegacy IOXML IOXMLParser)
 
+# HDF5 as the MPI programs of a machine have it: a process holds one build only, and other libraries of a host
+# program bring that one.
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+if(NOT HDF5_IS_PARALLEL)
+  message(FATAL_ERROR "The HDF5 found is not built with MPI: install libhdf5-openmpi-dev, or set HDF5_ROOT")
+endif()
+
 find_path(TETGEN_INCLUDE_DIR tetgen.h REQUIRED)
 find_library(TETGEN_LIBRARY tet REQUIRED)
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)

@@ -1,0 +1,43 @@
+/// Where the arrays of a VTKHDF file go. Functions of counts and names alone.
+#pragma once
+
+#include "io/file_mesh.hpp"
+#include "io/hdf5/file_layout.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io::vtkhdf {
+
+/// What a partition holds of a grid, or all lower ones together.
+struct GridCounts {
+  std::int64_t points = 0, cells = 0, corners = 0;
+};
+
+/// Offsets in bytes of the first item of each array.
+struct GridPlaces {
+  std::int64_t points = 0, numbers = 0;        ///< doubles; int64
+  std::int64_t connectivity = 0, offsets = 0;  ///< int64; one offset more per partition
+  std::int64_t types = 0, parts = 0, ids = 0;  ///< uint8; int32; int32
+};
+
+/// Lays out the group /VTKHDF, with cell data `part` and `id_name` and point data `global_id`; one row per
+/// partition.
+GridPlaces lay_out_grid(hdf5::FileLayout& file, std::span<const GridCounts> partitions,
+                        const std::string& id_name);
+
+struct BoundaryPlaces {
+  std::int64_t connectivity = 0, offsets = 0;  ///< int64; one offset more than faces
+  std::int64_t types = 0, patches = 0;         ///< uint8; int32
+};
+
+/// Lays out the group /Boundary.
+BoundaryPlaces lay_out_boundary(hdf5::FileLayout& file, std::int64_t faces, std::int64_t corners,
+                                std::span<const mesh::Patch> patches);
+
+/// The partitions before each one together; one entry more than partitions, the last of all.
+std::vector<GridCounts> sums_before(std::span<const GridCounts> partitions);
+
+}  // namespace aeroloom::io::vtkhdf
