@@ -20,6 +20,8 @@ hid_t file_type(ItemType type) {
       return H5T_STD_I32LE;
     case ItemType::int64:
       return H5T_STD_I64LE;
+    case ItemType::float32:
+      return H5T_IEEE_F32LE;
     default:
       return H5T_IEEE_F64LE;
   }

@@ -19,8 +19,8 @@
 namespace aeroloom::io::hdf5 {
 
 /// Items in files: all of little-endian machines.
-enum class ItemType { int8, uint8, int32, int64, float64 };
-inline constexpr std::array<int, 5> item_type_bytes = {1, 1, 4, 8, 8};
+enum class ItemType { int8, uint8, int32, int64, float32, float64 };
+inline constexpr std::array<int, 6> item_type_bytes = {1, 1, 4, 8, 4, 8};
 inline constexpr int bytes_of(ItemType type) {
   return item_type_bytes[static_cast<std::size_t>(type)];
 }

@@ -1,4 +1,5 @@
 /// Writes the mixed mesh for programs that check files: write_hdf5_files FORMAT FOLDER [SQUARES PARTS].
+#include "io/cgns/cgns_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 #include "parallel/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
   if (format == "vtkhdf") {
     io::write_vtkhdf(world, mesh, folder + "/mesh.vtkhdf");
     io::write_vtkhdf_surface(world, mesh, folder + "/surface.vtkhdf");
+  } else if (format == "cgns") {
+    io::write_cgns(world, mesh, folder + "/mesh.cgns");
   }
   return 0;
 }
