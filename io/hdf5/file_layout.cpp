@@ -72,8 +72,7 @@ struct FileLayout::State {
     require(H5Pset_layout(properties, H5D_CONTIGUOUS), path);
     require(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), path);
     // Arrays are written in full. Those of texts hold pointers, and the library insists on filling them.
-    if (H5Tget_class(type) != H5T_STRING)
-      require(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), path);
+    if (H5Tget_class(type) != H5T_STRING) require(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), path);
     return {H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
             "array " + path};
   }

@@ -1,0 +1,123 @@
+#include "io/hdf5/input_file.hpp"
+
+#include "io/hdf5/contained_reading.hpp"
+#include "parallel/contained.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io::hdf5 {
+
+using parallel::Packer;
+using parallel::Unpacker;
+
+namespace {
+
+constexpr std::int64_t rows_at_a_time = std::int64_t{1} << 21;
+
+/// Runs one operation in a child; its bytes.
+parallel::Bytes read_contained(const std::string& path, Operation operation, const parallel::Bytes& details) {
+  Packer packer;
+  packer.value(operation);
+  packer.text(path);
+  parallel::Bytes input = packer.take();
+  input.insert(input.end(), details.begin(), details.end());
+  parallel::ContainedLimits limits;
+  limits.cpu_seconds = 120;
+  limits.address_space_bytes = std::int64_t{2} << 30;
+  parallel::ContainedResult result = parallel::run_contained(reading_task(), input, limits);
+  switch (result.status) {
+    case parallel::ContainedStatus::ok:
+      return std::move(result.output);
+    case parallel::ContainedStatus::threw:
+      throw std::runtime_error(path + ": " + result.message);
+    case parallel::ContainedStatus::out_of_memory:
+      throw std::runtime_error(path + ": the HDF5 library ran out of memory on it; the file is damaged");
+    case parallel::ContainedStatus::out_of_time:
+      throw std::runtime_error(path + ": the HDF5 library came to no end with it; the file is damaged");
+    default:
+      throw std::runtime_error(
+          fmt::format("{}: the HDF5 library crashed on it ({}); the file is damaged", path, result.message));
+  }
+}
+
+template <class T>
+std::vector<T> read_rows(const std::string& path, Operation operation, const std::string& array,
+                         std::int64_t begin, std::int64_t count) {
+  std::vector<T> items;
+  for (std::int64_t done = 0; done < count; done += rows_at_a_time) {
+    Packer packer;
+    packer.text(array);
+    packer.value(begin + done);
+    packer.value(std::min(rows_at_a_time, count - done));
+    const parallel::Bytes bytes = read_contained(path, operation, packer.take());
+    const std::vector<T> portion = parallel::from_bytes<T>(bytes);
+    items.insert(items.end(), portion.begin(), portion.end());
+  }
+  return items;
+}
+
+}  // namespace
+
+InputFile::InputFile(std::string path) : _path(std::move(path)) {
+  const bool is_folder = std::filesystem::is_directory(_path);
+  errno = 0;
+  const std::ifstream file(_path, std::ios::binary);
+  if (file && !is_folder) return;
+  const int reason = is_folder ? EISDIR : errno != 0 ? errno : EIO;
+  throw std::filesystem::filesystem_error("cannot read", _path,
+                                          std::error_code(reason, std::generic_category()));
+}
+
+Survey InputFile::survey(const SurveyRequest& request) const {
+  Packer packer;
+  packer.value(request.arrays.size());
+  for (const std::string& array : request.arrays) packer.text(array);
+  packer.value(request.attributes.size());
+  for (const AttributeName& name : request.attributes) {
+    packer.text(name.object);
+    packer.text(name.attribute);
+  }
+  packer.text(request.group);
+  packer.text(request.mark.object);
+  packer.text(request.mark.attribute);
+  const parallel::Bytes bytes = read_contained(_path, Operation::survey, packer.take());
+  Unpacker unpacker(bytes);
+  Survey survey;
+  for (std::size_t i = 0; i < request.arrays.size(); ++i) {
+    ArrayFacts facts;
+    facts.kind = unpacker.value<ItemKind>();
+    facts.dimensions = unpacker.array<std::int64_t>();
+    survey.arrays.push_back(std::move(facts));
+  }
+  for (std::size_t i = 0; i < request.attributes.size(); ++i) survey.attributes.push_back(unpacker.text());
+  survey.marked = unpacker.text();
+  return survey;
+}
+
+std::vector<std::int64_t> InputFile::integers(const std::string& array, std::int64_t begin,
+                                              std::int64_t count) const {
+  return read_rows<std::int64_t>(_path, Operation::integers, array, begin, count);
+}
+
+std::vector<double> InputFile::reals(const std::string& array, std::int64_t begin, std::int64_t count) const {
+  return read_rows<double>(_path, Operation::reals, array, begin, count);
+}
+
+std::vector<std::string> InputFile::texts(const std::string& array) const {
+  Packer packer;
+  packer.text(array);
+  const parallel::Bytes bytes = read_contained(_path, Operation::texts, packer.take());
+  Unpacker unpacker(bytes);
+  std::vector<std::string> texts;
+  while (!unpacker.at_end()) texts.push_back(unpacker.text());
+  return texts;
+}
+
+}  // namespace aeroloom::io::hdf5
