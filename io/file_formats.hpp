@@ -1,8 +1,8 @@
-/// The formats of mesh files, and what is read and written by their names.
+/// The formats of mesh files, and writing by their names.
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "io/raw_mesh.hpp"
+#include "io/vtk/vtk_writer.hpp"
 
 #include <array>
 #include <cstdint>
@@ -46,7 +46,24 @@ inline constexpr std::array<FormatName, 11> format_names = {{
     {FileFormat::openfoam, "openfoam", ".foam"},
 }};
 
-/// Whether a file of the format is cut into parts, so that the parts of the mesh matter.
-bool has_parts(FileFormat format);
+/// The format that a path asks for by its end; empty where none does. A single letter of byte order before
+/// `.ugrid` is the writer's affair.
+std::optional<FileFormat> format_of_path(const std::string& path);
+std::string_view name_of(FileFormat format);
+/// All ends of paths that mean a format, for messages.
+std::string known_extensions();
+
+struct WriteOptions {
+  std::int32_t parts = 0;                       ///< of formats that come in parts; 0: those of the mesh
+  Compression compression = Compression::none;  ///< of .vtu and .vtp
+};
+
+/// Writes a mesh to `path`, which has the extension of the format; what lies beside it (`.mapbc`, folders of
+/// parts, surfaces for viewers) takes its name from there. Formats in parts get as many as asked for, cut
+/// anew by repartition() where the mesh has others. Never gathers; the files depend on the parts, not on
+/// ranks. Collective; throws CollectiveError (files) where something cannot be written, (input) where the
+/// format cannot hold the mesh.
+void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
+                const std::string& path, const WriteOptions& options);
 
 }  // namespace aeroloom::io

@@ -44,7 +44,8 @@ Assembled read_mesh(const parallel::Communicator& communicator, const std::strin
   }
   parallel::agree(communicator, [&] {
     if (communicator.is_root() && !std::filesystem::exists(path))
-      throw std::ios_base::failure(fmt::format("'{}': no such file", path));
+      throw std::filesystem::filesystem_error("cannot read", path,
+                                              std::make_error_code(std::errc::no_such_file_or_directory));
   });
   return assemble(communicator, found->read(communicator, path), path, parts);
 }

@@ -3,13 +3,17 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/check.hpp"
+#include "pipeline/convert_file.hpp"
 #include "pipeline/improve_file.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
+#include "pipeline/stage.hpp"
 #include "pipeline/task_table.hpp"
+#include "pipeline/write_outputs.hpp"
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,6 +34,8 @@ constexpr const char* examples =
     "  aeroloom check case.yaml                            what is wrong with the CAD, what a run will cost\n"
     "  aeroloom run case.yaml --set sizing.minimum=0.02    override a key of the case\n"
     "  aeroloom improve mesh.vtu --set output.directory=better   improve another program's mesh\n"
+    "  aeroloom convert out/mesh.pvtu mesh.cgns             a mesh in the format of a solver "
+    "(docs/formats.md)\n"
     "  aeroloom export-cad configs/transport.yaml a.step   write the case's geometry as STEP\n\n"
     "Exit codes: 0 ok, 2 usage or configuration, 3 CAD, 4 surface, 5 volume, 6 quality gate,\n"
     "7 input/output, 8 resources, 70 bug.";
@@ -39,6 +45,7 @@ struct Arguments {
   std::string case_file;
   std::vector<std::string> overrides;
   std::string cad_file, mesh_file;
+  Conversion conversion;
   bool verbose = false, quiet = false;
 };
 
@@ -103,8 +110,11 @@ int run(const Communicator& communicator, const Case& input, const std::string& 
     return fail(communicator, outcome.code,
                 fmt::format("stage {} failed: {}", outcome.stage, outcome.message));
   }
-  print(communicator, fmt::format("open in ParaView: {}\n",
-                                  std::filesystem::absolute(input.output.directory + "/mesh.pvtu").string()));
+  for (const io::FileFormat format : input.output.formats) {
+    const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
+    print(communicator,
+          fmt::format("{}: {}\n", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
+  }
   return 0;
 }
 
@@ -118,6 +128,17 @@ int check(const Communicator& communicator, const Case& input) {
   } catch (const parallel::CollectiveError& error) {
     const bool files = error.kind() == parallel::FailureKind::files;
     return fail(communicator, files ? ExitCode::files : ExitCode::cad, error.what());
+  }
+}
+
+int convert(const Communicator& communicator, const Arguments& arguments) {
+  try {
+    convert_file(communicator, arguments.conversion);
+    return 0;
+  } catch (const std::invalid_argument& error) {
+    return fail(communicator, ExitCode::usage, error.what());
+  } catch (const parallel::CollectiveError& error) {
+    return fail(communicator, code_of(error, ExitCode::files), error.what());
   }
 }
 
@@ -154,6 +175,20 @@ void add_case_options(CLI::App& command, Arguments& arguments) {
   add_common_options(command, arguments);
 }
 
+void add_convert_options(CLI::App& command, Arguments& arguments) {
+  Conversion& conversion = arguments.conversion;
+  command.add_option("from", conversion.from, "the mesh to read")->required();
+  command.add_option("to", conversion.to, "the file to write; its extension says the format")->required();
+  std::map<std::string, io::FileFormat> formats;
+  for (const io::FormatName& format : io::format_names) formats.emplace(format.name, format.format);
+  command.add_option("--format", conversion.format, "the format, where the extension does not say it")
+      ->transform(CLI::CheckedTransformer(formats));
+  command.add_option("--parts", conversion.options.parts, "parts of a format that comes in parts")
+      ->check(CLI::Range(1, 1000000));
+  command.add_flag("-v,--verbose", arguments.verbose, "say more");
+  command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");
+}
+
 }  // namespace
 
 int run_command_line(const Communicator& communicator, int argc, char** argv) {
@@ -169,7 +204,11 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
   CLI::App* export_command = program.add_subcommand("export-cad", "write the geometry of a case as STEP");
   CLI::App* improve_command = program.add_subcommand(
       "improve", "improve a mesh of tetrahedra from a file, its boundary kept as it is");
-  improve_command->add_option("file", arguments.mesh_file, "the mesh: .vtu, .pvtu or .vtk")->required();
+  improve_command
+      ->add_option("file", arguments.mesh_file, "the mesh, in any format that is read (docs/formats.md)")
+      ->required();
+  CLI::App* convert_command = program.add_subcommand("convert", "write a mesh in another format");
+  add_convert_options(*convert_command, arguments);
   add_common_options(*improve_command, arguments);
   add_case_options(*run_command, arguments);
   add_case_options(*check_command, arguments);
@@ -194,6 +233,7 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
                                                             : input.output.log);
   if (run_command->parsed() || improve_command->parsed())
     return run(communicator, input, arguments.mesh_file);
+  if (convert_command->parsed()) return convert(communicator, arguments);
   if (check_command->parsed()) return check(communicator, input);
   try {
     return export_cad(communicator, input, arguments.cad_file);

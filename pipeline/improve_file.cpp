@@ -1,10 +1,10 @@
 #include "pipeline/improve_file.hpp"
 
 #include "foreign/foreign_mesh.hpp"
-#include "io/vtk/vtk_writer.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/stage.hpp"
+#include "pipeline/write_outputs.hpp"
 
 namespace aeroloom::pipeline {
 
@@ -24,11 +24,10 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
     return finished;
   });
   run_stage(record, "output", ExitCode::files, [&] {
+    write_outputs(communicator, volume, numbering, input.output);
+    if (!wants_vtk(input.output)) return;
     const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
-    io::write_volume(communicator, volume, numbering, input.output.directory, "mesh",
-                     input.output.compression);
-    io::write_surface(communicator, surface, mesh::number_mesh(communicator, surface), input.output.directory,
-                      "surface", input.output.compression);
+    write_surfaces(communicator, surface, mesh::number_mesh(communicator, surface), input.output);
   });
   require_quality(input.gate, record);
 }

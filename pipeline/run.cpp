@@ -10,6 +10,7 @@
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
+#include "pipeline/write_outputs.hpp"
 
 #include <algorithm>
 
@@ -93,14 +94,6 @@ struct NumberedMesh {
 struct FinishedSurface : NumberedMesh {
   sizing::SizeField field;
 };
-
-NumberedMesh number_part(const Communicator& communicator, const mesh::DistributedMesh& surface, bool inner) {
-  NumberedMesh part{
-      mesh::part_of_surface(surface, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside),
-      {}};
-  part.numbering = mesh::number_mesh(communicator, part.mesh);
-  return part;
-}
 
 void inspect_surface(const Communicator& communicator, const cad::Model& model, const std::string& what,
                      const NumberedMesh& surface, RunRecord& record) {
@@ -214,21 +207,6 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
   return filled;
 }
 
-/// The boundary of the domain, and what lies between regions in a file of its own.
-void write_surfaces(const Communicator& communicator, const NumberedMesh& surface,
-                    const OutputOptions& output) {
-  if (!surface.mesh.has_inner_faces()) {
-    io::write_surface(communicator, surface.mesh, surface.numbering, output.directory, "surface",
-                      output.compression);
-    return;
-  }
-  for (const bool inner : {false, true}) {
-    const NumberedMesh part = number_part(communicator, surface.mesh, inner);
-    io::write_surface(communicator, part.mesh, part.numbering, output.directory,
-                      inner ? "interfaces" : "surface", output.compression);
-  }
-}
-
 }  // namespace
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
@@ -266,9 +244,8 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   });
   volume.patch_types = record.patch_types;
   run_stage(record, "output", ExitCode::files, [&] {
-    io::write_volume(communicator, volume, numbering, input.output.directory, "mesh",
-                     input.output.compression);
-    write_surfaces(communicator, surface, input.output);
+    write_outputs(communicator, volume, numbering, input.output);
+    if (wants_vtk(input.output)) write_surfaces(communicator, surface.mesh, surface.numbering, input.output);
   });
   require_quality(input.gate, record);
 }

@@ -64,8 +64,9 @@ YAML::Node parse(const std::string& text, const std::string& name, bool position
   try {
     documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
-    throw CaseError(
-        fmt::format("{}{}: not valid YAML: {}", name, positions ? position(error.mark) : "", error.msg));
+    const bool anchor = error.msg.find("anchor") != std::string::npos;
+    throw CaseError(fmt::format("{}{}: not valid YAML: {}{}", name, positions ? position(error.mark) : "",
+                                error.msg, anchor ? "; a text that begins with * stands in quotes" : ""));
   }
   if (documents.size() > 1) throw CaseError(name + ": several YAML documents, one is expected");
   return documents.empty() ? YAML::Node() : documents[0];

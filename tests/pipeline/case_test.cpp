@@ -328,6 +328,9 @@ TEST_F(CaseTest, PatchesHaveNamesOfTheUsers) {
   const Case again = read(resolved_yaml(input));
   ASSERT_EQ(again.patches.size(), 4U);
   EXPECT_EQ(resolved_yaml(again), resolved_yaml(input));
+  EXPECT_NE(
+      error_of(transport, {"patches.wing.faces=[*wing]"}).find("a text that begins with * stands in quotes"),
+      std::string::npos);
   EXPECT_EQ(error_of(transport + "patches:\n  wing: {tipe: wall}\n"),
             "case.yaml:3:10: unknown key 'tipe' in 'patches.wing'; did you mean 'type'?");
   EXPECT_EQ(error_of(transport + "patches:\n  wing: {type: sticky}\n"),

@@ -105,7 +105,7 @@ def main():
     (raw.folder / "torn.vtu").write_bytes(foreign.read_bytes()[:2000])
     (raw.folder / "mesh.msh").write_text("$MeshFormat\n")
     for name, word in (("voxel.vtu", "vtkVoxel"), ("torn.vtu", "cannot read"), ("mesh.msh", ".pvtu"),
-                       ("absent.vtu", "no such file")):
+                       ("absent.vtu", "No such file")):
         code, text, _ = improve(program, raw.folder / name, raw.folder / "bad", 2)
         assert code == 7 and word in text and name in text, f"{name}: {code}\n{text}"
 

@@ -1,0 +1,93 @@
+#include "io/file_formats.hpp"
+
+#include "io/cgns/cgns_writer.hpp"
+#include "io/vtkhdf/vtkhdf_writer.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// More ends of paths than those of format_names.
+constexpr std::array<std::pair<std::string_view, FileFormat>, 3> other_extensions = {{
+    {".b8.ugrid", FileFormat::ugrid},
+    {".b8l.ugrid", FileFormat::ugrid64},
+    {".mesh", FileFormat::meshb},
+}};
+
+/// Whether a file of the format is cut into parts.
+bool has_parts(FileFormat format) {
+  return format == FileFormat::vtkhdf || format == FileFormat::msh_parts || format == FileFormat::openfoam;
+}
+
+/// PATH without this end.
+std::string without(const std::string& path, std::string_view end) {
+  return path.ends_with(end) ? path.substr(0, path.size() - end.size()) : path;
+}
+
+void write_vtu(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
+               Compression compression) {
+  const fs::path file = without(path, ".pvtu");
+  write_volume(communicator, mesh, file.parent_path().string(), file.filename().string(), compression);
+}
+
+void write_parts_as_they_are(const parallel::Communicator& communicator, const FileMesh& mesh,
+                             FileFormat format, const std::string& path, const WriteOptions& options) {
+  switch (format) {
+    case FileFormat::vtu:
+      return write_vtu(communicator, mesh, path, options.compression);
+    case FileFormat::vtkhdf:
+      write_vtkhdf(communicator, mesh, path);
+      return write_vtkhdf_surface(communicator, mesh, without(path, ".vtkhdf") + "_surface.vtkhdf");
+    case FileFormat::cgns:
+      return write_cgns(communicator, mesh, path);
+    default:
+      throw std::logic_error("no writer");
+  }
+}
+
+}  // namespace
+
+std::optional<FileFormat> format_of_path(const std::string& path) {
+  for (const FormatName& format : format_names) {
+    if (format.format != FileFormat::msh_parts && path.ends_with(format.extension)) return format.format;
+  }
+  for (const auto& [extension, format] : other_extensions) {
+    if (path.ends_with(extension)) return format;
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(FileFormat format) {
+  const auto found = std::find_if(format_names.begin(), format_names.end(),
+                                  [&](const FormatName& name) { return name.format == format; });
+  return found->name;
+}
+
+std::string known_extensions() {
+  std::string text;
+  for (const FormatName& format : format_names) {
+    if (format.format != FileFormat::msh_parts)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", format.extension);
+  }
+  for (const auto& [extension, format] : other_extensions) text += fmt::format(", {}", extension);
+  return text;
+}
+
+void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
+                const std::string& path, const WriteOptions& options) {
+  const bool cut = has_parts(format) && options.parts > 0 && options.parts != mesh.part_count;
+  if (!cut) return write_parts_as_they_are(communicator, mesh, format, path, options);
+  write_parts_as_they_are(communicator, repartition(communicator, mesh, options.parts), format, path,
+                          options);
+}
+
+}  // namespace aeroloom::io

@@ -1,0 +1,40 @@
+#include "pipeline/convert_file.hpp"
+
+#include "io/read_mesh.hpp"
+#include "parallel/log.hpp"
+#include "parallel/timers.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+void convert_file(const parallel::Communicator& communicator, const Conversion& conversion) {
+  const std::optional<io::FileFormat> format =
+      conversion.format ? conversion.format : io::format_of_path(conversion.to);
+  if (!format) {
+    throw std::invalid_argument(
+        fmt::format("'{}': no format that is written here ends like this; known are {}", conversion.to,
+                    io::known_extensions()));
+  }
+  const double begin = parallel::wall_seconds();
+  const io::Assembled file = io::read_mesh(communicator, conversion.from, 0);
+  const io::FileMesh& mesh = file.mesh;
+  if (communicator.is_root()) {
+    parallel::log_info(fmt::format(
+        "read {} points, {} tetrahedra, {} pyramids, {} prisms, {} region(s), {} patch(es) in {:.2f} s; {}",
+        mesh.vertex_count, mesh.cell_count(io::CellShape::tetrahedron),
+        mesh.cell_count(io::CellShape::pyramid), mesh.cell_count(io::CellShape::prism), mesh.regions.size(),
+        mesh.patches.size(), parallel::wall_seconds() - begin, io::describe(file)));
+  }
+  const double read = parallel::wall_seconds();
+  io::write_mesh(communicator, mesh, *format, conversion.to, conversion.options);
+  if (communicator.is_root()) {
+    parallel::log_info(fmt::format("wrote '{}' ({}) in {:.2f} s", conversion.to, io::name_of(*format),
+                                   parallel::wall_seconds() - read));
+  }
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,23 @@
+/// A mesh from one file format to another.
+#pragma once
+
+#include "io/file_formats.hpp"
+#include "parallel/communicator.hpp"
+
+#include <optional>
+#include <string>
+
+namespace aeroloom::pipeline {
+
+struct Conversion {
+  std::string from, to;
+  std::optional<io::FileFormat> format;  ///< of `to`; empty: by its extension
+  io::WriteOptions options;
+};
+
+/// Reads a mesh (io/read_mesh.hpp) and writes it (io/file_formats.hpp), all ranks their share. Points and
+/// cells keep the order of the file in formats of one part; the others are cut along a space-filling curve.
+/// Collective. Throws CollectiveError; std::invalid_argument for a name that means no format.
+void convert_file(const parallel::Communicator& communicator, const Conversion& conversion);
+
+}  // namespace aeroloom::pipeline

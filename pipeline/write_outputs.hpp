@@ -1,0 +1,27 @@
+/// The files that a run leaves.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "pipeline/case.hpp"
+
+#include <string>
+
+namespace aeroloom::pipeline {
+
+/// Writes the volume as `mesh` with its extension to the output directory, in all formats of the case one
+/// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. Collective; throws
+/// CollectiveError.
+void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
+                   const mesh::Numbering& numbering, const OutputOptions& output);
+
+/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions where
+/// there is any. Collective; throws CollectiveError.
+void write_surfaces(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
+                    const mesh::Numbering& numbering, const OutputOptions& output);
+
+bool wants_vtk(const OutputOptions& output);
+/// Where the mesh is in this format.
+std::string path_of(const OutputOptions& output, io::FileFormat format);
+
+}  // namespace aeroloom::pipeline
