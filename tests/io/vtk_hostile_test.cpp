@@ -1,0 +1,57 @@
+#include "io/raw_mesh.hpp"
+#include "io/vtk/vtk_reader.hpp"
+#include "io/vtk/vtk_writer.hpp"
+#include "tests/io/damage.hpp"
+#include "tests/io/scratch_folder.hpp"
+#include "tests/io/vtk_grids.hpp"
+
+#include <string>
+
+namespace aeroloom::io {
+namespace {
+
+using examples::FileForm;
+using parallel::Communicator;
+
+class VtkHostile : public ScratchFolder {
+protected:
+  damage::Outcome survive(const std::string& good, const std::string& name, const damage::Options& options) {
+    return damage::survive(
+        world, good, path(name),
+        [&](const std::string& file) { assemble(world, read_vtk(world, file), file, 2); }, options);
+  }
+  /// Fewer than for readers of our own: each case runs in a process of its own.
+  damage::Options options = {.truncations = 40, .flips = 120, .fields = 30, .pieces = 20};
+  const examples::MixedMesh whole = examples::MixedMesh(2, 2);
+};
+
+TEST_F(VtkHostile, DamagedGridsOfOthers) {
+  for (const char* name : {"grid.vtu", "grid.vtk"}) {
+    for (const FileForm form : {FileForm::raw, FileForm::packed, FileForm::text}) {
+      if (world.is_root()) {
+        write_grid(*make_grid(whole, {.label = "CellEntityIds", .with_ids = true}), path(name), form);
+      }
+      world.barrier();
+      ++options.seed;
+      const damage::Outcome outcome = survive(damage::file_bytes(path(name)), name, options);
+      EXPECT_GT(outcome.refused, outcome.cases / 4) << name;
+      EXPECT_GT(outcome.accepted, 0) << name << ": names and spare arrays do not matter";
+    }
+  }
+}
+
+TEST_F(VtkHostile, DamagedPartsOfOurOwn) {
+  write_volume(world, examples::mixed_mesh(world, 2, 2), folder, "mesh");
+  const std::string good = damage::file_bytes(folder / "mesh" / "mesh_000000.vtu");
+  const damage::Outcome outcome = survive(good, "part.vtu", options);
+  EXPECT_GT(outcome.refused, outcome.cases / 4);
+}
+
+TEST_F(VtkHostile, DamagedIndices) {
+  write_volume(world, examples::mixed_mesh(world, 2, 2), folder, "mesh");
+  const damage::Outcome outcome = survive(damage::file_bytes(path("mesh.pvtu")), "other.pvtu", options);
+  EXPECT_GT(outcome.refused, outcome.cases / 4);
+}
+
+}  // namespace
+}  // namespace aeroloom::io
