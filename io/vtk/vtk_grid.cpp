@@ -4,13 +4,16 @@
 #include "io/vtk/vtk_part.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -26,8 +29,7 @@ namespace {
 /// Keeps the first thing that VTK complains of; nothing is printed.
 class Complaints : public vtkOutputWindow {
 public:
-  vtkTypeMacro(Complaints, vtkOutputWindow)
-  static Complaints* New();
+  vtkTypeMacro(Complaints, vtkOutputWindow) static Complaints* New();
   void DisplayText(const char*) override {}
   void DisplayWarningText(const char*) override {}
   void DisplayGenericWarningText(const char*) override {}
@@ -48,11 +50,17 @@ private:
 };
 vtkStandardNewMacro(Complaints);
 
-/// While it lives, complaints come here.
+/// While it lives, complaints come here and nowhere else.
 class Listening {
 public:
-  Listening() : _before(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(_complaints); }
-  ~Listening() { vtkOutputWindow::SetInstance(_before); }
+  Listening() : _before(vtkOutputWindow::GetInstance()), _loud(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkOutputWindow::SetInstance(_complaints);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~Listening() {
+    vtkOutputWindow::SetInstance(_before);
+    vtkLogger::SetStderrVerbosity(_loud);
+  }
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
   void require_silence() const {
@@ -62,8 +70,31 @@ public:
 
 private:
   vtkSmartPointer<vtkOutputWindow> _before;
+  vtkLogger::Verbosity _loud;
   vtkNew<Complaints> _complaints;
 };
+
+/// VTK does not say everywhere that an array was too short.
+class XmlGridReader : public vtkXMLUnstructuredGridReader {
+public:
+  vtkTypeMacro(XmlGridReader, vtkXMLUnstructuredGridReader) static XmlGridReader* New();
+  bool has_failed() const { return this->DataError != 0 || this->InformationError != 0; }
+};
+vtkStandardNewMacro(XmlGridReader);
+
+/// Nor that the end of a file is missing.
+void require_xml_end(const std::string& path) {
+  constexpr std::int64_t enough = 1024;
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::int64_t>(stream.tellg());
+  std::string tail(static_cast<std::size_t>(std::min(size, enough)), ' ');
+  stream.seekg(size - static_cast<std::int64_t>(tail.size()));
+  stream.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  tail.erase(tail.find_last_not_of(" \t\r\n") + 1);
+  if (!tail.ends_with("</VTKFile>"))
+    throw std::runtime_error(
+        fmt::format("it does not end with </VTKFile> after {} bytes: it is no such file, or cut off", size));
+}
 
 /// Others are not read at all.
 void select_arrays(vtkXMLUnstructuredGridReader& reader) {
@@ -97,12 +128,16 @@ vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path) {
     reader->Update();
     grid = reader->GetOutput();
   } else {
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    require_xml_end(path);
+    vtkNew<XmlGridReader> reader;
     reader->SetFileName(path.c_str());
     reader->UpdateInformation();
     listening.require_silence();
     select_arrays(*reader);
     reader->Update();
+    listening.require_silence();
+    if (reader->has_failed())
+      throw std::runtime_error("an array is too short, or its data cannot be taken out");
     grid = reader->GetOutput();
   }
   listening.require_silence();

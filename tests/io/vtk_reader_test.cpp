@@ -182,6 +182,7 @@ TEST_F(VtkReader, NamesTheFileAndThePlaceOfWhatIsWrong) {
   expect_error("missing.pvtu", FailureKind::files, "No such file");
   on_root([&] {
     std::ofstream(path("text.vtu")) << "this is no XML";
+    std::ofstream(path("text.xml.vtu")) << "<VTKFile type=\"ImageData\"></VTKFile>";
     std::ofstream(path("text.vtk")) << "this is no VTK";
     std::ofstream(path("text.pvtu")) << "<VTKFile type=\"PPolyData\"><PPolyData/></VTKFile>";
     std::ofstream(path("mesh.stl")) << "solid";
@@ -196,7 +197,8 @@ TEST_F(VtkReader, NamesTheFileAndThePlaceOfWhatIsWrong) {
     write_grid(*grid, path("negative.vtu"));
     std::filesystem::create_directory(path("folder.vtu"));
   });
-  expect_error("text.vtu", FailureKind::input, "VTK cannot read it");
+  expect_error("text.vtu", FailureKind::input, "does not end with </VTKFile>");
+  expect_error("text.xml.vtu", FailureKind::input, "VTK cannot read it");
   expect_error("text.vtk", FailureKind::input, "VTK cannot read it");
   expect_error("text.pvtu", FailureKind::input, "no index of unstructured grids");
   expect_error("mesh.stl", FailureKind::input, "'.stl' is not among");
