@@ -1,0 +1,28 @@
+/// One rank's share of a VTKHDF file.
+#pragma once
+
+#include "io/raw_mesh.hpp"
+#include "io/vtkhdf/vtkhdf_survey.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace aeroloom::io::vtkhdf {
+
+/// What each rank takes of `count` things: an even share.
+struct Share {
+  std::int64_t begin = 0, end = 0;
+};
+inline Share share_of(std::int64_t count, int rank, int ranks) {
+  const auto bound = [&](int r) { return count / ranks * r + std::min<std::int64_t>(r, count % ranks); };
+  return {bound(rank), bound(rank + 1)};
+}
+
+/// Reads the share of a rank. In `grid`, cells and the faces among them have places among the points of all
+/// partitions for corners, and points their ids; in `boundary`, the faces of /Boundary have ids. Regions and
+/// patches are the values of the file. Throws std::runtime_error with the file and the place. Not collective.
+void read_share(const FileFacts& facts, const std::string& path, int rank, int ranks, RawMesh& grid,
+                RawMesh& boundary);
+
+}  // namespace aeroloom::io::vtkhdf

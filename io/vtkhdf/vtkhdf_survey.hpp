@@ -1,0 +1,32 @@
+/// What a VTKHDF file holds, without its large arrays.
+#pragma once
+
+#include "io/vtkhdf/vtkhdf_layout.hpp"
+#include "parallel/communicator.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io::vtkhdf {
+
+struct FileFacts {
+  std::vector<GridCounts> before;  ///< partitions before each, one entry more than partitions
+  std::string id_array;            ///< of points; empty: there is none
+  bool has_regions = false, has_patches = false, has_ghosts = false;  ///< cell data
+  bool has_boundary = false;
+  std::int64_t boundary_faces = 0, boundary_corners = 0;
+  std::vector<std::string> region_names, patch_names, patch_types;  ///< of /Boundary where there is one
+
+  const GridCounts& all() const { return before.back(); }
+  std::size_t partition_count() const { return before.size() - 1; }
+};
+
+/// Throws std::runtime_error, or std::filesystem::filesystem_error where the file cannot be opened. Not
+/// collective.
+FileFacts survey_file(const std::string& path);
+
+/// The same on every rank from what rank 0 has. Collective.
+void broadcast_facts(const parallel::Communicator& communicator, FileFacts& facts);
+
+}  // namespace aeroloom::io::vtkhdf

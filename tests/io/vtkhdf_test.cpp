@@ -1,0 +1,189 @@
+#include "io/raw_mesh.hpp"
+#include "io/vtkhdf/vtkhdf_reader.hpp"
+#include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/collective_error.hpp"
+#include "tests/io/damage.hpp"
+#include "tests/io/mixed_mesh.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace aeroloom::io {
+namespace {
+
+namespace fs = std::filesystem;
+using parallel::Communicator;
+
+/// A folder of this test alone, the same on every rank, removed at the end.
+class Vtkhdf : public testing::Test {
+protected:
+  void SetUp() override {
+    const auto id = world.sum(world.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
+    folder = fs::temp_directory_path() / ("aeroloom_vtkhdf_" + std::to_string(id));
+    if (world.is_root()) fs::create_directories(folder);
+    world.barrier();
+  }
+  void TearDown() override {
+    world.barrier();
+    if (world.is_root()) fs::remove_all(folder);
+    world.barrier();
+  }
+  std::string message_of_reading(const std::string& path) const {
+    try {
+      read_vtkhdf(world, path);
+    } catch (const parallel::CollectiveError& error) {
+      EXPECT_EQ(error.kind(), parallel::FailureKind::input);
+      return error.what();
+    }
+    return "";
+  }
+
+  const Communicator world = Communicator::world();
+  fs::path folder;
+};
+
+double volume_of(const FilePart& part, const Block& block, CellShape shape, mesh::LocalIndex cell) {
+  // Faces against the first corner, quadrilaterals as two triangles.
+  const geometry::Vec3 apex = part.point(block.item(cell)[0]);
+  double volume = 0;
+  for (const CellFace& face : faces_of(shape)) {
+    const auto p = [&](int k) { return part.point(block.item(cell)[face[k]]) - apex; };
+    volume += dot(cross(p(0), p(1)), p(2)) / 6;
+    if (face[3] >= 0) volume += dot(cross(p(0), p(2)), p(3)) / 6;
+  }
+  return volume;
+}
+
+/// Volumes by region and shape; each cell's must be positive.
+std::array<std::array<double, cell_shape_count>, 2> volumes_of(const Communicator& communicator,
+                                                               const FileMesh& mesh) {
+  std::array<std::array<double, cell_shape_count>, 2> volumes{};
+  for (const FilePart& part : mesh.parts) {
+    for (const CellShape shape : cell_shapes) {
+      const Block& block = part.cells[static_cast<std::size_t>(shape)];
+      for (const Run& run : block.runs) {
+        for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
+          const double volume = volume_of(part, block, shape, i);
+          EXPECT_GT(volume, 0);
+          volumes[static_cast<std::size_t>(run.id)][static_cast<std::size_t>(shape)] += volume;
+        }
+      }
+    }
+  }
+  for (auto& of_region : volumes) {
+    for (double& volume : of_region) volume = communicator.sum(volume);
+  }
+  return volumes;
+}
+
+TEST_F(Vtkhdf, ReadsBackWhatItWrote) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
+  write_vtkhdf(world, mesh, folder / "mesh.vtkhdf");
+  EXPECT_FALSE(fs::exists(folder / "mesh.vtkhdf.unfinished"));
+  const Assembled read =
+      assemble(world, read_vtkhdf(world, folder / "mesh.vtkhdf"), folder / "mesh.vtkhdf", 3);
+  EXPECT_EQ(read.turned_cells, 0);
+  EXPECT_EQ(read.dropped_points, 0);
+  EXPECT_EQ(read.unnamed_faces, 0);
+  EXPECT_EQ(read.left_out_faces, 0);
+  EXPECT_EQ(read.mesh.vertex_count, mesh.vertex_count);
+  EXPECT_EQ(read.mesh.patches, mesh.patches);
+  EXPECT_EQ(read.mesh.regions, mesh.regions);
+  EXPECT_EQ(read.mesh.region_cells, mesh.region_cells);
+  EXPECT_EQ(read.mesh.patch_faces, mesh.patch_faces);
+  const auto expected = volumes_of(world, mesh), found = volumes_of(world, read.mesh);
+  for (std::size_t r = 0; r < expected.size(); ++r) {
+    for (std::size_t s = 0; s < expected[r].size(); ++s) EXPECT_NEAR(found[r][s], expected[r][s], 1e-12);
+  }
+}
+
+TEST_F(Vtkhdf, WritesTheSameBytesOnAnyNumberOfRanks) {
+  write_vtkhdf(world, examples::mixed_mesh(world, 3, 7), folder / "here");
+  write_vtkhdf_surface(world, examples::mixed_mesh(world, 3, 7), folder / "here_too");
+  if (!world.is_root()) return;
+  const FileMesh mesh = examples::mixed_mesh(Communicator::self(), 3, 7);
+  write_vtkhdf(Communicator::self(), mesh, folder / "alone");
+  write_vtkhdf_surface(Communicator::self(), mesh, folder / "alone_too");
+  EXPECT_TRUE(damage::file_bytes(folder / "here") == damage::file_bytes(folder / "alone"));
+  EXPECT_TRUE(damage::file_bytes(folder / "here_too") == damage::file_bytes(folder / "alone_too"));
+}
+
+TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
+  write_vtkhdf(world, examples::mixed_mesh(world, 3, 4), folder / "mesh.vtkhdf");
+  const std::string path = folder / "mesh.vtkhdf";
+  write_vtkhdf(world, assemble(world, read_vtkhdf(world, path), path, 2).mesh, folder / "again");
+  if (!world.is_root()) return;
+  const auto self = Communicator::self();
+  write_vtkhdf(self, assemble(self, read_vtkhdf(self, path), path, 2).mesh, folder / "alone");
+  EXPECT_TRUE(damage::file_bytes(folder / "again") == damage::file_bytes(folder / "alone"));
+}
+
+TEST_F(Vtkhdf, SaysWhatItCannotRead) {
+  write_vtkhdf_surface(world, examples::mixed_mesh(world), folder / "surface.vtkhdf");
+  const RawMesh surface = read_vtkhdf(world, folder / "surface.vtkhdf");  // faces alone: assemble refuses
+  EXPECT_EQ(surface.patches, examples::MixedMesh(2, 1).patches);
+  if (world.is_root()) {
+    std::ofstream(folder / "text") << "no HDF5 at all, however long the text may be that stands here";
+    std::ofstream(folder / "empty") << "";
+  }
+  world.barrier();
+  EXPECT_NE(message_of_reading(folder / "text").find("text: no HDF5 file"), std::string::npos);
+  EXPECT_NE(message_of_reading(folder / "empty").find("empty: no HDF5 file"), std::string::npos);
+  for (const char* missing : {"nothing", ""}) {
+    try {
+      read_vtkhdf(world, folder / missing);
+      FAIL();
+    } catch (const parallel::CollectiveError& error) {
+      EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+      EXPECT_NE(std::string(error.what()).find(folder / missing), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(Vtkhdf, SurvivesDamagedFiles) {
+  write_vtkhdf(world, examples::mixed_mesh(world, 1, 2), folder / "good");
+  const std::string good = damage::file_bytes(folder / "good");
+  damage::Options options;
+  options.truncations = world.size() > 1 ? 20 : 40;
+  options.flips = world.size() > 1 ? 40 : 150;
+  options.fields = world.size() > 1 ? 10 : 40;
+  options.pieces = 10;
+  const damage::Outcome outcome = damage::survive(
+      world, good, folder / "damaged.vtkhdf",
+      [&](const std::string& path) { assemble(world, read_vtkhdf(world, path), path, 0); }, options);
+  EXPECT_GT(outcome.refused, outcome.cases / 10);
+}
+
+TEST_F(Vtkhdf, SaysWhenAFileCannotGrow) {
+  // A limit on the size of files stands for a full disk: the system refuses to write on.
+  const FileMesh mesh = examples::mixed_mesh(world, 8, 4);
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{20000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    write_vtkhdf(world, mesh, folder / "mesh.vtkhdf");
+  } catch (const parallel::CollectiveError& error) {
+    message = error.what();
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find("mesh.vtkhdf"), std::string::npos) << message;
+  world.barrier();
+  EXPECT_TRUE(fs::is_empty(folder));
+  world.barrier();
+  write_vtkhdf(world, mesh, folder / "mesh.vtkhdf");  // and nothing is left behind in the process
+  EXPECT_TRUE(fs::exists(folder / "mesh.vtkhdf"));
+}
+
+}  // namespace
+}  // namespace aeroloom::io
