@@ -1,0 +1,161 @@
+#include "io/medit/medit_reader.hpp"
+
+#include "io/medit/medit_names.hpp"
+#include "io/medit/medit_share.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+
+constexpr std::size_t most_references = 65'536;
+constexpr std::uintmax_t largest_names_file = std::uintmax_t{64} << 20;
+
+void sort_unique(std::vector<std::int64_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The different references of items, and of those that have a name, over all ranks, ascending. Collective.
+template <class Shapes, class Names>
+std::vector<std::int64_t> all_references(const parallel::Communicator& communicator, const std::string& path,
+                                         const Shapes& shapes, const Names& names) {
+  std::vector<std::int64_t> found;
+  const auto require_few = [&](std::size_t most) {
+    if (found.size() > most) {
+      throw std::runtime_error(
+          fmt::format("'{}': there are more than {} different references", path, most_references));
+    }
+  };
+  parallel::agree(communicator, [&] {
+    for (const auto& [reference, name] : names) found.push_back(reference);
+    for (const MeditItems& items : shapes) {
+      for (const std::int64_t reference : items.references) {
+        if (found.empty() || found.back() != reference) found.push_back(reference);
+        if (found.size() <= 2 * most_references) continue;
+        sort_unique(found);
+        require_few(most_references);
+      }
+    }
+    sort_unique(found);
+    require_few(most_references);
+  });
+  found = communicator.all_gather_items(std::span<const std::int64_t>(found));
+  sort_unique(found);
+  parallel::agree(communicator, [&] { require_few(most_references); });
+  return found;
+}
+
+std::vector<std::int32_t> ids_of(const MeditItems& items, const std::vector<std::int64_t>& references) {
+  std::vector<std::int32_t> ids;
+  ids.reserve(items.references.size());
+  for (const std::int64_t reference : items.references) {
+    const auto at = std::lower_bound(references.begin(), references.end(), reference);
+    ids.push_back(static_cast<std::int32_t>(at - references.begin()));
+  }
+  return ids;
+}
+
+std::string read_names_file(const std::string& path) {
+  std::error_code code;
+  const auto size = std::filesystem::file_size(path, code);
+  if (code) return {};
+  if (size > largest_names_file) throw std::runtime_error(fmt::format("'{}' is too large", path));
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) {
+    throw std::filesystem::filesystem_error("cannot read", path, std::make_error_code(std::errc::io_error));
+  }
+  return text.str();
+}
+
+/// Reads the names on one rank for all. Collective.
+MeditNames read_names(const parallel::Communicator& communicator, const std::string& mesh_path) {
+  const std::string path = medit_names_path(mesh_path);
+  std::string text;
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) text = read_names_file(path);
+  });
+  std::vector<char> bytes(text.begin(), text.end());
+  communicator.broadcast_items(bytes);
+  MeditNames names;
+  parallel::agree(communicator,
+                  [&] { names = parse_medit_names(std::string(bytes.begin(), bytes.end()), path); });
+  return names;
+}
+
+/// Whether the file is text. Collective.
+bool is_text(const parallel::Communicator& communicator, const std::string& path) {
+  std::int64_t text = 0;
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(path)) {
+      throw std::filesystem::filesystem_error("cannot open", path,
+                                              std::make_error_code(std::errc::no_such_file_or_directory));
+    }
+    const int first = stream.get();
+    text = first >= '\t' ? 1 : 0;  // a binary file begins with the bytes 0 or 1
+  });
+  return communicator.sum(text) > 0;
+}
+
+MeditShare read_share(const parallel::Communicator& communicator, const std::string& path) {
+  if (!is_text(communicator, path)) return read_medit_binary(communicator, path);
+  MeditShare share;
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) share = read_medit_text(path);
+  });
+  return share;
+}
+
+}  // namespace
+
+RawMesh read_medit(const parallel::Communicator& communicator, const std::string& path) {
+  MeditShare share = read_share(communicator, path);
+  const MeditNames names = read_names(communicator, path);
+  const auto regions = all_references(communicator, path, share.cells, names.regions);
+  const auto patches = all_references(communicator, path, share.faces, names.patches);
+  RawMesh raw;
+  for (const std::int64_t reference : regions) {
+    const auto named = names.regions.find(reference);
+    raw.regions.push_back(named == names.regions.end() ? fmt::format("region_{}", reference) : named->second);
+  }
+  if (raw.regions.empty()) raw.regions.push_back("fluid");
+  for (const std::int64_t reference : patches) {
+    const auto named = names.patches.find(reference);
+    raw.patches.push_back(named == names.patches.end()
+                              ? mesh::Patch{fmt::format("patch_{}", reference), mesh::PatchType::wall}
+                              : named->second);
+  }
+  raw.point_ids.resize(share.coordinates.size() / 3);
+  std::iota(raw.point_ids.begin(), raw.point_ids.end(), share.first_point);
+  raw.coordinates = std::move(share.coordinates);
+  for (std::size_t s = 0; s < cell_shape_count; ++s) {
+    raw.cell_regions[s] = ids_of(share.cells[s], regions);
+    raw.cells[s] = std::move(share.cells[s].corners);
+    share.cells[s] = {};
+  }
+  for (std::size_t s = 0; s < face_shape_count; ++s) {
+    raw.face_patches[s] = ids_of(share.faces[s], patches);
+    raw.faces[s] = std::move(share.faces[s].corners);
+    share.faces[s] = {};
+  }
+  return raw;
+}
+
+}  // namespace aeroloom::io

@@ -1,0 +1,191 @@
+#include "io/medit/medit_writer.hpp"
+
+#include "io/medit/medit_layout.hpp"
+#include "io/medit/medit_names.hpp"
+#include "parallel/collective_error.hpp"
+#include "parallel/shared_file.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <iterator>
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+
+/// Lines of a section on their way into the file; what is full is written.
+class LineBuffer {
+public:
+  LineBuffer(parallel::SharedFile& file, const MeditLayout& layout) : _file(file), _layout(layout) {
+    _bytes.reserve(capacity + 1024);
+  }
+
+  /// The lines that follow begin with this one.
+  void begin_at(const MeditSection& section, GlobalIndex line) {
+    flush();
+    _offset = section.lines + line * section.line_bytes;
+  }
+  void coordinate(double value) {
+    if (binary()) {
+      append(value);
+    } else {
+      fmt::format_to(std::back_inserter(_bytes), "{:24.16e} ", value);
+    }
+  }
+  void integer(GlobalIndex value, bool last) {
+    if (!binary()) {
+      fmt::format_to(std::back_inserter(_bytes), "{:{}}{}", value, _layout.integer_width, last ? '\n' : ' ');
+    } else if (_layout.version < 4) {
+      append(static_cast<std::int32_t>(value));
+    } else {
+      append(value);
+    }
+    if (last) end_line();
+  }
+  /// Ends a line of coordinates: vertices have no reference.
+  void no_reference() {
+    if (binary()) return integer(0, true);
+    _bytes += "0\n";
+    end_line();
+  }
+  void text(std::int64_t offset, const std::string& bytes) {
+    _file.write(offset, std::as_bytes(std::span(bytes.data(), bytes.size())));
+  }
+  void flush() {
+    if (!_bytes.empty()) text(_offset, _bytes);
+    _offset += static_cast<std::int64_t>(_bytes.size());
+    _bytes.clear();
+  }
+
+private:
+  static constexpr std::size_t capacity = std::size_t{1} << 20;
+
+  bool binary() const { return _layout.encoding == MeditEncoding::binary; }
+  template <class Number>
+  void append(Number number) {
+    char raw[sizeof(Number)];
+    std::memcpy(raw, &number, sizeof(Number));
+    _bytes.append(raw, sizeof(Number));
+  }
+  void end_line() {
+    if (_bytes.size() >= capacity) flush();
+  }
+
+  parallel::SharedFile& _file;
+  const MeditLayout& _layout;
+  std::string _bytes;
+  std::int64_t _offset = 0;
+};
+
+MeditCounts counts_of(const FileMesh& mesh) {
+  MeditCounts counts;
+  counts.vertices = mesh.vertex_count;
+  for (const FaceShape shape : face_shapes)
+    counts.faces[static_cast<std::size_t>(shape)] = mesh.face_count(shape);
+  for (const CellShape shape : cell_shapes)
+    counts.cells[static_cast<std::size_t>(shape)] = mesh.cell_count(shape);
+  counts.largest_reference = static_cast<GlobalIndex>(std::max(mesh.regions.size(), mesh.patches.size()));
+  return counts;
+}
+
+void write_vertices(const FilePart& part, const MeditSection& section, LineBuffer& buffer) {
+  buffer.begin_at(section, part.first_owned);
+  for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
+    if (!part.owned[static_cast<std::size_t>(v)]) continue;
+    const geometry::Vec3 p = part.point(v);
+    buffer.coordinate(p.x), buffer.coordinate(p.y), buffer.coordinate(p.z);
+    buffer.no_reference();
+  }
+}
+
+void write_run(const FilePart& part, const Block& block, const Run& run, LineBuffer& buffer) {
+  for (LocalIndex i = run.begin; i < run.end; ++i) {
+    const LocalIndex* corner = block.item(i);
+    for (int k = 0; k < block.corners; ++k)
+      buffer.integer(part.numbers[static_cast<std::size_t>(corner[k])] + 1, false);
+    buffer.integer(GlobalIndex{run.id} + 1, true);
+  }
+}
+
+/// Faces of one shape in patches of lower id, by patch.
+std::vector<GlobalIndex> faces_before(const FileMesh& mesh, std::size_t shape) {
+  std::vector<GlobalIndex> before;
+  GlobalIndex sum = 0;
+  for (const auto& of_patch : mesh.patch_faces) {
+    before.push_back(sum);
+    sum += of_patch[shape];
+  }
+  return before;
+}
+
+void write_faces(const FileMesh& mesh, std::size_t shape, const MeditSection& section, LineBuffer& buffer) {
+  const std::vector<GlobalIndex> before = faces_before(mesh, shape);
+  for (const FilePart& part : mesh.parts) {
+    for (const Run& run : part.faces[shape].runs) {
+      buffer.begin_at(section, before[static_cast<std::size_t>(run.id)] + run.before);
+      write_run(part, part.faces[shape], run, buffer);
+    }
+  }
+}
+
+void write_cells(const FileMesh& mesh, std::size_t shape, const MeditSection& section, LineBuffer& buffer) {
+  for (const FilePart& part : mesh.parts) {
+    buffer.begin_at(section, part.cells[shape].before);
+    for (const Run& run : part.cells[shape].runs) write_run(part, part.cells[shape], run, buffer);
+  }
+}
+
+void write_share(const FileMesh& mesh, const MeditLayout& layout, bool is_root, parallel::SharedFile& file) {
+  LineBuffer buffer(file, layout);
+  if (is_root) {
+    buffer.text(0, layout.header);
+    for (const MeditSection& section : layout.sections) buffer.text(section.begin, section.header);
+    buffer.text(layout.footer_begin, layout.footer);
+  }
+  const MeditSection* const vertices = layout.find(MeditKeyword::vertices);
+  for (const FilePart& part : mesh.parts) write_vertices(part, *vertices, buffer);
+  for (std::size_t s = 0; s < face_shape_count; ++s) {
+    if (const MeditSection* const section = layout.find(medit_faces[s]))
+      write_faces(mesh, s, *section, buffer);
+  }
+  for (std::size_t s = 0; s < cell_shape_count; ++s) {
+    if (const MeditSection* const section = layout.find(medit_cells[s]))
+      write_cells(mesh, s, *section, buffer);
+  }
+  buffer.flush();
+}
+
+}  // namespace
+
+void write_medit(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
+                 const MeditOptions& options) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".meshb" && extension != ".mesh") {
+    throw parallel::CollectiveError(parallel::FailureKind::input,
+                                    fmt::format("'{}': Medit files end in .meshb or .mesh", path));
+  }
+  const MeditLayout layout = medit_layout(
+      counts_of(mesh), extension == ".mesh" ? MeditEncoding::text : MeditEncoding::binary, options.wide);
+  // Old mesh and new names must not stand beside each other.
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) std::filesystem::remove(path);
+  });
+  parallel::write_shared_file(communicator, medit_names_path(path), [&](parallel::SharedFile& file) {
+    if (!communicator.is_root()) return;
+    const std::string names = medit_names_text(mesh);
+    file.write(0, std::as_bytes(std::span(names.data(), names.size())));
+  });
+  parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
+    write_share(mesh, layout, communicator.is_root(), file);
+  });
+}
+
+}  // namespace aeroloom::io

@@ -1,0 +1,335 @@
+#include "io/face_links.hpp"
+#include "io/medit/medit_layout.hpp"
+#include "io/medit/medit_names.hpp"
+#include "io/medit/medit_reader.hpp"
+#include "io/medit/medit_writer.hpp"
+#include "parallel/collective_error.hpp"
+#include "tests/io/damage.hpp"
+#include "tests/io/mixed_mesh.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::io {
+namespace {
+
+using mesh::GlobalIndex;
+using parallel::Communicator;
+
+/// A folder of its own for each number of ranks, for they may run at the same time.
+std::string scratch(const Communicator& world, const std::string& name) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("aeroloom_medit_n" + std::to_string(world.size()));
+  parallel::agree(world, [&] {
+    if (world.is_root()) std::filesystem::create_directories(folder);
+  });
+  return (folder / name).string();
+}
+
+std::string text_of(const std::string& path) {
+  return damage::file_bytes(path);
+}
+
+/// Puts a text into a file and waits until it is there.
+void put(const Communicator& world, const std::string& path, const std::string& text) {
+  if (world.is_root()) std::ofstream(path, std::ios::binary) << text;
+  world.barrier();
+}
+
+void expect_sound(const Communicator& world, const FileMesh& mesh) {
+  const LinkDefects defects = link_faces(world, mesh).defects;
+  EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
+}
+
+void expect_same(const Communicator& world, const FileMesh& mesh, const Assembled& read) {
+  EXPECT_EQ(read.mesh.vertex_count, mesh.vertex_count);
+  EXPECT_EQ(read.mesh.patches, mesh.patches);
+  EXPECT_EQ(read.mesh.regions, mesh.regions);
+  EXPECT_EQ(read.mesh.region_cells, mesh.region_cells);
+  EXPECT_EQ(read.mesh.patch_faces, mesh.patch_faces);
+  EXPECT_EQ(read.turned_cells + read.dropped_points + read.unnamed_faces, 0);
+  expect_sound(world, read.mesh);
+}
+
+TEST(Medit, WrittenAndReadAgain) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world);
+  for (const char* name : {"round.meshb", "round.mesh", "wide.meshb"}) {
+    const std::string path = scratch(world, name);
+    write_medit(world, mesh, path, {std::string(name) == "wide.meshb"});
+    const Assembled read = assemble(world, read_medit(world, path), path, 2);
+    expect_same(world, mesh, read);
+    // Coordinates come back with every bit.
+    const examples::MixedMesh whole(4, 3);
+    for (const FilePart& part : read.mesh.parts) {
+      for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) {
+        const geometry::Vec3 p = part.point(v);
+        EXPECT_NE(std::find(whole.points.begin(), whole.points.end(), p), whole.points.end());
+      }
+    }
+  }
+}
+
+TEST(Medit, BytesDependOnThePartsAlone) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  for (const std::string name : {"bytes.meshb", "bytes.mesh"}) {
+    const std::string together = scratch(world, name);
+    write_medit(world, examples::mixed_mesh(world), together);
+    const std::string alone = scratch(world, "alone" + std::to_string(world.rank()) + name);
+    write_medit(self, examples::mixed_mesh(self), alone);
+    EXPECT_EQ(text_of(together), text_of(alone));
+    EXPECT_EQ(text_of(medit_names_path(together)), text_of(medit_names_path(alone)));
+    EXPECT_FALSE(std::filesystem::exists(together + ".unfinished"));
+  }
+}
+
+TEST(Medit, LayoutBeyondThirtyTwoBits) {
+  MeditCounts counts;
+  counts.vertices = 500'000'000;
+  counts.cells = {3'000'000'000, 0, 1'000};
+  counts.faces = {20'000'000, 0};
+  const MeditLayout wide = medit_layout(counts, MeditEncoding::binary);
+  EXPECT_EQ(wide.version, 4);
+  ASSERT_EQ(wide.sections.size(), 4U);
+  const MeditSection& tetrahedra = *wide.find(MeditKeyword::tetrahedra);
+  EXPECT_EQ(tetrahedra.line_bytes, 40);
+  EXPECT_EQ(tetrahedra.lines, 28 + 3 * 20 + 500'000'000LL * 32 + 20'000'000LL * 32 - 4);
+  EXPECT_EQ(wide.find(MeditKeyword::prisms)->begin, tetrahedra.lines + 120'000'000'000LL);
+  EXPECT_EQ(wide.size, wide.find(MeditKeyword::prisms)->end() + 12);
+  counts.cells[0] = 2'147'483'647;
+  const MeditLayout narrow = medit_layout(counts, MeditEncoding::binary);
+  EXPECT_EQ(narrow.version, 3);
+  EXPECT_EQ(narrow.find(MeditKeyword::prisms)->begin,
+            narrow.find(MeditKeyword::tetrahedra)->lines + 2'147'483'647LL * 20);
+}
+
+/// A tetrahedron in a file of any version and byte order, as another program might write it.
+class ForeignFile {
+public:
+  ForeignFile(int version, bool swapped) : _version(version), _swapped(swapped) {
+    number<std::int32_t>(1), number<std::int32_t>(version);
+    section(3), number<std::int32_t>(3), close();
+    section(5), integer(1), integer(1), integer(2), integer(9), close();  // an edge
+    section(4), integer(4);
+    for (const double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) {
+      version == 1 ? number(static_cast<float>(x)) : number(x);
+      if (++_coordinates % 3 == 0) integer(0);
+    }
+    close();
+    section(8), integer(1);
+    for (const int v : {1, 2, 3, 4, 7}) integer(v);
+    close();
+    section(6), integer(2);
+    for (const int v : {1, 2, 3, -5, 1, 2, 4, 12}) integer(v);
+    close();
+    section(54);
+  }
+  std::string bytes;
+
+private:
+  template <class Number>
+  void number(Number value) {
+    std::string raw(reinterpret_cast<const char*>(&value), sizeof(Number));
+    if (_swapped) std::reverse(raw.begin(), raw.end());
+    bytes += raw;
+  }
+  void integer(std::int64_t value) {
+    _version < 4 ? number(static_cast<std::int32_t>(value)) : number(value);
+  }
+  void position(std::int64_t value) {
+    _version < 3 ? number(static_cast<std::int32_t>(value)) : number(value);
+  }
+  void section(std::int32_t keyword) {
+    number(keyword);
+    _position_at = bytes.size();
+    position(0);
+  }
+  void close() {
+    const std::string all = bytes;
+    bytes.resize(_position_at);
+    position(static_cast<std::int64_t>(all.size()));
+    bytes += all.substr(bytes.size());
+  }
+  int _version;
+  bool _swapped;
+  int _coordinates = 0;
+  std::size_t _position_at = 0;
+};
+
+TEST(Medit, VersionsAndByteOrders) {
+  const Communicator world = Communicator::world();
+  for (const int version : {1, 2, 3, 4}) {
+    for (const bool swapped : {false, true}) {
+      const std::string path = scratch(world, "foreign.meshb");
+      put(world, path, ForeignFile(version, swapped).bytes);
+      const Assembled read = assemble(world, read_medit(world, path), path, 1);
+      EXPECT_EQ(read.mesh.vertex_count, 4);
+      EXPECT_EQ(read.mesh.cell_count(), 1);
+      EXPECT_EQ(read.mesh.regions, std::vector<std::string>{"region_7"});
+      ASSERT_EQ(read.mesh.patches.size(), 3U);
+      EXPECT_EQ(read.mesh.patches[0].name, "patch_-5");
+      EXPECT_EQ(read.mesh.patches[1].name, "patch_12");
+      EXPECT_EQ(read.unnamed_faces, 2);
+      world.barrier();
+    }
+  }
+}
+
+TEST(Medit, TextWithCommentsAndOtherSections) {
+  const Communicator world = Communicator::world();
+  const std::string path = scratch(world, "foreign.mesh");
+  put(world, path,
+      "# by hand\nMeshVersionFormatted\n1\nDimension\n3 Vertices 4 0 0 0 1\n1 0 0 1 0 1. 0 1 # here\n0 0 1e0 "
+      "1\n"
+      "Ridges 1\n1\nTetrahedra\n1\n2 1 3 4 5\n\nRequiredVertices\n2\n1\n2\nTriangles\n1 1 2 3 8\nEnd\n");
+  const Assembled read = assemble(world, read_medit(world, path), path, 1);
+  EXPECT_EQ(read.mesh.cell_count(), 1);
+  EXPECT_EQ(read.turned_cells, 1);
+  EXPECT_EQ(read.mesh.regions, std::vector<std::string>{"region_5"});
+}
+
+TEST(Medit, NamesOfAllKinds) {
+  FileMesh mesh;
+  mesh.regions = {" fluid\n", "\\x", "über", ""};
+  mesh.region_cells = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+  mesh.patches = {{"wing / lower  side ", mesh::PatchType::farfield}, {"wall", mesh::PatchType::wall}};
+  mesh.patch_faces = {{0, 3}, {3, 0}};
+  const std::string text = medit_names_text(mesh);
+  const MeditNames names = parse_medit_names(text, "file.names");
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r)
+    EXPECT_EQ(names.regions.at(static_cast<std::int64_t>(r) + 1), mesh.regions[r]);
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+    EXPECT_EQ(names.patches.at(static_cast<std::int64_t>(p) + 1), mesh.patches[p]);
+  for (const char* wrong : {"hexahedra 1 a", "triangles x a wall", "triangles 1 a well", "tetrahedra 1 \\y",
+                            "tetrahedra 1 a\ntetrahedra 1 b", "triangles", "tetrahedra 1 a\\x0"}) {
+    EXPECT_THROW(parse_medit_names(wrong, "file.names"), std::runtime_error) << wrong;
+  }
+}
+
+/// What reading says; empty where it succeeds.
+std::string refusal(const Communicator& world, const std::string& name, const std::string& bytes) {
+  const std::string path = scratch(world, name);
+  put(world, path, bytes);
+  std::string text;
+  try {
+    assemble(world, read_medit(world, path), path, 1);
+  } catch (const parallel::CollectiveError& error) {
+    text = error.what();
+    EXPECT_EQ(error.kind(), parallel::FailureKind::input);
+    EXPECT_NE(text.find(name), std::string::npos);
+  }
+  world.barrier();
+  return text;
+}
+
+TEST(Medit, RefusesWithThePlace) {
+  const Communicator world = Communicator::world();
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+  const auto expect = [&](const std::string& name, const std::string& bytes, const std::string& text) {
+    EXPECT_NE(refusal(world, name, bytes).find(text), std::string::npos) << refusal(world, name, bytes);
+  };
+  expect("bad.mesh", head + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n", "line 4: there are 1 Hexahedra");
+  expect("bad.mesh", head + "Vertices\n4611686018427387904\n",
+         "line 4: 4611686018427387904 Vertices do not fit");
+  expect("bad.mesh", "MeshVersionFormatted 2\nDimension 2\n", "line 2: the mesh has 2 dimensions");
+  expect("bad.mesh", head + "Vertices 1\n0 zero 0 0\n", "line 4: 'zero' should be a coordinate");
+  expect("bad.mesh", head + "Tetrahedra 1 1 2 3 0 1", "line 3: there is no vertex 0");
+  expect("bad.mesh", "solid", "no MeshVersionFormatted");
+  expect("bad.mesh", "", "");
+  std::string bytes = ForeignFile(3, false).bytes;
+  bytes[24 + 0] = 10;
+  expect("bad.meshb", bytes, "byte 24: there are 1 Hexahedra");
+  expect("bad.meshb", bytes.substr(0, 20), "the file ends here");
+  bytes = ForeignFile(3, false).bytes;
+  bytes[4] = 5;
+  expect("bad.meshb", bytes, "byte 4: there is no version 5");
+  EXPECT_NE(refusal(world, "empty.meshb", ""), "");
+}
+
+TEST(Medit, WhatCannotBeWrittenOrOpened) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world);
+  put(world, scratch(world, "no_folder"), "a file");
+  for (const std::string name : {"no_folder/a.meshb", "wrong.ending"}) {
+    const std::string path = scratch(world, name);
+    try {
+      write_medit(world, mesh, path);
+      ADD_FAILURE() << path << " was written";
+    } catch (const parallel::CollectiveError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+  try {
+    read_medit(world, "/no/such/file.meshb");
+    ADD_FAILURE() << "was read";
+  } catch (const parallel::CollectiveError& error) {
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+  }
+}
+
+TEST(Medit, HostileFiles) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
+  for (const std::string ending : {".meshb", ".mesh"}) {
+    const std::string good = scratch(world, "good" + ending), path = scratch(world, "hostile" + ending);
+    for (const bool wide : {false, true}) {
+      write_medit(world, mesh, good, {wide});
+      const std::string bytes = text_of(good);
+      damage::survive(world, bytes, path,
+                      [&](const std::string& file) { assemble(world, read_medit(world, file), file, 2); });
+      if (ending == ".mesh") break;
+    }
+  }
+}
+
+TEST(Medit, HostileNames) {
+  const Communicator world = Communicator::world();
+  const std::string path = scratch(world, "named.meshb");
+  write_medit(world, examples::mixed_mesh(world, 2, 2), path);
+  const std::string names = text_of(medit_names_path(path));
+  world.barrier();
+  damage::survive(world, names, medit_names_path(path),
+                  [&](const std::string&) { assemble(world, read_medit(world, path), path, 2); });
+}
+
+TEST(Medit, PlacesBeyondFourGibibytes) {
+  // Vertices in front of a hole of 5 GiB, tetrahedra behind it; a sparse file takes no room.
+  const Communicator world = Communicator::world();
+  const std::string path = scratch(world, "sparse.meshb");
+  const std::string near = ForeignFile(3, false).bytes;
+  const std::int64_t hole = std::int64_t{5} << 30;
+  if (world.is_root()) {
+    std::string head = near;
+    const std::size_t edges = 24;  // where the chain is led across the hole and back into its copy
+    std::string link(reinterpret_cast<const char*>(&hole), sizeof(hole));
+    head.replace(edges + 4, 8, link);
+    std::ofstream stream(path, std::ios::binary);
+    stream << head;
+    // Behind the hole: the same sections, their positions moved.
+    std::string tail = near.substr(edges + 28);
+    for (std::size_t at = 0; at + 12 <= tail.size();) {
+      std::int64_t next = 0;
+      std::memcpy(&next, tail.data() + at + 4, 8);
+      if (next == 0) break;
+      const std::int64_t moved = next - static_cast<std::int64_t>(edges + 28) + hole;
+      std::memcpy(tail.data() + at + 4, &moved, 8);
+      at = static_cast<std::size_t>(next) - (edges + 28);
+    }
+    stream.seekp(hole);
+    stream << tail;
+  }
+  world.barrier();
+  const Assembled read = assemble(world, read_medit(world, path), path, 1);
+  EXPECT_EQ(read.mesh.cell_count(), 1);
+  EXPECT_EQ(read.mesh.vertex_count, 4);
+  world.barrier();
+  if (world.is_root()) std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace aeroloom::io
