@@ -1,6 +1,7 @@
 #include "io/file_formats.hpp"
 
 #include "io/cgns/cgns_writer.hpp"
+#include "io/medit/medit_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ void write_parts_as_they_are(const parallel::Communicator& communicator, const F
       return write_vtkhdf_surface(communicator, mesh, without(path, ".vtkhdf") + "_surface.vtkhdf");
     case FileFormat::cgns:
       return write_cgns(communicator, mesh, path);
+    case FileFormat::meshb:
+      return write_medit(communicator, mesh, path);
     default:
       throw std::logic_error("no writer");
   }

@@ -1,6 +1,8 @@
 #include "io/read_mesh.hpp"
 
+#include "io/medit/medit_reader.hpp"
 #include "io/vtk/vtk_reader.hpp"
+#include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -22,19 +24,18 @@ struct NamedReader {
   Reader read;
 };
 
-constexpr std::array<NamedReader, 3> readers = {{
-    {".vtu", read_vtk},
-    {".pvtu", read_vtk},
-    {".vtk", read_vtk},
-}};
+constexpr NamedReader readers[] = {
+    {".vtu", read_vtk},       {".pvtu", read_vtk},   {".vtk", read_vtk},
+    {".vtkhdf", read_vtkhdf}, {".mesh", read_medit}, {".meshb", read_medit},
+};
 
 }  // namespace
 
 Assembled read_mesh(const parallel::Communicator& communicator, const std::string& path, std::int32_t parts) {
-  const auto found = std::find_if(readers.begin(), readers.end(), [&](const NamedReader& reader) {
+  const auto found = std::find_if(std::begin(readers), std::end(readers), [&](const NamedReader& reader) {
     return path.ends_with(reader.extension);
   });
-  if (found == readers.end()) {
+  if (found == std::end(readers)) {
     std::string known;
     for (const NamedReader& reader : readers)
       known += fmt::format("{}{}", known.empty() ? "" : ", ", reader.extension);
