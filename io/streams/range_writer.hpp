@@ -1,0 +1,62 @@
+/// Numbers and text into a file that all ranks write, one after another from any offset on.
+#pragma once
+
+#include "io/streams/byte_order.hpp"
+#include "parallel/shared_file.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace aeroloom::io {
+
+/// A buffer of fixed size before a file: the only memory that a writer needs beside the mesh. What has been
+/// put is in the file after flush() or move_to() alone. Failures: as SharedFile::write.
+class RangeWriter {
+public:
+  static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+
+  explicit RangeWriter(parallel::SharedFile& file, ByteOrder order = own_byte_order)
+      : _file(file), _reverses(order != own_byte_order), _buffer(buffer_bytes) {}
+
+  /// Goes on at `offset` bytes from the beginning of the file.
+  void move_to(std::int64_t offset) {
+    flush();
+    _begin = offset;
+  }
+
+  template <parallel::Transferable T>
+  void put(T value) {
+    if (_reverses) value = with_bytes_reversed(value);
+    if (_used + sizeof(T) > _buffer.size()) flush();
+    std::memcpy(_buffer.data() + _used, &value, sizeof(T));
+    _used += sizeof(T);
+  }
+
+  void put_text(std::string_view text) {
+    while (!text.empty()) {
+      if (_used == _buffer.size()) flush();
+      const std::size_t count = std::min(text.size(), _buffer.size() - _used);
+      std::memcpy(_buffer.data() + _used, text.data(), count);
+      _used += count;
+      text.remove_prefix(count);
+    }
+  }
+
+  void flush() {
+    _file.write(_begin, std::span<const std::byte>(_buffer.data(), _used));
+    _begin += static_cast<std::int64_t>(_used);
+    _used = 0;
+  }
+
+private:
+  parallel::SharedFile& _file;
+  bool _reverses;
+  std::vector<std::byte> _buffer;
+  std::size_t _used = 0;
+  std::int64_t _begin = 0;
+};
+
+}  // namespace aeroloom::io

@@ -1,0 +1,37 @@
+/// Names and conditions of patches as SU2 has them.
+#pragma once
+
+#include "io/boundary_patches.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communicator.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io {
+
+/// Of a name in a binary file, which has 33 bytes for it and a zero. Text files get the same names, so that
+/// one configuration serves both.
+inline constexpr std::size_t most_marker_bytes = 32;
+
+/// The name of each patch in a file: letters, digits, `_ - + .` and what is beyond ASCII stay, all else
+/// becomes `_`; cut to 32 bytes, different from each other, none SEND_RECEIVE (plain_names).
+std::vector<std::string> marker_names(const FileMesh& mesh, const BoundaryPatches& patches);
+
+/// NAME_markers.cfg beside NAME.su2 or NAME.su2b.
+std::string markers_path_of(const std::string& path);
+
+/// Writes lines for an SU2 configuration to NAME_markers.cfg: the markers of the mesh at `mesh_path` by
+/// condition. Walls are MARKER_HEATFLUX (adiabatic), slip MARKER_EULER, symmetry MARKER_SYM, farfield
+/// MARKER_FAR; inlets and outlets stand in comments, as values of their own must be filled in. Collective;
+/// throws CollectiveError (files).
+void write_markers(const parallel::Communicator& communicator, const std::string& mesh_path,
+                   const FileMesh& mesh, const BoundaryPatches& patches,
+                   const std::vector<std::string>& names);
+
+/// Gives patches the conditions that NAME_markers.cfg has for their names, where there is one; comments that
+/// begin with `% MARKER_` count. Not collective; throws as TextLines.
+void set_marker_types(const std::string& mesh_path, std::vector<mesh::Patch>& patches);
+
+}  // namespace aeroloom::io

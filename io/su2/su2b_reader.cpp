@@ -1,0 +1,201 @@
+#include "io/streams/range_reader.hpp"
+#include "io/su2/su2_elements.hpp"
+#include "io/su2/su2_markers.hpp"
+#include "io/su2/su2_reader.hpp"
+#include "io/su2/su2b_layout.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+
+/// Elements and points read at a time.
+constexpr std::int64_t chunk_items = 1 << 15;
+
+/// Reads a file with integers of one width.
+template <class Integer>
+class Su2bShare {
+public:
+  Su2bShare(RangeReader& file, int rank, int size) : _file(file), _rank(rank), _size(size) {}
+
+  void read(RawMesh& raw) {
+    read_zone();
+    const Elements cells = find_elements(first_section, "cells");
+    _points = count_at(cells.end, "points", 24 + width);
+    read_elements(cells, -1, raw);
+    read_points(cells.end + width, raw);
+    read_markers(cells.end + width + _points * (24 + width), raw);
+  }
+
+private:
+  static constexpr std::int64_t width = sizeof(Integer);
+  static constexpr std::int64_t first_section = 16;
+
+  /// Places of a section, held against the size of the file.
+  struct Elements {
+    std::int64_t count, places, connectivity, integers, end;
+  };
+
+  void read_zone() {
+    const auto zones = _file.value<std::int32_t>(4);
+    if (zones != 1)
+      _file.fail(4, fmt::format("the file has {} zones; only files of one zone are supported", zones));
+    const auto dimensions = _file.value<std::int32_t>(12);
+    if (dimensions != 3)
+      _file.fail(12, fmt::format("a mesh of {} dimensions; only three are supported", dimensions));
+  }
+
+  /// A count of things of `bytes` each that stand behind it.
+  std::int64_t count_at(std::int64_t offset, const char* what, std::int64_t bytes) {
+    const auto count = static_cast<std::uint64_t>(_file.value<Integer>(offset));
+    if (count > static_cast<std::uint64_t>(_file.bytes_from(offset + width) / bytes))
+      _file.fail(offset, fmt::format("{} {} do not fit a file of {} bytes", count, what, _file.size()));
+    return static_cast<std::int64_t>(count);
+  }
+
+  Elements find_elements(std::int64_t offset, const char* what) {
+    Elements elements{};
+    elements.count = count_at(offset, what, width);
+    elements.places = offset + width;
+    const std::int64_t length_at = elements.places + elements.count * width;
+    elements.integers = count_at(length_at, "integers of connectivity", width);
+    elements.connectivity = length_at + width;
+    elements.end = elements.connectivity + elements.integers * width;
+    return elements;
+  }
+
+  void read_points(std::int64_t section, RawMesh& raw) {
+    const Share share = Share::of(_points, _rank, _size);
+    constexpr std::int64_t stride = 24 + width;
+    raw.coordinates.reserve(3 * static_cast<std::size_t>(share.count()));
+    raw.point_ids.reserve(static_cast<std::size_t>(share.count()));
+    std::vector<std::byte> chunk;
+    for (std::int64_t begin = share.begin; begin < share.end; begin += chunk_items) {
+      const std::int64_t end = std::min(begin + chunk_items, share.end);
+      chunk.resize(static_cast<std::size_t>((end - begin) * stride));
+      _file.read_bytes(section + begin * stride, chunk);
+      for (std::int64_t i = begin; i < end; ++i) {
+        for (int k = 0; k < 3; ++k) {
+          const auto value = _file.decoded<double>(chunk.data() + (i - begin) * stride + 8 * k);
+          if (!std::isfinite(value))
+            _file.fail(section + i * stride + 8 * k, fmt::format("a coordinate of point {} is no number", i));
+          raw.coordinates.push_back(value);
+        }
+        raw.point_ids.push_back(i);
+      }
+    }
+  }
+
+  void read_markers(std::int64_t offset, RawMesh& raw) {
+    const auto count = _file.value<std::int32_t>(offset);
+    if (count < 0 || count > _file.bytes_from(offset) / (su2b_name_bytes + 2 * width))
+      _file.fail(offset, fmt::format("{} markers do not fit a file of {} bytes", count, _file.size()));
+    std::int64_t at = offset + 4;
+    for (std::int32_t marker = 0; marker < count; ++marker) {
+      std::array<char, su2b_name_bytes + 1> name{};
+      _file.read(at, std::span<char>(name.data(), su2b_name_bytes));
+      const Elements faces = find_elements(at + su2b_name_bytes, "faces of a marker");
+      at = faces.end;
+      const std::string_view text(name.data());
+      if (text == "SEND_RECEIVE") continue;
+      raw.patches.push_back(
+          {text.empty() ? fmt::format("marker_{}", marker + 1) : std::string(text), mesh::PatchType::wall});
+      read_elements(faces, static_cast<std::int32_t>(raw.patches.size()) - 1, raw);
+    }
+  }
+
+  /// Elements of a patch, -1: of the volume.
+  void read_elements(const Elements& section, std::int32_t patch, RawMesh& raw) {
+    const Share share = Share::of(section.count, _rank, _size);
+    std::vector<Integer> places, integers;
+    for (std::int64_t begin = share.begin; begin < share.end; begin += chunk_items) {
+      const std::int64_t end = std::min(begin + chunk_items, share.end);
+      places.resize(static_cast<std::size_t>(end - begin + 1));
+      const std::int64_t places_at = section.places + begin * width;
+      _file.read(places_at, std::span<Integer>(places));
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i] > static_cast<Integer>(section.integers) || (i > 0 && places[i] < places[i - 1]))
+          _file.fail(places_at + static_cast<std::int64_t>(i) * width,
+                     fmt::format("place {} in a connectivity of {} integers is out of turn", places[i],
+                                 section.integers));
+      }
+      integers.resize(static_cast<std::size_t>(places.back() - places.front()));
+      const std::int64_t first_at = section.connectivity + static_cast<std::int64_t>(places.front()) * width;
+      _file.read(first_at, std::span<Integer>(integers));
+      for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const auto from = static_cast<std::size_t>(places[i] - places.front());
+        const auto length = static_cast<std::size_t>(places[i + 1] - places[i]);
+        read_element(std::span<const Integer>(integers).subspan(from, length),
+                     first_at + static_cast<std::int64_t>(from) * width, patch, raw);
+      }
+    }
+  }
+
+  void read_element(std::span<const Integer> integers, std::int64_t offset, std::int32_t patch,
+                    RawMesh& raw) {
+    if (integers.empty()) _file.fail(offset, "an element without a type");
+    const auto type = static_cast<std::int64_t>(integers[0]);
+    const std::optional<Su2Element> element = su2_element_of(type);
+    if (!element) _file.fail(offset, su2_type_text(type));
+    if (integers.size() < static_cast<std::size_t>(element->corners) + (patch < 0 ? 2 : 1))
+      _file.fail(offset, "the element has too few integers");
+    const auto points = integers.subspan(1, static_cast<std::size_t>(element->corners));
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k] >= static_cast<std::uint64_t>(_points))
+        _file.fail(offset + static_cast<std::int64_t>(k + 1) * width,
+                   fmt::format("there is no point {}; the file has {}, from 0", points[k], _points));
+    }
+    if (element->cell) {
+      if (patch >= 0) _file.fail(offset, "a marker has faces, no cells");
+      const auto s = static_cast<std::size_t>(*element->cell);
+      const Integer* const in_vtk_order = points.data();
+      for (std::size_t k = 0; k < points.size(); ++k)
+        raw.cells[s].push_back(static_cast<GlobalIndex>(in_vtk_order[to_vtk[s][k]]));
+      raw.cell_regions[s].push_back(0);
+    } else if (element->face && patch >= 0) {
+      const auto s = static_cast<std::size_t>(*element->face);
+      for (const Integer point : points) raw.faces[s].push_back(static_cast<GlobalIndex>(point));
+      raw.face_patches[s].push_back(patch);
+    }
+  }
+
+  RangeReader& _file;
+  int _rank, _size;
+  std::int64_t _points = 0;
+};
+
+}  // namespace
+
+RawMesh read_su2b(const parallel::Communicator& communicator, const std::string& path) {
+  RawMesh raw;
+  raw.regions = {"fluid"};
+  parallel::agree(communicator, [&] {
+    RangeReader file(path);
+    auto width = file.value<std::int32_t>(0);
+    if (width != 4 && width != 8) {
+      file.set_order(ByteOrder::big);
+      width = file.value<std::int32_t>(0);
+    }
+    if (width == 4) {
+      Su2bShare<std::uint32_t>(file, communicator.rank(), communicator.size()).read(raw);
+    } else if (width == 8) {
+      Su2bShare<std::uint64_t>(file, communicator.rank(), communicator.size()).read(raw);
+    } else {
+      file.fail(0, "no binary SU2 mesh: it begins with the size of its integers, 4 or 8");
+    }
+    set_marker_types(path, raw.patches);
+  });
+  return raw;
+}
+
+}  // namespace aeroloom::io

@@ -1,0 +1,207 @@
+#include "io/ugrid/ugrid_reader.hpp"
+
+#include "io/streams/range_reader.hpp"
+#include "io/ugrid/mapbc.hpp"
+#include "io/ugrid/ugrid_format.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+
+/// More are no patches.
+constexpr std::size_t most_patches = 1U << 20;
+/// Numbers read at a time.
+constexpr std::int64_t chunk_items = 1 << 17;
+
+constexpr std::array<const char*, face_shape_count> face_names = {"triangle", "quadrilateral"};
+constexpr std::array<const char*, cell_shape_count> cell_names = {"tetrahedron", "pyramid", "prism"};
+
+/// The ids of the patches of the faces in a share, by shape.
+using PatchIds = std::array<std::vector<std::int64_t>, face_shape_count>;
+
+/// Reads a file with integers of one width.
+template <class Integer>
+class UgridShare {
+public:
+  UgridShare(RangeReader& file, int rank, int size) : _file(file), _rank(rank), _size(size) {}
+
+  void read(RawMesh& raw, PatchIds& patch_ids) {
+    read_counts();
+    read_points(raw);
+    for (std::size_t s = 0; s < face_shape_count; ++s) {
+      const int corners = corners_of(face_shapes[s]);
+      read_connectivity(_layout.faces[s], share_of(_counts.faces[s]), corners, nullptr, face_names[s],
+                        raw.faces[s]);
+      read_patch_ids(_layout.patch_ids[s], share_of(_counts.faces[s]), patch_ids[s]);
+    }
+    for (std::size_t s = 0; s < cell_shape_count; ++s) {
+      const Share share = share_of(_counts.cells[s]);
+      read_connectivity(_layout.cells[s], share, corners_of(cell_shapes[s]), to_ugrid[s].data(),
+                        cell_names[s], raw.cells[s]);
+      raw.cell_regions[s].assign(static_cast<std::size_t>(share.count()), 0);
+    }
+  }
+
+private:
+  static constexpr std::int64_t width = sizeof(Integer);
+
+  Share share_of(GlobalIndex count) const { return Share::of(count, _rank, _size); }
+
+  /// Counts are held against the size of the file before anything is computed or allocated from them.
+  void read_counts() {
+    std::array<Integer, 7> counts{};
+    _file.read(0, std::span<Integer>(counts));
+    constexpr std::array<std::int64_t, 7> item_bytes = {24,        4 * width, 5 * width, 4 * width,
+                                                        5 * width, 6 * width, 8 * width};
+    constexpr std::array<const char*, 7> names = {"points",   "triangles", "quadrilaterals", "tetrahedra",
+                                                  "pyramids", "prisms",    "hexahedra"};
+    std::int64_t left = _file.bytes_from(7 * width);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] < 0 || counts[i] > left / item_bytes[i])
+        _file.fail(static_cast<std::int64_t>(i) * width,
+                   fmt::format("{} {} do not fit a file of {} bytes; is it of the kind that its name says?",
+                               counts[i], names[i], _file.size()));
+      left -= counts[i] * item_bytes[i];
+    }
+    if (counts[6] > 0)
+      _file.fail(6 * width,
+                 fmt::format("{} hexahedra; only tetrahedra, pyramids and prisms are supported", counts[6]));
+    _counts = {counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}, 0};
+    _layout = ugrid_layout(_counts, static_cast<int>(width));
+  }
+
+  void read_points(RawMesh& raw) {
+    const Share share = share_of(_counts.points);
+    raw.coordinates.resize(3 * static_cast<std::size_t>(share.count()));
+    const std::int64_t offset = _layout.points + 24 * share.begin;
+    _file.read(offset, std::span<double>(raw.coordinates));
+    for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {
+      if (!std::isfinite(raw.coordinates[i]))
+        _file.fail(offset + 8 * static_cast<std::int64_t>(i),
+                   fmt::format("a coordinate of point {} is no number",
+                               share.begin + static_cast<std::int64_t>(i / 3) + 1));
+    }
+    raw.point_ids.resize(static_cast<std::size_t>(share.count()));
+    for (std::size_t i = 0; i < raw.point_ids.size(); ++i)
+      raw.point_ids[i] = share.begin + static_cast<GlobalIndex>(i);
+  }
+
+  /// Calls visit(number, index) for the integers of a share, chunk by chunk.
+  template <class Visit>
+  void for_each_integer(std::int64_t offset, std::int64_t count, const Visit& visit) {
+    std::vector<Integer> chunk;
+    for (std::int64_t begin = 0; begin < count; begin += chunk_items) {
+      chunk.resize(static_cast<std::size_t>(std::min(chunk_items, count - begin)));
+      _file.read(offset + begin * width, std::span<Integer>(chunk));
+      for (std::size_t i = 0; i < chunk.size(); ++i)
+        visit(static_cast<std::int64_t>(chunk[i]), begin + static_cast<std::int64_t>(i));
+    }
+  }
+
+  /// Points of items from 0; corner k of the file becomes corner order[k].
+  void read_connectivity(std::int64_t section, Share share, int corners, const std::int8_t* order,
+                         const char* name, std::vector<GlobalIndex>& connectivity) {
+    connectivity.resize(static_cast<std::size_t>(share.count() * corners));
+    const std::int64_t offset = section + share.begin * corners * width;
+    for_each_integer(offset, share.count() * corners, [&](std::int64_t point, std::int64_t i) {
+      if (point < 1 || point > _counts.points)
+        _file.fail(offset + i * width, fmt::format("{} {} has point {}, of {}", name,
+                                                   share.begin + i / corners + 1, point, _counts.points));
+      const std::int64_t k = i % corners;
+      connectivity[static_cast<std::size_t>(order == nullptr ? i : i - k + order[k])] = point - 1;
+    });
+  }
+
+  void read_patch_ids(std::int64_t section, Share share, std::vector<std::int64_t>& ids) {
+    ids.resize(static_cast<std::size_t>(share.count()));
+    for_each_integer(section + share.begin * width, share.count(),
+                     [&](std::int64_t id, std::int64_t i) { ids[static_cast<std::size_t>(i)] = id; });
+  }
+
+  RangeReader& _file;
+  int _rank, _size;
+  UgridCounts _counts;
+  UgridLayout _layout;
+};
+
+void sort_unique(std::vector<std::int64_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The ids of all ranks, ascending. Collective.
+std::vector<std::int64_t> distinct_ids(const parallel::Communicator& communicator, const PatchIds& patch_ids,
+                                       const std::string& path) {
+  std::vector<std::int64_t> ids;
+  for (const auto& of_shape : patch_ids) {
+    std::vector<std::int64_t> distinct = of_shape;
+    sort_unique(distinct);
+    ids.insert(ids.end(), distinct.begin(), distinct.end());
+  }
+  sort_unique(ids);
+  const auto require_few = [&] {
+    if (ids.size() > most_patches)
+      throw std::runtime_error(
+          fmt::format("{}: its faces have {} different patch ids or more; at most {} are supported", path,
+                      ids.size(), most_patches));
+  };
+  parallel::agree(communicator, require_few);
+  ids = communicator.all_gather_items(std::span<const std::int64_t>(ids));
+  sort_unique(ids);
+  parallel::agree(communicator, require_few);
+  return ids;
+}
+
+/// Collective.
+void set_patches(const parallel::Communicator& communicator, const std::string& path,
+                 const PatchIds& patch_ids, RawMesh& raw) {
+  const std::vector<std::int64_t> ids = distinct_ids(communicator, patch_ids, path);
+  const std::map<std::int64_t, mesh::Patch> table = read_mapbc(communicator, mapbc_path_of(path));
+  std::set<std::string> taken;
+  for (const std::int64_t id : ids) {
+    const auto found = table.find(id);
+    mesh::Patch patch = found != table.end()
+                            ? found->second
+                            : mesh::Patch{fmt::format("patch_{}", id), mesh::PatchType::wall};
+    while (!taken.insert(patch.name).second) patch.name += fmt::format("_{}", id);
+    raw.patches.push_back(std::move(patch));
+  }
+  for (std::size_t s = 0; s < face_shape_count; ++s) {
+    for (const std::int64_t id : patch_ids[s])
+      raw.face_patches[s].push_back(
+          static_cast<std::int32_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin()));
+  }
+}
+
+}  // namespace
+
+RawMesh read_ugrid(const parallel::Communicator& communicator, const std::string& path) {
+  RawMesh raw;
+  raw.regions = {"fluid"};
+  PatchIds patch_ids;
+  parallel::agree(communicator, [&] {
+    const UgridKind kind = ugrid_kind_of(path);
+    RangeReader file(path);
+    file.set_order(kind.order);
+    if (kind.integer_bytes == 4) {
+      UgridShare<std::int32_t>(file, communicator.rank(), communicator.size()).read(raw, patch_ids);
+    } else {
+      UgridShare<std::int64_t>(file, communicator.rank(), communicator.size()).read(raw, patch_ids);
+    }
+  });
+  set_patches(communicator, path, patch_ids, raw);
+  return raw;
+}
+
+}  // namespace aeroloom::io

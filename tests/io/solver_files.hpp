@@ -1,0 +1,179 @@
+/// What tests of solver files share: a scratch folder, what a mesh has in it, files that are damaged.
+#pragma once
+
+#include "io/file_mesh.hpp"
+#include "io/raw_mesh.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace aeroloom::io::examples {
+
+/// A folder that all ranks agree on, empty at the start and gone at the end.
+class SolverFiles : public testing::Test {
+protected:
+  void SetUp() override {
+    std::vector<std::int64_t> process{getpid()};
+    world.broadcast_items(process);
+    folder = std::filesystem::temp_directory_path() / ("aeroloom_solver_" + std::to_string(process[0]));
+    if (world.is_root()) std::filesystem::create_directories(folder);
+    world.barrier();
+  }
+  void TearDown() override {
+    world.barrier();
+    if (world.is_root()) std::filesystem::remove_all(folder);
+    world.barrier();
+  }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  const parallel::Communicator world = parallel::Communicator::world();
+  std::filesystem::path folder;
+};
+
+inline std::string bytes_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Rank 0 writes, all wait.
+inline void put_bytes(const parallel::Communicator& world, const std::string& path,
+                      const std::string& bytes) {
+  world.barrier();
+  if (world.is_root()) std::ofstream(path, std::ios::binary) << bytes;
+  world.barrier();
+}
+
+/// What must survive a file.
+struct Contents {
+  std::int64_t vertices = 0;
+  std::array<std::int64_t, cell_shape_count> cells{};
+  std::array<double, cell_shape_count> volumes{};
+  std::map<std::string, std::array<std::int64_t, face_shape_count>> faces;  ///< by name of patch
+  std::map<std::string, mesh::PatchType> types;
+  double enclosed = 0;  ///< by the boundary faces
+};
+
+/// A sixth of the divergence integral over a face.
+inline double volume_below(const FilePart& part, const std::vector<mesh::LocalIndex>& corners) {
+  const geometry::Vec3 a = part.point(corners[0]);
+  double volume = 0;
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+    volume += dot(a, cross(part.point(corners[k]) - a, part.point(corners[k + 1]) - a)) / 6;
+  return volume;
+}
+
+inline Contents contents_of(const parallel::Communicator& world, const FileMesh& mesh) {
+  Contents contents;
+  contents.vertices = mesh.vertex_count;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    if (mesh.patches[p].type == mesh::PatchType::interior) continue;
+    contents.faces[mesh.patches[p].name] = mesh.patch_faces[p];
+    contents.types[mesh.patches[p].name] = mesh.patches[p].type;
+  }
+  for (const FilePart& part : mesh.parts) {
+    for (const CellShape shape : cell_shapes) {
+      const auto s = static_cast<std::size_t>(shape);
+      for (mesh::LocalIndex c = 0; c < part.cells[s].count(); ++c) {
+        for (const CellFace& face : faces_of(shape)) {
+          std::vector<mesh::LocalIndex> corners;
+          for (const std::int8_t k : face) {
+            if (k >= 0) corners.push_back(part.cells[s].item(c)[k]);
+          }
+          contents.volumes[s] += volume_below(part, corners);
+        }
+      }
+    }
+    for (const Block& block : part.faces) {
+      for (const Run& run : block.runs) {
+        if (mesh.patches[run.id].type == mesh::PatchType::interior) continue;
+        for (mesh::LocalIndex i = run.begin; i < run.end; ++i)
+          contents.enclosed += volume_below(part, {block.item(i), block.item(i) + block.corners});
+      }
+    }
+  }
+  for (const CellShape shape : cell_shapes) {
+    const auto s = static_cast<std::size_t>(shape);
+    contents.cells[s] = mesh.cell_count(shape);
+    contents.volumes[s] = world.sum(contents.volumes[s]);
+  }
+  contents.enclosed = world.sum(contents.enclosed);
+  return contents;
+}
+
+inline void expect_same(const Contents& found, const Contents& wanted) {
+  EXPECT_EQ(found.vertices, wanted.vertices);
+  EXPECT_EQ(found.cells, wanted.cells);
+  EXPECT_EQ(found.faces, wanted.faces);
+  EXPECT_EQ(found.types, wanted.types);
+  for (std::size_t s = 0; s < cell_shape_count; ++s) EXPECT_NEAR(found.volumes[s], wanted.volumes[s], 1e-9);
+  EXPECT_NEAR(found.enclosed, wanted.enclosed, 1e-9);
+}
+
+using Reader = std::function<RawMesh(const parallel::Communicator&, const std::string&)>;
+
+/// Reads a file that may be damaged: a mesh or an error of the right kind that names the file. True for a
+/// mesh.
+inline bool survives(const parallel::Communicator& world, const Reader& read, const std::string& path,
+                     const std::string& what) {
+  try {
+    assemble(world, read(world, path), path, 2);
+    return true;
+  } catch (const parallel::CollectiveError& error) {
+    EXPECT_TRUE(error.kind() == parallel::FailureKind::input || error.kind() == parallel::FailureKind::files)
+        << what << ": " << error.what();
+    const std::string stem = std::filesystem::path(path).stem().stem().string();
+    EXPECT_NE(std::string(error.what()).find(stem), std::string::npos) << what << ": " << error.what();
+    return false;
+  }
+}
+
+/// Cuts a good file at many lengths, none of which may pass for the whole.
+inline void expect_no_cut_passes(const parallel::Communicator& world, const Reader& read,
+                                 const std::string& path, int trials, std::size_t last_bytes = 1) {
+  const std::string good = bytes_of(path);
+  world.barrier();
+  std::mt19937 random(7);
+  for (int trial = 0; trial < trials; ++trial) {
+    const std::size_t length =
+        trial < 40 ? static_cast<std::size_t>(trial) : random() % (good.size() - last_bytes);
+    put_bytes(world, path, good.substr(0, length));
+    EXPECT_FALSE(survives(world, read, path, "cut to " + std::to_string(length)));
+  }
+  put_bytes(world, path, good);
+}
+
+/// Changes bytes of a good file at many places, half of them among the first, which matter most. `texts`:
+/// what may stand there instead; any byte where empty.
+inline void expect_changes_survive(const parallel::Communicator& world, const Reader& read,
+                                   const std::string& path, int trials,
+                                   const std::vector<std::string>& texts = {}) {
+  const std::string good = bytes_of(path);
+  world.barrier();
+  std::mt19937 random(11);
+  for (int trial = 0; trial < trials; ++trial) {
+    std::string bytes = good;
+    const std::size_t place =
+        random() % std::min<std::size_t>(good.size(), trial % 2 == 0 ? 120 : good.size());
+    const std::string text = texts.empty() || trial % 3 == 0
+                                 ? std::string(1, static_cast<char>(random() % 256))
+                                 : texts[random() % texts.size()];
+    bytes.replace(place, 1, text);
+    put_bytes(world, path, bytes);
+    survives(world, read, path, "byte " + std::to_string(place));
+  }
+  put_bytes(world, path, good);
+}
+
+}  // namespace aeroloom::io::examples

@@ -1,0 +1,236 @@
+#include "io/ugrid/mapbc.hpp"
+#include "io/ugrid/ugrid_format.hpp"
+#include "io/ugrid/ugrid_reader.hpp"
+#include "io/ugrid/ugrid_writer.hpp"
+#include "tests/io/mixed_mesh.hpp"
+#include "tests/io/solver_files.hpp"
+
+#include <cstring>
+
+namespace aeroloom::io {
+namespace {
+
+namespace fs = std::filesystem;
+using examples::bytes_of;
+using parallel::CollectiveError;
+using parallel::Communicator;
+using parallel::FailureKind;
+
+class Ugrid : public examples::SolverFiles {
+protected:
+  /// The kind and text of the error that reading gives.
+  std::string error_of(const std::string& file, FailureKind kind = FailureKind::input) const {
+    try {
+      read_ugrid(world, file);
+    } catch (const CollectiveError& error) {
+      EXPECT_EQ(error.kind(), kind) << error.what();
+      return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+  }
+};
+
+/// What a file of the mixed mesh must give back: names without blanks, an oblique plane of symmetry as slip.
+examples::Contents expected(const Communicator& world, const FileMesh& mesh) {
+  examples::Contents contents = examples::contents_of(world, mesh);
+  const auto rename = [](auto& map) {
+    std::remove_reference_t<decltype(map)> renamed;
+    for (const auto& [name, value] : map) {
+      std::string plain = name;
+      std::replace(plain.begin(), plain.end(), ' ', '_');
+      renamed[plain] = value;
+    }
+    map = renamed;
+  };
+  rename(contents.faces);
+  rename(contents.types);
+  contents.types["symmetry"] = mesh::PatchType::slip;
+  return contents;
+}
+
+TEST_F(Ugrid, AllKindsReadBackTheSame) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
+  for (const char* suffix :
+       {"lb8.ugrid", "b8.ugrid", "lb8l.ugrid", "b8l.ugrid", "lb8.ugrid64", "b8.ugrid64"}) {
+    const std::string file = path(std::string("mixed.") + suffix);
+    write_ugrid(world, mesh, file);
+    const Assembled read = assemble(world, read_ugrid(world, file), file, 4);
+    EXPECT_EQ(read.turned_cells, 0) << suffix;
+    EXPECT_EQ(read.unnamed_faces, 0) << suffix;
+    EXPECT_EQ(read.dropped_points, 0) << suffix;
+    examples::expect_same(examples::contents_of(world, read.mesh), expected(world, mesh));
+  }
+  EXPECT_EQ(bytes_of(path("mixed.mapbc")),
+            "3\n1 4000 wing_/_lower_side\n2 3000 symmetry\n3 5000 far_field\n");
+}
+
+TEST_F(Ugrid, BytesDependOnPartsAlone) {
+  const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
+  for (const char* suffix : {"b8.ugrid", "lb8l.ugrid"}) {
+    const std::string file = path(std::string("all.") + suffix);
+    write_ugrid(world, mesh, file);
+    if (world.is_root()) {
+      const Communicator self = Communicator::self();
+      const std::string alone = path(std::string("alone.") + suffix);
+      write_ugrid(self, examples::mixed_mesh(self, 3, 4), alone);
+      EXPECT_TRUE(bytes_of(file) == bytes_of(alone)) << suffix;
+      EXPECT_EQ(bytes_of(path("all.mapbc")), bytes_of(path("alone.mapbc")));
+    }
+    world.barrier();
+  }
+}
+
+TEST_F(Ugrid, FacesAreSortedByPatchAndPointIntoTheFluid) {
+  const FileMesh mesh = examples::mixed_mesh(world, 2, 3);
+  const std::string file = path("sorted.lb8.ugrid");
+  write_ugrid(world, mesh, file);
+  const std::string bytes = bytes_of(file);
+  std::array<std::int32_t, 7> counts{};
+  std::memcpy(counts.data(), bytes.data(), sizeof counts);
+  const UgridLayout layout =
+      ugrid_layout({counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}, 0}, 4);
+  EXPECT_EQ(static_cast<std::int64_t>(bytes.size()), layout.end);
+  double volume = 0;
+  const auto point = [&](std::int32_t number) {
+    geometry::Vec3 p;
+    std::memcpy(&p, bytes.data() + layout.points + std::int64_t{24} * (number - 1), sizeof p);
+    return p;
+  };
+  for (std::size_t s = 0; s < face_shape_count; ++s) {
+    std::int32_t last = 1;
+    for (std::int32_t i = 0; i < counts[1 + s]; ++i) {
+      std::array<std::int32_t, 4> v{};
+      std::int32_t id = 0;
+      std::memcpy(v.data(), bytes.data() + layout.faces[s] + (12 + 4 * s) * i, 12 + 4 * s);
+      std::memcpy(&id, bytes.data() + layout.patch_ids[s] + std::int64_t{4} * i, 4);
+      EXPECT_GE(id, last);
+      EXPECT_LE(id, 3);
+      last = id;
+      for (std::size_t k = 1; k + 1 < 3 + s; ++k)
+        volume += dot(point(v[0]), cross(point(v[k]) - point(v[0]), point(v[k + 1]) - point(v[0]))) / 6;
+    }
+  }
+  EXPECT_NEAR(volume, -examples::contents_of(world, mesh).enclosed, 1e-9);
+}
+
+TEST_F(Ugrid, PlanesOfSymmetryAreKnownByTheirAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    examples::MixedMesh whole(2, 2);
+    for (geometry::Vec3& p : whole.points) {
+      // The coordinate that the plane was 0 in before it was mapped, along the axis.
+      const double y = std::round(2 * (p.y - 0.125 * (p.z + 3)) / 1.5) / 2;
+      p = axis == 0   ? geometry::Vec3{y, p.z, p.x}
+          : axis == 1 ? geometry::Vec3{p.x, y, p.z}
+                      : geometry::Vec3{p.z, p.x, y};
+    }
+    write_ugrid(world, examples::distribute(world, whole, 2), path("plane.lb8.ugrid"));
+    const auto table = read_mapbc(world, path("plane.mapbc"));
+    EXPECT_EQ(table.at(2).type, mesh::PatchType::symmetry);
+    EXPECT_NE(bytes_of(path("plane.mapbc")).find("2 666" + std::to_string(axis + 1) + " symmetry"),
+              std::string::npos);
+    world.barrier();
+  }
+}
+
+TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
+  const std::string file = path("bare.lb8.ugrid");
+  write_ugrid(world, examples::mixed_mesh(world, 2, 2), file);
+  world.barrier();
+  if (world.is_root()) fs::remove(path("bare.mapbc"));
+  world.barrier();
+  EXPECT_EQ(read_ugrid(world, file).patches[1], (mesh::Patch{"patch_2", mesh::PatchType::wall}));
+  examples::put_bytes(world, path("bare.mapbc"), "3\n1 3000 shell\n3 5050 shell \n\n7 6662\n");
+  const RawMesh raw = read_ugrid(world, file);
+  ASSERT_EQ(raw.patches.size(), 3U);
+  EXPECT_EQ(raw.patches[0], (mesh::Patch{"shell", mesh::PatchType::slip}));
+  EXPECT_EQ(raw.patches[1], (mesh::Patch{"patch_2", mesh::PatchType::wall}));
+  EXPECT_EQ(raw.patches[2], (mesh::Patch{"shell_3", mesh::PatchType::farfield}));
+  examples::put_bytes(world, path("bare.mapbc"), "2\n1 4000 shell\n1 4000 hull\n");
+  EXPECT_NE(error_of(file).find("bare.mapbc, line 3"), std::string::npos);
+  examples::put_bytes(world, path("bare.mapbc"), "2\n1 4000 shell\n");
+  EXPECT_NE(error_of(file).find("the file ends after 1 of 2"), std::string::npos);
+}
+
+TEST_F(Ugrid, MeshesTooLargeFor32BitsNameTheSuffixThatIsNot) {
+  UgridCounts counts;
+  counts.points = 500'000'000;
+  counts.cells = {3'000'000'000, 7, 11};
+  counts.faces = {2'000'000'000, 5};
+  const UgridLayout layout = ugrid_layout(counts, 8);
+  EXPECT_EQ(layout.faces[0], 56 + 12'000'000'000);
+  EXPECT_EQ(layout.patch_ids[0], layout.faces[0] + 48'000'000'000 + 160);
+  EXPECT_EQ(layout.cells[0], layout.patch_ids[1] + 40);
+  EXPECT_EQ(layout.cells[1], layout.cells[0] + 96'000'000'000);
+  EXPECT_EQ(layout.end, layout.cells[1] + 280 + 528);
+  require_ugrid_fits(counts, ugrid_kind_of("a/x.b8l.ugrid"), "a/x.b8l.ugrid");
+  try {
+    require_ugrid_fits(counts, ugrid_kind_of("a/x.b8.ugrid"), "a/x.b8.ugrid");
+    ADD_FAILURE() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("a/x.b8l.ugrid"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("3000000000 tetrahedra"), std::string::npos);
+  }
+  counts.cells[0] = 2'147'483'647;
+  require_ugrid_fits(counts, ugrid_kind_of("x.lb8.ugrid"), "x.lb8.ugrid");
+  EXPECT_THROW(ugrid_kind_of("x.ugrid"), std::runtime_error);
+  EXPECT_THROW(ugrid_kind_of("x.r8.ugrid"), std::runtime_error);
+  EXPECT_THROW(ugrid_kind_of(".lb8.ugrid"), std::runtime_error);
+}
+
+TEST_F(Ugrid, WhatIsWrongIsSaidWithItsPlace) {
+  const std::string file = path("wrong.lb8.ugrid");
+  const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
+  write_ugrid(world, mesh, file);
+  const std::string good = bytes_of(file);
+  const auto with = [&](std::size_t offset, auto value) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + offset, &value, sizeof value);
+    examples::put_bytes(world, file, bytes);
+  };
+  with(0, std::int32_t{1 << 30});
+  EXPECT_NE(error_of(file).find("1073741824 points do not fit a file of"), std::string::npos);
+  with(28, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(error_of(file).find("byte 28: a coordinate of point 1 is no number"), std::string::npos);
+  const auto triangles = static_cast<std::size_t>(28 + 24 * mesh.vertex_count);
+  with(triangles, std::int32_t{0});
+  EXPECT_NE(error_of(file).find("triangle 1 has point 0"), std::string::npos);
+  with(24, std::int32_t{1});
+  error_of(file);  // no room for a hexahedron
+  examples::put_bytes(world, file, bytes_of(file) + std::string(100, 'x'));
+  EXPECT_NE(error_of(file).find("hexahedra"), std::string::npos);
+  error_of(path("nowhere.lb8.ugrid"), FailureKind::files);
+  if (world.is_root()) fs::create_directory(path("folder.b8.ugrid"));
+  world.barrier();
+  error_of(path("folder.b8.ugrid"), FailureKind::files);
+  EXPECT_NE(error_of(path("mesh.ugrid")).find(".lb8.ugrid"), std::string::npos);
+}
+
+TEST_F(Ugrid, DamagedFilesAreErrorsOrMeshes) {
+  for (const char* suffix : {"lb8.ugrid", "b8l.ugrid"}) {
+    const std::string file = path(std::string("damaged.") + suffix);
+    write_ugrid(world, examples::mixed_mesh(world, 1, 2), file);
+    examples::expect_no_cut_passes(world, read_ugrid, file, 120);
+    examples::expect_changes_survive(world, read_ugrid, file, 240);
+  }
+  const auto read_mesh = [&](const Communicator& ranks, const std::string&) {
+    return read_ugrid(ranks, path("damaged.b8l.ugrid"));
+  };
+  examples::expect_changes_survive(world, read_mesh, path("damaged.mapbc"), 60,
+                                   {"", "99999999999", "-", "\n"});
+}
+
+TEST_F(Ugrid, FilesThatCannotBeWrittenAreErrors) {
+  const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
+  try {
+    write_ugrid(world, mesh, "/proc/aeroloom/x.lb8.ugrid");
+    ADD_FAILURE() << "no error";
+  } catch (const CollectiveError& error) {
+    EXPECT_EQ(error.kind(), FailureKind::files);
+    EXPECT_NE(std::string(error.what()).find("/proc/aeroloom"), std::string::npos);
+  }
+  EXPECT_THROW(write_ugrid(world, mesh, path("x.ugrid")), CollectiveError);
+}
+
+}  // namespace
+}  // namespace aeroloom::io
