@@ -1,3 +1,4 @@
+#include "mesh/bin_sums.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/tet_measures.hpp"
@@ -9,7 +10,6 @@
 #include <limits>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -130,29 +130,6 @@ LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbe
     local.sums.push_back(sum);
   }
   return local;
-}
-
-/// Sums arrays of equal length over all ranks. Each rank adds up its own stretch, so no rank holds one array
-/// per rank.
-std::vector<std::int64_t> sum_bins(const parallel::Communicator& communicator,
-                                   const std::vector<std::int64_t>& bins) {
-  struct Entry {
-    std::int64_t bin, count;
-  };
-  const auto per_rank = static_cast<std::int64_t>(bins.size() / communicator.size() + 1);
-  std::vector<Entry> filled;
-  for (std::size_t b = 0; b < bins.size(); ++b) {
-    if (bins[b] != 0) filled.push_back({static_cast<std::int64_t>(b), bins[b]});
-  }
-  const auto arrived = deliver(communicator, std::move(filled), [per_rank](const Entry& entry) {
-    return static_cast<parallel::Rank>(entry.bin / per_rank);
-  });
-  std::vector<std::int64_t> stretch(per_rank, 0);
-  const std::int64_t first = per_rank * communicator.rank();
-  for (const Entry& entry : arrived) stretch[entry.bin - first] += entry.count;
-  auto all = communicator.all_gather_items(std::span<const std::int64_t>(stretch));
-  all.resize(bins.size());
-  return all;
 }
 
 /// The lower end of the bin in which the cell at this fraction of all cells, counted from below, lies.

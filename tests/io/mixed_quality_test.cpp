@@ -1,0 +1,218 @@
+#include "io/mixed_quality.hpp"
+
+#include "tests/io/mixed_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::io {
+namespace {
+
+using geometry::Vec3;
+using parallel::Communicator;
+
+double value(const CellValues& values, Measure measure) {
+  return values[static_cast<std::size_t>(measure)];
+}
+
+TEST(CellMeasures, EqualEdges) {
+  const double h = std::sqrt(2.0 / 3), third = std::sqrt(3.0) / 6;
+  const std::array<Vec3, 4> tet = {{{0, 0, 0}, {1, 0, 0}, {0.5, 3 * third, 0}, {0.5, third, h}}};
+  const CellValues of_tet = measure_cell(CellShape::tetrahedron, tet.data());
+  EXPECT_NEAR(value(of_tet, Measure::smallest_dihedral), 70.528779, 1e-6);
+  EXPECT_NEAR(value(of_tet, Measure::largest_dihedral), 70.528779, 1e-6);
+  EXPECT_NEAR(value(of_tet, Measure::mean_ratio), 1, 1e-12);
+  EXPECT_NEAR(value(of_tet, Measure::radius_ratio), 1, 1e-12);
+  EXPECT_NEAR(value(of_tet, Measure::edge_ratio), 1, 1e-12);
+  EXPECT_NEAR(value(of_tet, Measure::volume), std::sqrt(2.0) / 12, 1e-12);
+
+  const std::array<Vec3, 5> pyramid = {
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1 / std::numbers::sqrt2}}};
+  const CellValues of_pyramid = measure_cell(CellShape::pyramid, pyramid.data());
+  EXPECT_NEAR(value(of_pyramid, Measure::smallest_dihedral), 54.735610, 1e-6);
+  EXPECT_NEAR(value(of_pyramid, Measure::largest_dihedral), 109.471221, 1e-6);
+  EXPECT_NEAR(value(of_pyramid, Measure::scaled_jacobian), 1, 1e-12);
+  EXPECT_NEAR(value(of_pyramid, Measure::edge_ratio), 1, 1e-12);
+  EXPECT_NEAR(value(of_pyramid, Measure::volume), std::sqrt(2.0) / 6, 1e-12);
+
+  std::array<Vec3, 6> prism = {
+      {{0, 0, 0}, {1, 0, 0}, {0.5, 3 * third, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, 3 * third, 1}}};
+  const CellValues of_prism = measure_cell(CellShape::prism, prism.data());
+  EXPECT_NEAR(value(of_prism, Measure::smallest_dihedral), 60, 1e-9);
+  EXPECT_NEAR(value(of_prism, Measure::largest_dihedral), 90, 1e-9);
+  EXPECT_NEAR(value(of_prism, Measure::scaled_jacobian), 1, 1e-12);
+  EXPECT_NEAR(value(of_prism, Measure::volume), std::sqrt(3.0) / 4, 1e-12);
+  EXPECT_EQ(value(of_prism, Measure::mean_ratio), 0);
+}
+
+TEST(CellMeasures, ThinAndFoldedCells) {
+  std::array<Vec3, 6> prism = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-3}, {1, 0, 1e-3}, {0, 1, 1e-3}}};
+  CellValues values = measure_cell(CellShape::prism, prism.data());
+  EXPECT_NEAR(value(values, Measure::edge_ratio), 1000 * std::numbers::sqrt2, 1e-6);
+  EXPECT_NEAR(value(values, Measure::smallest_dihedral), 45, 1e-9);
+  EXPECT_NEAR(value(values, Measure::scaled_jacobian), std::sin(std::numbers::pi / 4) * 2 / std::sqrt(3.0),
+              1e-9);
+  prism[3].z = -1e-4;  // one column goes through the base
+  values = measure_cell(CellShape::prism, prism.data());
+  EXPECT_LT(value(values, Measure::scaled_jacobian), 0);
+  EXPECT_GT(value(values, Measure::largest_dihedral), 180);
+  for (int k = 3; k < 6; ++k) prism[static_cast<std::size_t>(k)].z = -1;  // inside out
+  EXPECT_NEAR(value(measure_cell(CellShape::prism, prism.data()), Measure::volume), -0.5, 1e-12);
+  prism.fill({});  // a point
+  values = measure_cell(CellShape::prism, prism.data());
+  EXPECT_EQ(value(values, Measure::edge_ratio), largest_ratio);
+  EXPECT_EQ(value(values, Measure::scaled_jacobian), 0);
+  prism[2].x = std::nan("");
+  for (const Measure measure : all_measures)
+    EXPECT_TRUE(std::isfinite(value(measure_cell(CellShape::prism, prism.data()), measure)));
+}
+
+TEST(CellMeasures, WarpedQuadrilateralsAddUp) {
+  // Two prisms on both sides of a warped quadrilateral fill what one hexahedron of six warped faces does.
+  const std::array<Vec3, 8> p = {
+      {{0, 0, 0}, {1, 0.1, 0}, {1.2, 1, 0.1}, {0, 1, 0}, {0, 0.1, 1}, {1, 0, 1.3}, {1, 1, 1}, {0.2, 1, 1}}};
+  const std::array<Vec3, 6> a = {p[0], p[1], p[2], p[4], p[5], p[6]},
+                            b = {p[0], p[2], p[3], p[4], p[6], p[7]};
+  const double sum = cell_volume(CellShape::prism, a.data()) + cell_volume(CellShape::prism, b.data());
+  // Moving the middle of the common quadrilateral's edges does not exist; moving all by a constant must not
+  // change the sum, and the shared face must cancel whichever corner is the origin.
+  const std::array<Vec3, 6> c = {p[2], p[0], p[1], p[6], p[4], p[5]},
+                            d = {p[3], p[0], p[2], p[7], p[4], p[6]};
+  EXPECT_NEAR(cell_volume(CellShape::prism, c.data()) + cell_volume(CellShape::prism, d.data()), sum, 1e-14);
+}
+
+/// Sums over all cells, whatever their shape.
+double sum_of(const MixedQuality& quality, Measure measure) {
+  double sum = 0;
+  for (const CellShape shape : cell_shapes) {
+    const MeasureDistribution& of = quality.distribution(shape, measure);
+    sum += of.mean * static_cast<double>(of.cells);
+  }
+  return sum;
+}
+
+/// The largest ratio of each cell's volume to a neighbour's, found by comparing faces as sets of points.
+std::vector<double> ratios_of(const examples::MixedMesh& whole) {
+  std::vector<double> volumes, ratios(whole.cells.size(), 0);
+  std::map<std::vector<int>, std::vector<std::size_t>> cells_at;
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    std::vector<Vec3> corners;
+    for (const int v : whole.cells[c].corners) corners.push_back(whole.points[static_cast<std::size_t>(v)]);
+    volumes.push_back(cell_volume(whole.cells[c].shape, corners.data()));
+    for (const CellFace& face : faces_of(whole.cells[c].shape)) {
+      std::vector<int> key;
+      for (std::size_t k = 0; k < 4 && face[k] >= 0; ++k)
+        key.push_back(whole.cells[c].corners[static_cast<std::size_t>(face[k])]);
+      std::sort(key.begin(), key.end());
+      cells_at[key].push_back(c);
+    }
+  }
+  for (const auto& [key, cells] : cells_at) {
+    if (cells.size() != 2) continue;
+    const double ratio = volume_ratio(volumes[cells[0]], volumes[cells[1]]);
+    for (const std::size_t c : cells) ratios[c] = std::max(ratios[c], ratio);
+  }
+  return ratios;
+}
+
+TEST(MixedQuality, WholeMesh) {
+  const Communicator world = Communicator::world();
+  const examples::MixedMesh whole(4, 3);
+  const FileMesh mesh = examples::distribute(world, whole, 3);
+  const MixedQuality quality = measure_quality(world, mesh, link_faces(world, mesh));
+  const double determinant = 3.001953125;  // of the map of the mixed mesh
+  EXPECT_NEAR(quality.volume, 36 * determinant, 1e-10);
+  EXPECT_NEAR(quality.region_volumes[1], 16 * determinant, 1e-10);
+  EXPECT_NEAR(sum_of(quality, Measure::volume), quality.volume, 1e-10);
+  for (const CellShape shape : cell_shapes) {
+    for (const Measure measure : all_measures) {
+      const MeasureDistribution& of = quality.distribution(shape, measure);
+      EXPECT_EQ(of.cells, has_measure(shape, measure) ? mesh.cell_count(shape) : 0);
+      EXPECT_EQ(std::accumulate(of.histogram.counts.begin(), of.histogram.counts.end(), std::int64_t{0}),
+                of.cells);
+      if (of.cells == 0) continue;
+      EXPECT_LE(of.minimum, of.percentiles.front());
+      EXPECT_TRUE(std::is_sorted(of.percentiles.begin(), of.percentiles.end()));
+      EXPECT_LE(of.percentiles.back(), of.maximum);
+      EXPECT_GE(of.mean, of.minimum);
+      EXPECT_LE(of.mean, of.maximum);
+    }
+  }
+  const std::vector<double> ratios = ratios_of(whole);
+  EXPECT_NEAR(sum_of(quality, Measure::volume_ratio), std::accumulate(ratios.begin(), ratios.end(), 0.0),
+              1e-9);
+  EXPECT_NEAR(quality.worst_of(Measure::volume_ratio, 0), *std::max_element(ratios.begin(), ratios.end()),
+              1e-9);
+  EXPECT_GT(quality.distribution(CellShape::prism, Measure::scaled_jacobian).minimum, 0);
+  EXPECT_EQ(quality.worst[static_cast<std::size_t>(Measure::edge_ratio)].size(), 10U);
+}
+
+void expect_same(const MixedQuality& a, const MixedQuality& b) {
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.region_volumes, b.region_volumes);
+  EXPECT_EQ(a.patch_areas, b.patch_areas);
+  for (const Measure measure : all_measures) {
+    const auto m = static_cast<std::size_t>(measure);
+    for (const CellShape shape : cell_shapes) {
+      const MeasureDistribution &x = a.distribution(shape, measure), &y = b.distribution(shape, measure);
+      EXPECT_EQ(x.minimum, y.minimum);
+      EXPECT_EQ(x.maximum, y.maximum);
+      EXPECT_EQ(x.mean, y.mean);
+      EXPECT_EQ(x.percentiles, y.percentiles);
+      EXPECT_EQ(x.histogram.counts, y.histogram.counts);
+    }
+    ASSERT_EQ(a.worst[m].size(), b.worst[m].size());
+    for (std::size_t i = 0; i < a.worst[m].size(); ++i) {
+      EXPECT_EQ(a.worst[m][i].value, b.worst[m][i].value);
+      EXPECT_EQ(a.worst[m][i].cell, b.worst[m][i].cell);
+      EXPECT_EQ(a.worst[m][i].center, b.worst[m][i].center);
+    }
+  }
+}
+
+TEST(MixedQuality, TheSameForAnyNumberOfRanks) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  const FileMesh spread = examples::mixed_mesh(world, 4, 5), alone = examples::mixed_mesh(self, 4, 5);
+  expect_same(measure_quality(world, spread, link_faces(world, spread)),
+              measure_quality(self, alone, link_faces(self, alone)));
+}
+
+TEST(MixedQuality, PercentilesOfKnownValues) {
+  // Tetrahedra without neighbours, of volumes 1/6, 2/6 ... 1000/6.
+  const Communicator world = Communicator::world();
+  auto arrays = std::make_unique<PartArrays>();
+  for (int i = 0; i < 1000; ++i) {
+    const double x = 10.0 * i;
+    arrays->coordinates.insert(arrays->coordinates.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0, x, 0, i + 1.0});
+    for (int k = 0; k < 4; ++k) {
+      arrays->numbers.push_back(4 * i + k);
+      arrays->owned.push_back(1);
+      arrays->cells[0].push_back(4 * i + k);
+    }
+    arrays->cell_regions[0].push_back(0);
+  }
+  std::vector<OwnedPart> parts;
+  if (world.is_root()) parts.push_back({0, std::move(arrays)});
+  const FileMesh mesh = make_file_mesh(world, 1, std::move(parts), {}, {"fluid"});
+  const MixedQuality quality = measure_quality(world, mesh, link_faces(world, mesh));
+  const MeasureDistribution& volume = quality.distribution(CellShape::tetrahedron, Measure::volume);
+  const std::array<double, 7> expected = {1, 10, 50, 500, 950, 990, 999};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_LE(volume.percentiles[i], expected[i] / 6 * (1 + 1e-12));
+    EXPECT_GE(volume.percentiles[i], expected[i] / 6 / 1.0117);
+  }
+  EXPECT_EQ(volume.histogram.edge(80), 1);
+  EXPECT_EQ(quality.distribution(CellShape::tetrahedron, Measure::volume_ratio).cells, 0);
+  EXPECT_EQ(quality.defects.open_faces, 4000);
+  const auto& worst = quality.worst[static_cast<std::size_t>(Measure::volume)];
+  EXPECT_EQ(worst.front().cell, 0);
+  EXPECT_NEAR(worst.front().center.z, 0.25, 1e-15);
+}
+
+}  // namespace
+}  // namespace aeroloom::io
