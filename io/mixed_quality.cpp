@@ -204,7 +204,7 @@ MeasureDistribution distribution_of(const parallel::Communicator& communicator, 
   const double minimum = communicator.minimum(local.minimum), maximum = communicator.maximum(local.maximum);
   if (result.cells == 0) return result;
   result.minimum = minimum, result.maximum = maximum;
-  result.mean = sum / static_cast<double>(result.cells);
+  result.mean = std::clamp(sum / static_cast<double>(result.cells), minimum, maximum);
   for (std::size_t i = 0; i < percentiles_per_mille.size(); ++i) {
     result.percentiles[i] =
         std::clamp(percentile(bins, scale, result.cells, percentiles_per_mille[i]), minimum, maximum);
