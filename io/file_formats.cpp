@@ -2,6 +2,8 @@
 
 #include "io/cgns/cgns_writer.hpp"
 #include "io/medit/medit_writer.hpp"
+#include "io/su2/su2_writer.hpp"
+#include "io/ugrid/ugrid_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
 #include <algorithm>
@@ -52,6 +54,13 @@ void write_parts_as_they_are(const parallel::Communicator& communicator, const F
       return write_cgns(communicator, mesh, path);
     case FileFormat::meshb:
       return write_medit(communicator, mesh, path);
+    case FileFormat::ugrid:
+    case FileFormat::ugrid64:
+      return write_ugrid(communicator, mesh, path);
+    case FileFormat::su2:
+      return write_su2(communicator, mesh, path);
+    case FileFormat::su2b:
+      return write_su2b(communicator, mesh, path);
     default:
       throw std::logic_error("no writer");
   }

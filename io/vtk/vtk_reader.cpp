@@ -1,190 +1,230 @@
+#include "io/vtk/joined_points.hpp"
+#include "io/vtk/vtk_part.hpp"
 #include "io/vtk/vtk_reader.hpp"
-
-#include "geometry/predicates.hpp"
-#include "mesh/piece.hpp"
+#include "parallel/collective_error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <numeric>
+#include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkCommand.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkPointData.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
-#include <vtkXMLPUnstructuredGridReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
+#include <fmt/format.h>
 
 namespace aeroloom::io {
+
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw std::runtime_error("'" + path + "': " + what);
+namespace fs = std::filesystem;
+using mesh::GlobalIndex;
+
+/// The files that hold the mesh, the same on every rank. Collective.
+std::vector<std::string> find_parts(const parallel::Communicator& communicator, const std::string& path) {
+  const std::string extension = fs::path(path).extension().string();
+  parallel::Packer packer;
+  parallel::agree(communicator, [&] {
+    if (extension != ".pvtu" && extension != ".vtu" && extension != ".vtk")
+      throw std::runtime_error(fmt::format("'{}': '{}' is not among .vtu, .pvtu and .vtk", path, extension));
+    if (!communicator.is_root() || extension != ".pvtu") return;
+    for (const std::string& source : read_vtk_sources(path))
+      packer.text((fs::path(path).parent_path() / source).string());
+  });
+  if (extension != ".pvtu") return {path};
+  parallel::Bytes bytes = packer.take();
+  communicator.broadcast(bytes);
+  parallel::Unpacker unpacker(bytes);
+  std::vector<std::string> parts;
+  while (!unpacker.at_end()) parts.push_back(unpacker.text());
+  return parts;
 }
 
-/// Keeps what a reader complains of instead of printing it.
-class Complaints : public vtkCommand {
-public:
-  static Complaints* New() { return new Complaints; }
-  void Execute(vtkObject*, unsigned long, void* text) override {
-    if (_first.empty() && text != nullptr) _first = static_cast<const char*>(text);
+/// Runs what concerns one part; its index, if any, is named where that fails.
+template <class Work>
+auto with_index(const std::string& path, const std::string& part, const Work& work) {
+  try {
+    return work();
+  } catch (const fs::filesystem_error& error) {
+    if (part == path) throw;
+    throw fs::filesystem_error(fmt::format("a part of '{}' cannot be read", path), part, error.code());
+  } catch (const std::runtime_error& error) {
+    if (part == path) throw;
+    throw std::runtime_error(fmt::format("a part of '{}': {}", path, error.what()));
   }
-  const std::string& first() const { return _first; }
+}
 
-private:
-  std::string _first;
+struct PartRange {
+  std::size_t begin = 0, end = 0;
 };
 
-template <class Reader>
-vtkSmartPointer<vtkUnstructuredGrid> read_with(const std::string& path) {
-  vtkNew<Reader> reader;
-  vtkNew<Complaints> complaints;
-  reader->AddObserver(vtkCommand::ErrorEvent, complaints);
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!complaints->first().empty() || reader->GetOutput() == nullptr)
-    refuse(path, "VTK cannot read it: " + complaints->first());
-  return reader->GetOutput();
+/// Consecutive parts for this rank, by bytes. Each rank looks at its share of the files. Collective.
+PartRange deal_parts(const parallel::Communicator& communicator, const std::string& path,
+                     const std::vector<std::string>& parts) {
+  const auto ranks = static_cast<std::size_t>(communicator.size()),
+             rank = static_cast<std::size_t>(communicator.rank());
+  const auto cut = [&](std::size_t r) { return r * parts.size() / ranks; };
+  std::vector<std::int64_t> mine;
+  parallel::agree(communicator, [&] {
+    for (std::size_t p = cut(rank); p < cut(rank + 1); ++p)
+      mine.push_back(with_index(path, parts[p], [&] { return readable_bytes(parts[p]); }));
+  });
+  const auto sizes = communicator.all_gather_items(std::span<const std::int64_t>(mine));
+  double total = 0, before = 0;
+  for (const std::int64_t size : sizes) total += static_cast<double>(size);
+  PartRange range{parts.size(), parts.size()};
+  for (std::size_t p = 0; p < sizes.size(); ++p) {
+    const double middle = before + 0.5 * static_cast<double>(sizes[p]);
+    before += static_cast<double>(sizes[p]);
+    const auto reader = std::min(
+        ranks - 1, static_cast<std::size_t>(middle / std::max(total, 1.0) * static_cast<double>(ranks)));
+    if (reader == rank) range.begin = std::min(range.begin, p);
+    if (reader > rank) range.end = std::min(range.end, p);
+  }
+  range.begin = std::min(range.begin, range.end);
+  return range;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) refuse(path, "there is no such file");
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path);
-  if (extension == ".pvtu") return read_with<vtkXMLPUnstructuredGridReader>(path);
-  if (extension == ".vtk") return read_with<vtkUnstructuredGridReader>(path);
-  refuse(path, "'" + extension + "' is not among .vtu, .pvtu and .vtk; convert it, e.g. with meshio");
+/// What this rank has read of several parts.
+struct Share {
+  RawMesh raw;
+  std::vector<VtkLabel> regions, patches;     ///< what labels of cells and faces refer to, so far
+  GlobalIndex with_ids = 0, without_ids = 0;  ///< parts with points
+};
+
+template <class T>
+void append(std::vector<T>& items, std::vector<T>& more) {
+  if (items.empty()) items.swap(more);
+  items.insert(items.end(), more.begin(), more.end());
+  more = {};
 }
 
-/// The number of each point, equal for points with equal global ids.
-std::vector<std::int32_t> point_numbers(vtkUnstructuredGrid& grid) {
-  std::vector<std::int32_t> number(static_cast<std::size_t>(grid.GetNumberOfPoints()));
-  std::iota(number.begin(), number.end(), 0);
-  vtkDataArray* ids = grid.GetPointData()->GetArray("global_id");
-  if (ids == nullptr) return number;
-  std::vector<std::pair<double, std::int32_t>> order(number.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = {ids->GetComponent(static_cast<vtkIdType>(i), 0), static_cast<std::int32_t>(i)};
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (order[i].first == order[i - 1].first) number[order[i].second] = number[order[i - 1].second];
-  }
-  return number;
+std::int32_t label_offset(const std::vector<VtkLabel>& before, const std::vector<VtkLabel>& more) {
+  if (before.size() + more.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw std::runtime_error("there are more regions or patches than 32 bits can count");
+  return static_cast<std::int32_t>(before.size());
 }
 
-void read_cells(vtkUnstructuredGrid& grid, const std::string& path, TetrahedraFile& file,
-                std::vector<vtkIdType>& cells) {
-  const std::vector<std::int32_t> number = point_numbers(grid);
-  vtkNew<vtkIdList> points;
-  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
-    const int type = grid.GetCellType(c);
-    if (type == VTK_VERTEX || type == VTK_POLY_VERTEX || type == VTK_LINE || type == VTK_TRIANGLE ||
-        type == VTK_QUAD || type == VTK_POLYGON || type == VTK_EMPTY_CELL || type == VTK_POLY_LINE) {
-      ++file.ignored;
-      continue;
-    }
-    if (type != VTK_TETRA) {
-      refuse(path, "cell " + std::to_string(c) + " is of VTK's type " + std::to_string(type) +
-                       ", not a tetrahedron of four points; only tetrahedra can be improved");
-    }
-    grid.GetCellPoints(c, points);
-    auto& tet = file.tets.emplace_back();
-    for (int k = 0; k < 4; ++k) tet[k] = number[static_cast<std::size_t>(points->GetId(k))];
-    cells.push_back(c);
+void append_part(VtkPart part, Share& share) {
+  RawMesh& raw = share.raw;
+  const bool has_ids = !part.ids.empty();
+  if (part.point_count() > 0) ++(has_ids ? share.with_ids : share.without_ids);
+  const auto first_point = static_cast<GlobalIndex>(raw.point_ids.size());
+  const std::int32_t first_region = label_offset(share.regions, part.regions),
+                     first_patch = label_offset(share.patches, part.patches);
+  if (!has_ids) {
+    for (auto& corners : part.cells)
+      for (GlobalIndex& v : corners) v += first_point;
+    for (auto& corners : part.faces)
+      for (GlobalIndex& v : corners) v += first_point;
+    part.ids.resize(part.point_count());
+    for (std::size_t i = 0; i < part.ids.size(); ++i) part.ids[i] = first_point + static_cast<GlobalIndex>(i);
   }
-  if (file.tets.empty()) refuse(path, "it has no tetrahedra");
-  if (file.tets.size() > mesh::max_cells_per_piece)
-    refuse(path, "it has " + std::to_string(file.tets.size()) + " tetrahedra, too many for one rank to read");
+  for (std::size_t s = 0; s < cell_shape_count; ++s) {
+    for (std::int32_t& label : part.cell_labels[s]) label += first_region;
+    append(raw.cells[s], part.cells[s]);
+    append(raw.cell_regions[s], part.cell_labels[s]);
+  }
+  for (std::size_t s = 0; s < face_shape_count; ++s) {
+    for (std::int32_t& label : part.face_labels[s]) label += first_patch;
+    append(raw.faces[s], part.faces[s]);
+    append(raw.face_patches[s], part.face_labels[s]);
+  }
+  append(raw.coordinates, part.coordinates);
+  append(raw.point_ids, part.ids);
+  append(share.regions, part.regions);
+  append(share.patches, part.patches);
 }
 
-/// Keeps the points that tetrahedra use, in their order.
-void read_points(vtkUnstructuredGrid& grid, const std::string& path, TetrahedraFile& file) {
-  std::vector<std::int32_t> renumbered(static_cast<std::size_t>(grid.GetNumberOfPoints()), -1);
-  for (const auto& tet : file.tets) {
-    for (const std::int32_t v : tet) renumbered[v] = 0;
-  }
-  std::int32_t count = 0;
-  for (std::size_t v = 0; v < renumbered.size(); ++v) {
-    if (renumbered[v] < 0) continue;
-    renumbered[v] = count++;
-    double p[3];
-    grid.GetPoint(static_cast<vtkIdType>(v), p);
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      refuse(path, "a coordinate of point " + std::to_string(v) + " is not a number");
-    file.coordinates.insert(file.coordinates.end(), p, p + 3);
-  }
-  for (auto& tet : file.tets) {
-    for (std::int32_t& v : tet) v = renumbered[v];
-  }
-}
-
-void turn_tetrahedra(TetrahedraFile& file) {
-  const auto point = [&](std::int32_t v) {
-    const double* p = file.coordinates.data() + 3 * static_cast<std::size_t>(v);
-    return geometry::Vec3{p[0], p[1], p[2]};
+/// Ids of points that have none in the file are their places among all. Collective.
+void place_points(const parallel::Communicator& communicator, RawMesh& raw) {
+  const GlobalIndex first = communicator.exclusive_scan(static_cast<std::int64_t>(raw.point_ids.size()));
+  const auto move = [&](std::vector<GlobalIndex>& ids) {
+    for (GlobalIndex& v : ids) v += first;
   };
-  for (auto& tet : file.tets) {
-    if (geometry::orient3d(point(tet[0]), point(tet[1]), point(tet[2]), point(tet[3])) >= 0) continue;
-    std::swap(tet[2], tet[3]);
-    ++file.turned;
-  }
+  move(raw.point_ids);
+  for (auto& corners : raw.cells) move(corners);
+  for (auto& corners : raw.faces) move(corners);
 }
 
-void read_regions(vtkUnstructuredGrid& grid, const std::vector<vtkIdType>& cells, TetrahedraFile& file) {
-  file.region.assign(file.tets.size(), 0);
-  vtkDataArray* labels = nullptr;
-  std::string source;
-  for (const char* name : {"region", "CellEntityIds", "gmsh:geometrical", "medit:ref"}) {
-    if (labels != nullptr || grid.GetCellData()->GetArray(name) == nullptr) continue;
-    labels = grid.GetCellData()->GetArray(name);
-    source = name;
+auto sort_key(const VtkLabel& label) {
+  return std::tie(label.value, label.named.name, label.named.type);
+}
+bool is_before(const VtkLabel& a, const VtkLabel& b) {
+  return sort_key(a) < sort_key(b);
+}
+void sort_labels(std::vector<VtkLabel>& labels) {
+  std::sort(labels.begin(), labels.end(), is_before);
+  labels.erase(std::unique(labels.begin(), labels.end(),
+                           [](const VtkLabel& a, const VtkLabel& b) { return sort_key(a) == sort_key(b); }),
+               labels.end());
+}
+
+/// One table of all ranks by value and name; `labels`, of this rank's cells, become places in it. Collective.
+std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator,
+                                      const std::vector<VtkLabel>& table,
+                                      std::span<std::vector<std::int32_t>> labels) {
+  std::vector<VtkLabel> all = table;
+  sort_labels(all);
+  parallel::Packer packer;
+  for (const VtkLabel& label : all) {
+    packer.value(label.value);
+    packer.text(label.named.name);
+    packer.value(label.named.type);
   }
-  if (labels == nullptr) {
-    file.region_names = {"volume"};
-    return;
+  all.clear();
+  for (const parallel::Bytes& bytes : communicator.all_gather(packer.take())) {
+    parallel::Unpacker unpacker(bytes);
+    while (!unpacker.at_end()) {
+      VtkLabel& label = all.emplace_back();
+      label.value = unpacker.value<std::int64_t>();
+      label.named.name = unpacker.text();
+      label.named.type = unpacker.value<mesh::PatchType>();
+    }
   }
-  std::vector<double> values;
-  values.reserve(cells.size());
-  for (const vtkIdType c : cells) values.push_back(labels->GetComponent(c, 0));
-  std::vector<double> kinds = values;
-  std::sort(kinds.begin(), kinds.end());
-  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    file.region[i] =
-        static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), values[i]) - kinds.begin());
-  auto* names = vtkStringArray::SafeDownCast(grid.GetFieldData()->GetAbstractArray("region_names"));
-  for (const double kind : kinds) {
-    const auto index = static_cast<vtkIdType>(kind);
-    const bool named =
-        source == "region" && names != nullptr && index >= 0 && index < names->GetNumberOfValues();
-    file.region_names.push_back(named ? std::string(names->GetValue(index))
-                                      : "volume_" + std::to_string(index));
+  sort_labels(all);
+  std::vector<std::int32_t> place;
+  for (const VtkLabel& label : table)
+    place.push_back(
+        static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), label, is_before) - all.begin()));
+  for (auto& of_shape : labels) {
+    for (std::int32_t& label : of_shape) label = place.at(static_cast<std::size_t>(label));
   }
+  std::vector<mesh::Patch> named;
+  for (const VtkLabel& label : all) named.push_back(label.named);
+  return named;
+}
+
+void require_ids_everywhere(const parallel::Communicator& communicator, const Share& share,
+                            const std::string& path) {
+  const GlobalIndex with = communicator.sum(share.with_ids), without = communicator.sum(share.without_ids);
+  if (with == 0 || without == 0) return;
+  throw parallel::CollectiveError(
+      parallel::FailureKind::input,
+      fmt::format("'{}': {} of its parts have ids of points (global_id), {} have none; write them for all "
+                  "parts, or for none",
+                  path, with, without));
 }
 
 }  // namespace
 
-TetrahedraFile read_tetrahedra(const std::string& path) {
-  const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(path);
-  TetrahedraFile file;
-  std::vector<vtkIdType> cells;
-  read_cells(*grid, path, file, cells);
-  read_points(*grid, path, file);
-  turn_tetrahedra(file);
-  read_regions(*grid, cells, file);
-  return file;
+RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& path) {
+  const std::vector<std::string> parts = find_parts(communicator, path);
+  const PartRange mine = deal_parts(communicator, path, parts);
+  Share share;
+  parallel::agree(communicator, [&] {
+    for (std::size_t p = mine.begin; p < mine.end; ++p)
+      append_part(with_index(path, parts[p], [&] { return read_vtk_part(parts[p]); }), share);
+  });
+  require_ids_everywhere(communicator, share, path);
+  if (communicator.sum(share.with_ids) == 0) {
+    place_points(communicator, share.raw);
+    if (parts.size() > 1) join_equal_points(communicator, share.raw);
+  }
+  for (const mesh::Patch& region : merge_labels(communicator, share.regions, share.raw.cell_regions))
+    share.raw.regions.push_back(region.name);
+  if (share.raw.regions.empty()) share.raw.regions = {"volume"};
+  share.raw.patches = merge_labels(communicator, share.patches, share.raw.face_patches);
+  return std::move(share.raw);
 }
 
 }  // namespace aeroloom::io
