@@ -27,8 +27,9 @@ struct NamedReader {
 };
 
 constexpr NamedReader readers[] = {
-    {".vtu", read_vtk},       {".pvtu", read_vtk},   {".vtk", read_vtk},
-    {".vtkhdf", read_vtkhdf}, {".mesh", read_medit}, {".meshb", read_medit},
+    {".vtu", read_vtk},     {".pvtu", read_vtk},      {".vtk", read_vtk}, {".vtkhdf", read_vtkhdf},
+    {".ugrid", read_ugrid}, {".ugrid64", read_ugrid}, {".su2", read_su2}, {".su2b", read_su2b},
+    {".mesh", read_medit},  {".meshb", read_medit},
 };
 
 }  // namespace
