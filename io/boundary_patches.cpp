@@ -29,7 +29,7 @@ std::string plain_name(const std::string& name, const NameRule& rule) {
     if (!is_allowed(c, rule)) c = '_';
   }
   plain = cut(plain, rule.most_bytes);
-  return plain.empty() ? "patch" : plain;
+  return plain.empty() ? std::string("patch") : plain;
 }
 
 }  // namespace

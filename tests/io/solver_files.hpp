@@ -1,18 +1,15 @@
-/// What tests of solver files share: a scratch folder, what a mesh has in it, files that are damaged.
+/// What tests of solver files share: a scratch folder, and what a mesh has in it.
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "io/raw_mesh.hpp"
-#include "parallel/collective_error.hpp"
+#include "parallel/communicator.hpp"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -119,61 +116,6 @@ inline void expect_same(const Contents& found, const Contents& wanted) {
   EXPECT_EQ(found.types, wanted.types);
   for (std::size_t s = 0; s < cell_shape_count; ++s) EXPECT_NEAR(found.volumes[s], wanted.volumes[s], 1e-9);
   EXPECT_NEAR(found.enclosed, wanted.enclosed, 1e-9);
-}
-
-using Reader = std::function<RawMesh(const parallel::Communicator&, const std::string&)>;
-
-/// Reads a file that may be damaged: a mesh or an error of the right kind that names the file. True for a
-/// mesh.
-inline bool survives(const parallel::Communicator& world, const Reader& read, const std::string& path,
-                     const std::string& what) {
-  try {
-    assemble(world, read(world, path), path, 2);
-    return true;
-  } catch (const parallel::CollectiveError& error) {
-    EXPECT_TRUE(error.kind() == parallel::FailureKind::input || error.kind() == parallel::FailureKind::files)
-        << what << ": " << error.what();
-    const std::string stem = std::filesystem::path(path).stem().stem().string();
-    EXPECT_NE(std::string(error.what()).find(stem), std::string::npos) << what << ": " << error.what();
-    return false;
-  }
-}
-
-/// Cuts a good file at many lengths, none of which may pass for the whole.
-inline void expect_no_cut_passes(const parallel::Communicator& world, const Reader& read,
-                                 const std::string& path, int trials, std::size_t last_bytes = 1) {
-  const std::string good = bytes_of(path);
-  world.barrier();
-  std::mt19937 random(7);
-  for (int trial = 0; trial < trials; ++trial) {
-    const std::size_t length =
-        trial < 40 ? static_cast<std::size_t>(trial) : random() % (good.size() - last_bytes);
-    put_bytes(world, path, good.substr(0, length));
-    EXPECT_FALSE(survives(world, read, path, "cut to " + std::to_string(length)));
-  }
-  put_bytes(world, path, good);
-}
-
-/// Changes bytes of a good file at many places, half of them among the first, which matter most. `texts`:
-/// what may stand there instead; any byte where empty.
-inline void expect_changes_survive(const parallel::Communicator& world, const Reader& read,
-                                   const std::string& path, int trials,
-                                   const std::vector<std::string>& texts = {}) {
-  const std::string good = bytes_of(path);
-  world.barrier();
-  std::mt19937 random(11);
-  for (int trial = 0; trial < trials; ++trial) {
-    std::string bytes = good;
-    const std::size_t place =
-        random() % std::min<std::size_t>(good.size(), trial % 2 == 0 ? 120 : good.size());
-    const std::string text = texts.empty() || trial % 3 == 0
-                                 ? std::string(1, static_cast<char>(random() % 256))
-                                 : texts[random() % texts.size()];
-    bytes.replace(place, 1, text);
-    put_bytes(world, path, bytes);
-    survives(world, read, path, "byte " + std::to_string(place));
-  }
-  put_bytes(world, path, good);
 }
 
 }  // namespace aeroloom::io::examples
