@@ -1,0 +1,183 @@
+#include "io/gmsh/msh_head.hpp"
+
+#include "io/distinct_names.hpp"
+#include "mesh/delivery.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+constexpr std::size_t longest_name = 127;
+
+/// On one line and between double quotes.
+std::string quotable(const std::string& name) {
+  std::string result = name.empty() ? "unnamed" : name;
+  for (char& letter : result) {
+    if (letter == '"') letter = '\'';
+    if (static_cast<unsigned char>(letter) < ' ') letter = ' ';
+  }
+  return result;
+}
+
+std::vector<std::string> patch_names(const FileMesh& mesh) {
+  std::vector<std::string> names;
+  for (const mesh::Patch& patch : mesh.patches) names.push_back(patch.name);
+  return names;
+}
+
+/// A name on a line of its own section: line breaks and backslashes escaped.
+std::string escaped(const std::string& name) {
+  std::string result;
+  for (const char letter : name) {
+    if (letter == '\\' || letter == '\n' || letter == '\r') result += '\\';
+    result += letter == '\n' ? 'n' : letter == '\r' ? 'r' : letter;
+  }
+  return result;
+}
+
+/// Binary values one after another.
+class Binary {
+public:
+  explicit Binary(std::string& text) : _text(text) {}
+  template <class T>
+  void put(T value) {
+    _text.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  }
+  void sizes(std::initializer_list<std::int64_t> values) {
+    for (const std::int64_t value : values) put(value);
+  }
+  void box(const MshBox& box) {
+    const bool empty = box.least[0] > box.largest[0];
+    for (const double x : box.least) put(empty ? 0.0 : x);
+    for (const double x : box.largest) put(empty ? 0.0 : x);
+  }
+
+private:
+  std::string& _text;
+};
+
+void add_entities(std::string& text, const FileMesh& mesh, const std::vector<MshBox>& boxes) {
+  const std::size_t patches = mesh.patches.size(), regions = mesh.regions.size();
+  text += "$Entities\n";
+  Binary binary(text);
+  binary.sizes({0, 0, static_cast<std::int64_t>(patches), static_cast<std::int64_t>(regions)});
+  for (std::size_t i = 0; i < patches + regions; ++i) {
+    const auto tag = static_cast<std::int32_t>((i < patches ? i : i - patches) + 1);
+    binary.put(tag);
+    binary.box(boxes[i]);
+    binary.put(std::int64_t{1});
+    binary.put(tag);
+    binary.put(std::int64_t{0});  // bounding entities
+  }
+  text += "\n$EndEntities\n";
+}
+
+void add_partition(std::string& text, const FileMesh& mesh, const std::vector<MshBox>& boxes,
+                   const MshPartition& partition) {
+  text += "$PartitionedEntities\n";
+  Binary binary(text);
+  binary.sizes({mesh.part_count, 0, 0, 0, static_cast<std::int64_t>(partition.patches.size()),
+                static_cast<std::int64_t>(partition.regions.size())});
+  const auto add = [&](std::int32_t dimension, std::size_t entities, std::int32_t id, const MshBox& box) {
+    binary.put(static_cast<std::int32_t>(
+        partitioned_tag(static_cast<std::int64_t>(entities), partition.part, id)));
+    binary.put(dimension);
+    binary.put(id + 1);
+    binary.put(std::int64_t{1});
+    binary.put(partition.part);
+    binary.box(box);
+    binary.put(std::int64_t{1});
+    binary.put(id + 1);
+    binary.put(std::int64_t{0});
+  };
+  for (const std::int32_t patch : partition.patches)
+    add(2, mesh.patches.size(), patch, boxes[static_cast<std::size_t>(patch)]);
+  for (const std::int32_t region : partition.regions)
+    add(3, mesh.regions.size(), region, boxes[mesh.patches.size() + static_cast<std::size_t>(region)]);
+  text += "\n$EndPartitionedEntities\n";
+}
+
+/// Grows the boxes of the entities of a block.
+void grow(std::vector<MshBox>& boxes, std::size_t first, const FilePart& part, const Block& block) {
+  for (const Run& run : block.runs) {
+    MshBox& box = boxes[first + static_cast<std::size_t>(run.id)];
+    for (const mesh::LocalIndex* v = block.item(run.begin); v != block.item(run.end); ++v) {
+      const double* p = part.coordinates.data() + 3 * static_cast<std::size_t>(*v);
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.least[k] = std::min(box.least[k], p[k]);
+        box.largest[k] = std::max(box.largest[k], p[k]);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator, const FileMesh& mesh) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::vector<MshBox> boxes(mesh.patches.size() + mesh.regions.size(), {{far, far, far}, {-far, -far, -far}});
+  for (const FilePart& part : mesh.parts) {
+    for (const Block& block : part.faces) grow(boxes, 0, part, block);
+    for (const Block& block : part.cells) grow(boxes, mesh.patches.size(), part, block);
+  }
+  struct Found {
+    std::int64_t entity;
+    MshBox box;
+  };
+  std::vector<Found> found;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].least[0] <= boxes[i].largest[0]) found.push_back({static_cast<std::int64_t>(i), boxes[i]});
+  }
+  const auto merge = [&](const std::vector<Found>& items) {
+    for (const Found& item : items) {
+      MshBox& box = boxes[static_cast<std::size_t>(item.entity)];
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.least[k] = std::min(box.least[k], item.box.least[k]);
+        box.largest[k] = std::max(box.largest[k], item.box.largest[k]);
+      }
+    }
+  };
+  // Each entity meets on one rank, so that nobody gathers a box of every rank.
+  const int ranks = communicator.size();
+  merge(mesh::deliver(communicator, found,
+                      [ranks](const Found& item) { return static_cast<parallel::Rank>(item.entity % ranks); }));
+  found.clear();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (static_cast<int>(i % static_cast<std::size_t>(ranks)) == communicator.rank())
+      found.push_back({static_cast<std::int64_t>(i), boxes[i]});
+  }
+  merge(communicator.all_gather_items(std::span<const Found>(found)));
+  return boxes;
+}
+
+std::string msh_head(const FileMesh& mesh, const std::vector<MshBox>& boxes, const MshPartition* partition) {
+  std::string text = "$MeshFormat\n4.1 1 8\n";
+  Binary(text).put(std::int32_t{1});
+  text += "\n$EndMeshFormat\n$Comments\nAeroloom\n";
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+    const mesh::Patch& patch = mesh.patches[i];
+    text += fmt::format("patch {} {} {}\n", i + 1, mesh::name_of(patch.type), escaped(patch.name));
+  }
+  for (std::size_t i = 0; i < mesh.regions.size(); ++i)
+    text += fmt::format("region {} {}\n", i + 1, escaped(mesh.regions[i]));
+  text += fmt::format("$EndComments\n$PhysicalNames\n{}\n", mesh.patches.size() + mesh.regions.size());
+  const auto add_names = [&](int dimension, const std::vector<std::string>& names) {
+    const std::vector<std::string> held = distinct_names(names, longest_name, quotable);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      text += fmt::format("{} {} \"{}\"\n", dimension, i + 1, held[i]);
+  };
+  add_names(2, patch_names(mesh));
+  add_names(3, mesh.regions);
+  text += "$EndPhysicalNames\n";
+  add_entities(text, mesh, boxes);
+  if (partition != nullptr) add_partition(text, mesh, boxes, *partition);
+  return text;
+}
+
+}  // namespace aeroloom::io

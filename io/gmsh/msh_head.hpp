@@ -1,0 +1,32 @@
+/// The sections of an MSH file before the nodes, and what names become there.
+#pragma once
+
+#include "io/file_mesh.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io {
+
+/// Least and largest coordinates; of nothing: infinite, the wrong way round.
+struct MshBox {
+  std::array<double, 3> least, largest;
+};
+/// By patch, then by region, of the whole mesh. Collective.
+std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator, const FileMesh& mesh);
+
+/// What part files have in addition: which entities lie in part `part` (from 1).
+struct MshPartition {
+  std::int32_t part = 1;
+  std::vector<std::int32_t> patches, regions;
+};
+/// The tag of the part's share of an entity; `entities`: how many of this dimension the mesh has.
+inline std::int64_t partitioned_tag(std::int64_t entities, std::int64_t part, std::int64_t entity) {
+  return part * entities + entity + 1;
+}
+
+/// $MeshFormat, $Comments, $PhysicalNames, $Entities, and $PartitionedEntities where there is a partition.
+std::string msh_head(const FileMesh& mesh, const std::vector<MshBox>& boxes, const MshPartition* partition);
+
+}  // namespace aeroloom::io

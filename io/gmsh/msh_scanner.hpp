@@ -1,0 +1,62 @@
+/// Reads values of an MSH file one after another, text or binary.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aeroloom::io {
+
+class MshScanner {
+public:
+  /// Throws std::filesystem::filesystem_error where the file cannot be opened.
+  explicit MshScanner(std::string path);
+
+  bool binary = false;  ///< how int32, int64 and real read
+
+  std::int32_t int32();
+  std::int64_t int64();
+  double real();
+  /// A count of things of at least `item_bytes` each (in text: two bytes). Fails where the rest of the file
+  /// cannot hold as many.
+  std::int64_t count(std::int64_t item_bytes);
+  /// `n` values, of 8 bytes each in binary.
+  void int64s(std::int64_t* to, std::int64_t n);
+  void reals(double* to, std::int64_t n);
+  void skip_values(std::int64_t n);
+
+  /// The rest of this line, without its end.
+  std::string line();
+  /// Passes a line of any length; whether it is `text`.
+  bool line_is(std::string_view text);
+  /// The next line that is not blank; empty at the end of the file.
+  std::string next_line();
+
+  std::int64_t position() const { return _begin + static_cast<std::int64_t>(_next); }
+  std::int64_t size() const { return _size; }
+  void seek(std::int64_t position);
+  /// Throws std::runtime_error with the file, the byte and `what`.
+  [[noreturn]] void fail(const std::string& what) const;
+
+private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  bool fill();
+  int peek();
+  void raw(void* to, std::int64_t bytes);
+  std::string_view token();
+
+  std::string _path;
+  std::unique_ptr<std::FILE, Close> _file;
+  std::int64_t _size = 0, _begin = 0;  ///< of the file; of the buffer in it
+  std::vector<char> _buffer;
+  std::size_t _next = 0, _end = 0;
+  std::string _token;
+};
+
+}  // namespace aeroloom::io

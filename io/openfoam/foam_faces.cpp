@@ -1,0 +1,315 @@
+#include "io/openfoam/foam_faces.hpp"
+
+#include "mesh/delivery.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+
+std::size_t side_count(const FilePart& part, LocalIndex cell) {
+  return first_side(part, cell + 1) - first_side(part, cell);
+}
+
+/// Calls `visit(cell, side, behind, number)` for all faces whose other cell has a higher number in the whole
+/// mesh, by owner, then other cell; `number` counts them.
+template <class Visit>
+GlobalIndex for_owned_faces(const FilePart& part, const PartLinks& links, const Visit& visit) {
+  GlobalIndex number = 0;
+  std::array<std::pair<const CellBehind*, std::int32_t>, 6> upper;
+  for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
+    const std::size_t first = first_side(part, cell), sides = side_count(part, cell);
+    std::size_t count = 0;
+    for (std::size_t side = 0; side < sides; ++side) {
+      const CellBehind& behind = links.behind[first + side];
+      if (behind.exists() && std::tie(behind.part, behind.cell) > std::tie(part.id, cell))
+        upper[count++] = {&behind, static_cast<std::int32_t>(side)};
+    }
+    std::sort(upper.begin(), upper.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const auto& a, const auto& b) {
+                return std::tie(a.first->part, a.first->cell, a.second) <
+                       std::tie(b.first->part, b.first->cell, b.second);
+              });
+    for (std::size_t i = 0; i < count; ++i) visit(cell, upper[i].second, *upper[i].first, number++);
+  }
+  return number;
+}
+
+/// The patch of each boundary face of a part, and its place among those of the patch in the part and in the
+/// whole mesh (triangles before quadrilaterals).
+class PatchPlaces {
+public:
+  PatchPlaces(const FileMesh& mesh, const FilePart& part) : _part(part) {
+    _triangles.resize(mesh.patches.size(), 0);
+    for (const Run& run : part.faces[0].runs) _triangles[run.id] = run.end - run.begin;
+    for (const auto& counts : mesh.patch_faces) _all_triangles.push_back(counts[0]);
+  }
+
+  struct Place {
+    std::int32_t patch = 0;
+    LocalIndex in_part = 0;
+    GlobalIndex in_mesh = 0;
+  };
+  Place of(LocalIndex face) const {
+    const bool is_triangle = face < _part.faces[0].count();
+    const Block& block = _part.faces[is_triangle ? 0 : 1];
+    if (!is_triangle) face -= _part.faces[0].count();
+    const auto run = std::upper_bound(block.runs.begin(), block.runs.end(), face,
+                                      [](LocalIndex f, const Run& r) { return f < r.end; });
+    const LocalIndex i = face - run->begin;
+    if (is_triangle) return {run->id, i, run->before + i};
+    return {run->id, i + _triangles[run->id], run->before + i + _all_triangles[run->id]};
+  }
+
+private:
+  const FilePart& _part;
+  std::vector<LocalIndex> _triangles;
+  std::vector<GlobalIndex> _all_triangles;
+};
+
+void require_closed(const LinkDefects& defects) {
+  if (defects.crowded_faces + defects.stray_faces + defects.repeated_faces + defects.open_faces == 0) return;
+  throw parallel::CollectiveError(
+      parallel::FailureKind::input,
+      fmt::format("OpenFOAM needs each face between two cells or on one patch: {} faces have more than two cells, "
+                  "{} boundary faces no cell, {} stand twice, {} faces have neither a second cell nor a patch",
+                  defects.crowded_faces, defects.stray_faces, defects.repeated_faces, defects.open_faces));
+}
+
+/// Which rank holds each part, where its cells begin and its faces.
+struct PartRow {
+  std::int32_t part, rank;
+  GlobalIndex cells, inner;
+};
+
+std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, const FileMesh& mesh,
+                                 const FaceLinks& links) {
+  std::vector<PartRow> mine;
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    const FilePart& part = mesh.parts[i];
+    const GlobalIndex inner =
+        for_owned_faces(part, links.parts[i], [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {});
+    mine.push_back({part.id, communicator.rank(), part.cell_count(), inner});
+  }
+  std::vector<PartRow> rows = communicator.all_gather_items(std::span<const PartRow>(mine));
+  std::sort(rows.begin(), rows.end(), [](const PartRow& a, const PartRow& b) { return a.part < b.part; });
+  return rows;
+}
+
+/// What a part has to tell others about the faces between them.
+void add_notes(const FileMesh& mesh, const FilePart& part, const PartLinks& links,
+               const std::vector<PartRow>& rows, std::vector<FoamFaceNote>& notes) {
+  const PatchPlaces places(mesh, part);
+  const auto add = [&](LocalIndex cell, std::size_t side, const CellBehind& behind, GlobalIndex number) {
+    const LocalIndex face = links.boundary_face[first_side(part, cell) + side];
+    notes.push_back({behind.part, behind.cell, behind.side, face < 0 ? -1 : places.of(face).patch,
+                     rows[static_cast<std::size_t>(behind.part)].rank, part.id, number});
+  };
+  for_owned_faces(part, links,
+                  [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
+                    if (behind.part != part.id) add(cell, static_cast<std::size_t>(side), behind, number);
+                  });
+  for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
+    for (std::size_t side = 0; side < side_count(part, cell); ++side) {
+      const CellBehind& behind = links.behind[first_side(part, cell) + side];
+      if (behind.exists() && behind.part < part.id) add(cell, side, behind, -1);
+    }
+  }
+}
+
+/// A face between two parts, and its place in the order of the lower part.
+struct ProcessorFace {
+  std::int32_t other = 0;
+  LocalIndex cell = 0;
+  std::int32_t side = 0;
+  FoamFace face;
+};
+
+/// Puts the faces of one part in order.
+class Sorter {
+public:
+  Sorter(const FileMesh& mesh, const FilePart& part, const PartLinks& links, const FoamPlan& plan)
+      : _mesh(mesh), _part(part), _links(links), _plan(plan), _places(mesh, part) {}
+
+  FoamFaces sort() {
+    add_inner_faces();
+    add_patches();
+    add_lower_processors();
+    add_processors();
+    return std::move(_result);
+  }
+
+private:
+  std::int32_t zone_at(LocalIndex cell, std::size_t side) const {
+    const LocalIndex face = _links.boundary_face[first_side(_part, cell) + side];
+    return face < 0 ? -1 : _places.of(face).patch;
+  }
+
+  void add_inner_faces() {
+    const GlobalIndex first = _plan.first_inner_face[static_cast<std::size_t>(_part.id)];
+    for_owned_faces(_part, _links,
+                    [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
+                      FoamFace face{cell, side, -1, zone_at(cell, static_cast<std::size_t>(side)),
+                                    first + number, 0, 0};
+                      if (behind.part == _part.id) {
+                        face.neighbour = behind.cell;
+                        face.from_front = is_front(face) ? 1 : 0;
+                        _result.faces.push_back(face);
+                        return;
+                      }
+                      // The boundary face of a zone is in the part of the front region's cell.
+                      const FoamFaceNote& note = note_at(cell, side);
+                      face.from_front = face.zone >= 0 ? 1 : 0;
+                      face.zone = std::max(face.zone, note.zone);
+                      _processors.push_back({behind.part, cell, side, face});
+                    });
+    _result.inner = static_cast<LocalIndex>(_result.faces.size());
+  }
+
+  /// The boundary face goes round like the face of the front region's cell: like that of the owner, or its
+  /// reverse.
+  bool is_front(const FoamFace& face) const {
+    if (face.zone < 0) return false;
+    LocalIndex f = _links.boundary_face[first_side(_part, face.cell) + static_cast<std::size_t>(face.side)];
+    const bool is_triangle = f < _part.faces[0].count();
+    const Block& block = _part.faces[is_triangle ? 0 : 1];
+    const LocalIndex* item = block.item(is_triangle ? f : f - _part.faces[0].count());
+    const FoamCorners mine = corners_of_face(_part, face);
+    const LocalIndex* at = std::find(item, item + block.corners, mine.corners[0]);
+    const LocalIndex next = item[(at - item + 1) % block.corners];
+    return next == mine.corners[1];
+  }
+
+  void add_patches() {
+    _result.of_patch.assign(_mesh.patches.size(), 0);
+    for (const Block& block : _part.faces) {
+      for (const Run& run : block.runs) {
+        if (_mesh.patches[run.id].type != mesh::PatchType::interior)
+          _result.of_patch[run.id] += run.end - run.begin;
+      }
+    }
+    std::vector<std::size_t> begin(_mesh.patches.size());
+    std::size_t next = _result.faces.size();
+    for (std::size_t p = 0; p < begin.size(); ++p) {
+      begin[p] = next;
+      next += static_cast<std::size_t>(_result.of_patch[p]);
+    }
+    _result.faces.resize(next);
+    for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) {
+      const std::size_t first = first_side(_part, cell);
+      for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
+        const LocalIndex face = _links.boundary_face[first + side];
+        if (face < 0 || _links.behind[first + side].exists()) continue;
+        const PatchPlaces::Place place = _places.of(face);
+        _result.faces[begin[place.patch] + static_cast<std::size_t>(place.in_part)] = {
+            cell, static_cast<std::int32_t>(side), -1, -1, _plan.first_of_patch[place.patch] + place.in_mesh,
+            0,    0};
+      }
+    }
+  }
+
+  const FoamFaceNote& note_at(LocalIndex cell, std::int32_t side) const {
+    return *std::lower_bound(_plan.notes.begin(), _plan.notes.end(), std::tuple(_part.id, cell, side),
+                             [](const FoamFaceNote& note, const auto& key) {
+                               return std::tuple(note.part, note.cell, note.side) < key;
+                             });
+  }
+
+  /// Faces whose owner in the whole mesh is in another part.
+  void add_lower_processors() {
+    for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) {
+      for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
+        const CellBehind& behind = _links.behind[first_side(_part, cell) + side];
+        if (!behind.exists() || behind.part >= _part.id) continue;
+        const auto s = static_cast<std::int32_t>(side);
+        const FoamFaceNote& note = note_at(cell, s);
+        const std::int32_t zone = zone_at(cell, side);
+        const GlobalIndex number =
+            _plan.first_inner_face[static_cast<std::size_t>(behind.part)] + note.number;
+        _processors.push_back({behind.part, behind.cell, behind.side,
+                               {cell, s, -1, std::max(zone, note.zone), number, 1,
+                                static_cast<std::int8_t>(zone >= 0 ? 1 : 0)}});
+      }
+    }
+  }
+
+  void add_processors() {
+    std::sort(_processors.begin(), _processors.end(), [](const ProcessorFace& a, const ProcessorFace& b) {
+      return std::tie(a.other, a.cell, a.side) < std::tie(b.other, b.cell, b.side);
+    });
+    for (const ProcessorFace& face : _processors) {
+      if (_result.processors.empty() || _result.processors.back().other != face.other)
+        _result.processors.push_back({face.other, 0});
+      ++_result.processors.back().count;
+      _result.faces.push_back(face.face);
+    }
+  }
+
+  const FileMesh& _mesh;
+  const FilePart& _part;
+  const PartLinks& _links;
+  const FoamPlan& _plan;
+  PatchPlaces _places;
+  FoamFaces _result;
+  std::vector<ProcessorFace> _processors;
+};
+
+}  // namespace
+
+FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
+  const CellOfPart cell = cell_of(part, face.cell);
+  const LocalIndex* v = part.cells[static_cast<std::size_t>(cell.shape)].item(cell.index);
+  FoamCorners result;
+  for (const std::int8_t corner : faces_of(cell.shape)[static_cast<std::size_t>(face.side)]) {
+    if (corner >= 0) result.corners[static_cast<std::size_t>(result.count++)] = v[corner];
+  }
+  const auto begin = result.corners.begin(), end = begin + result.count;
+  std::rotate(begin,
+              std::min_element(
+                  begin, end, [&](LocalIndex a, LocalIndex b) { return part.numbers[a] < part.numbers[b]; }),
+              end);
+  return result;
+}
+
+FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh, const FaceLinks& links) {
+  require_closed(links.defects);
+  const std::vector<PartRow> rows = gather_rows(communicator, mesh, links);
+  FoamPlan plan;
+  for (const PartRow& row : rows) {
+    plan.first_cell.push_back(plan.cells);
+    plan.first_inner_face.push_back(plan.faces);
+    plan.cells += row.cells;
+    plan.faces += row.inner;
+  }
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    plan.first_of_patch.push_back(plan.faces);
+    if (mesh.patches[p].type != mesh::PatchType::interior)
+      plan.faces += mesh.patch_faces[p][0] + mesh.patch_faces[p][1];
+  }
+  std::vector<FoamFaceNote> notes;
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i)
+    add_notes(mesh, mesh.parts[i], links.parts[i], rows, notes);
+  plan.notes = mesh::deliver(communicator, std::move(notes), [](const FoamFaceNote& note) {
+    return static_cast<parallel::Rank>(note.rank);
+  });
+  std::sort(plan.notes.begin(), plan.notes.end(), [](const FoamFaceNote& a, const FoamFaceNote& b) {
+    return std::tie(a.part, a.cell, a.side) < std::tie(b.part, b.cell, b.side);
+  });
+  return plan;
+}
+
+FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const PartLinks& links,
+                      const FoamPlan& plan) {
+  return Sorter(mesh, part, links, plan).sort();
+}
+
+}  // namespace aeroloom::io

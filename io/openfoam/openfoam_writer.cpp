@@ -1,0 +1,320 @@
+#include "io/openfoam/openfoam_writer.hpp"
+
+#include "io/openfoam/foam_case.hpp"
+#include "io/openfoam/foam_faces.hpp"
+#include "io/openfoam/foam_file.hpp"
+#include "parallel/collective_error.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+
+struct Names {
+  std::vector<std::string> patches, regions, groups;  ///< groups: by patch, empty where there is none
+};
+
+Names names_of(const FileMesh& mesh) {
+  Names names;
+  for (const mesh::Patch& patch : mesh.patches) names.patches.push_back(patch.name);
+  names.patches = foam_words(names.patches);
+  names.regions = foam_words(mesh.regions);
+  // A group must not have the name of a patch.
+  for (const mesh::Patch& patch : mesh.patches) {
+    const std::string group(mesh::name_of(patch.type));
+    const bool is_taken =
+        std::find(names.patches.begin(), names.patches.end(), group) != names.patches.end();
+    names.groups.push_back(is_taken ? "" : group);
+  }
+  return names;
+}
+
+const char* type_of(mesh::PatchType type) {
+  switch (type) {
+    case mesh::PatchType::wall:
+      return "wall";
+    case mesh::PatchType::symmetry:
+      return "symmetry";
+    default:
+      return "patch";
+  }
+}
+
+bool is_boundary(const mesh::Patch& patch) {
+  return patch.type != mesh::PatchType::interior;
+}
+
+/// Writes the files of one part.
+class PartWriter {
+public:
+  PartWriter(const FileMesh& mesh, const FilePart& part, const FoamPlan& plan, const FoamFaces& order,
+             const Names& names, const FoamFormat& format, fs::path folder)
+      : _mesh(mesh), _part(part), _plan(plan), _order(order), _names(names), _format(format),
+        _folder(std::move(folder)) {}
+
+  void write() {
+    fs::create_directories(_folder);
+    write_points();
+    write_faces();
+    write_cells_of_faces();
+    write_boundary();
+    if (_mesh.regions.size() > 1) write_cell_zones();
+    if (!std::all_of(_mesh.patches.begin(), _mesh.patches.end(), is_boundary)) write_face_zones();
+    if (_mesh.part_count > 1) write_addressing();
+  }
+
+private:
+  LocalFile open(const char* kind, const char* object, std::string_view note = {}) const {
+    LocalFile file((_folder / object).string());
+    file.text(foam_header(_format, kind, "constant/polyMesh", object, note));
+    return file;
+  }
+  /// A file that is one list of labels.
+  template <class Items, class Label>
+  void write_labels(const char* object, const Items& items, const Label& label, std::string_view note = {}) {
+    LocalFile file = open("labelList", object, note);
+    FoamList list(file, _format, static_cast<std::int64_t>(items.size()));
+    for (const auto& item : items) list.label(label(item));
+    list.end();
+    file.text("\n");
+    file.finish();
+  }
+  std::span<const FoamFace> faces() const { return _order.faces; }
+
+  void write_points() {
+    LocalFile file = open("vectorField", "points");
+    FoamList list(file, _format, _part.vertex_count());
+    for (LocalIndex v = 0; v < _part.vertex_count(); ++v)
+      list.vector(_part.coordinates.data() + 3 * static_cast<std::size_t>(v));
+    list.end();
+    file.text("\n");
+    file.finish();
+  }
+
+  void write_faces() {
+    LocalFile file = open(_format.binary ? "faceCompactList" : "faceList", "faces");
+    if (_format.binary) {
+      write_compact(file);
+    } else {
+      file.text(fmt::format("{}\n(\n", faces().size()));
+      for (const FoamFace& face : faces()) {
+        const FoamCorners c = corners_of_face(_part, face);
+        std::string text = fmt::format("{}({} {} {}", c.count, c.corners[0], c.corners[1], c.corners[2]);
+        if (c.count == 4) text += fmt::format(" {}", c.corners[3]);
+        file.text(text + ")\n");
+      }
+      file.text(")\n");
+    }
+    file.finish();
+  }
+
+  /// Where each face begins, then corners.
+  void write_compact(LocalFile& file) {
+    FoamList begins(file, _format, static_cast<std::int64_t>(faces().size()) + 1);
+    std::int64_t begin = 0;
+    begins.label(begin);
+    for (const FoamFace& face : faces()) {
+      begin += corners_of_face(_part, face).count;
+      begins.label(begin);
+    }
+    begins.end();
+    file.text("\n");
+    FoamList corners(file, _format, begin);
+    for (const FoamFace& face : faces()) {
+      const FoamCorners c = corners_of_face(_part, face);
+      for (int k = 0; k < c.count; ++k) corners.label(c.corners[static_cast<std::size_t>(k)]);
+    }
+    corners.end();
+    file.text("\n");
+  }
+
+  void write_cells_of_faces() {
+    const std::string note = fmt::format("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}",
+                                         _part.vertex_count(), _part.cell_count(), faces().size(), _order.inner);
+    write_labels("owner", faces(), [](const FoamFace& face) { return face.cell; }, note);
+    write_labels(
+        "neighbour", faces().first(static_cast<std::size_t>(_order.inner)),
+        [](const FoamFace& face) { return face.neighbour; }, note);
+  }
+
+  void write_boundary() {
+    LocalFile file((_folder / "boundary").string());
+    const FoamFormat text{false, _format.label_bits};
+    file.text(foam_header(text, "polyBoundaryMesh", "constant/polyMesh", "boundary"));
+    const auto patches = std::count_if(_mesh.patches.begin(), _mesh.patches.end(), is_boundary);
+    file.text(fmt::format("{}\n(\n", static_cast<std::size_t>(patches) + _order.processors.size()));
+    std::int64_t start = _order.inner;
+    for (std::size_t p = 0; p < _mesh.patches.size(); ++p) {
+      if (!is_boundary(_mesh.patches[p])) continue;
+      file.text(fmt::format("    {}\n    {{\n        type            {};\n", _names.patches[p],
+                            type_of(_mesh.patches[p].type)));
+      if (!_names.groups[p].empty())
+        file.text(fmt::format("        inGroups        1({});\n", _names.groups[p]));
+      file.text(fmt::format("        nFaces          {};\n        startFace       {};\n    }}\n",
+                            _order.of_patch[p], start));
+      start += _order.of_patch[p];
+    }
+    for (const FoamProcessorPatch& patch : _order.processors) {
+      file.text(fmt::format("    procBoundary{0}to{1}\n    {{\n        type            processor;\n"
+                            "        inGroups        1(processor);\n        nFaces          {2};\n"
+                            "        startFace       {3};\n        matchTolerance  0.0001;\n"
+                            "        transform       unknown;\n        myProcNo        {0};\n"
+                            "        neighbProcNo    {1};\n    }}\n",
+                            _part.id, patch.other, patch.count, start));
+      start += patch.count;
+    }
+    file.text(")\n");
+    file.finish();
+  }
+
+  void write_cell_zones() {
+    LocalFile file = open("regIOobject", "cellZones");
+    file.text(fmt::format("{}\n(\n", _mesh.regions.size()));
+    for (std::size_t region = 0; region < _mesh.regions.size(); ++region) {
+      std::vector<std::pair<LocalIndex, LocalIndex>> ranges;
+      std::int64_t count = 0;
+      LocalIndex first = 0;
+      for (const Block& block : _part.cells) {
+        for (const Run& run : block.runs) {
+          if (run.id != static_cast<std::int32_t>(region)) continue;
+          ranges.emplace_back(first + run.begin, first + run.end);
+          count += run.end - run.begin;
+        }
+        first += block.count();
+      }
+      file.text(fmt::format("{}\n{{\n    type cellZone;\n    cellLabels List<label> ", _names.regions[region]));
+      FoamList list(file, _format, count);
+      for (const auto& [begin, end] : ranges) {
+        for (LocalIndex cell = begin; cell < end; ++cell) list.label(cell);
+      }
+      list.end();
+      file.text(";\n}\n");
+    }
+    file.text(")\n");
+    file.finish();
+  }
+
+  void write_face_zones() {
+    LocalFile file = open("regIOobject", "faceZones");
+    const auto inner = _mesh.patches.size() -
+                       static_cast<std::size_t>(
+                           std::count_if(_mesh.patches.begin(), _mesh.patches.end(), is_boundary));
+    std::vector<std::vector<LocalIndex>> zones(_mesh.patches.size());
+    for (std::size_t f = 0; f < faces().size(); ++f) {
+      if (faces()[f].zone >= 0) zones[faces()[f].zone].push_back(static_cast<LocalIndex>(f));
+    }
+    file.text(fmt::format("{}\n(\n", inner));
+    for (std::size_t p = 0; p < zones.size(); ++p) {
+      if (is_boundary(_mesh.patches[p])) continue;
+      file.text(fmt::format("{}\n{{\n    type faceZone;\n    faceLabels List<label> ", _names.patches[p]));
+      const auto count = static_cast<std::int64_t>(zones[p].size());
+      FoamList labels(file, _format, count);
+      for (const LocalIndex f : zones[p]) labels.label(f);
+      labels.end();
+      file.text(";\n    flipMap List<bool> ");
+      FoamList flips(file, _format, count);
+      for (const LocalIndex f : zones[p]) flips.flag(faces()[f].from_front == 0);
+      flips.end();
+      file.text(";\n}\n");
+    }
+    file.text(")\n");
+    file.finish();
+  }
+
+  void write_addressing() {
+    const GlobalIndex first = _plan.first_cell[static_cast<std::size_t>(_part.id)];
+    {
+      LocalFile file = open("labelList", "cellProcAddressing");
+      FoamList list(file, _format, _part.cell_count());
+      for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) list.label(first + cell);
+      list.end();
+      file.text("\n");
+      file.finish();
+    }
+    write_labels("faceProcAddressing", faces(), [](const FoamFace& face) {
+      return face.flipped != 0 ? -(face.number + 1) : face.number + 1;
+    });
+    write_labels("pointProcAddressing", _part.numbers, [](GlobalIndex number) { return number; });
+    std::vector<std::int64_t> patches;
+    for (const mesh::Patch& patch : _mesh.patches) {
+      if (is_boundary(patch)) patches.push_back(static_cast<std::int64_t>(patches.size()));
+    }
+    patches.resize(patches.size() + _order.processors.size(), -1);
+    write_labels("boundaryProcAddressing", patches, [](std::int64_t patch) { return patch; });
+  }
+
+  const FileMesh& _mesh;
+  const FilePart& _part;
+  const FoamPlan& _plan;
+  const FoamFaces& _order;
+  const Names& _names;
+  FoamFormat _format;
+  fs::path _folder;
+};
+
+FoamFormat format_of(const parallel::Communicator& communicator, const FileMesh& mesh, const FoamPlan& plan,
+                     const OpenFoamOptions& options) {
+  GlobalIndex corners = 0;
+  for (const FilePart& part : mesh.parts) {
+    corners = std::max<GlobalIndex>(
+        corners, 12 * GlobalIndex{part.cells[0].count()} + 16 * GlobalIndex{part.cells[1].count()} +
+                     18 * GlobalIndex{part.cells[2].count()});
+  }
+  corners = communicator.maximum(corners);
+  FoamFormat format;
+  format.binary = options.binary;
+  format.label_bits = options.label_bits != 0
+                          ? options.label_bits
+                          : foam_label_bits(plan.cells, plan.faces, mesh.vertex_count, corners);
+  return format;
+}
+
+}  // namespace
+
+int foam_label_bits(GlobalIndex cells, GlobalIndex faces, GlobalIndex points, GlobalIndex corners_of_part) {
+  // Numbers of faces are written from 1.
+  const GlobalIndex largest = std::max({cells, faces + 1, points, corners_of_part + 1});
+  return largest > std::numeric_limits<std::int32_t>::max() ? 64 : 32;
+}
+
+void write_openfoam(const parallel::Communicator& communicator, const FileMesh& mesh,
+                    const std::string& folder, const OpenFoamOptions& options) {
+  const FaceLinks links = link_faces(communicator, mesh);
+  const FoamPlan plan = plan_faces(communicator, mesh, links);
+  const FoamFormat format = format_of(communicator, mesh, plan, options);
+  const FoamCase foam_case{folder, mesh.part_count};
+  const Names names = names_of(mesh);
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) clear_case(foam_case);
+  });
+  try {
+    parallel::agree(communicator, [&] {
+      for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        const FilePart& part = mesh.parts[i];
+        const FoamFaces order = order_faces(mesh, part, links.parts[i], plan);
+        PartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
+      }
+      if (communicator.is_root()) write_dictionaries(foam_case);
+    });
+  } catch (const parallel::CollectiveError&) {
+    std::error_code ignored;
+    for (const FilePart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
+    throw;
+  }
+  parallel::agree(communicator, [&] {
+    for (const FilePart& part : mesh.parts) fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
+  });
+}
+
+}  // namespace aeroloom::io
