@@ -128,7 +128,8 @@ struct NamedGroup {
 mesh::PatchType type_of(const std::string& comment, const std::string& name) {
   if (const auto type = mesh::patch_type_of(comment)) return *type;
   std::string lower = name;
-  for (char& letter : lower) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
+  for (char& letter : lower)
+    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
   return mesh::patch_type_of(lower).value_or(mesh::PatchType::wall);
 }
 

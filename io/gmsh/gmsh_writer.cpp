@@ -175,8 +175,9 @@ void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks
       part.id + 1, {patches.begin(), patches.end()}, {regions.begin(), regions.end()}};
   LocalFile file(path);
   file.text(msh_head(mesh, boxes, &partition));
-  const auto entity = static_cast<std::int32_t>(partitioned_tag(
-      static_cast<std::int64_t>(mesh.regions.size()), partition.part, regions.empty() ? 0 : *regions.begin()));
+  const auto entity =
+      static_cast<std::int32_t>(partitioned_tag(static_cast<std::int64_t>(mesh.regions.size()),
+                                                partition.part, regions.empty() ? 0 : *regions.begin()));
   const auto [least, largest] = std::minmax_element(part.numbers.begin(), part.numbers.end());
   if (part.vertex_count() == 0) {
     file.text(nodes_begin(0, 0, 0, entity));
@@ -190,8 +191,8 @@ void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks
     MshBlock here = of_file;
     here.count = run.end - run.begin;
     const std::size_t entities = here.dimension == 2 ? mesh.patches.size() : mesh.regions.size();
-    here.entity =
-        static_cast<std::int32_t>(partitioned_tag(static_cast<std::int64_t>(entities), partition.part, run.id));
+    here.entity = static_cast<std::int32_t>(
+        partitioned_tag(static_cast<std::int64_t>(entities), partition.part, run.id));
     file.text(head_of(here));
     put_run(part, block, run, of_file.first_tag + run.before,
             [&](std::span<const std::int64_t> records) { file.items(records); });

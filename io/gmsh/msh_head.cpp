@@ -85,8 +85,8 @@ void add_partition(std::string& text, const FileMesh& mesh, const std::vector<Ms
   binary.sizes({mesh.part_count, 0, 0, 0, static_cast<std::int64_t>(partition.patches.size()),
                 static_cast<std::int64_t>(partition.regions.size())});
   const auto add = [&](std::int32_t dimension, std::size_t entities, std::int32_t id, const MshBox& box) {
-    binary.put(static_cast<std::int32_t>(
-        partitioned_tag(static_cast<std::int64_t>(entities), partition.part, id)));
+    binary.put(
+        static_cast<std::int32_t>(partitioned_tag(static_cast<std::int64_t>(entities), partition.part, id)));
     binary.put(dimension);
     binary.put(id + 1);
     binary.put(std::int64_t{1});
@@ -145,8 +145,9 @@ std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator
   };
   // Each entity meets on one rank, so that nobody gathers a box of every rank.
   const int ranks = communicator.size();
-  merge(mesh::deliver(communicator, found,
-                      [ranks](const Found& item) { return static_cast<parallel::Rank>(item.entity % ranks); }));
+  merge(mesh::deliver(communicator, found, [ranks](const Found& item) {
+    return static_cast<parallel::Rank>(item.entity % ranks);
+  }));
   found.clear();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (static_cast<int>(i % static_cast<std::size_t>(ranks)) == communicator.rank())

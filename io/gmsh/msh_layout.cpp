@@ -32,8 +32,8 @@ MshBlocks lay_out_elements(const std::vector<std::array<mesh::GlobalIndex, face_
   for (const CellShape shape : cell_shapes) {
     const auto s = static_cast<std::size_t>(shape);
     for (std::size_t region = 0; region < region_cells.size(); ++region) {
-      blocks.cells[region][s] = {3, static_cast<std::int32_t>(region + 1), msh_cell_type[s], corners_of(shape),
-                                 region_cells[region][s]};
+      blocks.cells[region][s] = {3, static_cast<std::int32_t>(region + 1), msh_cell_type[s],
+                                 corners_of(shape), region_cells[region][s]};
       place(blocks, blocks.cells[region][s]);
     }
   }
@@ -43,7 +43,8 @@ MshBlocks lay_out_elements(const std::vector<std::array<mesh::GlobalIndex, face_
 MshLayout lay_out_file(std::int64_t head_bytes, std::int64_t vertices, const MshBlocks& blocks) {
   MshLayout layout;
   layout.nodes = head_bytes;
-  layout.tags = layout.nodes + static_cast<std::int64_t>(sizeof(msh_nodes_begin) - 1) + 4 * 8 + MshBlock::head_bytes;
+  layout.tags =
+      layout.nodes + static_cast<std::int64_t>(sizeof(msh_nodes_begin) - 1) + 4 * 8 + MshBlock::head_bytes;
   layout.points = layout.tags + 8 * vertices;
   layout.elements = layout.points + 24 * vertices;
   layout.blocks = layout.elements + static_cast<std::int64_t>(sizeof(msh_nodes_end) - 1) + 4 * 8;

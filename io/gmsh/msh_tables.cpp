@@ -27,13 +27,20 @@ std::string unescaped(const std::string& text) {
 /// Corners of what is read or passed over; an error says what the others are.
 std::int32_t corners_of_type(const MshScanner& scanner, std::int32_t type) {
   switch (type) {
-    case 15: return 1;
-    case 1: return 2;
-    case 2: return 3;
-    case 3: return 4;
-    case 4: return 4;
-    case 7: return 5;
-    case 6: return 6;
+    case 15:
+      return 1;
+    case 1:
+      return 2;
+    case 2:
+      return 3;
+    case 3:
+      return 4;
+    case 4:
+      return 4;
+    case 7:
+      return 5;
+    case 6:
+      return 6;
     case 5:
       scanner.fail("hexahedra are not read: cells are tetrahedra, pyramids and prisms");
     default:
@@ -73,9 +80,10 @@ private:
     int is_binary = 0, size = 0;
     if (!(line >> version >> is_binary >> size)) _scanner.fail("a line 'version type size' was expected");
     if (version != "4.1") {
-      _scanner.fail(fmt::format("version {} of the format is not read; gmsh FILE -save -format msh41 -o NEW.msh "
-                                "converts it to 4.1",
-                                version.substr(0, 16)));
+      _scanner.fail(
+          fmt::format("version {} of the format is not read; gmsh FILE -save -format msh41 -o NEW.msh "
+                      "converts it to 4.1",
+                      version.substr(0, 16)));
     }
     if (is_binary != 0) {
       if (size != 8) _scanner.fail(fmt::format("tags of {} bytes are not read, 8 were expected", size));
@@ -215,8 +223,8 @@ private:
       block.corners = corners_of_type(_scanner, block.type);
       const std::int32_t dimension = block.type == 15 ? 0 : block.type == 1 ? 1 : block.type <= 3 ? 2 : 3;
       if (block.dimension != dimension) {
-        _scanner.fail(fmt::format("elements of type {} in an entity of dimension {}", block.type,
-                                  block.dimension));
+        _scanner.fail(
+            fmt::format("elements of type {} in an entity of dimension {}", block.type, block.dimension));
       }
       block.count = _scanner.count(16);
       block.place = _scanner.position();

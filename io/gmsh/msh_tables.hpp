@@ -23,7 +23,7 @@ struct MshElementBlock {
 };
 
 struct MshEntity {
-  std::vector<std::int32_t> physical;              ///< as listed, without sign
+  std::vector<std::int32_t> physical;             ///< as listed, without sign
   std::int32_t parent_dimension = 0, parent = 0;  ///< of a partitioned entity
   bool partitioned = false;
 };
@@ -41,7 +41,7 @@ struct MshTables {
   std::int64_t partitions = 0;
   std::vector<MshNodeBlock> nodes;
   std::vector<MshElementBlock> elements;  ///< of two and three dimensions
-  std::vector<std::int64_t> ghosts;       ///< tags of elements that belong to another partition's file, ascending
+  std::vector<std::int64_t> ghosts;  ///< tags of elements that belong to another partition's file, ascending
 };
 
 enum class MshExtent { all, before_nodes };

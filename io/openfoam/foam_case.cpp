@@ -30,7 +30,8 @@ std::string word_of(const std::string& name) {
   }
   // A word that begins like a number would be read as one; patches between parts have names of their own.
   const bool like_number = is_digit(word[0]) || word[0] == '-' || word[0] == '.';
-  return like_number || word.starts_with("procBoundary") ? "_" + word : word;
+  if (like_number || word.starts_with("procBoundary")) word.insert(word.begin(), '_');
+  return word;
 }
 
 /// The number of a processor folder, -1 of any other.
@@ -60,12 +61,13 @@ bool holds_results(const fs::path& processor) {
 
 std::string dictionary(const std::string& name, const std::string& content) {
   return fmt::format(
-      "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n    location    "
+      "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n    location "
+      "   "
       "\"system\";\n    object      {};\n}}\n\n{}",
       name, content);
 }
 
-constexpr char control[] = R"(application     simpleFoam;
+constexpr char control[] = R"foam(application     simpleFoam;
 startFrom       latestTime;
 startTime       0;
 stopAt          endTime;
@@ -77,10 +79,10 @@ writeFormat     binary;
 writePrecision  12;
 timeFormat      general;
 runTimeModifiable true;
-)";
+)foam";
 
 // Schemes for tetrahedra: limited corrections for faces that are not orthogonal.
-constexpr char schemes[] = R"(ddtSchemes      { default steadyState; }
+constexpr char schemes[] = R"foam(ddtSchemes      { default steadyState; }
 gradSchemes     { default cellLimited Gauss linear 1; }
 divSchemes
 {
@@ -93,9 +95,9 @@ laplacianSchemes { default Gauss linear limited 0.5; }
 interpolationSchemes { default linear; }
 snGradSchemes   { default limited 0.5; }
 wallDist        { method meshWave; }
-)";
+)foam";
 
-constexpr char solution[] = R"(solvers
+constexpr char solution[] = R"foam(solvers
 {
     "(p|Phi)"
     {
@@ -115,7 +117,7 @@ constexpr char solution[] = R"(solvers
 potentialFlow   { nNonOrthogonalCorrectors 5; }
 SIMPLE          { nNonOrthogonalCorrectors 1; consistent yes; pRefCell 0; pRefValue 0; }
 relaxationFactors { equations { U 0.7; ".*" 0.7; } }
-)";
+)foam";
 
 }  // namespace
 

@@ -15,13 +15,11 @@ struct FoamCase {
   /// The parent of polyMesh.
   std::filesystem::path constant(std::int32_t part) const;
   std::filesystem::path mesh(std::int32_t part) const { return constant(part) / "polyMesh"; }
-  std::filesystem::path unfinished(std::int32_t part) const {
-    return constant(part) / "polyMesh.unfinished";
-  }
+  std::filesystem::path unfinished(std::int32_t part) const { return constant(part) / "polyMesh.unfinished"; }
 };
 
-/// Removes the meshes of earlier runs. Throws filesystem_error where a processor folder beyond the parts holds
-/// anything else. By one rank.
+/// Removes the meshes of earlier runs. Throws filesystem_error where a processor folder beyond the parts
+/// holds anything else. By one rank.
 void clear_case(const FoamCase& foam_case);
 
 /// Writes dictionaries under system/ where they are missing. By one rank.

@@ -25,21 +25,20 @@ std::size_t side_count(const FilePart& part, LocalIndex cell) {
 template <class Visit>
 GlobalIndex for_owned_faces(const FilePart& part, const PartLinks& links, const Visit& visit) {
   GlobalIndex number = 0;
-  std::array<std::pair<const CellBehind*, std::int32_t>, 6> upper;
+  std::vector<std::pair<const CellBehind*, std::int32_t>> upper;
   for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
     const std::size_t first = first_side(part, cell), sides = side_count(part, cell);
-    std::size_t count = 0;
+    upper.clear();
     for (std::size_t side = 0; side < sides; ++side) {
       const CellBehind& behind = links.behind[first + side];
       if (behind.exists() && std::tie(behind.part, behind.cell) > std::tie(part.id, cell))
-        upper[count++] = {&behind, static_cast<std::int32_t>(side)};
+        upper.emplace_back(&behind, static_cast<std::int32_t>(side));
     }
-    std::sort(upper.begin(), upper.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const auto& a, const auto& b) {
-                return std::tie(a.first->part, a.first->cell, a.second) <
-                       std::tie(b.first->part, b.first->cell, b.second);
-              });
-    for (std::size_t i = 0; i < count; ++i) visit(cell, upper[i].second, *upper[i].first, number++);
+    std::sort(upper.begin(), upper.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.first->part, a.first->cell, a.second) <
+             std::tie(b.first->part, b.first->cell, b.second);
+    });
+    for (const auto& [behind, side] : upper) visit(cell, side, *behind, number++);
   }
   return number;
 }
@@ -80,9 +79,10 @@ void require_closed(const LinkDefects& defects) {
   if (defects.crowded_faces + defects.stray_faces + defects.repeated_faces + defects.open_faces == 0) return;
   throw parallel::CollectiveError(
       parallel::FailureKind::input,
-      fmt::format("OpenFOAM needs each face between two cells or on one patch: {} faces have more than two cells, "
-                  "{} boundary faces no cell, {} stand twice, {} faces have neither a second cell nor a patch",
-                  defects.crowded_faces, defects.stray_faces, defects.repeated_faces, defects.open_faces));
+      fmt::format(
+          "OpenFOAM needs each face between two cells or on one patch: {} faces have more than two cells, "
+          "{} boundary faces no cell, {} stand twice, {} faces have neither a second cell nor a patch",
+          defects.crowded_faces, defects.stray_faces, defects.repeated_faces, defects.open_faces));
 }
 
 /// Which rank holds each part, where its cells begin and its faces.
@@ -96,8 +96,8 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
   std::vector<PartRow> mine;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const FilePart& part = mesh.parts[i];
-    const GlobalIndex inner =
-        for_owned_faces(part, links.parts[i], [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {});
+    const GlobalIndex inner = for_owned_faces(
+        part, links.parts[i], [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {});
     mine.push_back({part.id, communicator.rank(), part.cell_count(), inner});
   }
   std::vector<PartRow> rows = communicator.all_gather_items(std::span<const PartRow>(mine));
@@ -156,22 +156,21 @@ private:
 
   void add_inner_faces() {
     const GlobalIndex first = _plan.first_inner_face[static_cast<std::size_t>(_part.id)];
-    for_owned_faces(_part, _links,
-                    [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
-                      FoamFace face{cell, side, -1, zone_at(cell, static_cast<std::size_t>(side)),
-                                    first + number, 0, 0};
-                      if (behind.part == _part.id) {
-                        face.neighbour = behind.cell;
-                        face.from_front = is_front(face) ? 1 : 0;
-                        _result.faces.push_back(face);
-                        return;
-                      }
-                      // The boundary face of a zone is in the part of the front region's cell.
-                      const FoamFaceNote& note = note_at(cell, side);
-                      face.from_front = face.zone >= 0 ? 1 : 0;
-                      face.zone = std::max(face.zone, note.zone);
-                      _processors.push_back({behind.part, cell, side, face});
-                    });
+    for_owned_faces(
+        _part, _links, [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
+          FoamFace face{cell, side, -1, zone_at(cell, static_cast<std::size_t>(side)), first + number, 0, 0};
+          if (behind.part == _part.id) {
+            face.neighbour = behind.cell;
+            face.from_front = is_front(face) ? 1 : 0;
+            _result.faces.push_back(face);
+            return;
+          }
+          // The boundary face of a zone is in the part of the front region's cell.
+          const FoamFaceNote& note = note_at(cell, side);
+          face.from_front = face.zone >= 0 ? 1 : 0;
+          face.zone = std::max(face.zone, note.zone);
+          _processors.push_back({behind.part, cell, side, face});
+        });
     _result.inner = static_cast<LocalIndex>(_result.faces.size());
   }
 
@@ -211,8 +210,13 @@ private:
         if (face < 0 || _links.behind[first + side].exists()) continue;
         const PatchPlaces::Place place = _places.of(face);
         _result.faces[begin[place.patch] + static_cast<std::size_t>(place.in_part)] = {
-            cell, static_cast<std::int32_t>(side), -1, -1, _plan.first_of_patch[place.patch] + place.in_mesh,
-            0,    0};
+            cell,
+            static_cast<std::int32_t>(side),
+            -1,
+            -1,
+            _plan.first_of_patch[place.patch] + place.in_mesh,
+            0,
+            0};
       }
     }
   }
@@ -235,7 +239,9 @@ private:
         const std::int32_t zone = zone_at(cell, side);
         const GlobalIndex number =
             _plan.first_inner_face[static_cast<std::size_t>(behind.part)] + note.number;
-        _processors.push_back({behind.part, behind.cell, behind.side,
+        _processors.push_back({behind.part,
+                               behind.cell,
+                               behind.side,
                                {cell, s, -1, std::max(zone, note.zone), number, 1,
                                 static_cast<std::int8_t>(zone >= 0 ? 1 : 0)}});
       }
@@ -274,13 +280,14 @@ FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
   }
   const auto begin = result.corners.begin(), end = begin + result.count;
   std::rotate(begin,
-              std::min_element(
-                  begin, end, [&](LocalIndex a, LocalIndex b) { return part.numbers[a] < part.numbers[b]; }),
+              std::min_element(begin, end,
+                               [&](LocalIndex a, LocalIndex b) { return part.numbers[a] < part.numbers[b]; }),
               end);
   return result;
 }
 
-FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh, const FaceLinks& links) {
+FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh,
+                    const FaceLinks& links) {
   require_closed(links.defects);
   const std::vector<PartRow> rows = gather_rows(communicator, mesh, links);
   FoamPlan plan;
@@ -298,9 +305,8 @@ FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& 
   std::vector<FoamFaceNote> notes;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
     add_notes(mesh, mesh.parts[i], links.parts[i], rows, notes);
-  plan.notes = mesh::deliver(communicator, std::move(notes), [](const FoamFaceNote& note) {
-    return static_cast<parallel::Rank>(note.rank);
-  });
+  plan.notes = mesh::deliver(communicator, std::move(notes),
+                             [](const FoamFaceNote& note) { return static_cast<parallel::Rank>(note.rank); });
   std::sort(plan.notes.begin(), plan.notes.end(), [](const FoamFaceNote& a, const FoamFaceNote& b) {
     return std::tie(a.part, a.cell, a.side) < std::tie(b.part, b.cell, b.side);
   });

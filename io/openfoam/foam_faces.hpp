@@ -11,7 +11,7 @@ namespace aeroloom::io {
 
 /// A face of the part, seen from its owner there: corners are those of `side` of `cell`, outward.
 struct FoamFace {
-  mesh::LocalIndex cell = 0;       ///< the owner: of the two cells in this part the lower
+  mesh::LocalIndex cell = 0;  ///< the owner: of the two cells in this part the lower
   std::int32_t side = 0;
   mesh::LocalIndex neighbour = -1;  ///< the other cell in this part; -1: none
   std::int32_t zone = -1;           ///< the interior patch that it lies on
@@ -31,12 +31,12 @@ struct FoamProcessorPatch {
 struct FoamFaces {
   std::vector<FoamFace> faces;
   mesh::LocalIndex inner = 0;
-  std::vector<mesh::LocalIndex> of_patch;       ///< how many, by patch; none of interior ones
+  std::vector<mesh::LocalIndex> of_patch;      ///< how many, by patch; none of interior ones
   std::vector<FoamProcessorPatch> processors;  ///< ascending part
 };
 
-/// Corners of a face as the file has them, outward from the owner; the vertex of the lowest number comes first,
-/// so that both parts of a face between them begin with the same.
+/// Corners of a face as the file has them, outward from the owner; the vertex of the lowest number comes
+/// first, so that both parts of a face between them begin with the same.
 struct FoamCorners {
   std::array<mesh::LocalIndex, 4> corners{};
   int count = 0;

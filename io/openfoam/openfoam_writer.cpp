@@ -33,8 +33,7 @@ Names names_of(const FileMesh& mesh) {
   // A group must not have the name of a patch.
   for (const mesh::Patch& patch : mesh.patches) {
     const std::string group(mesh::name_of(patch.type));
-    const bool is_taken =
-        std::find(names.patches.begin(), names.patches.end(), group) != names.patches.end();
+    const bool is_taken = std::find(names.patches.begin(), names.patches.end(), group) != names.patches.end();
     names.groups.push_back(is_taken ? "" : group);
   }
   return names;
@@ -60,7 +59,12 @@ class PartWriter {
 public:
   PartWriter(const FileMesh& mesh, const FilePart& part, const FoamPlan& plan, const FoamFaces& order,
              const Names& names, const FoamFormat& format, fs::path folder)
-      : _mesh(mesh), _part(part), _plan(plan), _order(order), _names(names), _format(format),
+      : _mesh(mesh),
+        _part(part),
+        _plan(plan),
+        _order(order),
+        _names(names),
+        _format(format),
         _folder(std::move(folder)) {}
 
   void write() {
@@ -140,9 +144,11 @@ private:
   }
 
   void write_cells_of_faces() {
-    const std::string note = fmt::format("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}",
-                                         _part.vertex_count(), _part.cell_count(), faces().size(), _order.inner);
-    write_labels("owner", faces(), [](const FoamFace& face) { return face.cell; }, note);
+    const std::string note =
+        fmt::format("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}", _part.vertex_count(),
+                    _part.cell_count(), faces().size(), _order.inner);
+    write_labels(
+        "owner", faces(), [](const FoamFace& face) { return face.cell; }, note);
     write_labels(
         "neighbour", faces().first(static_cast<std::size_t>(_order.inner)),
         [](const FoamFace& face) { return face.neighbour; }, note);
@@ -166,12 +172,13 @@ private:
       start += _order.of_patch[p];
     }
     for (const FoamProcessorPatch& patch : _order.processors) {
-      file.text(fmt::format("    procBoundary{0}to{1}\n    {{\n        type            processor;\n"
-                            "        inGroups        1(processor);\n        nFaces          {2};\n"
-                            "        startFace       {3};\n        matchTolerance  0.0001;\n"
-                            "        transform       unknown;\n        myProcNo        {0};\n"
-                            "        neighbProcNo    {1};\n    }}\n",
-                            _part.id, patch.other, patch.count, start));
+      file.text(
+          fmt::format("    procBoundary{0}to{1}\n    {{\n        type            processor;\n"
+                      "        inGroups        1(processor);\n        nFaces          {2};\n"
+                      "        startFace       {3};\n        matchTolerance  0.0001;\n"
+                      "        transform       unknown;\n        myProcNo        {0};\n"
+                      "        neighbProcNo    {1};\n    }}\n",
+                      _part.id, patch.other, patch.count, start));
       start += patch.count;
     }
     file.text(")\n");
@@ -193,7 +200,8 @@ private:
         }
         first += block.count();
       }
-      file.text(fmt::format("{}\n{{\n    type cellZone;\n    cellLabels List<label> ", _names.regions[region]));
+      file.text(
+          fmt::format("{}\n{{\n    type cellZone;\n    cellLabels List<label> ", _names.regions[region]));
       FoamList list(file, _format, count);
       for (const auto& [begin, end] : ranges) {
         for (LocalIndex cell = begin; cell < end; ++cell) list.label(cell);
@@ -207,9 +215,8 @@ private:
 
   void write_face_zones() {
     LocalFile file = open("regIOobject", "faceZones");
-    const auto inner = _mesh.patches.size() -
-                       static_cast<std::size_t>(
-                           std::count_if(_mesh.patches.begin(), _mesh.patches.end(), is_boundary));
+    const auto inner = _mesh.patches.size() - static_cast<std::size_t>(std::count_if(
+                                                  _mesh.patches.begin(), _mesh.patches.end(), is_boundary));
     std::vector<std::vector<LocalIndex>> zones(_mesh.patches.size());
     for (std::size_t f = 0; f < faces().size(); ++f) {
       if (faces()[f].zone >= 0) zones[faces()[f].zone].push_back(static_cast<LocalIndex>(f));
@@ -267,9 +274,9 @@ FoamFormat format_of(const parallel::Communicator& communicator, const FileMesh&
                      const OpenFoamOptions& options) {
   GlobalIndex corners = 0;
   for (const FilePart& part : mesh.parts) {
-    corners = std::max<GlobalIndex>(
-        corners, 12 * GlobalIndex{part.cells[0].count()} + 16 * GlobalIndex{part.cells[1].count()} +
-                     18 * GlobalIndex{part.cells[2].count()});
+    corners = std::max<GlobalIndex>(corners, 12 * GlobalIndex{part.cells[0].count()} +
+                                                 16 * GlobalIndex{part.cells[1].count()} +
+                                                 18 * GlobalIndex{part.cells[2].count()});
   }
   corners = communicator.maximum(corners);
   FoamFormat format;
@@ -313,7 +320,8 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
     throw;
   }
   parallel::agree(communicator, [&] {
-    for (const FilePart& part : mesh.parts) fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
+    for (const FilePart& part : mesh.parts)
+      fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
   });
 }
 

@@ -1,0 +1,254 @@
+#include "io/gmsh/gmsh_reader.hpp"
+#include "io/gmsh/gmsh_writer.hpp"
+#include "io/gmsh/msh_head.hpp"
+#include "io/gmsh/msh_layout.hpp"
+#include "parallel/collective_error.hpp"
+#include "tests/io/damage.hpp"
+#include "tests/io/files_of_test.hpp"
+#include "tests/io/mixed_mesh.hpp"
+
+#include <array>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::io {
+namespace {
+
+namespace fs = std::filesystem;
+using parallel::CollectiveError;
+using parallel::Communicator;
+
+class Msh : public examples::FilesTest {};
+
+double volume_of(const Communicator& world, const FileMesh& mesh, CellShape shape) {
+  double volume = 0;
+  for (const FilePart& part : mesh.parts) {
+    const Block& block = part.cells[static_cast<std::size_t>(shape)];
+    for (mesh::LocalIndex c = 0; c < block.count(); ++c) {
+      const mesh::LocalIndex* v = block.item(c);
+      for (const CellFace& face : faces_of(shape)) {
+        const geometry::Vec3 a = part.point(v[face[0]]);
+        for (int k = 1; k + 1 < (face[3] < 0 ? 3 : 4); ++k)
+          volume += dot(a, cross(part.point(v[face[k]]) - a, part.point(v[face[k + 1]]) - a)) / 6;
+      }
+    }
+  }
+  return world.sum(volume);
+}
+
+void expect_same(const Communicator& world, const FileMesh& found, const FileMesh& expected) {
+  EXPECT_EQ(found.vertex_count, expected.vertex_count);
+  EXPECT_EQ(found.patches, expected.patches);
+  EXPECT_EQ(found.regions, expected.regions);
+  EXPECT_EQ(found.region_cells, expected.region_cells);
+  EXPECT_EQ(found.patch_faces, expected.patch_faces);
+  for (const CellShape shape : cell_shapes)
+    EXPECT_NEAR(volume_of(world, found, shape), volume_of(world, expected, shape), 1e-9);
+}
+
+TEST_F(Msh, ComesBackAsItWas) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  write_msh(world, mesh, path("mesh.msh"));
+  const Assembled back = assemble(world, read_msh(world, path("mesh.msh")), path("mesh.msh"), 3);
+  expect_same(world, back.mesh, mesh);
+  EXPECT_EQ(back.turned_cells + back.dropped_points + back.unnamed_faces, 0);
+}
+
+TEST_F(Msh, PartsComeBackAsOneMesh) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 4);
+  write_msh_parts(world, mesh, path("mesh.msh"));
+  for (const char* name : {"mesh_1.msh", "mesh_*.msh"}) {
+    const Assembled back = assemble(world, read_msh(world, path(name)), path(name), 4);
+    expect_same(world, back.mesh, mesh);
+    EXPECT_EQ(back.turned_cells + back.dropped_points + back.unnamed_faces, 0);
+  }
+  // Fewer parts leave none of the former behind, and a lost part is missed.
+  write_msh_parts(world, examples::mixed_mesh(world, 4, 3), path("mesh.msh"));
+  EXPECT_FALSE(fs::exists(path("mesh_4.msh")));
+  world.barrier();
+  if (world.is_root()) fs::remove(path("mesh_3.msh"));
+  world.barrier();
+  try {
+    read_msh(world, path("mesh_1.msh"));
+    ADD_FAILURE() << "a part is missing";
+  } catch (const CollectiveError& error) {
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+    EXPECT_NE(std::string(error.what()).find("mesh_3.msh"), std::string::npos);
+  }
+}
+
+TEST_F(Msh, BytesDoNotDependOnRanks) {
+  const FileMesh mesh = examples::mixed_mesh(world, 3, 5);
+  write_msh(world, mesh, path("all/mesh.msh"));
+  write_msh_parts(world, mesh, path("all/mesh.msh"));
+  if (world.is_root()) {
+    const Communicator self = Communicator::self();
+    const FileMesh alone = examples::mixed_mesh(self, 3, 5);
+    write_msh(self, alone, path("one/mesh.msh"));
+    write_msh_parts(self, alone, path("one/mesh.msh"));
+    EXPECT_EQ(examples::contents_of(folder / "all"), examples::contents_of(folder / "one"));
+    EXPECT_EQ(examples::contents_of(folder / "one").size(), 6U);
+  }
+}
+
+/// With names that are long, alike, and hard to write down.
+FileMesh awkward_mesh(const Communicator& world) {
+  FileMesh mesh = examples::mixed_mesh(world, 2, 2);
+  const std::string shared(200, 'x');
+  mesh.patches[0].name = shared + "1";
+  mesh.patches[1].name = shared + "2";
+  mesh.patches[2].name = "Flügel \"links\"\\\nunten";
+  mesh.regions[1] = "";
+  return mesh;
+}
+
+TEST_F(Msh, AwkwardNamesComeBack) {
+  const FileMesh mesh = awkward_mesh(world);
+  write_msh(world, mesh, path("mesh.msh"));
+  const RawMesh raw = read_msh(world, path("mesh.msh"));
+  EXPECT_EQ(raw.patches, mesh.patches);
+  const std::string bytes = examples::bytes_of(path("mesh.msh"));
+  EXPECT_NE(bytes.find('"' + std::string(127, 'x') + "\"\n"), std::string::npos);
+  EXPECT_NE(bytes.find('"' + std::string(125, 'x') + "_2\"\n"), std::string::npos);
+}
+
+TEST(MshLayout, IsExactFarBeyond32Bits) {
+  constexpr std::int64_t many = 3'000'000'000;
+  const MshBlocks blocks = lay_out_elements({{5, many}, {0, 7}}, {{many, 0, 11}});
+  EXPECT_EQ(blocks.written, 5);
+  EXPECT_EQ(blocks.elements, 2 * many + 5 + 7 + 11);
+  EXPECT_EQ(blocks.cells[0][0].first_tag, 5 + many + 7 + 1);
+  const std::int64_t faces = 20 + 5 * 32 + 20 + many * 40 + 20 + 7 * 40;
+  EXPECT_EQ(blocks.cells[0][0].offset, faces);
+  EXPECT_EQ(blocks.cells[0][0].record(many), faces + 20 + many * 40);
+  EXPECT_EQ(blocks.bytes, faces + 20 + many * 40 + 20 + 11 * 56);
+  const MshLayout layout = lay_out_file(100, many, blocks);
+  EXPECT_EQ(layout.points - layout.tags, 8 * many);
+  EXPECT_EQ(layout.end - layout.blocks, blocks.bytes);
+  EXPECT_EQ(partitioned_tag(10, 3, 2), 33);
+}
+
+void write_text(const Communicator& world, const std::string& path, const std::string& text) {
+  if (world.is_root()) std::ofstream(path, std::ios::binary) << text;
+  world.barrier();
+}
+
+/// One tetrahedron with a face, as others write it: sparse tags, parameters, a group of negative sign.
+constexpr char small[] = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 9 "Symmetry"
+3 4 "gas"
+$EndPhysicalNames
+$Entities
+0 0 1 1
+1 0 0 0 1 1 1 2 -9 8 0
+1 0 0 0 1 1 1 1 4 1 1
+$EndEntities
+$Nodes
+2 4 10 40
+2 1 1 3
+10
+30
+20
+0 0 0 0.1 0.2
+1 0 0 0.1 0.2
+0 1 0 0.1 0.2
+3 1 0 1
+40
+0 0 1
+$EndNodes
+$Elements
+3 3 1 9
+0 1 15 1
+1 10
+2 1 2 1
+5 10 30 20
+3 1 4 1
+9 10 30 20 40
+$EndElements
+$NodeData
+1
+"a field"
+$EndNodeData
+)";
+
+TEST_F(Msh, TextOfOtherOriginIsRead) {
+  write_text(world, path("small.msh"), small);
+  RawMesh raw = read_msh(world, path("small.msh"));
+  EXPECT_EQ(raw.patches, (std::vector<mesh::Patch>{{"Symmetry", mesh::PatchType::symmetry}}));
+  EXPECT_EQ(raw.regions, std::vector<std::string>{"gas"});
+  if (world.is_root()) {
+    EXPECT_EQ(raw.point_ids, (std::vector<mesh::GlobalIndex>{10, 30, 20, 40}));
+    EXPECT_EQ(raw.coordinates, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
+  }
+  const Assembled whole = assemble(world, std::move(raw), path("small.msh"), 1);
+  EXPECT_EQ(whole.mesh.cell_count(), 1);
+  EXPECT_EQ(whole.unnamed_faces, 3);
+}
+
+TEST_F(Msh, WhatIsNotReadIsSaid) {
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::string text = small;
+  const std::array<std::pair<std::string, const char*>, 7> cases = {{
+      {with(text, "4.1 0 8", "2.2 0 8"), "-format msh41"},
+      {with(text, "4.1 0 8", "4.1 1 4"), "bytes"},
+      {with(text, "3 1 4 1\n", "3 1 5 1\n"), "hexahedra"},
+      {with(text, "3 1 4 1\n", "3 1 11 1\n"), "-order 1"},
+      {with(text, "2 4 10 40\n2 1 1 3", "2 4 10 40\n2 1 1 4611686018427387904"), "more than the rest"},
+      {with(text, "$Elements", "$Element"), "$EndElement"},
+      {with(text, "9 10 30 20 40", "9 10 30 20 -4"), "tag"},
+  }};
+  for (const auto& [content, expected] : cases) {
+    write_text(world, path("bad.msh"), content);
+    try {
+      read_msh(world, path("bad.msh"));
+      ADD_FAILURE() << expected;
+    } catch (const CollectiveError& error) {
+      EXPECT_EQ(error.kind(), parallel::FailureKind::input);
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("bad.msh: byte "), std::string::npos) << error.what();
+    }
+    world.barrier();
+  }
+  try {
+    read_msh(world, path("absent.msh"));
+    ADD_FAILURE();
+  } catch (const CollectiveError& error) {
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+  }
+}
+
+TEST_F(Msh, DamageIsSurvived) {
+  write_msh(world, examples::mixed_mesh(world, 2, 2), path("good.msh"));
+  const auto read = [&](const std::string& damaged) {
+    assemble(world, read_msh(world, damaged), damaged, 2);
+  };
+  const std::string binary = examples::bytes_of(path("good.msh"));
+  EXPECT_GT(damage::survive(world, binary, path("bad.msh"), read).refused, 100);
+  damage::Options options;
+  options.seed = 2;
+  EXPECT_GT(damage::survive(world, small, path("bad.msh"), read, options).refused, 100);
+}
+
+TEST_F(Msh, UnwritablePlacesAreNamed) {
+  write_text(world, path("file"), "no folder");
+  const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
+  for (const auto write : {write_msh, write_msh_parts}) {
+    try {
+      write(world, mesh, path("file/mesh.msh"));
+      ADD_FAILURE();
+    } catch (const CollectiveError& error) {
+      EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+      EXPECT_NE(std::string(error.what()).find("file"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::io

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""What checkMesh makes of cases of the mixed mesh: decomposed, binary with labels of 32 and 64 bits, text, in
+one part, and in parts that end between regions.
+
+usage: openfoam_oracle.py WRITE_GMSH_OPENFOAM
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+RANKS = {"binary": 3, "text": 3, "wide": 3, "whole": 1, "regions": 4}
+
+
+def check(case, ranks, zone):
+    command = ["checkMesh", "-allTopology"]
+    if ranks > 1:
+        launcher = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "mpirun_local.sh"
+        command = [launcher, str(ranks), *command, "-parallel"]
+    environment = os.environ | {"WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam")}
+    result = subprocess.run(command, cwd=case, env=environment, capture_output=True, text=True, timeout=100)
+    text = result.stdout + result.stderr
+    assert result.returncode == 0 and "Mesh OK." in text and "***" not in text, text
+    for pattern in (r"cells: +156\n", r"prisms: +32\n", r"pyramids: +20\n", r"tetrahedra: +104\n",
+                    r"wing___lower_side +36 ", r"symmetry +13 ", r"far_field +77 ", rf"interface +{zone} ",
+                    r"lower_layer +60 ", r"upper +96 ", r"Upper triangular ordering OK",
+                    r"Total volume = 108.0703125"):
+        assert re.search(pattern, text), f"{case}: no '{pattern}' in\n{text}"
+
+
+def main(writer):
+    with tempfile.TemporaryDirectory() as name:
+        subprocess.run([writer, name], check=True, timeout=60)
+        for case, ranks in RANKS.items():
+            # Both parts count a face of a zone that lies between them.
+            check(pathlib.Path(name) / case, ranks, 64 if case == "regions" else 32)
+    print("checkMesh agrees")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

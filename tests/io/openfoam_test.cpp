@@ -1,0 +1,190 @@
+#include "io/openfoam/foam_case.hpp"
+#include "io/openfoam/foam_faces.hpp"
+#include "io/openfoam/openfoam_writer.hpp"
+#include "parallel/collective_error.hpp"
+#include "tests/io/files_of_test.hpp"
+#include "tests/io/mixed_mesh.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::io {
+namespace {
+
+namespace fs = std::filesystem;
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using parallel::CollectiveError;
+using parallel::Communicator;
+
+class OpenFoam : public examples::FilesTest {};
+
+struct OrderedPart {
+  const FilePart* part;
+  FoamFaces order;
+};
+
+std::vector<OrderedPart> order_all(const Communicator& communicator, const FileMesh& mesh, FoamPlan& plan) {
+  const FaceLinks links = link_faces(communicator, mesh);
+  plan = plan_faces(communicator, mesh, links);
+  std::vector<OrderedPart> parts;
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i)
+    parts.push_back({&mesh.parts[i], order_faces(mesh, mesh.parts[i], links.parts[i], plan)});
+  return parts;
+}
+
+TEST(FoamFaces, InnerFacesAreUpperTriangularAndPatchesFollow) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  FoamPlan plan;
+  for (const auto& [part, order] : order_all(world, mesh, plan)) {
+    std::pair<LocalIndex, LocalIndex> last{-1, -1};
+    for (LocalIndex f = 0; f < order.inner; ++f) {
+      const std::pair here{order.faces[f].cell, order.faces[f].neighbour};
+      EXPECT_LT(here.first, here.second);
+      EXPECT_LT(last, here);
+      last = here;
+    }
+    std::size_t expected = static_cast<std::size_t>(order.inner);
+    EXPECT_EQ(order.of_patch.size(), mesh.patches.size());
+    EXPECT_EQ(order.of_patch[examples::MixedMesh::interface], 0);
+    for (const LocalIndex count : order.of_patch) expected += static_cast<std::size_t>(count);
+    for (const FoamProcessorPatch& patch : order.processors)
+      expected += static_cast<std::size_t>(patch.count);
+    EXPECT_EQ(order.faces.size(), expected);
+  }
+  const GlobalIndex sides = 4 * 104 + 5 * 20 + 5 * 32, boundary = 36 + 13 + 77;
+  EXPECT_EQ(plan.faces, (sides - boundary) / 2 + boundary);
+}
+
+TEST(FoamFaces, PartsAgreeOnWhatLiesBetweenThem) {
+  const Communicator self = Communicator::self();
+  const FileMesh mesh = examples::mixed_mesh(self, 4, 3);
+  FoamPlan plan;
+  // By pair of parts and place in the patch between them: the corners, from either side.
+  std::map<std::tuple<int, int, int>, std::vector<GlobalIndex>> seen;
+  std::multiset<GlobalIndex> numbers;
+  std::map<std::int32_t, int> zoned;
+  for (const auto& [part, order] : order_all(self, mesh, plan)) {
+    std::size_t f = order.faces.size();
+    for (const FoamProcessorPatch& patch : order.processors) f -= static_cast<std::size_t>(patch.count);
+    for (const FoamProcessorPatch& patch : order.processors) {
+      for (int i = 0; i < patch.count; ++i, ++f) {
+        const FoamFace& face = order.faces[f];
+        EXPECT_EQ(face.flipped, part->id > patch.other ? 1 : 0);
+        const FoamCorners corners = corners_of_face(*part, face);
+        std::vector<GlobalIndex> mine;
+        for (int k = 0; k < corners.count; ++k) mine.push_back(part->numbers[corners.corners[k]]);
+        const auto key = std::tuple(std::min(part->id, patch.other), std::max(part->id, patch.other), i);
+        if (const auto [other, is_new] = seen.try_emplace(key, mine); !is_new) {
+          std::reverse(mine.begin() + 1, mine.end());
+          EXPECT_EQ(mine, other->second);
+        }
+      }
+    }
+    for (const FoamFace& face : order.faces) {
+      if (face.flipped == 0) numbers.insert(face.number);
+      if (face.zone >= 0) ++zoned[face.from_front];
+    }
+  }
+  EXPECT_FALSE(seen.empty());
+  // Every face of the whole mesh once.
+  EXPECT_EQ(numbers.size(), static_cast<std::size_t>(plan.faces));
+  EXPECT_EQ(std::set<GlobalIndex>(numbers.begin(), numbers.end()).size(), numbers.size());
+  EXPECT_EQ(*numbers.rbegin(), plan.faces - 1);
+  // No part of this mesh ends at the interface: all its faces lie inside parts, seen from one side.
+  EXPECT_EQ(zoned[0] + zoned[1], 32);
+}
+
+TEST(FoamFaces, ZonesBetweenPartsAreKnownToBoth) {
+  const Communicator world = Communicator::world();
+  const FileMesh mesh = repartition(world, examples::mixed_mesh(world, 4, 3), 4, true);
+  FoamPlan plan;
+  std::int64_t front = 0, back = 0;
+  for (const auto& [part, order] : order_all(world, mesh, plan)) {
+    for (const FoamFace& face : order.faces) {
+      if (face.zone >= 0) ++(face.from_front != 0 ? front : back);
+    }
+  }
+  EXPECT_EQ(world.sum(front), 32);
+  EXPECT_EQ(world.sum(back), 32);
+}
+
+TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
+  const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
+  for (const bool binary : {true, false}) {
+    write_openfoam(world, mesh, path("all"), {binary, 0});
+    if (!world.is_root()) continue;
+    const Communicator self = Communicator::self();
+    write_openfoam(self, examples::mixed_mesh(self, 3, 4), path("one"), {binary, 0});
+    const auto files = examples::contents_of(folder / "all");
+    EXPECT_EQ(files, examples::contents_of(folder / "one"));
+    EXPECT_EQ(files.size(), 4U * 11 + 4);
+    const std::string boundary = files.at("processor2/constant/polyMesh/boundary");
+    for (const char* expected : {"wing___lower_side", "inGroups        1(wall);", "far_field",
+                                 "procBoundary2to1", "type            symmetry;"})
+      EXPECT_NE(boundary.find(expected), std::string::npos) << expected;
+    EXPECT_EQ(boundary.find("interface"), std::string::npos);
+  }
+}
+
+TEST_F(OpenFoam, FilesOfUsersStay) {
+  if (world.is_root()) {
+    fs::create_directories(folder / "case" / "system");
+    std::ofstream(path("case/system/controlDict")) << "mine";
+  }
+  world.barrier();
+  write_openfoam(world, examples::mixed_mesh(world, 4, 3), path("case"));
+  EXPECT_EQ(examples::bytes_of(path("case/system/controlDict")), "mine");
+  // Fewer parts: folders of the others go, unless there is more in them.
+  write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+  EXPECT_TRUE(fs::exists(path("case/processor1")));
+  EXPECT_FALSE(fs::exists(path("case/processor2")));
+  world.barrier();
+  if (world.is_root()) fs::create_directories(folder / "case" / "processor7" / "100");
+  world.barrier();
+  try {
+    write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+    ADD_FAILURE();
+  } catch (const CollectiveError& error) {
+    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+    EXPECT_NE(std::string(error.what()).find("processor7"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(fs::exists(path("case/processor1/constant/polyMesh/points")));
+  world.barrier();
+  // One part: a mesh that needs no decomposition.
+  write_openfoam(world, examples::mixed_mesh(world, 4, 1), path("case"));
+  EXPECT_TRUE(fs::exists(path("case/constant/polyMesh/owner")));
+  EXPECT_FALSE(fs::exists(path("case/processor0")));
+}
+
+TEST_F(OpenFoam, OpenMeshesAreRefused) {
+  FileMesh mesh = examples::mixed_mesh(world, 2, 1);
+  for (FilePart& part : mesh.parts) part.faces[0] = {};
+  try {
+    write_openfoam(world, mesh, path("case"));
+    ADD_FAILURE();
+  } catch (const CollectiveError& error) {
+    EXPECT_EQ(error.kind(), parallel::FailureKind::input);
+    EXPECT_NE(std::string(error.what()).find("neither a second cell nor a patch"), std::string::npos);
+  }
+}
+
+TEST(FoamNames, AreWordsAndDistinct) {
+  EXPECT_EQ(foam_words({"wing/left", "wing left", "wing_left", "1st", "", "procBoundary0to1", "Flügel"}),
+            (std::vector<std::string>{"wing_left_2", "wing_left_3", "wing_left", "_1st", "unnamed",
+                                      "_procBoundary0to1", "Flügel"}));
+}
+
+TEST(FoamLabels, GrowWithTheMesh) {
+  EXPECT_EQ(foam_label_bits(1000, 2000, 300, 10000), 32);
+  EXPECT_EQ(foam_label_bits(3'000'000'000, 6'000'000'000, 500'000'000, 10000), 64);
+  EXPECT_EQ(foam_label_bits(1000, (std::int64_t{1} << 31) - 1, 300, 10000), 64);
+}
+
+}  // namespace
+}  // namespace aeroloom::io
