@@ -183,6 +183,7 @@ void rename_twins(RawMesh& raw) {
   constexpr std::size_t longest = std::size_t{1} << 16;
   const auto same = [](const std::string& name) { return name; };
   std::vector<std::string> names;
+  names.reserve(raw.patches.size());
   for (const mesh::Patch& patch : raw.patches) names.push_back(patch.name);
   names = distinct_names(names, longest, same);
   for (std::size_t i = 0; i < names.size(); ++i) raw.patches[i].name = names[i];

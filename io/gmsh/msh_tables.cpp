@@ -34,7 +34,6 @@ std::int32_t corners_of_type(const MshScanner& scanner, std::int32_t type) {
     case 2:
       return 3;
     case 3:
-      return 4;
     case 4:
       return 4;
     case 7:
