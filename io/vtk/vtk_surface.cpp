@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vtkCellData.h>
@@ -114,6 +115,36 @@ std::vector<PartPiece> pieces_of(const mesh::DistributedMesh& surface, const mes
   return pieces;
 }
 
+/// The parts of a mesh with some of their faces; looks into arrays of its own.
+struct SelectedFaces {
+  std::vector<PartPiece> pieces;
+  std::vector<std::vector<mesh::LocalIndex>> corners;
+};
+
+SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
+  SelectedFaces selected;
+  selected.pieces = pieces_of(mesh);
+  selected.corners.reserve(face_shape_count * mesh.parts.size());
+  for (PartPiece& piece : selected.pieces) {
+    for (Block& block : piece.part.faces) {
+      std::vector<mesh::LocalIndex>& corners = selected.corners.emplace_back();
+      std::vector<Run> runs;
+      for (Run run : block.runs) {
+        const bool between = mesh.patches[static_cast<std::size_t>(run.id)].type == mesh::PatchType::interior;
+        if (between != (faces == SurfaceFaces::between_regions)) continue;
+        corners.insert(corners.end(), block.item(run.begin), block.item(run.end));
+        run.end -= run.begin;
+        run.begin = static_cast<mesh::LocalIndex>(corners.size()) / block.corners - run.end;
+        run.end += run.begin;
+        runs.push_back(run);
+      }
+      block.connectivity = corners;
+      block.runs = std::move(runs);
+    }
+  }
+  return selected;
+}
+
 }  // namespace
 
 void write_surface(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
@@ -133,10 +164,12 @@ void write_surface(const parallel::Communicator& communicator, const mesh::Distr
 }
 
 void write_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
-                   const std::string& directory, const std::string& name, Compression compression) {
+                   const std::string& directory, const std::string& name, Compression compression,
+                   SurfaceFaces faces) {
   const PartFiles files{directory, name, "pvtp", "vtp"};
+  const SelectedFaces selected = select_faces(mesh, faces);
   const std::size_t parts =
-      write_parts(communicator, pieces_of(mesh), PartContent::faces, faces_per_part, files,
+      write_parts(communicator, selected.pieces, PartContent::faces, faces_per_part, files,
                   [&](const std::vector<PartPiece>& pieces, const std::string& path) {
                     write_face_part(pieces, mesh, path, compression);
                   });

@@ -37,12 +37,14 @@ void write_volume(const parallel::Communicator& communicator, const mesh::Distri
 void write_surface(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                    const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
                    Compression compression = Compression::none);
-/// The boundary faces of a mesh, with patches between regions: triangles and quadrilaterals by part, then
-/// shape, then patch. Cell arrays `piece` and `patch`; field arrays `patch_names` and `patch_types`; point
-/// array `global_id`, of the volume mesh. Collective, as write_volume.
+/// Of the patches of a mesh.
+enum class SurfaceFaces { outside, between_regions };
+/// The boundary faces of a mesh, or those between its regions: triangles and quadrilaterals by part, then
+/// shape, then patch. Cell arrays `piece` and `patch`; field arrays `patch_names` and `patch_types` (of all
+/// patches); point array `global_id`, of the volume mesh. Collective, as write_volume.
 void write_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
                    const std::string& directory, const std::string& name,
-                   Compression compression = Compression::none);
+                   Compression compression = Compression::none, SurfaceFaces faces = SurfaceFaces::outside);
 
 /// Writes single triangles, e.g. offenders of a failure, to one .vtp file. Not collective.
 void write_triangles(const std::vector<geometry::Vec3>& points,

@@ -140,7 +140,6 @@ TEST_F(VtkMixed, ShowsItsBoundaryWithPatches) {
     surface.GetCellPoints(f, corners);
     const auto patch = static_cast<std::size_t>(surface.GetCellData()->GetArray("patch")->GetTuple1(f));
     ++counts.at(patch)[static_cast<std::size_t>(corners->GetNumberOfIds() - 3)];
-    if (mesh.patches[patch].type == mesh::PatchType::interior) continue;
     const auto p = [&](vtkIdType k) {
       double x[3];
       surface.GetPoint(corners->GetId(k), x);
@@ -148,10 +147,24 @@ TEST_F(VtkMixed, ShowsItsBoundaryWithPatches) {
     };
     for (vtkIdType k = 2; k < corners->GetNumberOfIds(); ++k) closed += cross(p(k - 1) - p(0), p(k) - p(0));
   }
-  EXPECT_EQ(counts, mesh.patch_faces);
+  std::vector<std::array<GlobalIndex, face_shape_count>> outside = mesh.patch_faces;
+  outside[examples::MixedMesh::interface] = {};
+  EXPECT_EQ(counts, outside);
   EXPECT_NEAR(norm(closed), 0, 1e-11) << "all look outward";
   EXPECT_EQ(surface.GetPointData()->GetArray("global_id")->GetDataTypeSize(), 8);
   EXPECT_EQ(surface.GetFieldData()->GetAbstractArray("patch_types")->GetNumberOfValues(), 4);
+}
+
+TEST_F(VtkMixed, ShowsFacesBetweenRegionsByThemselves) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  write_surface(world, mesh, folder, "interfaces", Compression::none, SurfaceFaces::between_regions);
+  vtkNew<vtkXMLPPolyDataReader> reader;
+  reader->SetFileName(path("interfaces.pvtp").c_str());
+  reader->Update();
+  vtkPolyData& surface = *reader->GetOutput();
+  ASSERT_EQ(surface.GetNumberOfCells(), mesh.patch_faces[examples::MixedMesh::interface][0]);
+  for (vtkIdType f = 0; f < surface.GetNumberOfCells(); ++f)
+    EXPECT_EQ(surface.GetCellData()->GetArray("patch")->GetTuple1(f), examples::MixedMesh::interface);
 }
 
 TEST(CellQuality, IsOneForRegularCells) {
