@@ -166,6 +166,9 @@ void declare_stages(KeyTable& root, Case& result) {
   gate.number("percentile_5", result.gate.percentile_5, angle);
   gate.number("min_mean_ratio", result.gate.min_mean_ratio, ratio);
   gate.number("mean_mean_ratio", result.gate.mean_mean_ratio, ratio);
+  gate.number("largest_volume_ratio", result.gate.largest_volume_ratio, Range::between(1, io::largest_ratio));
+  gate.number("largest_edge_ratio", result.gate.largest_edge_ratio, Range::between(1, io::largest_ratio));
+  gate.number("min_scaled_jacobian", result.gate.min_scaled_jacobian, Range::between(-1, 1));
   KeyTable& output = root.section("output");
   output.text("directory", result.output.directory);
   std::vector<std::pair<std::string, io::FileFormat>> formats;

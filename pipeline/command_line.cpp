@@ -5,6 +5,7 @@
 #include "pipeline/check.hpp"
 #include "pipeline/convert_file.hpp"
 #include "pipeline/improve_file.hpp"
+#include "pipeline/quality_file.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
 #include "pipeline/stage.hpp"
@@ -36,6 +37,7 @@ constexpr const char* examples =
     "  aeroloom improve mesh.vtu --set output.directory=better   improve another program's mesh\n"
     "  aeroloom convert out/mesh.pvtu mesh.cgns             a mesh in the format of a solver "
     "(docs/formats.md)\n"
+    "  aeroloom quality mesh.meshb --gate.largest_edge_ratio=1000   how good a mesh is (docs/quality.md)\n"
     "  aeroloom export-cad configs/transport.yaml a.step   write the case's geometry as STEP\n\n"
     "Exit codes: 0 ok, 2 usage or configuration, 3 CAD, 4 surface, 5 volume, 6 quality gate,\n"
     "7 input/output, 8 resources, 70 bug.";
@@ -46,6 +48,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string cad_file, mesh_file;
   Conversion conversion;
+  QualityRequest quality;
   bool verbose = false, quiet = false;
 };
 
@@ -142,6 +145,15 @@ int convert(const Communicator& communicator, const Arguments& arguments) {
   }
 }
 
+int quality(const Communicator& communicator, const Arguments& arguments, const QualityGate& gate) {
+  try {
+    const std::string missed = show_quality(communicator, arguments.quality, gate);
+    return missed.empty() ? 0 : fail(communicator, ExitCode::quality_gate, missed);
+  } catch (const parallel::CollectiveError& error) {
+    return fail(communicator, code_of(error, ExitCode::files), error.what());
+  }
+}
+
 int export_cad(const Communicator& communicator, const Case& input, const std::string& file) {
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) cad::export_step(input.domain, file);
@@ -189,6 +201,22 @@ void add_convert_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");
 }
 
+void add_quality_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("file", arguments.quality.file, "the mesh, in any format that is read (docs/formats.md)")
+      ->required();
+  command.add_flag("--json", arguments.quality.print_json, "print JSON (docs/quality.md)");
+  command.add_option("--output", arguments.quality.json_file, "write the JSON to this file");
+  for (const std::string_view key : gate_keys) {
+    command.add_option_function<std::string>(
+        fmt::format("--gate.{}", key),
+        [&arguments, key](const std::string& value) {
+          arguments.overrides.push_back(fmt::format("improve.gate.{}={}", key, value));
+        },
+        fmt::format("limit; as improve.gate.{} (docs/configuration.md)", key));
+  }
+}
+
 }  // namespace
 
 int run_command_line(const Communicator& communicator, int argc, char** argv) {
@@ -209,6 +237,9 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
       ->required();
   CLI::App* convert_command = program.add_subcommand("convert", "write a mesh in another format");
   add_convert_options(*convert_command, arguments);
+  CLI::App* quality_command =
+      program.add_subcommand("quality", "measure a mesh: angles, ratios, volumes, worst cells, defects");
+  add_quality_options(*quality_command, arguments);
   add_common_options(*improve_command, arguments);
   add_case_options(*run_command, arguments);
   add_case_options(*check_command, arguments);
@@ -234,6 +265,7 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
   if (run_command->parsed() || improve_command->parsed())
     return run(communicator, input, arguments.mesh_file);
   if (convert_command->parsed()) return convert(communicator, arguments);
+  if (quality_command->parsed()) return quality(communicator, arguments, input.gate);
   if (check_command->parsed()) return check(communicator, input);
   try {
     return export_cad(communicator, input, arguments.cad_file);

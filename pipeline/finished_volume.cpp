@@ -1,6 +1,7 @@
 #include "pipeline/finished_volume.hpp"
 
 #include "improve/pinned.hpp"
+#include "io/mixed_quality.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "pipeline/stage_log.hpp"
@@ -30,6 +31,13 @@ void list_pinned(const Communicator& communicator, const Case& input, const mesh
                  const mesh::Numbering& numbering, const mesh::CellsBeyond& suspects, RunRecord& record) {
   record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle, suspects);
   log_pinned(record);
+}
+
+/// Measures that compare neighbours and edges. Collective.
+io::MixedQuality measure_cells(const Communicator& communicator, const mesh::DistributedMesh& volume,
+                               const mesh::Numbering& numbering) {
+  const io::FileMesh cells = io::file_mesh_of(communicator, volume, numbering);
+  return io::measure_quality(communicator, cells, io::link_faces(communicator, cells));
 }
 
 }  // namespace
@@ -62,12 +70,14 @@ void inspect_volume(const Communicator& communicator, const Case& input, const m
   mesh::CellsBeyond suspects;
   if (input.improve.enabled) suspects.limits = improve::suspect_angles(input.improve.target_angle);
   record.quality = mesh::summarise_quality(communicator, volume, numbering, &suspects);
+  if (input.gate.asks_for_cells()) record.cells = measure_cells(communicator, volume, numbering);
   if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, suspects, record);
   record.hash = mesh::hash_mesh(communicator, volume, numbering);
 }
 
 void require_quality(const QualityGate& gate, const RunRecord& record) {
-  const std::string missed = missed_limits(gate, *record.quality, record.pinned);
+  const std::string missed =
+      missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
   if (!missed.empty()) throw StageFailure("quality gate", ExitCode::quality_gate, missed);
 }
 

@@ -6,6 +6,35 @@
 
 namespace aeroloom::pipeline {
 
+namespace {
+
+using io::Measure;
+
+std::string line(const char* key, double value, double limit, const char* side) {
+  return fmt::format("\n  improve.gate.{} is {:.4g}, not {:g} {}", key, value, limit, side);
+}
+
+/// The worst cell by a measure against its limit.
+std::string missed_limit(const io::MixedQuality& cells, Measure measure, const std::optional<double>& limit,
+                         const char* key) {
+  const auto& worst = cells.worst[static_cast<std::size_t>(measure)];
+  if (!limit || worst.empty()) return {};
+  const io::WorstCellOfShape& cell = worst.front();
+  const bool at_most = io::larger_is_worse(measure);
+  if (at_most ? cell.value <= *limit : cell.value >= *limit) return {};
+  return line(key, cell.value, *limit, at_most ? "at most" : "at least") +
+         fmt::format(" (cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", cell.cell, io::name_of(cell.shape),
+                     cell.center.x, cell.center.y, cell.center.z);
+}
+
+std::string missed_ratios(const QualityGate& gate, const io::MixedQuality& cells) {
+  return missed_limit(cells, Measure::volume_ratio, gate.largest_volume_ratio, "largest_volume_ratio") +
+         missed_limit(cells, Measure::edge_ratio, gate.largest_edge_ratio, "largest_edge_ratio") +
+         missed_limit(cells, Measure::scaled_jacobian, gate.min_scaled_jacobian, "min_scaled_jacobian");
+}
+
+}  // namespace
+
 std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate) {
   std::vector<improve::PercentileTarget> targets;
   if (gate.percentile_01) targets.push_back({0.001, *gate.percentile_01});
@@ -15,8 +44,8 @@ std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gat
 }
 
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
-                          const improve::PinnedReport& pinned) {
-  std::string text;
+                          const improve::PinnedReport& pinned, const io::MixedQuality* cells) {
+  std::string text = cells != nullptr ? missed_ratios(gate, *cells) : "";
   const auto at_least = [&](const std::optional<double>& limit, double value, const char* key) {
     if (limit && value < *limit)
       text += fmt::format("\n  {} is {:.4g}, not {:g} at least", key, value, *limit);
@@ -45,6 +74,24 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
   }
   return "the mesh misses what was asked for; it was written nevertheless:" + text + place +
          "\n  remedy: a larger improve.target_angle, smaller sizes there, or lower limits";
+}
+
+std::string missed_limits(const QualityGate& gate, const io::MixedQuality& cells) {
+  std::string text = missed_limit(cells, Measure::smallest_dihedral, gate.smallest_angle, "smallest_angle") +
+                     missed_limit(cells, Measure::largest_dihedral, gate.largest_angle, "largest_angle");
+  const io::MeasureDistribution& angles =
+      cells.distribution(io::CellShape::tetrahedron, Measure::smallest_dihedral);
+  const io::MeasureDistribution& ratios = cells.distribution(io::CellShape::tetrahedron, Measure::mean_ratio);
+  const auto at_least = [&](const std::optional<double>& limit, double value, const char* key) {
+    if (limit && angles.cells > 0 && value < *limit) text += line(key, value, *limit, "at least");
+  };
+  at_least(gate.percentile_01, angles.percentiles[0], "percentile_01");
+  at_least(gate.percentile_1, angles.percentiles[1], "percentile_1");
+  at_least(gate.percentile_5, angles.percentiles[2], "percentile_5");
+  text += missed_limit(cells, Measure::mean_ratio, gate.min_mean_ratio, "min_mean_ratio");
+  at_least(gate.mean_mean_ratio, ratios.mean, "mean_mean_ratio");
+  text += missed_ratios(gate, cells);
+  return text.empty() ? text : "the mesh misses what was asked for:" + text;
 }
 
 }  // namespace aeroloom::pipeline

@@ -3,10 +3,13 @@
 
 #include "improve/improve_options.hpp"
 #include "improve/pinned.hpp"
+#include "io/mixed_quality.hpp"
 #include "mesh/quality.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace aeroloom::pipeline {
@@ -18,13 +21,27 @@ struct QualityGate {
   std::optional<double> smallest_angle, largest_angle;
   std::optional<double> percentile_01, percentile_1, percentile_5;  ///< of the smallest angles
   std::optional<double> min_mean_ratio, mean_mean_ratio;
+  std::optional<double> largest_volume_ratio, largest_edge_ratio,
+      min_scaled_jacobian;  ///< io/cell_measures.hpp
+
+  /// Whether io::measure_quality is needed.
+  bool asks_for_cells() const { return largest_volume_ratio || largest_edge_ratio || min_scaled_jacobian; }
 };
+/// The keys under `improve.gate`.
+inline constexpr std::array<std::string_view, 10> gate_keys = {
+    "smallest_angle", "largest_angle",   "percentile_01",        "percentile_1",       "percentile_5",
+    "min_mean_ratio", "mean_mean_ratio", "largest_volume_ratio", "largest_edge_ratio", "min_scaled_jacobian"};
 
 /// What improvement is to work on beside its target.
 std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate);
 
-/// The limits that the mesh misses, with what it has and where the worst tetrahedron is; empty: none.
+/// The limits that the mesh misses, with what it has and where the worst tetrahedron is; empty: none. `cells`
+/// may be null where the gate does not ask for them.
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
-                          const improve::PinnedReport& pinned);
+                          const improve::PinnedReport& pinned, const io::MixedQuality* cells);
+
+/// The limits that a mesh from a file misses, a line each with what it has and where; empty: none. Angles
+/// count of cells of all shapes, percentiles and mean ratios of tetrahedra.
+std::string missed_limits(const QualityGate& gate, const io::MixedQuality& cells);
 
 }  // namespace aeroloom::pipeline

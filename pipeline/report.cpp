@@ -1,6 +1,7 @@
 #include "pipeline/report.hpp"
 
 #include "pipeline/change_json.hpp"
+#include "pipeline/mixed_quality_json.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -300,6 +301,7 @@ void add_finished_mesh(Json& json, const RunRecord& record,
                        const std::vector<parallel::StageSummary>& stages) {
   json["mesh"] = mesh_json(record);
   if (record.quality) json["quality"] = quality_json(*record.quality);
+  if (record.cells) json["quality"]["cells"] = to_json(*record.cells);
   json["improve"] = improve_json(record);
   json["pinned"] = pinned_json(record);
   json["unresolved_features"] = unresolved_json(record);

@@ -1,0 +1,118 @@
+#include "pipeline/quality_file.hpp"
+
+#include "io/mixed_quality.hpp"
+#include "io/read_mesh.hpp"
+#include "parallel/collective_error.hpp"
+#include "pipeline/mixed_quality_json.hpp"
+#include "pipeline/mixed_quality_text.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int schema_version = 1;
+
+Json mesh_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+  return {{"points", mesh.vertex_count},
+          {"cells", mesh.cell_count()},
+          {"tetrahedra", mesh.cell_count(io::CellShape::tetrahedron)},
+          {"pyramids", mesh.cell_count(io::CellShape::pyramid)},
+          {"prisms", mesh.cell_count(io::CellShape::prism)},
+          {"boundary_triangles", mesh.boundary_count(io::FaceShape::triangle)},
+          {"boundary_quadrilaterals", mesh.boundary_count(io::FaceShape::quadrilateral)},
+          {"volume", quality.volume}};
+}
+
+Json regions_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+  Json json = Json::array();
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    json.push_back({{"name", mesh.regions[r]},
+                    {"volume", quality.region_volumes[r]},
+                    {"tetrahedra", mesh.region_cells[r][0]},
+                    {"pyramids", mesh.region_cells[r][1]},
+                    {"prisms", mesh.region_cells[r][2]}});
+  }
+  return json;
+}
+
+Json patches_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+  Json json = Json::array();
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    json.push_back({{"name", mesh.patches[p].name},
+                    {"type", name_of(mesh.patches[p].type)},
+                    {"area", quality.patch_areas[p]},
+                    {"triangles", mesh.patch_faces[p][0]},
+                    {"quadrilaterals", mesh.patch_faces[p][1]}});
+  }
+  return json;
+}
+
+Json report_json(const std::string& path, const io::Assembled& file, const io::MixedQuality& quality,
+                 const std::string& missed) {
+  const io::LinkDefects& defects = quality.defects;
+  return {{"schema_version", schema_version},
+          {"file", path},
+          {"mesh", mesh_json(file.mesh, quality)},
+          {"regions", regions_json(file.mesh, quality)},
+          {"patches", patches_json(file.mesh, quality)},
+          {"reading",
+           {{"turned_cells", file.turned_cells},
+            {"dropped_points", file.dropped_points},
+            {"unnamed_faces", file.unnamed_faces},
+            {"left_out_faces", file.left_out_faces}}},
+          {"defects",
+           {{"crowded_faces", defects.crowded_faces},
+            {"stray_faces", defects.stray_faces},
+            {"repeated_faces", defects.repeated_faces},
+            {"open_faces", defects.open_faces}}},
+          {"quality", to_json(quality)},
+          {"gate", {{"passed", missed.empty()}, {"missed", missed}}}};
+}
+
+/// What a program prints of a name in a file that is no UTF-8 is replaced.
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    throw std::filesystem::filesystem_error("cannot write", path, std::make_error_code(std::errc::io_error));
+  }
+}
+
+}  // namespace
+
+std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
+                         const QualityGate& gate) {
+  const io::Assembled file = io::read_mesh(communicator, request.file, 0);
+  const io::MixedQuality quality =
+      io::measure_quality(communicator, file.mesh, io::link_faces(communicator, file.mesh));
+  std::string missed = missed_limits(gate, quality);
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    const std::string json = dump(report_json(request.file, file, quality, missed));
+    if (!request.json_file.empty()) write_text(request.json_file, json);
+    if (request.print_json) {
+      fmt::print("{}", json);
+    } else {
+      fmt::print("'{}': {}\n{}", request.file, io::describe(file), quality_text(file.mesh, quality));
+    }
+    std::fflush(stdout);
+  });
+  return missed;
+}
+
+}  // namespace aeroloom::pipeline

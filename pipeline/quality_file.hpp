@@ -1,0 +1,23 @@
+/// The quality of a mesh from a file.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "pipeline/quality_gate.hpp"
+
+#include <string>
+
+namespace aeroloom::pipeline {
+
+struct QualityRequest {
+  std::string file;         ///< the mesh
+  bool print_json = false;  ///< instead of text
+  std::string json_file;    ///< written where not empty
+};
+
+/// Reads a mesh (io/read_mesh.hpp), measures it (io/mixed_quality.hpp), prints what it found, writes it where
+/// asked for. Returns the limits of the gate that the mesh misses, the same on every rank; empty: none.
+/// Collective. Throws CollectiveError.
+std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
+                         const QualityGate& gate);
+
+}  // namespace aeroloom::pipeline
