@@ -1,10 +1,13 @@
 #include "io/file_formats.hpp"
 
 #include "io/cgns/cgns_writer.hpp"
+#include "io/gmsh/gmsh_writer.hpp"
 #include "io/medit/medit_writer.hpp"
+#include "io/openfoam/openfoam_writer.hpp"
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/shared_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -42,6 +45,13 @@ void write_vtu(const parallel::Communicator& communicator, const FileMesh& mesh,
   write_volume(communicator, mesh, file.parent_path().string(), file.filename().string(), compression);
 }
 
+/// The case is the folder of the file, which viewers open and which holds nothing.
+void write_foam(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  write_openfoam(communicator, mesh, folder.empty() ? "." : folder.string());
+  parallel::write_shared_file(communicator, path, [](parallel::SharedFile&) {});
+}
+
 void write_parts_as_they_are(const parallel::Communicator& communicator, const FileMesh& mesh,
                              FileFormat format, const std::string& path, const WriteOptions& options) {
   switch (format) {
@@ -61,8 +71,12 @@ void write_parts_as_they_are(const parallel::Communicator& communicator, const F
       return write_su2(communicator, mesh, path);
     case FileFormat::su2b:
       return write_su2b(communicator, mesh, path);
-    default:
-      throw std::logic_error("no writer");
+    case FileFormat::msh:
+      return write_msh(communicator, mesh, path);
+    case FileFormat::msh_parts:
+      return write_msh_parts(communicator, mesh, without(without(path, "_1.msh"), ".msh") + ".msh");
+    case FileFormat::openfoam:
+      return write_foam(communicator, mesh, path);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "io/read_mesh.hpp"
 
+#include "io/gmsh/gmsh_reader.hpp"
 #include "io/medit/medit_reader.hpp"
 #include "io/su2/su2_reader.hpp"
 #include "io/ugrid/ugrid_reader.hpp"
@@ -27,9 +28,9 @@ struct NamedReader {
 };
 
 constexpr NamedReader readers[] = {
-    {".vtu", read_vtk},     {".pvtu", read_vtk},      {".vtk", read_vtk}, {".vtkhdf", read_vtkhdf},
-    {".ugrid", read_ugrid}, {".ugrid64", read_ugrid}, {".su2", read_su2}, {".su2b", read_su2b},
-    {".mesh", read_medit},  {".meshb", read_medit},
+    {".vtu", read_vtk},     {".pvtu", read_vtk},      {".vtk", read_vtk},     {".vtkhdf", read_vtkhdf},
+    {".ugrid", read_ugrid}, {".ugrid64", read_ugrid}, {".su2", read_su2},     {".msh", read_msh},
+    {".su2b", read_su2b},   {".mesh", read_medit},    {".meshb", read_medit},
 };
 
 }  // namespace
@@ -47,7 +48,7 @@ Assembled read_mesh(const parallel::Communicator& communicator, const std::strin
         fmt::format("'{}': no format of meshes that is read here ends like this; known are {}", path, known));
   }
   parallel::agree(communicator, [&] {
-    if (communicator.is_root() && !std::filesystem::exists(path))
+    if (communicator.is_root() && path.find('*') == std::string::npos && !std::filesystem::exists(path))
       throw std::filesystem::filesystem_error("cannot read", path,
                                               std::make_error_code(std::errc::no_such_file_or_directory));
   });
