@@ -1,6 +1,7 @@
 #include "io/su2/su2_markers.hpp"
 
 #include "io/streams/text_lines.hpp"
+#include "parallel/collective_error.hpp"
 #include "parallel/shared_file.hpp"
 
 #include <array>
@@ -99,6 +100,12 @@ std::vector<std::string> marker_names(const FileMesh& mesh, const BoundaryPatche
 std::string markers_path_of(const std::string& path) {
   const std::filesystem::path file(path);
   return (file.parent_path() / file.stem()).string() + "_markers.cfg";
+}
+
+void remove_markers(const parallel::Communicator& communicator, const std::string& mesh_path) {
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) std::filesystem::remove(markers_path_of(mesh_path));
+  });
 }
 
 void write_markers(const parallel::Communicator& communicator, const std::string& mesh_path,

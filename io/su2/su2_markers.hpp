@@ -22,6 +22,9 @@ std::vector<std::string> marker_names(const FileMesh& mesh, const BoundaryPatche
 /// NAME_markers.cfg beside NAME.su2 or NAME.su2b.
 std::string markers_path_of(const std::string& path);
 
+/// Removes NAME_markers.cfg: conditions of an earlier mesh must not stand beside a new one. Collective;
+/// throws CollectiveError (files).
+void remove_markers(const parallel::Communicator& communicator, const std::string& mesh_path);
 /// Writes lines for an SU2 configuration to NAME_markers.cfg: the markers of the mesh at `mesh_path` by
 /// condition. Walls are MARKER_HEATFLUX (adiabatic), slip MARKER_EULER, symmetry MARKER_SYM, farfield
 /// MARKER_FAR; inlets and outlets stand in comments, as values of their own must be filled in. Collective;

@@ -1,8 +1,8 @@
 /// SU2 meshes: text (.su2) and binary (.su2b).
 ///
 /// Patches are the markers; NAME_markers.cfg beside NAME.su2, where there is one, gives their conditions,
-/// else they are walls. Marker SEND_RECEIVE of old files, points and lines are left out. One region, `fluid`.
-/// Meshes of two dimensions and files of several zones are errors.
+/// else they are walls; markers of one name are one. Marker SEND_RECEIVE of old files, points and lines are
+/// left out. One region, `fluid`. Meshes of two dimensions and files of several zones are errors.
 #pragma once
 
 #include "io/raw_mesh.hpp"

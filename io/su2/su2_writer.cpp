@@ -146,6 +146,7 @@ void write_su2(const parallel::Communicator& communicator, const FileMesh& mesh,
   const std::vector<Stretch> mine = measure(mesh, patches);
   std::vector<Stretch> all = communicator.all_gather_items(std::span<const Stretch>(mine));
   const std::vector<std::int64_t> heading_offsets = place(headings, all);
+  remove_markers(communicator, path);
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file);
     for (std::size_t section = 0; communicator.is_root() && section < headings.size(); ++section) {

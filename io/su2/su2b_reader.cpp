@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,6 +104,7 @@ private:
     if (count < 0 || count > _file.bytes_from(offset) / (su2b_name_bytes + 2 * width))
       _file.fail(offset, fmt::format("{} markers do not fit a file of {} bytes", count, _file.size()));
     std::int64_t at = offset + 4;
+    std::map<std::string, std::int32_t> patch_of;
     for (std::int32_t marker = 0; marker < count; ++marker) {
       std::array<char, su2b_name_bytes + 1> name{};
       _file.read(at, std::span<char>(name.data(), su2b_name_bytes));
@@ -108,9 +112,10 @@ private:
       at = faces.end;
       const std::string_view text(name.data());
       if (text == "SEND_RECEIVE") continue;
-      raw.patches.push_back(
-          {text.empty() ? fmt::format("marker_{}", marker + 1) : std::string(text), mesh::PatchType::wall});
-      read_elements(faces, static_cast<std::int32_t>(raw.patches.size()) - 1, raw);
+      const std::string tag = text.empty() ? fmt::format("marker_{}", marker + 1) : std::string(text);
+      const auto [found, is_new] = patch_of.try_emplace(tag, static_cast<std::int32_t>(raw.patches.size()));
+      if (is_new) raw.patches.push_back({tag, mesh::PatchType::wall});
+      read_elements(faces, found->second, raw);
     }
   }
 

@@ -147,6 +147,7 @@ void write_su2b(const parallel::Communicator& communicator, const FileMesh& mesh
   const std::vector<std::string> names = marker_names(mesh, patches);
   const bool is_narrow = su2b_layout(counts_of(mesh, patches)).integer_bytes == 4;
   const bool is_root = communicator.is_root();
+  remove_markers(communicator, path);
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file, ByteOrder::little);
     if (is_narrow) {

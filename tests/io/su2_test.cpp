@@ -117,7 +117,8 @@ TEST_F(Su2, ConditionsOfAllTypesComeBack) {
   std::vector<mesh::Patch> wanted;
   mesh.patches.clear();
   for (int i = 0; i < 2 * count; ++i) {
-    mesh.patches.push_back({"m" + std::to_string(i), static_cast<mesh::PatchType>(i % count)});
+    mesh.patches.push_back(
+        {std::string("m").append(std::to_string(i)), static_cast<mesh::PatchType>(i % count)});
     patches.ids.push_back(i);
   }
   write_markers(world, path("types.su2b"), mesh, patches, marker_names(mesh, patches));
