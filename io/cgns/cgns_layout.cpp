@@ -101,7 +101,7 @@ public:
   /// A node without data; its path.
   std::string add(const std::string& parent, const std::string& name, const char* label,
                   const char* type = "MT") {
-    const std::string path = parent + "/" + name;
+    std::string path = parent + "/" + name;
     _file.add_group(path);
     set_attributes(path, name, label, type);
     const std::array<std::int32_t, 1> flags = {1};
@@ -110,26 +110,26 @@ public:
   }
   std::string add_text(const std::string& parent, const std::string& name, const char* label,
                        const std::string& text) {
-    const std::string path = add(parent, name, label, "C1");
+    std::string path = add(parent, name, label, "C1");
     _file.store(path + "/ data", std::span<const std::int8_t>(chars(text, text.size())));
     return path;
   }
   void add_floats(const std::string& parent, const std::string& name, const char* label,
                   std::span<const float> values) {
-    const std::string path = add(parent, name, label, "R4");
+    std::string path = add(parent, name, label, "R4");
     const std::array dimensions = {static_cast<std::int64_t>(values.size())};
     _file.store_bytes(path + "/ data", ItemType::float32, dimensions, std::as_bytes(values));
   }
   /// Lines of equal length.
   void add_table(const std::string& parent, const std::string& name, const char* label,
                  const std::string& text, std::int64_t lines) {
-    const std::string path = add(parent, name, label, "C1");
+    std::string path = add(parent, name, label, "C1");
     const std::array dimensions = {lines, static_cast<std::int64_t>(text.size()) / lines};
     _file.store_bytes(path + "/ data", ItemType::int8, dimensions, std::as_bytes(std::span(text)));
   }
   std::string add_integers(const std::string& parent, const std::string& name, const char* label,
                            std::span<const std::int32_t> values) {
-    const std::string path = add(parent, name, label, "I4");
+    std::string path = add(parent, name, label, "I4");
     _file.store(path + "/ data", values);
     return path;
   }
@@ -137,7 +137,7 @@ public:
   std::string add_indices(const std::string& parent, const std::string& name, const char* label,
                           ItemType width, std::span<const std::int64_t> values, std::int64_t columns = 0) {
     const bool narrow = width == ItemType::int32;
-    const std::string path = add(parent, name, label, narrow ? "I4" : "I8");
+    std::string path = add(parent, name, label, narrow ? "I4" : "I8");
     std::vector<std::int64_t> dimensions = {static_cast<std::int64_t>(values.size())};
     if (columns > 0) dimensions = {dimensions[0] / columns, columns};
     const std::vector<std::int32_t> small(values.begin(), values.end());

@@ -252,7 +252,7 @@ Bytes run(std::span<const std::byte> input) {
 }
 
 std::string register_reading() {
-  const std::string name = "reading HDF5";
+  std::string name = "reading HDF5";
   parallel::register_contained_task(name, run);
   return name;
 }

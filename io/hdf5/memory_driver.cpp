@@ -29,7 +29,7 @@ H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
   if (info == nullptr) return nullptr;
   auto* file = new (std::nothrow) MemoryFile{};
   if (file == nullptr) return nullptr;
-  std::memcpy(&file->image, info, sizeof file->image);
+  file->image = *static_cast<MemoryImage* const*>(info);
   return &file->base;
 }
 
@@ -79,7 +79,7 @@ H5FD_class_t driver_class() {
   driver.name = "aeroloom_memory";
   driver.maxaddr = (haddr_t{1} << 62) - 1;
   driver.fc_degree = H5F_CLOSE_STRONG;
-  driver.fapl_size = sizeof(MemoryImage*);
+  driver.fapl_size = sizeof(void*);  // of the image
   driver.open = open_file;
   driver.close = close_file;
   driver.query = query;

@@ -21,7 +21,7 @@ public:
   IdLookup(const Communicator& communicator, std::int64_t points, const std::vector<mesh::GlobalIndex>& mine)
       : _communicator(communicator), _points(points), _mine(mine) {}
 
-  void replace(std::vector<std::vector<mesh::GlobalIndex>*> lists) {
+  void replace(const std::vector<std::vector<mesh::GlobalIndex>*>& lists) {
     for (const auto* list : lists) _places.insert(_places.end(), list->begin(), list->end());
     std::sort(_places.begin(), _places.end());
     _places.erase(std::unique(_places.begin(), _places.end()), _places.end());
@@ -84,6 +84,7 @@ std::vector<std::string> name_values(const Communicator& communicator,
   if (values.empty() || (values.front() >= 0 && static_cast<std::size_t>(values.back()) < known.size()))
     return known;
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const std::int32_t value : values) {
     const bool has_name = value >= 0 && static_cast<std::size_t>(value) < known.size();
     names.push_back(has_name ? known[static_cast<std::size_t>(value)] : fmt::format("{}_{}", stem, value));

@@ -1,14 +1,42 @@
-/// Writes the mixed mesh for programs that check files: write_hdf5_files FORMAT FOLDER [SQUARES PARTS].
+/// For programs that check files. write_hdf5_files FORMAT FOLDER [SQUARES PARTS] writes the mixed mesh;
+/// write_hdf5_files read FILE tells what the reader makes of a VTKHDF file, or why it refuses.
 #include "io/cgns/cgns_writer.hpp"
+#include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/collective_error.hpp"
 #include "parallel/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
 #include <cstdio>
 #include <string>
 
+#include <fmt/format.h>
+
+namespace {
+
+using namespace aeroloom;
+
+void tell(const parallel::Communicator& world, const std::string& path) {
+  try {
+    const io::Assembled read = io::assemble(world, io::read_vtkhdf(world, path), path, 2);
+    if (!world.is_root()) return;
+    fmt::print("vertices {}\ncells {} {} {}\n", read.mesh.vertex_count,
+               read.mesh.cell_count(io::CellShape::tetrahedron), read.mesh.cell_count(io::CellShape::pyramid),
+               read.mesh.cell_count(io::CellShape::prism));
+    for (std::size_t r = 0; r < read.mesh.regions.size(); ++r)
+      fmt::print("region {} {}\n", read.mesh.regions[r], fmt::join(read.mesh.region_cells[r], " "));
+    for (std::size_t p = 0; p < read.mesh.patches.size(); ++p) {
+      fmt::print("patch {} {} {}\n", read.mesh.patches[p].name, name_of(read.mesh.patches[p].type),
+                 fmt::join(read.mesh.patch_faces[p], " "));
+    }
+  } catch (const parallel::CollectiveError& error) {
+    if (world.is_root()) fmt::print("error {}\n", error.what());
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace aeroloom;
   parallel::Environment environment(argc, argv);
   const auto world = parallel::Communicator::world();
   if (argc < 3) {
@@ -16,6 +44,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string format = argv[1], folder = argv[2];
+  if (format == "read") {
+    tell(world, folder);
+    return 0;
+  }
   const io::FileMesh mesh =
       io::examples::mixed_mesh(world, argc > 3 ? std::stoi(argv[3]) : 4, argc > 4 ? std::stoi(argv[4]) : 3);
   if (format == "vtkhdf") {
