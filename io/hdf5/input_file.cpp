@@ -38,7 +38,9 @@ parallel::Bytes read_contained(const std::string& path, Operation operation, con
     case parallel::ContainedStatus::threw:
       throw std::runtime_error(path + ": " + result.message);
     case parallel::ContainedStatus::out_of_memory:
-      throw std::runtime_error(path + ": the HDF5 library ran out of memory on it; the file is damaged");
+      throw std::runtime_error(path +
+                               ": the HDF5 library ran out of memory on it; the file is damaged, or has "
+                               "chunks above a GiB (h5repack)");
     case parallel::ContainedStatus::out_of_time:
       throw std::runtime_error(path + ": the HDF5 library came to no end with it; the file is damaged");
     default:

@@ -101,6 +101,7 @@ std::vector<std::string> name_values(const Communicator& communicator,
 template <std::size_t N, class T>
 std::vector<std::vector<T>*> pointers_to(std::array<std::vector<T>, N>& lists) {
   std::vector<std::vector<T>*> pointers;
+  pointers.reserve(N);
   for (std::vector<T>& list : lists) pointers.push_back(&list);
   return pointers;
 }
