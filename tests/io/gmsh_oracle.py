@@ -5,12 +5,16 @@ usage: gmsh_oracle.py WRITE_GMSH_OPENFOAM
 """
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
-import meshio
-import numpy
+try:
+    import meshio
+    import numpy
+except ImportError:
+    sys.exit(77)
 
 CELLS = {"tetra": 104, "pyramid": 20, "wedge": 32}
 PATCHES = {"wing / lower side": 36, "symmetry": 13, "far field": 77, "interface": 32}
@@ -82,4 +86,6 @@ def main(writer):
 
 
 if __name__ == "__main__":
+    if shutil.which("gmsh") is None:
+        sys.exit(77)
     main(sys.argv[1])

@@ -7,6 +7,7 @@ usage: openfoam_oracle.py WRITE_GMSH_OPENFOAM
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -40,4 +41,6 @@ def main(writer):
 
 
 if __name__ == "__main__":
+    if shutil.which("checkMesh") is None:
+        sys.exit(77)
     main(sys.argv[1])
