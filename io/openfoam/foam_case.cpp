@@ -114,7 +114,7 @@ constexpr char solution[] = R"foam(solvers
         relTol          0.1;
     }
 }
-potentialFlow   { nNonOrthogonalCorrectors 5; }
+potentialFlow   { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; pRefCell 0; pRefValue 0; }
 SIMPLE          { nNonOrthogonalCorrectors 1; consistent yes; pRefCell 0; pRefValue 0; }
 relaxationFactors { equations { U 0.7; ".*" 0.7; } }
 )foam";
