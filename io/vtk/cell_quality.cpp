@@ -1,12 +1,11 @@
 #include "io/vtk/cell_quality.hpp"
 
+#include "io/cell_measures.hpp"
 #include "mesh/quality.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace aeroloom::io {
 
@@ -41,36 +40,6 @@ double prism_ratio(std::span<const Vec3> p) {
   return smallest;
 }
 
-/// Two faces of a shape that share an edge.
-struct Neighbours {
-  int a, b;
-};
-
-std::vector<Neighbours> find_neighbours(CellShape shape) {
-  const std::span<const CellFace> faces = faces_of(shape);
-  std::vector<Neighbours> found;
-  for (int a = 0; a < static_cast<int>(faces.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(faces.size()); ++b) {
-      const auto common = std::count_if(faces[a].begin(), faces[a].end(), [&](std::int8_t v) {
-        return v >= 0 && std::find(faces[b].begin(), faces[b].end(), v) != faces[b].end();
-      });
-      if (common == 2) found.push_back({a, b});
-    }
-  }
-  return found;
-}
-
-const std::vector<Neighbours>& neighbours_of(CellShape shape) {
-  static const std::array<std::vector<Neighbours>, cell_shape_count> tables = {
-      find_neighbours(cell_shapes[0]), find_neighbours(cell_shapes[1]), find_neighbours(cell_shapes[2])};
-  return tables[static_cast<std::size_t>(shape)];
-}
-
-Vec3 area_vector(const CellFace& face, std::span<const Vec3> p) {
-  if (face[3] < 0) return cross(p[face[1]] - p[face[0]], p[face[2]] - p[face[0]]);
-  return cross(p[face[2]] - p[face[0]], p[face[3]] - p[face[1]]);
-}
-
 }  // namespace
 
 double mean_ratio(CellShape shape, std::span<const Vec3> corners) {
@@ -87,18 +56,7 @@ double mean_ratio(CellShape shape, std::span<const Vec3> corners) {
 double smallest_dihedral(CellShape shape, std::span<const Vec3> corners) {
   if (shape == CellShape::tetrahedron)
     return mesh::dihedral_range(corners[0], corners[1], corners[2], corners[3]).smallest;
-  const std::span<const CellFace> faces = faces_of(shape);
-  std::array<Vec3, 5> normals;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    normals[f] = area_vector(faces[f], corners);
-    const double length = std::sqrt(dot(normals[f], normals[f]));
-    if (length == 0) return 0;
-    normals[f] = (1 / length) * normals[f];
-  }
-  double largest_cosine = -1;  // of the angle between faces: outward normals differ by what is left to 180
-  for (const auto& [a, b] : neighbours_of(shape))
-    largest_cosine = std::max(largest_cosine, -dot(normals[a], normals[b]));
-  return std::acos(std::min(largest_cosine, 1.0)) * 180 / std::numbers::pi;
+  return measure_cell(shape, corners.data())[static_cast<std::size_t>(Measure::smallest_dihedral)];
 }
 
 }  // namespace aeroloom::io

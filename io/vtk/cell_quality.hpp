@@ -15,8 +15,8 @@ namespace aeroloom::io {
 /// 2003, doi:10.1016/S0168-874X(02)00070-7). `corners` in CellShape's order.
 double mean_ratio(CellShape shape, std::span<const geometry::Vec3> corners);
 
-/// Smallest angle between neighbouring faces, degrees. A quadrilateral has the direction of its area vector.
-/// A face without area gives 0. Tetrahedra: mesh::dihedral_range.
+/// Smallest angle between neighbouring faces, degrees. Tetrahedra: mesh::dihedral_range; others as in
+/// io/cell_measures.hpp.
 double smallest_dihedral(CellShape shape, std::span<const geometry::Vec3> corners);
 
 }  // namespace aeroloom::io
