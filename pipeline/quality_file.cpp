@@ -84,7 +84,9 @@ std::string dump(const Json& json) {
 
 void write_text(const std::string& path, const std::string& text) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::error_code code;
+  if (!folder.empty()) std::filesystem::create_directories(folder, code);
+  if (code) throw std::filesystem::filesystem_error("cannot write", path, code);
   std::ofstream stream(path, std::ios::binary);
   stream << text;
   stream.close();
