@@ -56,6 +56,7 @@ std::array<std::int32_t, N> add_sections(Plan& plan, NodeNames& names, const std
     if (counts[s] == 0) continue;
     Section section;
     section.name = single && is_taken ? name : names.take(name, stand_in, single ? "" : shapes[s].ending);
+    if (!is_taken && section.name != name + (single ? "" : shapes[s].ending)) section.full_name = name;
     section.type = shapes[s].type;
     section.corners = fewest_corners + static_cast<int>(s);
     section.first = plan.sections.empty() ? 1 : plan.sections.back().first + plan.sections.back().count;
@@ -228,11 +229,7 @@ Plan plan_file(const Totals& totals) {
     plan.section_of_region.push_back(add_sections(plan, names, totals.regions[r], false, "Region", cell_names,
                                                   totals.region_cells[r],
                                                   corners_of(CellShape::tetrahedron)));
-    for (std::size_t s = before; s < plan.sections.size(); ++s) {
-      plan.cells += plan.sections[s].count;
-      if (plan.sections[s].name.rfind(totals.regions[r], 0) != 0)
-        plan.sections[s].full_name = totals.regions[r];
-    }
+    for (std::size_t s = before; s < plan.sections.size(); ++s) plan.cells += plan.sections[s].count;
   }
   for (std::size_t p = 0; p < totals.patches.size(); ++p) {
     plan.section_of_patch.push_back({-1, -1});

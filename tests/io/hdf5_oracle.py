@@ -129,15 +129,42 @@ def check_boundary_group(file, grid, names, kinds, areas, patch):
     assert math.isclose(enclosed, VOLUME, rel_tol=1e-12), (enclosed, VOLUME)  # outward
 
 
-def check_cgns(folder):
+def run_cgnscheck(folder):
     result = subprocess.run(["cgnscheck", "-v", folder / "mesh.cgns"], capture_output=True, text=True, check=True)
     assert "checking complete" in result.stdout, result.stdout
     for word in ("ERROR", "WARNING", "warnings", "errors"):
         assert word not in result.stdout + result.stderr, result.stdout
+    return result.stdout
+
+
+def check_cgns(folder):
+    told = run_cgnscheck(folder)
     for line in ("Vertex Size=[89]", f"Cell Size=[{sum(CELLS.values())}]", 'Family="far field"',
                  "[internal,external] Faces=[0,", "Element Set Type=PENTA_6", "Element Set Type=PYRA_5"):
-        assert line in result.stdout, line
-    assert "Faces=[0,0]" not in result.stdout, "a boundary section without faces on the outside"
+        assert line in told, line
+    assert "Faces=[0,0]" not in told, "a boundary section without faces on the outside"
+
+
+def check_names(folder):
+    """Names that are hard to hold: all of them can be had back, and none stands twice."""
+    grid, surface = read_vtk(folder / "mesh.vtkhdf"), read_vtk(folder / "surface.vtkhdf")
+    long_name = "Größe einer Oberfläche, die nicht in den Knoten passt"
+    assert texts(grid, "region_names") == ["inner/outer", "ZoneBC"]
+    assert texts(surface, "patch_names") == ["ZoneBC", long_name, "", "interface"]
+    with h5py.File(folder / "mesh.cgns") as file:
+        zone, base = file["Base/Zone"], file["Base"]
+        sections = [name for name in zone if zone[name].attrs.get("label") == b"Elements_t"]
+        families = [name for name in base if base[name].attrs.get("label") == b"Family_t"]
+        assert set(families) == set(zone["ZoneBC"]) - {" data"} and len(families) == 3, families
+        assert "ZoneBC_2" in families and "Patch" in families, families
+        for name in sections + families:
+            assert 0 < len(name.encode()) <= 32, name
+        full = [bytes(base[name]["FullName/ data"][:]).decode() for name in families if "FullName" in base[name]]
+        assert sorted(full) == [long_name, "ZoneBC"], full
+        full = {bytes(zone[name]["FullName/ data"][:]).decode() for name in sections if "FullName" in zone[name]}
+        assert full == {"inner/outer", "ZoneBC"}, full
+    if shutil.which("cgnscheck"):
+        run_cgnscheck(folder)
 
 
 def check_libraries(program):
@@ -164,6 +191,8 @@ def main():
         check_surface(folders[1], grid)
         if shutil.which("cgnscheck"):
             check_cgns(folders[1])
+        write(writer, mpirun, 2, "names", pathlib.Path(name) / "names")
+        check_names(pathlib.Path(name) / "names")
     print("files in HDF5: as others read them, good")
 
 

@@ -1,4 +1,5 @@
-/// For programs that check files. write_hdf5_files FORMAT FOLDER [SQUARES PARTS] writes the mixed mesh;
+/// For programs that check files. write_hdf5_files vtkhdf|cgns|names FOLDER [SQUARES PARTS] writes the mixed
+/// mesh, `names` both files of it with names that are hard to hold;
 /// write_hdf5_files read FILE tells what the reader makes of a VTKHDF file, or why it refuses.
 #include "io/cgns/cgns_writer.hpp"
 #include "io/vtkhdf/vtkhdf_reader.hpp"
@@ -7,6 +8,7 @@
 #include "parallel/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -48,13 +50,20 @@ int main(int argc, char** argv) {
     tell(world, folder);
     return 0;
   }
-  const io::FileMesh mesh =
-      io::examples::mixed_mesh(world, argc > 3 ? std::stoi(argv[3]) : 4, argc > 4 ? std::stoi(argv[4]) : 3);
-  if (format == "vtkhdf") {
+  const int squares = argc > 3 ? std::stoi(argv[3]) : 4, parts = argc > 4 ? std::stoi(argv[4]) : 3;
+  io::examples::MixedMesh whole(squares, parts);
+  if (format == "names") {
+    // A node of the zone, too long for CGNS, no name; of regions: a slash, a name of a patch.
+    const std::array<std::string, 3> names = {"ZoneBC",
+                                              "Größe einer Oberfläche, die nicht in den Knoten passt", ""};
+    for (std::size_t p = 0; p < names.size(); ++p) whole.patches[p].name = names[p];
+    whole.regions = {"inner/outer", "ZoneBC"};
+  }
+  const io::FileMesh mesh = io::examples::distribute(world, whole, parts);
+  if (format != "cgns") {
     io::write_vtkhdf(world, mesh, folder + "/mesh.vtkhdf");
     io::write_vtkhdf_surface(world, mesh, folder + "/surface.vtkhdf");
-  } else if (format == "cgns") {
-    io::write_cgns(world, mesh, folder + "/mesh.cgns");
   }
+  if (format != "vtkhdf") io::write_cgns(world, mesh, folder + "/mesh.cgns");
   return 0;
 }
