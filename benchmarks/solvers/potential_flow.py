@@ -31,19 +31,27 @@ boundaryField
 """
 
 
-def field(name, kind, dimensions, value, conditions):
-    lines = "\n".join(f"    {group} {{ {text} }}" for group, text in conditions.items())
+def field(name, kind, dimensions, value, by_group):
+    lines = "\n".join(f"    {group} {{ {text} }}" for group, text in by_group.items())
     return HEADER.format(name=name, kind=kind, dimensions=dimensions, value=value, conditions=lines)
 
 
-# Conditions by group of patches; what is slip, inlet or outlet is as good as the far field or a wall here.
-# The flow begins as if nothing were in its way; the potential that is found is what the body changes.
-VELOCITY = field("U", "volVectorField", "[0 1 -1 0 0 0 0]", f"({SPEED} 0 0)", {
-    "wall": "type slip;", "slip": "type slip;", "symmetry": "type symmetry;"}
-    | {group: f"type fixedValue; value uniform ({SPEED} 0 0);" for group in ("farfield", "inlet", "outlet")})
-PRESSURE = field("p", "volScalarField", "[0 2 -2 0 0 0 0]", "0", {
-    "wall": "type zeroGradient;", "slip": "type zeroGradient;", "symmetry": "type symmetry;"}
-    | {group: "type fixedValue; value uniform 0;" for group in ("farfield", "inlet", "outlet")})
+# Conditions by group of patches; what is slip, inlet or outlet is as good as a wall or the far field here, where
+# the potential of the free stream is given.
+OUTER, INNER = ("farfield", "inlet", "outlet"), ("wall", "slip")
+
+
+def conditions(outer, inner):
+    return {group: outer for group in OUTER} | {group: inner for group in INNER} | {"symmetry": "type symmetry;"}
+
+
+FIELDS = {
+    "U": field("U", "volVectorField", "[0 1 -1 0 0 0 0]", "(0 0 0)", conditions("type zeroGradient;", "type slip;")),
+    "p": field("p", "volScalarField", "[0 2 -2 0 0 0 0]", "0",
+               conditions("type fixedValue; value uniform 0;", "type zeroGradient;")),
+    "Phi": field("Phi", "volScalarField", "[0 2 -1 0 0 0 0]", "0",
+                 conditions(f"type exprFixedValue; valueExpr \"-{SPEED}*pos().x()\"; value uniform 0;",
+                            "type zeroGradient;"))}
 
 
 def run(command, folder, log):
@@ -62,12 +70,14 @@ def draw(folder, image):
     import vtk
 
     reader = vtk.vtkPOpenFOAMReader()
+    reader.SetController(vtk.vtkDummyController())
     reader.SetFileName(str(folder / "mesh.foam"))
     reader.SetCaseType(0)  # decomposed
     reader.SkipZeroTimeOff()
     reader.UpdateInformation()
     reader.EnableAllPatchArrays()
-    reader.EnableAllCellArrays()
+    reader.DisableAllCellArrays()
+    reader.SetCellArrayStatus("U", 1)
     reader.CreateCellToPointOn()
     reader.Update()
     walls, cut = vtk.vtkAppendPolyData(), vtk.vtkAppendPolyData()
@@ -92,16 +102,21 @@ def draw(folder, image):
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     for source in (cut, walls):
+        speed = vtk.vtkArrayCalculator()
+        speed.SetInputConnection(source.GetOutputPort())
+        speed.AddVectorArrayName("U")
+        speed.SetFunction("mag(U)")
+        speed.SetResultArrayName("speed")
         mapper = vtk.vtkPolyDataMapper()
-        mapper.SetInputConnection(source.GetOutputPort())
+        mapper.SetInputConnection(speed.GetOutputPort())
         mapper.SetScalarModeToUsePointFieldData()
         table = vtk.vtkLookupTable()
         table.SetHueRange(0.667, 0)
-        table.SetVectorModeToMagnitude()
+        table.Build()
         mapper.SetLookupTable(table)
         mapper.UseLookupTableScalarRangeOff()
-        mapper.SetScalarRange(0, 1.5 * SPEED)
-        mapper.SelectColorArray("U")
+        mapper.SetScalarRange(0.5 * SPEED, 1.5 * SPEED)
+        mapper.SelectColorArray("speed")
         actor = vtk.vtkActor()
         actor.SetMapper(mapper)
         renderer.AddActor(actor)
@@ -142,10 +157,10 @@ def main():
     for rank in range(options.ranks):
         start = folder / f"processor{rank}" / "0"
         start.mkdir(exist_ok=True)
-        (start / "U").write_text(VELOCITY)
-        (start / "p").write_text(PRESSURE)
+        for name, text in FIELDS.items():
+            (start / name).write_text(text)
     checked = run([*ranks, "checkMesh", "-parallel", "-allTopology"], folder, "log.checkMesh")
-    text = run([*ranks, "potentialFoam", "-parallel", "-writep"], folder, "log.potentialFoam")
+    text = run([*ranks, "potentialFoam", "-parallel"], folder, "log.potentialFoam")
     residuals = [(float(first), float(last)) for first, last in re.findall(
         r"Solving for Phi, Initial residual = (\S+), Final residual = (\S+),", text)]
     fallen = residuals[-1][0] < 1e-2 * residuals[0][0]
