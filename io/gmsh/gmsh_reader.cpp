@@ -106,6 +106,8 @@ std::vector<Source> open_sources(const parallel::Communicator& communicator, con
 
 /// The group of a block's elements; of dimension 0 where they are not to be read.
 Group group_of(const MshTables& tables, const MshElementBlock& block) {
+  // Ghosts have the dimension of the cells.
+  if (block.dimension == 3 && tables.ghost_entities.contains(block.entity)) return {0, 0, 0};
   const auto found = tables.entities.find({block.dimension, block.entity});
   if (found == tables.entities.end()) return {block.dimension, 1, block.entity};
   const MshEntity& entity = found->second;

@@ -187,7 +187,10 @@ private:
   void read_partitioned() {
     _tables.partitions = _scanner.int64();
     const std::int64_t ghosts = _scanner.count(8);
-    for (std::int64_t i = 0; i < 2 * ghosts; ++i) _scanner.int32();
+    for (std::int64_t i = 0; i < ghosts; ++i) {
+      _tables.ghost_entities.insert(_scanner.int32());
+      _scanner.int32();  // their partition
+    }
     read_entities_of_all_dimensions(true);
   }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -39,6 +40,7 @@ struct MshTables {
   std::map<MshTag, MshComment> comments;  ///< by physical group
   std::map<MshTag, MshEntity> entities;
   std::int64_t partitions = 0;
+  std::set<std::int32_t> ghost_entities;  ///< whose elements belong to other partitions
   std::vector<MshNodeBlock> nodes;
   std::vector<MshElementBlock> elements;  ///< of two and three dimensions
   std::vector<std::int64_t> ghosts;  ///< tags of elements that belong to another partition's file, ascending

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What Gmsh and meshio make of MSH files of the mixed mesh, and what read_msh makes of Gmsh's own.
 
-usage: gmsh_oracle.py WRITE_GMSH_OPENFOAM
+usage: gmsh_oracle.py WRITE_GMSH_OPENFOAM AEROLOOM
 """
 import pathlib
 import re
@@ -65,7 +65,49 @@ def count_in_msh2(path, section):
     return int(re.search(rf"^\${section}\n(\d+)", path.read_text(errors="replace"), re.M).group(1))
 
 
-def main(writer):
+GEOMETRY = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Mesh.MeshSizeMax = 0.4;
+"""
+GROUPS = """Physical Volume("fluid in box", 7) = {1};
+Physical Surface("left side", 11) = {1};
+Physical Surface("rest", 12) = {2:6};
+"""
+
+
+def check_reading(program, folder):
+    """Meshes of Gmsh's own, whole and partitioned, text and binary."""
+    (folder / "groups.geo").write_text(GEOMETRY + GROUPS)
+    (folder / "plain.geo").write_text(GEOMETRY)
+    parts = ["-part", "3", "-part_split"]
+    for geometry, name, options, patches in (
+            ("groups", "text.msh", [], 2), ("groups", "binary.msh", ["-bin"], 2), ("plain", "plain.msh", [], 6),
+            ("groups", "parametric.msh", ["-save_parametric"], 2), ("groups", "together.msh", ["-part", "3"], 2),
+            ("groups", "parts.msh", parts, 2), ("groups", "ghosts.msh", [*parts, "-part_ghosts", "-bin"], 2),
+            ("plain", "plain_parts.msh", [*parts, "-bin"], 6)):
+        gmsh("-3", folder / f"{geometry}.geo", *options, "-o", folder / name, "-format", "msh41")
+        path = folder / (name.replace(".msh", "_1.msh") if "-part_split" in options else name)
+        result = subprocess.run([program, "convert", path, folder / "out.msh"], capture_output=True, text=True,
+                                timeout=60)
+        text = result.stdout + result.stderr
+        found = re.search(r"read (\d+) points, (\d+) tetrahedra, .* 1 region\(s\), (\d+) patch\(es\)", text)
+        assert result.returncode == 0 and found and "nothing to mend" in text, f"{name}: {text}"
+        expected = count_of_gmsh(folder / f"{geometry}.geo")
+        assert (int(found[1]), int(found[2]), int(found[3])) == (*expected, patches), f"{name}: {text}"
+
+
+def count_of_gmsh(geometry):
+    """Points and tetrahedra of the same geometry in format 2."""
+    path = geometry.with_suffix(".msh2")
+    if not path.exists():
+        gmsh("-3", geometry, "-o", path, "-format", "msh2", "-save_all")
+    lines = path.read_text().splitlines()
+    begin = lines.index("$Elements")
+    tetrahedra = sum(line.split()[1] == "4" for line in lines[begin + 2:lines.index("$EndElements")])
+    return count_in_msh2(path, "Nodes"), tetrahedra
+
+
+def main(writer, program):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         subprocess.run([writer, folder], check=True, timeout=60)
@@ -82,10 +124,11 @@ def main(writer):
                     "-format", "msh2")
         assert "3 partitions" in text, text
         assert count_in_msh2(folder / "merged.msh", "Elements") == 314
+        check_reading(program, folder)
     print("Gmsh and meshio agree")
 
 
 if __name__ == "__main__":
     if shutil.which("gmsh") is None:
         sys.exit(77)
-    main(sys.argv[1])
+    main(sys.argv[1], sys.argv[2])

@@ -2,6 +2,7 @@
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/gmsh/msh_head.hpp"
 #include "io/gmsh/msh_layout.hpp"
+#include "io/gmsh/msh_tables.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/files_of_test.hpp"
@@ -127,6 +128,39 @@ TEST(MshLayout, IsExactFarBeyond32Bits) {
   EXPECT_EQ(layout.points - layout.tags, 8 * many);
   EXPECT_EQ(layout.end - layout.blocks, blocks.bytes);
   EXPECT_EQ(partitioned_tag(10, 3, 2), 33);
+}
+
+/// A file of more than 4 GiB, nearly all of it a hole.
+TEST_F(Msh, ElementsBeyond32BitsAreFound) {
+  if (!world.is_root()) return;
+  constexpr std::int64_t vertices = 200'000'000;
+  const auto bytes = [](std::initializer_list<std::int64_t> values) {
+    return std::string(reinterpret_cast<const char*>(values.begin()), 8 * values.size());
+  };
+  const auto words = [](std::initializer_list<std::int32_t> values) {
+    return std::string(reinterpret_cast<const char*>(values.begin()), 4 * values.size());
+  };
+  const std::string head = "$MeshFormat\n4.1 1 8\n" + words({1}) + "\n$EndMeshFormat\n";
+  const MshBlocks blocks = lay_out_elements({}, {{1, 0, 0}});
+  const MshLayout layout = lay_out_file(static_cast<std::int64_t>(head.size()), vertices, blocks);
+  std::ofstream stream(path("hole.msh"), std::ios::binary);
+  stream << head << msh_nodes_begin << bytes({1, vertices, 1, vertices}) << words({3, 1, 0})
+         << bytes({vertices});
+  stream.seekp(layout.elements);
+  stream << msh_nodes_end << bytes({1, 1, 1, 1}) << words({3, 1, 4}) << bytes({1, 77, 1, 2, 3, vertices})
+         << msh_elements_end;
+  stream.close();
+  ASSERT_TRUE(stream);
+  MshScanner scanner(path("hole.msh"));
+  const MshTables tables = read_msh_tables(scanner, 0, MshExtent::all);
+  ASSERT_EQ(tables.elements.size(), 1U);
+  EXPECT_EQ(tables.nodes.at(0).points, layout.points);
+  EXPECT_EQ(tables.elements[0].place, layout.blocks + blocks.cells[0][0].record(0));
+  EXPECT_GT(tables.elements[0].place, std::int64_t{1} << 32);
+  scanner.seek(tables.elements[0].place);
+  std::array<std::int64_t, 5> record{};
+  scanner.int64s(record.data(), 5);
+  EXPECT_EQ(record, (std::array<std::int64_t, 5>{77, 1, 2, 3, vertices}));
 }
 
 void write_text(const Communicator& world, const std::string& path, const std::string& text) {
