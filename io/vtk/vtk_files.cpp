@@ -1,24 +1,21 @@
 #include "io/vtk/vtk_files.hpp"
 
+#include "io/vtk/vtk_complaints.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
-#include <vtkCallbackCommand.h>
 #include <vtkDataObject.h>
 #include <vtkErrorCode.h>
-#include <vtkNew.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 
 namespace aeroloom::io {
 
 namespace {
-
-/// Keeps VTK's error messages from the terminal: the exception tells.
-void keep_silent(vtkObject*, unsigned long, void*, void*) {}
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -52,9 +49,7 @@ std::string array_lines(std::span<const IndexArray> arrays) {
 
 void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path,
                     Compression compression) {
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback(keep_silent);
-  writer.AddObserver("ErrorEvent", silence);
+  const VtkComplaints kept_from_the_terminal;  // the exception tells
   writer.SetInputDataObject(&data);
   writer.SetFileName(path.c_str());
   writer.SetDataModeToAppended();

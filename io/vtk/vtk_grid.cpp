@@ -1,5 +1,6 @@
 #include "io/vtk/vtk_grid.hpp"
 
+#include "io/vtk/vtk_complaints.hpp"
 #include "io/vtk/vtk_labels.hpp"
 #include "io/vtk/vtk_part.hpp"
 
@@ -13,10 +14,8 @@
 #include <fmt/format.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -26,53 +25,9 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Keeps the first thing that VTK complains of; nothing is printed.
-class Complaints : public vtkOutputWindow {
-public:
-  vtkTypeMacro(Complaints, vtkOutputWindow) static Complaints* New();
-  void DisplayText(const char*) override {}
-  void DisplayWarningText(const char*) override {}
-  void DisplayGenericWarningText(const char*) override {}
-  void DisplayErrorText(const char* text) override {
-    if (_first.empty() && text != nullptr) _first = text;
-  }
-  /// Without the place in VTK's source; empty where there was none.
-  std::string first() const {
-    const auto place = _first.find("): ");
-    std::string text = place == std::string::npos ? _first : _first.substr(place + 3);
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text.size() > 300 ? text.substr(0, 300) + " ..." : text;
-  }
-
-private:
-  std::string _first;
-};
-vtkStandardNewMacro(Complaints);
-
-/// While it lives, complaints come here and nowhere else.
-class Listening {
-public:
-  Listening() : _before(vtkOutputWindow::GetInstance()), _loud(vtkLogger::GetCurrentVerbosityCutoff()) {
-    vtkOutputWindow::SetInstance(_complaints);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~Listening() {
-    vtkOutputWindow::SetInstance(_before);
-    vtkLogger::SetStderrVerbosity(_loud);
-  }
-  Listening(const Listening&) = delete;
-  Listening& operator=(const Listening&) = delete;
-  void require_silence() const {
-    if (!_complaints->first().empty())
-      throw std::runtime_error("VTK cannot read it: " + _complaints->first());
-  }
-
-private:
-  vtkSmartPointer<vtkOutputWindow> _before;
-  vtkLogger::Verbosity _loud;
-  vtkNew<Complaints> _complaints;
-};
+void require_silence(const VtkComplaints& complaints) {
+  if (complaints.any()) throw std::runtime_error("VTK cannot read it: " + complaints.first());
+}
 
 /// VTK does not say everywhere that an array was too short.
 class XmlGridReader : public vtkXMLUnstructuredGridReader {
@@ -119,7 +74,7 @@ void find_sources(vtkXMLDataElement& grid, std::vector<std::string>& sources) {
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path) {
-  const Listening listening;
+  const VtkComplaints complaints;
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".vtk") {
@@ -132,24 +87,24 @@ vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path) {
     vtkNew<XmlGridReader> reader;
     reader->SetFileName(path.c_str());
     reader->UpdateInformation();
-    listening.require_silence();
+    require_silence(complaints);
     select_arrays(*reader);
     reader->Update();
-    listening.require_silence();
+    require_silence(complaints);
     if (reader->has_failed())
       throw std::runtime_error("an array is too short, or its data cannot be taken out");
     grid = reader->GetOutput();
   }
-  listening.require_silence();
+  require_silence(complaints);
   if (grid == nullptr) throw std::runtime_error("it holds no unstructured grid");
   return grid;
 }
 
 std::vector<std::string> extract_vtk_sources(const std::string& path) {
-  const Listening listening;
+  const VtkComplaints complaints;
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
-  listening.require_silence();
+  require_silence(complaints);
   vtkXMLDataElement* grid = root != nullptr ? root->FindNestedElementWithName("PUnstructuredGrid") : nullptr;
   if (grid == nullptr) throw std::runtime_error("it is no index of unstructured grids (PUnstructuredGrid)");
   std::vector<std::string> sources;

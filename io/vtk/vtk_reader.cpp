@@ -1,6 +1,7 @@
+#include "io/vtk/vtk_reader.hpp"
+
 #include "io/vtk/joined_points.hpp"
 #include "io/vtk/vtk_part.hpp"
-#include "io/vtk/vtk_reader.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -183,6 +184,7 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
   }
   sort_labels(all);
   std::vector<std::int32_t> place;
+  place.reserve(table.size());
   for (const VtkLabel& label : table)
     place.push_back(
         static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), label, is_before) - all.begin()));
@@ -190,6 +192,7 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
     for (std::int32_t& label : of_shape) label = place.at(static_cast<std::size_t>(label));
   }
   std::vector<mesh::Patch> named;
+  named.reserve(all.size());
   for (const VtkLabel& label : all) named.push_back(label.named);
   return named;
 }
