@@ -297,12 +297,18 @@ void write_index(const parallel::Communicator& communicator, const std::string& 
                  const std::string& text) {
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
+    const std::string unfinished = path + ".unfinished";
     errno = 0;
-    std::ofstream stream(path, std::ios::binary);
+    std::ofstream stream(unfinished, std::ios::binary);
     stream << text;
     stream.close();
-    if (!stream)
-      throw fs::filesystem_error("cannot write", path, std::error_code(errno, std::generic_category()));
+    if (!stream) {
+      const std::error_code reason(errno != 0 ? errno : EIO, std::generic_category());
+      std::error_code ignored;
+      fs::remove(unfinished, ignored);
+      throw fs::filesystem_error("cannot write", path, reason);
+    }
+    fs::rename(unfinished, path);
   });
 }
 

@@ -65,7 +65,8 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
                         PartContent content, mesh::GlobalIndex items_per_file, const PartFiles& files,
                         const PartWriter& write);
 
-/// Writes a small text file on rank 0. Collective; throws CollectiveError when it cannot be written.
+/// Writes a small text file on rank 0, whole or not at all. Collective; throws CollectiveError when it cannot
+/// be written.
 void write_index(const parallel::Communicator& communicator, const std::string& path,
                  const std::string& text);
 

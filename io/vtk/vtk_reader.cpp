@@ -58,7 +58,8 @@ struct PartRange {
   std::size_t begin = 0, end = 0;
 };
 
-/// Consecutive parts for this rank, by bytes. Each rank looks at its share of the files. Collective.
+/// Consecutive parts for this rank, by bytes; a single one is for rank 0. Each rank looks at its share of the
+/// files. Collective.
 PartRange deal_parts(const parallel::Communicator& communicator, const std::string& path,
                      const std::vector<std::string>& parts) {
   const auto ranks = static_cast<std::size_t>(communicator.size()),
@@ -74,10 +75,9 @@ PartRange deal_parts(const parallel::Communicator& communicator, const std::stri
   for (const std::int64_t size : sizes) total += static_cast<double>(size);
   PartRange range{parts.size(), parts.size()};
   for (std::size_t p = 0; p < sizes.size(); ++p) {
-    const double middle = before + 0.5 * static_cast<double>(sizes[p]);
-    before += static_cast<double>(sizes[p]);
     const auto reader = std::min(
-        ranks - 1, static_cast<std::size_t>(middle / std::max(total, 1.0) * static_cast<double>(ranks)));
+        ranks - 1, static_cast<std::size_t>(before / std::max(total, 1.0) * static_cast<double>(ranks)));
+    before += static_cast<double>(sizes[p]);
     if (reader == rank) range.begin = std::min(range.begin, p);
     if (reader > rank) range.end = std::min(range.end, p);
   }

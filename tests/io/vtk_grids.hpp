@@ -4,6 +4,7 @@
 #include "io/vtk_order.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct GridChoice {
   int part = -1;           ///< cells of this part alone, and their faces; -1: all
   const char* label = "";  ///< name of a cell array: 10 + region, 100 + patch; empty: none
   bool with_faces = true;  ///< not those between regions
-  bool with_ids = false;   ///< point array `global_id`: 3 times the place in the whole mesh
+  bool with_ids = false;   ///< point array `global_id`: 3 times the place in the whole mesh, and 2^61
 };
 
 inline void add_cell(vtkUnstructuredGrid& grid, int type, const std::vector<vtkIdType>& corners) {
@@ -46,7 +47,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> make_grid(const MixedMesh& whole, co
   const auto use = [&](int v) {
     if (place[v] < 0) {
       place[v] = points->InsertNextPoint(whole.points[v].x, whole.points[v].y, whole.points[v].z);
-      ids->InsertNextValue(3 * v);
+      ids->InsertNextValue((std::int64_t{1} << 61) + 3 * v);
     }
     return place[v];
   };
