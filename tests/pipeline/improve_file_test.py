@@ -111,8 +111,13 @@ def main():
 
     # The gate: the mesh is written, the exit code says that it is not what was asked for.
     code, text, report = improve(program, foreign, raw.folder / "gate", 2,
-                                 ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179"))
+                                 ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179",
+                                  "improve.gate.largest_volume_ratio=1.5", "improve.gate.min_scaled_jacobian=1"))
     assert code == 6 and "min_mean_ratio" in text and "largest_angle" not in text, text
+    assert "largest_volume_ratio" in text and "min_scaled_jacobian" not in text, text
+    cells = report["quality"]["cells"]["tetrahedra"]
+    assert cells["volume_ratio"]["maximum"] > 1.5 and cells["mean_ratio"]["cells"] == report["mesh"]["tetrahedra"]
+    assert abs(cells["mean_ratio"]["mean"] - report["quality"]["mean_mean_ratio"]) < 1e-12
     assert report["exit_code"] == 6 and (raw.folder / "gate" / "mesh.pvtu").exists()
     code, text, _ = improve(program, foreign, raw.folder / "gate", 1, ("improve.gate.smallest_angel=10",))
     assert code == 2 and "smallest_angle" in text, text
