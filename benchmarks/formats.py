@@ -40,7 +40,7 @@ def main():
     parser.add_argument("--skip-checks", action="store_true")
     arguments = parser.parse_args()
     heads = [f"{n} rank(s): s, MiB" for n in arguments.ranks]
-    print("| format | MiB in files | " + " | ".join(heads) + " | checked |\n|---" * 1 + "|---" * (len(heads) + 2) + "|")
+    print("| format | MiB in files | " + " | ".join(heads) + " | checked |\n" + "|---" * (len(heads) + 3) + "|")
     for form in arguments.formats:
         cells, seen = [], ""
         for ranks in arguments.ranks:

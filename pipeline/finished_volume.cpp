@@ -6,6 +6,9 @@
 #include "mesh/validity.hpp"
 #include "pipeline/stage_log.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 namespace aeroloom::pipeline {
 
 using parallel::Communicator;
@@ -73,6 +76,45 @@ void inspect_volume(const Communicator& communicator, const Case& input, const m
   if (input.gate.asks_for_cells()) record.cells = measure_cells(communicator, volume, numbering);
   if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, suspects, record);
   record.hash = mesh::hash_mesh(communicator, volume, numbering);
+}
+
+std::vector<PatchRow> table_of_patches(const Communicator& communicator,
+                                       const mesh::DistributedMesh& volume) {
+  struct Row {
+    mesh::PieceId piece;
+    std::int32_t patch;
+    double area;
+    std::int64_t triangles;
+  };
+  std::vector<Row> mine;
+  for (const mesh::Piece& piece : volume.pieces) {
+    std::vector<Row> rows(volume.patches.size());
+    for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+      const mesh::LocalIndex* v = piece.boundary_triangle(t);
+      const geometry::Vec3 a = piece.point(v[0]);
+      Row& row = rows.at(piece.triangle_patch[t]);
+      row.area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
+      ++row.triangles;
+    }
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+      if (rows[p].triangles > 0)
+        mine.push_back({piece.id, static_cast<std::int32_t>(p), rows[p].area, rows[p].triangles});
+    }
+  }
+  std::vector<Row> rows = communicator.all_gather_items<Row>(mine);
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return std::tie(a.piece, a.patch) < std::tie(b.piece, b.patch);
+  });
+  std::vector<PatchRow> patches;
+  for (std::size_t p = 0; p < volume.patches.size(); ++p) {
+    const auto type = p < volume.patch_types.size() ? volume.patch_types[p] : mesh::PatchType::wall;
+    patches.push_back({.name = volume.patches[p], .type = type, .inner = type == mesh::PatchType::interior});
+  }
+  for (const Row& row : rows) {
+    patches[row.patch].area += row.area;
+    patches[row.patch].triangles += row.triangles;
+  }
+  return patches;
 }
 
 void require_quality(const QualityGate& gate, const RunRecord& record) {

@@ -6,6 +6,7 @@
 #include "pipeline/run.hpp"
 
 #include <string>
+#include <vector>
 
 namespace aeroloom::pipeline {
 
@@ -22,6 +23,11 @@ void improve_volume(const parallel::Communicator& communicator, const Case& inpu
 void inspect_volume(const parallel::Communicator& communicator, const Case& input,
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
                     const mesh::DistributedMesh* surface, RunRecord& record);
+
+/// Triangles and areas of the patches of a mesh from a file; there is no CAD to compare them with.
+/// Collective.
+std::vector<PatchRow> table_of_patches(const parallel::Communicator& communicator,
+                                       const mesh::DistributedMesh& volume);
 
 /// Throws StageFailure when the finished mesh misses the limits.
 void require_quality(const QualityGate& gate, const RunRecord& record);

@@ -21,6 +21,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   const mesh::Numbering numbering = run_stage(record, "inspect", ExitCode::volume, [&] {
     mesh::Numbering finished = mesh::number_mesh(communicator, volume);
     inspect_volume(communicator, fixed, volume, finished, nullptr, record);
+    record.patches = table_of_patches(communicator, volume);
     return finished;
   });
   run_stage(record, "output", ExitCode::files, [&] {

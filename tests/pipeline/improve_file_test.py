@@ -93,6 +93,9 @@ def main():
     # Our own files, whose parts repeat the points between them.
     code, text, report = improve(program, raw.output / "mesh.pvtu", raw.folder / "own")
     assert code == 0 and report["mesh"]["boundary_triangles"] == raw.report["mesh"]["boundary_triangles"], text
+    for was, now in zip(raw.report["patches"], report["patches"], strict=True):
+        assert all(was[key] == now[key] for key in ("name", "type", "triangles", "inner")), now
+        assert abs(now["area"] / was["area"] - 1) < 1e-12, now
 
     # What cannot be improved.
     hexahedron = vtk.vtkUnstructuredGrid()
