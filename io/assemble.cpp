@@ -1,3 +1,4 @@
+#include "io/id_table.hpp"
 #include "io/part_items.hpp"
 #include "io/point_store.hpp"
 #include "io/raw_faces.hpp"
@@ -89,14 +90,11 @@ CellPlaces place_cells(const parallel::Communicator& communicator, const RawMesh
   return places;
 }
 
-/// The ids that cells of the share use, ascending.
-std::vector<GlobalIndex> used_ids(const RawMesh& raw) {
+/// The ids that cells of the share use.
+IdTable used_ids(const RawMesh& raw) {
   std::vector<GlobalIndex> used;
   for (const auto& cells : raw.cells) used.insert(used.end(), cells.begin(), cells.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  used.shrink_to_fit();
-  return used;
+  return IdTable(std::move(used));
 }
 
 template <std::size_t N>
@@ -131,8 +129,7 @@ void turn_over(std::array<LocalIndex, N>& c) {
 /// The share of a rank on its way from ids to numbers.
 class ShareBuilder {
 public:
-  ShareBuilder(const RawMesh& raw, const std::vector<GlobalIndex>& ids,
-               const std::vector<std::array<double, 3>>& points)
+  ShareBuilder(const RawMesh& raw, const IdTable& ids, const std::vector<std::array<double, 3>>& points)
       : _raw(raw), _ids(ids), _points(points) {}
 
   void add_cells(const CellPlaces& places, std::int32_t parts, NumberedShare& share, PartItems& items) {
@@ -144,7 +141,7 @@ public:
       share.cells[s].reserve(ids.size());
       for (std::size_t c = 0; c < ids.size(); c += n) {
         std::array<LocalIndex, n> corners;
-        for (std::size_t k = 0; k < n; ++k) corners[k] = place(ids[c + k]);
+        for (std::size_t k = 0; k < n; ++k) corners[k] = _ids.place(ids[c + k]);
         require_volume<n>(cell_shapes[s], corners, ids[c]);
         share.cells[s].insert(share.cells[s].end(), corners.begin(), corners.end());
         const GlobalIndex order = places.first[s] + static_cast<GlobalIndex>(c / n);
@@ -165,10 +162,6 @@ public:
   GlobalIndex turned = 0;
 
 private:
-  LocalIndex place(GlobalIndex id) const {
-    return static_cast<LocalIndex>(std::lower_bound(_ids.begin(), _ids.end(), id) - _ids.begin());
-  }
-
   template <std::size_t N>
   void require_volume(CellShape shape, std::array<LocalIndex, N>& corners, GlobalIndex first) {
     const double volume = volume6(shape, _points, corners);
@@ -180,23 +173,21 @@ private:
   }
 
   const RawMesh& _raw;
-  const std::vector<GlobalIndex>& _ids;
+  const IdTable& _ids;
   const std::vector<std::array<double, 3>>& _points;
 };
 
-/// The ids that faces of the share use, ascending.
-std::vector<GlobalIndex> face_ids(const RawMesh& raw) {
+/// The ids that faces of the share use.
+IdTable face_ids(const RawMesh& raw) {
   std::vector<GlobalIndex> ids;
   for (const auto& faces : raw.faces) ids.insert(ids.end(), faces.begin(), faces.end());
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
+  return IdTable(std::move(ids));
 }
 
 /// The faces of the file by numbers. Those with a point that no cell uses belong to no cell: they are left
 /// out, and counted.
-GlobalIndex number_faces(const RawMesh& raw, const std::vector<GlobalIndex>& ids,
-                         const std::vector<GlobalIndex>& numbers, NumberedShare& share) {
+GlobalIndex number_faces(const RawMesh& raw, const IdTable& ids, const std::vector<GlobalIndex>& numbers,
+                         NumberedShare& share) {
   GlobalIndex left_out = 0;
   for (const FaceShape shape : face_shapes) {
     const auto s = static_cast<std::size_t>(shape);
@@ -205,7 +196,7 @@ GlobalIndex number_faces(const RawMesh& raw, const std::vector<GlobalIndex>& ids
       const std::size_t before = share.faces[s].size();
       bool complete = true;
       for (std::size_t k = 0; k < n; ++k) {
-        const auto at = std::lower_bound(ids.begin(), ids.end(), raw.faces[s][n * f + k]) - ids.begin();
+        const LocalIndex at = ids.place(raw.faces[s][n * f + k]);
         share.faces[s].push_back(numbers[at]);
         complete = complete && numbers[at] >= 0;
       }
@@ -268,15 +259,15 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
   Assembled result;
   PointStore store = store_points(communicator, raw, path);
   const GlobalIndex in_file = store.count();
-  const std::vector<GlobalIndex> ids = used_ids(raw);
+  const IdTable ids = used_ids(raw);
   PartItems items;
   NumberedShare share;
   {
-    const PointStore::Found found = store.fetch(ids);
+    const PointStore::Found found = store.fetch(ids.numbers());
     if (found.missing >= 0)
       refuse(path, fmt::format("a cell refers to point {}, which there is not", found.missing));
-    const std::vector<GlobalIndex> of_faces = face_ids(raw);
-    PointStore::Numbers numbers = store.number(ids, of_faces);
+    const IdTable of_faces = face_ids(raw);
+    PointStore::Numbers numbers = store.number(ids.numbers(), of_faces.numbers());
     share.numbers = std::move(numbers.used);
     result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
     ShareBuilder builder(raw, ids, found.points);

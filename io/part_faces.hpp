@@ -51,6 +51,16 @@ struct FaceUser {
   bool is_cell() const { return side >= 0; }
 };
 
+/// Sorts items, equal ones in their order; few of them without making room.
+template <class Iterator, class Less>
+void sort_in_turn(Iterator begin, Iterator end, const Less& less) {
+  constexpr std::ptrdiff_t few = 48;
+  if (end - begin > few) return std::stable_sort(begin, end, less);
+  for (Iterator i = begin; i != end; ++i) {
+    for (Iterator j = i; j != begin && less(*j, *(j - 1)); --j) std::swap(*j, *(j - 1));
+  }
+}
+
 /// Calls `visit(key, users)` once for each set of equal faces among `cells` and boundary faces, in the order
 /// of lowest vertices. `CellSource` has for_each_side(sink(corners, cell, side)) and for_each_face(
 /// sink(corners, face)), the same in every call; vertices run from 0 to `vertices` - 1.
@@ -83,7 +93,7 @@ void match_faces(std::size_t vertices, const Source& source, const Visit& visit)
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(first[v]);
     const auto end = entries.begin() + static_cast<std::ptrdiff_t>(first[v + 1]);
-    std::stable_sort(begin, end, [](const Entry& a, const Entry& b) { return a.rest < b.rest; });
+    sort_in_turn(begin, end, [](const Entry& a, const Entry& b) { return a.rest < b.rest; });
     for (auto i = begin; i != end;) {
       users.clear();
       const auto& rest = i->rest;

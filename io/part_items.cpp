@@ -1,5 +1,6 @@
 #include "io/part_items.hpp"
 
+#include "io/id_table.hpp"
 #include "mesh/delivery.hpp"
 
 #include <algorithm>
@@ -31,10 +32,6 @@ struct Draft {
   std::vector<GlobalIndex> numbers;  ///< new ones
   std::vector<std::uint8_t> owned;
   std::unique_ptr<PartArrays> arrays = std::make_unique<PartArrays>();
-
-  LocalIndex place(GlobalIndex number) const {
-    return static_cast<LocalIndex>(std::lower_bound(known.begin(), known.end(), number) - known.begin());
-  }
 };
 
 /// The items of one part among those that are sorted by part.
@@ -52,17 +49,15 @@ void collect(const std::vector<PartItem<N>>& items, Draft& draft) {
     draft.known.insert(draft.known.end(), item.corners.begin(), item.corners.end());
 }
 
-void sort_unique(std::vector<GlobalIndex>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+std::vector<GlobalIndex> distinct(std::vector<GlobalIndex> values) {
+  return IdTable(std::move(values)).numbers();
 }
 
 /// All old numbers that the parts of this rank know.
 std::vector<GlobalIndex> known_to_any(const std::vector<Draft>& drafts) {
   std::vector<GlobalIndex> all;
   for (const Draft& draft : drafts) all.insert(all.end(), draft.known.begin(), draft.known.end());
-  sort_unique(all);
-  return all;
+  return distinct(std::move(all));
 }
 
 void own_by_number(std::vector<Draft>& drafts, std::int32_t parts, GlobalIndex count) {
@@ -74,7 +69,7 @@ void own_by_number(std::vector<Draft>& drafts, std::int32_t parts, GlobalIndex c
     const std::size_t needed = draft.known.size();
     draft.known.resize(needed + static_cast<std::size_t>(end - begin));
     std::iota(draft.known.begin() + static_cast<std::ptrdiff_t>(needed), draft.known.end(), begin);
-    sort_unique(draft.known);
+    draft.known = distinct(std::move(draft.known));
     draft.numbers = draft.known;
     for (const GlobalIndex number : draft.known)
       draft.owned.push_back(number >= begin && number < end ? 1 : 0);
@@ -186,6 +181,7 @@ void own_by_part(const parallel::Communicator& communicator, std::vector<Draft>&
 /// Vertices in the order of their new numbers, items with local corners.
 void finish(Draft& draft, const PartItems& items, const std::vector<GlobalIndex>& keys,
             const std::vector<std::array<double, 3>>& points) {
+  const IdTable table(draft.known);
   PartArrays& arrays = *draft.arrays;
   std::vector<LocalIndex> order(draft.known.size()), place(draft.known.size());
   std::iota(order.begin(), order.end(), 0);
@@ -202,7 +198,7 @@ void finish(Draft& draft, const PartItems& items, const std::vector<GlobalIndex>
   const auto add = [&](const auto& all, std::vector<LocalIndex>& connectivity,
                        std::vector<std::int32_t>& ids) {
     for (const auto& item : items_of(all, draft.id)) {
-      for (const GlobalIndex number : item.corners) connectivity.push_back(place[draft.place(number)]);
+      for (const GlobalIndex number : item.corners) connectivity.push_back(place[table.place(number)]);
       ids.push_back(item.id);
     }
   };
@@ -226,7 +222,7 @@ FileMesh build_parts(const parallel::Communicator& communicator, PartItems items
     draft.id = part;
     for_each_cell_shape([&](auto s) { collect(std::get<s>(items.cells), draft); });
     for_each_face_shape([&](auto s) { collect(std::get<s>(items.faces), draft); });
-    sort_unique(draft.known);
+    draft.known = distinct(std::move(draft.known));
   }
   if (ownership == Ownership::by_number) {
     own_by_number(drafts, parts, points.count());
