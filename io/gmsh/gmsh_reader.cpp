@@ -176,6 +176,7 @@ std::vector<NamedGroup> agree_on_groups(const parallel::Communicator& communicat
     }
   }
   std::vector<NamedGroup> result;
+  result.reserve(all.size());
   for (auto& [group, named] : all) result.push_back(std::move(named));
   return result;
 }

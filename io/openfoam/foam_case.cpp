@@ -83,7 +83,7 @@ runTimeModifiable true;
 
 // Schemes for tetrahedra: limited corrections for faces that are not orthogonal.
 constexpr char schemes[] = R"foam(ddtSchemes      { default steadyState; }
-gradSchemes     { default cellLimited Gauss linear 1; }
+gradSchemes     { default leastSquares; grad(U) cellLimited leastSquares 1; }
 divSchemes
 {
     default         bounded Gauss upwind;
@@ -91,9 +91,9 @@ divSchemes
     div((nuEff*dev2(T(grad(U))))) Gauss linear;
     div(div(phi,U)) Gauss linear;
 }
-laplacianSchemes { default Gauss linear limited 0.5; }
+laplacianSchemes { default Gauss linear limited 0.777; }
 interpolationSchemes { default linear; }
-snGradSchemes   { default limited 0.5; }
+snGradSchemes   { default limited 0.777; }
 wallDist        { method meshWave; }
 )foam";
 
