@@ -106,8 +106,8 @@ def main():
     hexahedron.InsertNextCell(vtk.VTK_VOXEL, 8, list(range(8)))
     write(hexahedron, raw.folder / "voxel.vtu")
     (raw.folder / "torn.vtu").write_bytes(foreign.read_bytes()[:2000])
-    (raw.folder / "mesh.msh").write_text("$MeshFormat\n")
-    for name, word in (("voxel.vtu", "vtkVoxel"), ("torn.vtu", "cannot read"), ("mesh.msh", ".pvtu"),
+    (raw.folder / "mesh.stl").write_text("solid\n")
+    for name, word in (("voxel.vtu", "vtkVoxel"), ("torn.vtu", "cut off"), ("mesh.stl", ".pvtu"),
                        ("absent.vtu", "No such file")):
         code, text, _ = improve(program, raw.folder / name, raw.folder / "bad", 2)
         assert code == 7 and word in text and name in text, f"{name}: {code}\n{text}"
