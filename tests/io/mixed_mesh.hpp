@@ -151,7 +151,7 @@ private:
     for (std::size_t c = 0; c < cells.size(); ++c) {
       for (const CellFace& face : faces_of(cells[c].shape)) {
         WholeFace found{{}, 0, c};
-        for (const int k : face) {
+        for (const std::int8_t k : face) {
           if (k >= 0) found.corners.push_back(cells[c].corners[k]);
         }
         std::vector<int> key = found.corners;
