@@ -74,8 +74,8 @@ PatchType default_type(const cad::Model& model, std::int32_t patch) {
     inner = inner && model.face(f).back != cad::no_entity;
   }
   if (inner) return PatchType::interior;
-  if (far) return PatchType::farfield;
-  return patch_type_by_name(model.patches()[patch]).value_or(PatchType::wall);
+  // The plane of symmetry that the program cuts belongs to the far field, too.
+  return patch_type_by_name(model.patches()[patch]).value_or(far ? PatchType::farfield : PatchType::wall);
 }
 
 /// Small letters alone.

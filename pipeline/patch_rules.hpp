@@ -25,10 +25,10 @@ struct TypedPatches {
 };
 
 /// Joins faces into patches by the first rule that one of its names matches; others keep their patch. By
-/// default the far field that the program added is `farfield`, a patch called as its type or one of its usual
-/// other names ("symmetry_plane", "inflow") is that, all others are walls; a patch with faces between regions
-/// alone is `interior`. Throws std::invalid_argument with the nearest names for a pattern that matches no
-/// face.
+/// default a patch called as its type or one of its usual other names ("symmetry_plane", "inflow") is that,
+/// what the program added around a body is `farfield`, all others are walls; a patch with faces between
+/// regions alone is `interior`. Throws std::invalid_argument with the nearest names for a pattern that
+/// matches no face.
 TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules);
 
 /// What a patch is by its name alone; empty: nothing to tell.

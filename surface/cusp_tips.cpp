@@ -146,7 +146,8 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
     if (on_curve[v] >= 0 && closed.contains(on_curve[v]))
       stands_for[v] = first.try_emplace(closed.root(on_curve[v]), v).first->second;
   }
-  Piece result{.id = piece.id, .kind = piece.kind, .region = piece.region};
+  Piece result;
+  result.id = piece.id, result.kind = piece.kind, result.region = piece.region;
   std::vector<char> used(piece.vertex_count(), 0);
   std::vector<std::array<LocalIndex, 3>> kept;
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {

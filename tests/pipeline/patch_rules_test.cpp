@@ -39,6 +39,16 @@ TEST(PatchRules, DefaultsAreFarFieldAndWalls) {
   }
 }
 
+TEST(PatchRules, APlaneOfSymmetryIsNoFarField) {
+  cad::DomainOptions options;
+  options.transport = cad::TransportDimensions{};
+  options.far_field = cad::FarFieldOptions{.shape = cad::FarFieldShape::hemisphere};
+  const TypedPatches patches = apply_patch_rules(cad::prepare_domain(options).model, {});
+  EXPECT_EQ(type_of(patches, "symmetry"), PatchType::symmetry);
+  EXPECT_EQ(type_of(patches, "farfield"), PatchType::farfield);
+  EXPECT_EQ(type_of(patches, "fuselage"), PatchType::wall);
+}
+
 TEST(PatchRules, PatternsJoinFacesAndTheFirstRuleHolds) {
   const TypedPatches patches =
       apply_patch_rules(transport(), {{"lifting", {"*wing*", "*tail*"}, PatchType::slip},
