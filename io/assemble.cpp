@@ -269,6 +269,7 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
     const IdTable of_faces = face_ids(raw);
     PointStore::Numbers numbers = store.number(ids.numbers(), of_faces.numbers());
     share.numbers = std::move(numbers.used);
+    share.shared = std::move(numbers.shared);
     result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
     ShareBuilder builder(raw, ids, found.points);
     agree_on(communicator, path, [&] { builder.add_cells(places, parts, share, items); });

@@ -112,17 +112,26 @@ std::vector<GlobalIndex> PointStore::answer(const std::vector<Question>& questio
 PointStore::Numbers PointStore::number(const std::vector<GlobalIndex>& used,
                                        const std::vector<GlobalIndex>& others) {
   const std::vector<Question> questions = ask(used);
-  std::vector<GlobalIndex> numbers(_points.size(), -1);
+  std::vector<GlobalIndex> askers(_points.size(), 0);
   for (const Question& question : questions) {
-    if (const std::int64_t at = position(question.key); at >= 0) numbers[at] = 0;
+    if (const std::int64_t at = position(question.key); at >= 0) ++askers[at];
   }
-  const auto mine = static_cast<GlobalIndex>(std::count(numbers.begin(), numbers.end(), 0));
+  const auto mine =
+      static_cast<GlobalIndex>(_points.size()) - std::count(askers.begin(), askers.end(), GlobalIndex{0});
   const GlobalIndex first = _communicator.exclusive_scan(mine);
+  std::vector<GlobalIndex> numbers(_points.size(), -1), marked(_points.size(), -1);
   GlobalIndex next = first;
-  for (GlobalIndex& number : numbers) {
-    if (number == 0) number = next++;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (askers[i] == 0) continue;
+    numbers[i] = next++;
+    marked[i] = 2 * numbers[i] + (askers[i] > 1 ? 1 : 0);
   }
-  Numbers result{answer(questions, numbers), answer(ask(others), numbers)};
+  Numbers result{answer(questions, marked), answer(ask(others), numbers), {}};
+  result.shared.reserve(result.used.size());
+  for (GlobalIndex& number : result.used) {
+    result.shared.push_back(number >= 0 ? static_cast<std::uint8_t>(number % 2) : 0);
+    if (number >= 0) number /= 2;
+  }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < _points.size(); ++i) {
     if (numbers[i] >= 0) _points[kept++] = {numbers[i], _points[i].at};

@@ -5,6 +5,7 @@
 #include "parallel/communicator.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace aeroloom::io {
@@ -39,9 +40,10 @@ public:
 
   /// Numbers the points that anyone names among `used`, in the order of their keys, and drops the others;
   /// their numbers become their keys. Returns the numbers of `used` and of `others` (both as in fetch; -1
-  /// where there is no such point any more). Collective.
+  /// where there is no such point any more), and which of `used` other ranks named too. Collective.
   struct Numbers {
     std::vector<mesh::GlobalIndex> used, others;
+    std::vector<std::uint8_t> shared;
   };
   Numbers number(const std::vector<mesh::GlobalIndex>& used, const std::vector<mesh::GlobalIndex>& others);
 

@@ -73,18 +73,23 @@ private:
   const NumberedShare& _share;
 };
 
-/// Sides of cells that are not matched inside one region here, and all faces of the file.
+/// Sides of cells that are not matched inside one region here, or that a cell of another share may have, and
+/// all faces of the file.
 std::vector<Comer> comers_of(const parallel::Communicator& communicator, const NumberedShare& share) {
   std::vector<Comer> comers;
   const ShareFaces faces(share);
   std::vector<Comer> met;
-  match_faces(share.numbers.size(), faces, [&](const FaceKey<LocalIndex>&, std::span<const FaceUser> users) {
-    met.clear();
-    for (const FaceUser& user : users) met.push_back(faces.comer(user));
-    const bool settled =
-        met.size() == 2 && met[0].region == met[1].region && !same_direction(met[0].corners, met[1].corners);
-    if (!settled) comers.insert(comers.end(), met.begin(), met.end());
-  });
+  const auto may_be_elsewhere = [&](const FaceKey<LocalIndex>& key) {
+    return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || share.shared[v] != 0; });
+  };
+  match_faces(
+      share.numbers.size(), faces, [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
+        met.clear();
+        for (const FaceUser& user : users) met.push_back(faces.comer(user));
+        const bool settled = met.size() == 2 && met[0].region == met[1].region &&
+                             !same_direction(met[0].corners, met[1].corners) && !may_be_elsewhere(key);
+        if (!settled) comers.insert(comers.end(), met.begin(), met.end());
+      });
   GlobalIndex count = 0;
   for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
   GlobalIndex order = communicator.exclusive_scan(count);

@@ -13,6 +13,7 @@ namespace aeroloom::io {
 /// The share of one rank with its points numbered: corners are places in `numbers`.
 struct NumberedShare {
   std::vector<mesh::GlobalIndex> numbers;  ///< ascending; of the points that cells here use
+  std::vector<std::uint8_t> shared;        ///< by place: 1 where cells of other shares use the point too
   std::array<std::vector<mesh::LocalIndex>, cell_shape_count> cells;
   std::array<std::vector<std::int32_t>, cell_shape_count> regions;
   std::array<std::vector<std::int32_t>, cell_shape_count> parts;  ///< where each cell goes

@@ -4,6 +4,8 @@
 #include "tests/io/mixed_mesh.hpp"
 
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -115,6 +117,45 @@ TEST(Assemble, WhatTheFileLeavesOpenGetsAName) {
   EXPECT_EQ(result.mesh.patches[1].type, mesh::PatchType::interior);
   EXPECT_EQ(result.unnamed_faces, static_cast<GlobalIndex>(whole.faces.size()));
   expect_sound(world, result.mesh);
+}
+
+/// A cell whose neighbours all stand in the share of rank 0, as it does, and in its region.
+std::size_t cell_inside(const Communicator& world, const examples::MixedMesh& whole) {
+  std::map<std::set<int>, std::vector<std::size_t>> cells_at;
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    for (const CellFace& face : faces_of(whole.cells[c].shape)) {
+      std::set<int> corners;
+      for (const int k : face) {
+        if (k >= 0) corners.insert(whole.cells[c].corners[static_cast<std::size_t>(k)]);
+      }
+      cells_at[corners].push_back(c);
+    }
+  }
+  std::vector<int> inner_faces(whole.cells.size(), 0);
+  const std::size_t last = (whole.cells.size() - 1) / static_cast<std::size_t>(world.size());
+  for (const auto& [corners, cells] : cells_at) {
+    const bool near = cells.size() == 2 && std::max(cells[0], cells[1]) <= last &&
+                      whole.cells[cells[0]].region == whole.cells[cells[1]].region;
+    for (const std::size_t c : cells) inner_faces[c] += near ? 1 : 0;
+  }
+  for (std::size_t c = 0; c <= last; ++c) {
+    const CellShape shape = whole.cells[c].shape;
+    if (inner_faces[c] == static_cast<int>(faces_of(shape).size())) return c;
+  }
+  return 0;
+}
+
+TEST(Assemble, ACellThatAnotherRankRepeatsIsRefused) {
+  const Communicator world = Communicator::world();
+  const examples::MixedMesh whole(8, 3);
+  RawMesh raw = raw_of(world, whole);
+  if (world.rank() == world.size() - 1) {
+    const examples::WholeCell& cell = whole.cells[cell_inside(world, whole)];
+    const auto s = static_cast<std::size_t>(cell.shape);
+    for (const int v : cell.corners) raw.cells[s].push_back(7 * v + 1000);
+    raw.cell_regions[s].push_back(cell.region);
+  }
+  EXPECT_THROW(assemble(world, std::move(raw), "twice.mesh", 1), parallel::CollectiveError);
 }
 
 TEST(Assemble, BadFilesAreRefusedWithThePlace) {
