@@ -1,53 +1,7 @@
-#include "pipeline/case.hpp"
-
-#include "pipeline/nearest_name.hpp"
-
-#include <filesystem>
-#include <fstream>
-
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include "tests/pipeline/case_fixture.hpp"
 
 namespace aeroloom::pipeline {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A folder of this process with a case in it.
-class CaseTest : public testing::Test {
-protected:
-  CaseTest() : folder(fs::temp_directory_path() / ("aeroloom_case_test_" + std::to_string(getpid()))) {
-    fs::create_directories(folder);
-  }
-  ~CaseTest() override { fs::remove_all(folder); }
-
-  std::string write(const std::string& yaml, const std::string& name = "case.yaml") const {
-    const fs::path file = folder / name;
-    fs::create_directories(file.parent_path());
-    std::ofstream(file) << yaml;
-    return file.string();
-  }
-  Case read(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
-    return read_case(write(yaml), overrides);
-  }
-  /// The message, without the folder.
-  std::string error_of(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
-    const std::string file = write(yaml);
-    try {
-      read_case(file, overrides);
-    } catch (const CaseError& error) {
-      std::string text = error.what();
-      const std::string prefix = folder.string() + "/";
-      while (text.find(prefix) != std::string::npos) text.erase(text.find(prefix), prefix.size());
-      return text;
-    }
-    return "no error";
-  }
-
-  const fs::path folder;
-};
-
-const std::string transport = "geometry: {builtin: transport}\n";
 
 TEST_F(CaseTest, GeometryAloneGivesThePreset) {
   const Case input = read("geometry: {file: wing.step}\n");
@@ -312,45 +266,6 @@ TEST_F(CaseTest, AFluidHasNoFarField) {
             "case.yaml:1:32: the built-in geometry is a body, 'geometry.domain' cannot be fluid");
 }
 
-TEST_F(CaseTest, PatchesHaveNamesOfTheUsers) {
-  const std::string yaml =
-      transport +
-      "patches:\n  wing: {faces: [wing_*, 'fl?p'], type: slip}\n  farfield: {type: outlet}\n"
-      "  everything else: {faces: '*'}\n";
-  const Case input = read(yaml, {"patches.wing.type=wall", "patches.fin.type=inlet"});
-  ASSERT_EQ(input.patches.size(), 4U);
-  EXPECT_EQ(input.patches[0].name, "wing");
-  EXPECT_EQ(input.patches[0].faces, (std::vector<std::string>{"wing_*", "fl?p"}));
-  EXPECT_EQ(input.patches[0].type, mesh::PatchType::wall);
-  EXPECT_TRUE(input.patches[1].faces.empty());
-  EXPECT_EQ(input.patches[2].type, std::nullopt);
-  EXPECT_EQ(input.patches[3].name, "fin");
-  const Case again = read(resolved_yaml(input));
-  ASSERT_EQ(again.patches.size(), 4U);
-  EXPECT_EQ(resolved_yaml(again), resolved_yaml(input));
-  EXPECT_NE(
-      error_of(transport, {"patches.wing.faces=[*wing]"}).find("a text that begins with * stands in quotes"),
-      std::string::npos);
-  EXPECT_EQ(error_of(transport + "patches:\n  wing: {tipe: wall}\n"),
-            "case.yaml:3:10: unknown key 'tipe' in 'patches.wing'; did you mean 'type'?");
-  EXPECT_EQ(error_of(transport + "patches:\n  wing: {type: sticky}\n"),
-            "case.yaml:3:16: 'patches.wing.type': expected one of wall, slip, symmetry, farfield, inlet, "
-            "outlet, got "
-            "'sticky'");
-}
-
-TEST_F(CaseTest, FormatsAreAListOfNames) {
-  EXPECT_EQ(read(transport).output.formats, std::vector<io::FileFormat>{io::FileFormat::vtu});
-  const Case input = read(transport + "output: {formats: [cgns, su2b, cgns], parts: 4}\n");
-  EXPECT_EQ(input.output.formats, (std::vector<io::FileFormat>{io::FileFormat::cgns, io::FileFormat::su2b}));
-  EXPECT_EQ(input.output.parts, 4);
-  EXPECT_EQ(read(resolved_yaml(input)).output.formats, input.output.formats);
-  EXPECT_EQ(read(transport, {"output.formats=msh"}).output.formats,
-            std::vector<io::FileFormat>{io::FileFormat::msh});
-  EXPECT_NE(error_of(transport + "output: {formats: [cgsn]}\n").find("expected one of vtu, vtkhdf, cgns"),
-            std::string::npos);
-}
-
 TEST_F(CaseTest, SyntaxErrorsHaveTheirPlace) {
   EXPECT_EQ(error_of("geometry: {file: a.step\nsizing: [").rfind("case.yaml:2:", 0), 0u)
       << error_of("geometry: {file: a.step\nsizing: [");
@@ -410,22 +325,6 @@ TEST_F(CaseTest, FilesAreSoughtBesideTheCaseToo) {
   EXPECT_EQ(read_case(file, {"geometry.file=absent.step"}).domain.file, "absent.step");
   const std::string absolute = (folder / "sub/wing.step").string();
   EXPECT_EQ(read_case(file, {"geometry.file=" + absolute}).domain.file, absolute);
-}
-
-TEST(NearestNameTest, CountsEdits) {
-  EXPECT_EQ(edit_distance("", ""), 0);
-  EXPECT_EQ(edit_distance("abc", ""), 3);
-  EXPECT_EQ(edit_distance("sizng", "sizing"), 1);
-  EXPECT_EQ(edit_distance("growht", "growth"), 1);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
-  EXPECT_EQ(edit_distance("ca", "abc"), 3);
-}
-
-TEST(NearestNameTest, IsSilentWhenNothingIsNear) {
-  EXPECT_EQ(nearest_name("directry", {"log", "directory"}), "directory");
-  EXPECT_EQ(nearest_name("dir", {"log", "directory"}), "directory");
-  EXPECT_EQ(nearest_name("quux", {"log", "directory"}), std::nullopt);
-  EXPECT_EQ(nearest_name("x", {}), std::nullopt);
 }
 
 }  // namespace
