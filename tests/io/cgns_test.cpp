@@ -3,6 +3,7 @@
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <array>
 #include <filesystem>
@@ -19,24 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using parallel::Communicator;
 
-/// A folder of this test alone, the same on every rank, removed at the end.
-class Cgns : public testing::Test {
-protected:
-  void SetUp() override {
-    const auto id = world.sum(world.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
-    folder = fs::temp_directory_path() / ("aeroloom_cgns_" + std::to_string(id));
-    if (world.is_root()) fs::create_directories(folder);
-    world.barrier();
-  }
-  void TearDown() override {
-    world.barrier();
-    if (world.is_root()) fs::remove_all(folder);
-    world.barrier();
-  }
-
-  const Communicator world = Communicator::world();
-  fs::path folder;
-};
+class Cgns : public examples::ScratchFolder {};
 
 /// Vertices and sections as they stand in a file.
 class File {
@@ -112,7 +96,7 @@ TEST_F(Cgns, WritesTheSameBytesOnAnyNumberOfRanks) {
   write_cgns(world, examples::mixed_mesh(world, 3, 7), folder / "here");
   if (!world.is_root()) return;
   write_cgns(Communicator::self(), examples::mixed_mesh(Communicator::self(), 3, 7), folder / "alone");
-  EXPECT_TRUE(damage::file_bytes(folder / "here") == damage::file_bytes(folder / "alone"));
+  EXPECT_TRUE(examples::bytes_of(folder / "here") == examples::bytes_of(folder / "alone"));
 }
 
 TEST_F(Cgns, NamesThePathItCannotWriteOnAllRanks) {

@@ -1,5 +1,7 @@
 #include "tests/io/damage.hpp"
 
+#include "tests/io/scratch_folder.hpp"
+
 #include <filesystem>
 #include <string>
 
@@ -16,16 +18,13 @@ std::string good_file() {
   return std::string("\x10\0\0\0\0\0\0\0", 8) + "sixteen letters!";
 }
 
-std::string path_of(const Communicator& communicator) {
-  const auto id = communicator.sum(communicator.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
-  return (std::filesystem::temp_directory_path() / ("aeroloom_damage_" + std::to_string(id))).string();
-}
+class Damage : public examples::ScratchFolder {};
 
 /// Reads such a file on rank 0 with or without a look at its size.
 void read_counted(const Communicator& communicator, const std::string& path, bool careful) {
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    const std::string bytes = damage::file_bytes(path);
+    const std::string bytes = examples::bytes_of(path);
     if (bytes.size() < 8) throw std::runtime_error("'" + path + "' ends before its count");
     std::uint64_t count = 0;
     std::memcpy(&count, bytes.data(), 8);
@@ -34,27 +33,25 @@ void read_counted(const Communicator& communicator, const std::string& path, boo
   });
 }
 
-TEST(Damage, IsNoMatterToAReaderThatLooksFirst) {
-  const auto world = Communicator::world();
-  const std::string path = path_of(world);
+TEST_F(Damage, IsNoMatterToAReaderThatLooksFirst) {
+  const std::string file = path("damaged");
   const damage::Outcome outcome =
-      damage::survive(world, good_file(), path, [&](const std::string& p) { read_counted(world, p, true); });
+      damage::survive(world, good_file(), file, [&](const std::string& p) { read_counted(world, p, true); });
   EXPECT_EQ(outcome.cases, outcome.refused + outcome.accepted);
   EXPECT_GT(outcome.refused, 100);
   EXPECT_GT(outcome.accepted, 50) << "changed letters do not matter";
-  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
-TEST(Damage, ShowsAReaderThatTrustsItsCounts) {
-  const auto world = Communicator::world();
+TEST_F(Damage, ShowsAReaderThatTrustsItsCounts) {
   if (!world.is_root()) return;
   const auto self = Communicator::self();
-  const std::string path = path_of(self);
+  const std::string file = path("damaged");
   testing::TestPartResultArray failures;
   {
     const testing::ScopedFakeTestPartResultReporter reporter(
         testing::ScopedFakeTestPartResultReporter::INTERCEPT_ALL_THREADS, &failures);
-    damage::survive(self, good_file(), path, [&](const std::string& p) { read_counted(self, p, false); });
+    damage::survive(self, good_file(), file, [&](const std::string& p) { read_counted(self, p, false); });
   }
   ASSERT_GT(failures.size(), 0);
   EXPECT_NE(std::string(failures.GetTestPartResult(0).message()).find("kind 2"), std::string::npos)

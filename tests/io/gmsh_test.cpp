@@ -5,8 +5,8 @@
 #include "io/gmsh/msh_tables.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
-#include "tests/io/files_of_test.hpp"
 #include "tests/io/mixed_mesh.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <array>
 #include <string>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using parallel::CollectiveError;
 using parallel::Communicator;
 
-class Msh : public examples::FilesTest {};
+class Msh : public examples::ScratchFolder {};
 
 double volume_of(const Communicator& world, const FileMesh& mesh, CellShape shape) {
   double volume = 0;
@@ -88,8 +88,8 @@ TEST_F(Msh, BytesDoNotDependOnRanks) {
     const FileMesh alone = examples::mixed_mesh(self, 3, 5);
     write_msh(self, alone, path("one/mesh.msh"));
     write_msh_parts(self, alone, path("one/mesh.msh"));
-    EXPECT_EQ(examples::contents_of(folder / "all"), examples::contents_of(folder / "one"));
-    EXPECT_EQ(examples::contents_of(folder / "one").size(), 6U);
+    EXPECT_EQ(examples::files_below(folder / "all"), examples::files_below(folder / "one"));
+    EXPECT_EQ(examples::files_below(folder / "one").size(), 6U);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -20,26 +21,6 @@ namespace {
 
 using mesh::GlobalIndex;
 using parallel::Communicator;
-
-/// A folder of its own for each number of ranks, for they may run at the same time.
-std::string scratch(const Communicator& world, const std::string& name) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("aeroloom_medit_n" + std::to_string(world.size()));
-  parallel::agree(world, [&] {
-    if (world.is_root()) std::filesystem::create_directories(folder);
-  });
-  return (folder / name).string();
-}
-
-std::string text_of(const std::string& path) {
-  return damage::file_bytes(path);
-}
-
-/// Puts a text into a file and waits until it is there.
-void put(const Communicator& world, const std::string& path, const std::string& text) {
-  if (world.is_root()) std::ofstream(path, std::ios::binary) << text;
-  world.barrier();
-}
 
 void expect_sound(const Communicator& world, const FileMesh& mesh) {
   const LinkDefects defects = link_faces(world, mesh).defects;
@@ -56,13 +37,31 @@ void expect_same(const Communicator& world, const FileMesh& mesh, const Assemble
   expect_sound(world, read.mesh);
 }
 
-TEST(Medit, WrittenAndReadAgain) {
-  const Communicator world = Communicator::world();
+class Medit : public examples::ScratchFolder {
+protected:
+  /// What reading says; empty where it succeeds.
+  std::string refusal(const std::string& name, const std::string& bytes) {
+    const std::string file = path(name);
+    examples::put_bytes(world, file, bytes);
+    std::string text;
+    try {
+      assemble(world, read_medit(world, file), file, 1);
+    } catch (const parallel::CollectiveError& error) {
+      text = error.what();
+      EXPECT_EQ(error.kind(), parallel::FailureKind::input);
+      EXPECT_NE(text.find(name), std::string::npos);
+    }
+    world.barrier();
+    return text;
+  }
+};
+
+TEST_F(Medit, WrittenAndReadAgain) {
   const FileMesh mesh = examples::mixed_mesh(world);
   for (const char* name : {"round.meshb", "round.mesh", "wide.meshb"}) {
-    const std::string path = scratch(world, name);
-    write_medit(world, mesh, path, {std::string(name) == "wide.meshb"});
-    const Assembled read = assemble(world, read_medit(world, path), path, 2);
+    const std::string file = path(name);
+    write_medit(world, mesh, file, {std::string(name) == "wide.meshb"});
+    const Assembled read = assemble(world, read_medit(world, file), file, 2);
     expect_same(world, mesh, read);
     // Coordinates come back with every bit.
     const examples::MixedMesh whole(4, 3);
@@ -75,20 +74,20 @@ TEST(Medit, WrittenAndReadAgain) {
   }
 }
 
-TEST(Medit, BytesDependOnThePartsAlone) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
+TEST_F(Medit, BytesDependOnThePartsAlone) {
+  const Communicator self = Communicator::self();
   for (const std::string name : {"bytes.meshb", "bytes.mesh"}) {
-    const std::string together = scratch(world, name);
+    const std::string together = path(name);
     write_medit(world, examples::mixed_mesh(world), together);
-    const std::string alone = scratch(world, "alone" + std::to_string(world.rank()) + name);
+    const std::string alone = path("alone" + std::to_string(world.rank()) + name);
     write_medit(self, examples::mixed_mesh(self), alone);
-    EXPECT_EQ(text_of(together), text_of(alone));
-    EXPECT_EQ(text_of(medit_names_path(together)), text_of(medit_names_path(alone)));
+    EXPECT_EQ(examples::bytes_of(together), examples::bytes_of(alone));
+    EXPECT_EQ(examples::bytes_of(medit_names_path(together)), examples::bytes_of(medit_names_path(alone)));
     EXPECT_FALSE(std::filesystem::exists(together + ".unfinished"));
   }
 }
 
-TEST(Medit, LayoutBeyondThirtyTwoBits) {
+TEST_F(Medit, LayoutBeyondThirtyTwoBits) {
   MeditCounts counts;
   counts.vertices = 500'000'000;
   counts.cells = {3'000'000'000, 0, 1'000};
@@ -161,13 +160,12 @@ private:
   std::size_t _position_at = 0;
 };
 
-TEST(Medit, VersionsAndByteOrders) {
-  const Communicator world = Communicator::world();
+TEST_F(Medit, VersionsAndByteOrders) {
   for (const int version : {1, 2, 3, 4}) {
     for (const bool swapped : {false, true}) {
-      const std::string path = scratch(world, "foreign.meshb");
-      put(world, path, ForeignFile(version, swapped).bytes);
-      const Assembled read = assemble(world, read_medit(world, path), path, 1);
+      const std::string file = path("foreign.meshb");
+      examples::put_bytes(world, file, ForeignFile(version, swapped).bytes);
+      const Assembled read = assemble(world, read_medit(world, file), file, 1);
       EXPECT_EQ(read.mesh.vertex_count, 4);
       EXPECT_EQ(read.mesh.cell_count(), 1);
       EXPECT_EQ(read.mesh.regions, std::vector<std::string>{"region_7"});
@@ -180,20 +178,20 @@ TEST(Medit, VersionsAndByteOrders) {
   }
 }
 
-TEST(Medit, TextWithCommentsAndOtherSections) {
-  const Communicator world = Communicator::world();
-  const std::string path = scratch(world, "foreign.mesh");
-  put(world, path,
+TEST_F(Medit, TextWithCommentsAndOtherSections) {
+  const std::string file = path("foreign.mesh");
+  examples::put_bytes(
+      world, file,
       "# by hand\nMeshVersionFormatted\n1\nDimension\n3 Vertices 4 0 0 0 1\n1 0 0 1 0 1. 0 1 # here\n0 0 1e0 "
       "1\n"
       "Ridges 1\n1\nTetrahedra\n1\n2 1 3 4 5\n\nRequiredVertices\n2\n1\n2\nTriangles\n1 1 2 3 8\nEnd\n");
-  const Assembled read = assemble(world, read_medit(world, path), path, 1);
+  const Assembled read = assemble(world, read_medit(world, file), file, 1);
   EXPECT_EQ(read.mesh.cell_count(), 1);
   EXPECT_EQ(read.turned_cells, 1);
   EXPECT_EQ(read.mesh.regions, std::vector<std::string>{"region_5"});
 }
 
-TEST(Medit, NamesOfAllKinds) {
+TEST_F(Medit, NamesOfAllKinds) {
   FileMesh mesh;
   mesh.regions = {" fluid\n", "\\x", "über", ""};
   mesh.region_cells = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
@@ -211,27 +209,10 @@ TEST(Medit, NamesOfAllKinds) {
   }
 }
 
-/// What reading says; empty where it succeeds.
-std::string refusal(const Communicator& world, const std::string& name, const std::string& bytes) {
-  const std::string path = scratch(world, name);
-  put(world, path, bytes);
-  std::string text;
-  try {
-    assemble(world, read_medit(world, path), path, 1);
-  } catch (const parallel::CollectiveError& error) {
-    text = error.what();
-    EXPECT_EQ(error.kind(), parallel::FailureKind::input);
-    EXPECT_NE(text.find(name), std::string::npos);
-  }
-  world.barrier();
-  return text;
-}
-
-TEST(Medit, RefusesWithThePlace) {
-  const Communicator world = Communicator::world();
+TEST_F(Medit, RefusesWithThePlace) {
   const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
   const auto expect = [&](const std::string& name, const std::string& bytes, const std::string& text) {
-    EXPECT_NE(refusal(world, name, bytes).find(text), std::string::npos) << refusal(world, name, bytes);
+    EXPECT_NE(refusal(name, bytes).find(text), std::string::npos) << refusal(name, bytes);
   };
   expect("bad.mesh", head + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n", "line 4: there are 1 Hexahedra");
   expect("bad.mesh", head + "Vertices\n4611686018427387904\n",
@@ -248,18 +229,17 @@ TEST(Medit, RefusesWithThePlace) {
   bytes = ForeignFile(3, false).bytes;
   bytes[4] = 5;
   expect("bad.meshb", bytes, "byte 4: there is no version 5");
-  EXPECT_NE(refusal(world, "empty.meshb", ""), "");
+  EXPECT_NE(refusal("empty.meshb", ""), "");
 }
 
-TEST(Medit, WhatCannotBeWrittenOrOpened) {
-  const Communicator world = Communicator::world();
+TEST_F(Medit, WhatCannotBeWrittenOrOpened) {
   const FileMesh mesh = examples::mixed_mesh(world);
-  put(world, scratch(world, "no_folder"), "a file");
+  examples::put_bytes(world, path("no_folder"), "a file");
   for (const std::string name : {"no_folder/a.meshb", "wrong.ending"}) {
-    const std::string path = scratch(world, name);
+    const std::string file = path(name);
     try {
-      write_medit(world, mesh, path);
-      ADD_FAILURE() << path << " was written";
+      write_medit(world, mesh, file);
+      ADD_FAILURE() << file << " was written";
     } catch (const parallel::CollectiveError& error) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     }
@@ -272,35 +252,32 @@ TEST(Medit, WhatCannotBeWrittenOrOpened) {
   }
 }
 
-TEST(Medit, HostileFiles) {
-  const Communicator world = Communicator::world();
+TEST_F(Medit, HostileFiles) {
   const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
   for (const std::string ending : {".meshb", ".mesh"}) {
-    const std::string good = scratch(world, "good" + ending), path = scratch(world, "hostile" + ending);
+    const std::string good = path("good" + ending), hostile = path("hostile" + ending);
     for (const bool wide : {false, true}) {
       write_medit(world, mesh, good, {wide});
-      const std::string bytes = text_of(good);
-      damage::survive(world, bytes, path,
+      const std::string bytes = examples::bytes_of(good);
+      damage::survive(world, bytes, hostile,
                       [&](const std::string& file) { assemble(world, read_medit(world, file), file, 2); });
       if (ending == ".mesh") break;
     }
   }
 }
 
-TEST(Medit, HostileNames) {
-  const Communicator world = Communicator::world();
-  const std::string path = scratch(world, "named.meshb");
-  write_medit(world, examples::mixed_mesh(world, 2, 2), path);
-  const std::string names = text_of(medit_names_path(path));
+TEST_F(Medit, HostileNames) {
+  const std::string file = path("named.meshb");
+  write_medit(world, examples::mixed_mesh(world, 2, 2), file);
+  const std::string names = examples::bytes_of(medit_names_path(file));
   world.barrier();
-  damage::survive(world, names, medit_names_path(path),
-                  [&](const std::string&) { assemble(world, read_medit(world, path), path, 2); });
+  damage::survive(world, names, medit_names_path(file),
+                  [&](const std::string&) { assemble(world, read_medit(world, file), file, 2); });
 }
 
-TEST(Medit, PlacesBeyondFourGibibytes) {
+TEST_F(Medit, PlacesBeyondFourGibibytes) {
   // Vertices in front of a hole of 5 GiB, tetrahedra behind it; a sparse file takes no room.
-  const Communicator world = Communicator::world();
-  const std::string path = scratch(world, "sparse.meshb");
+  const std::string file = path("sparse.meshb");
   const std::string near = ForeignFile(3, false).bytes;
   const std::int64_t hole = std::int64_t{5} << 30;
   if (world.is_root()) {
@@ -308,7 +285,7 @@ TEST(Medit, PlacesBeyondFourGibibytes) {
     const std::size_t edges = 24;  // where the chain is led across the hole and back into its copy
     std::string link(reinterpret_cast<const char*>(&hole), sizeof(hole));
     head.replace(edges + 4, 8, link);
-    std::ofstream stream(path, std::ios::binary);
+    std::ofstream stream(file, std::ios::binary);
     stream << head;
     // Behind the hole: the same sections, their positions moved.
     std::string tail = near.substr(edges + 28);
@@ -324,11 +301,9 @@ TEST(Medit, PlacesBeyondFourGibibytes) {
     stream << tail;
   }
   world.barrier();
-  const Assembled read = assemble(world, read_medit(world, path), path, 1);
+  const Assembled read = assemble(world, read_medit(world, file), file, 1);
   EXPECT_EQ(read.mesh.cell_count(), 1);
   EXPECT_EQ(read.mesh.vertex_count, 4);
-  world.barrier();
-  if (world.is_root()) std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include "io/openfoam/foam_faces.hpp"
 #include "io/openfoam/openfoam_writer.hpp"
 #include "parallel/collective_error.hpp"
-#include "tests/io/files_of_test.hpp"
 #include "tests/io/mixed_mesh.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <map>
 #include <set>
@@ -21,7 +21,7 @@ using mesh::LocalIndex;
 using parallel::CollectiveError;
 using parallel::Communicator;
 
-class OpenFoam : public examples::FilesTest {};
+class OpenFoam : public examples::ScratchFolder {};
 
 struct OrderedPart {
   const FilePart* part;
@@ -121,8 +121,8 @@ TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
     if (!world.is_root()) continue;
     const Communicator self = Communicator::self();
     write_openfoam(self, examples::mixed_mesh(self, 3, 4), path("one"), {binary, 0});
-    const auto files = examples::contents_of(folder / "all");
-    EXPECT_EQ(files, examples::contents_of(folder / "one"));
+    const auto files = examples::files_below(folder / "all");
+    EXPECT_EQ(files, examples::files_below(folder / "one"));
     EXPECT_EQ(files.size(), 4U * 11 + 4);
     const std::string boundary = files.at("processor2/constant/polyMesh/boundary");
     for (const char* expected : {"wing___lower_side", "inGroups        1(wall);", "far_field",

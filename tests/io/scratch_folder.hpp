@@ -1,8 +1,9 @@
-/// A folder for the files of a test.
+/// A folder for the files of a test, and the bytes of files.
 #pragma once
 
 #include "parallel/communicator.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace aeroloom::io {
+namespace aeroloom::io::examples {
 
 /// A folder of this test program alone, the same on every rank, empty at the start of each test, removed at
 /// its end.
@@ -38,16 +39,27 @@ protected:
   std::filesystem::path folder;
 };
 
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 /// All files below a folder with their bytes.
-inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+inline std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    files[std::filesystem::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream),
-                                                                       {}};
+    if (entry.is_regular_file())
+      files[std::filesystem::relative(entry.path(), folder).string()] = bytes_of(entry.path());
   }
   return files;
 }
 
-}  // namespace aeroloom::io
+/// Rank 0 writes, all wait.
+inline void put_bytes(const parallel::Communicator& world, const std::string& path,
+                      const std::string& bytes) {
+  world.barrier();
+  if (world.is_root()) std::ofstream(path, std::ios::binary) << bytes;
+  world.barrier();
+}
+
+}  // namespace aeroloom::io::examples

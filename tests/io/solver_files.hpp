@@ -1,8 +1,8 @@
-/// What tests of solver files share: a scratch folder, and what a mesh has in it.
+/// What tests of solver files share: what a mesh has in a file.
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <array>
 #include <cstdint>
@@ -17,40 +17,6 @@
 #include <unistd.h>
 
 namespace aeroloom::io::examples {
-
-/// A folder that all ranks agree on, empty at the start and gone at the end.
-class SolverFiles : public testing::Test {
-protected:
-  void SetUp() override {
-    std::vector<std::int64_t> process{getpid()};
-    world.broadcast_items(process);
-    folder = std::filesystem::temp_directory_path() / ("aeroloom_solver_" + std::to_string(process[0]));
-    if (world.is_root()) std::filesystem::create_directories(folder);
-    world.barrier();
-  }
-  void TearDown() override {
-    world.barrier();
-    if (world.is_root()) std::filesystem::remove_all(folder);
-    world.barrier();
-  }
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-
-  const parallel::Communicator world = parallel::Communicator::world();
-  std::filesystem::path folder;
-};
-
-inline std::string bytes_of(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// Rank 0 writes, all wait.
-inline void put_bytes(const parallel::Communicator& world, const std::string& path,
-                      const std::string& bytes) {
-  world.barrier();
-  if (world.is_root()) std::ofstream(path, std::ios::binary) << bytes;
-  world.barrier();
-}
 
 /// What must survive a file.
 struct Contents {

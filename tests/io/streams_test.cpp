@@ -1,14 +1,14 @@
 #include "io/streams/range_reader.hpp"
 #include "io/streams/range_writer.hpp"
 #include "io/streams/text_lines.hpp"
-#include "tests/io/solver_files.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <stdexcept>
 
 namespace aeroloom::io {
 namespace {
 
-using Streams = examples::SolverFiles;
+using Streams = examples::ScratchFolder;
 
 TEST_F(Streams, NumbersBeyondFourGigabytesComeBackInEitherOrder) {
   constexpr std::int64_t far = std::int64_t{5} << 30;

@@ -28,7 +28,7 @@ struct Format {
 };
 constexpr std::array<Format, 2> formats = {{{".su2", write_su2, read_su2}, {".su2b", write_su2b, read_su2b}}};
 
-class Su2 : public examples::SolverFiles {
+class Su2 : public examples::ScratchFolder {
 protected:
   /// The text of the error that reading `text` gives.
   std::string error_of(const std::string& text) {

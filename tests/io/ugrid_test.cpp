@@ -19,7 +19,7 @@ using parallel::CollectiveError;
 using parallel::Communicator;
 using parallel::FailureKind;
 
-class Ugrid : public examples::SolverFiles {
+class Ugrid : public examples::ScratchFolder {
 protected:
   /// The kind and text of the error that reading gives.
   std::string error_of(const std::string& file, FailureKind kind = FailureKind::input) const {

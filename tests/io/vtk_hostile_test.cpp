@@ -13,7 +13,7 @@ namespace {
 using examples::FileForm;
 using parallel::Communicator;
 
-class VtkHostile : public ScratchFolder {
+class VtkHostile : public examples::ScratchFolder {
 protected:
   damage::Outcome survive(const std::string& good, const std::string& name, const damage::Options& options) {
     return damage::survive(
@@ -36,7 +36,7 @@ TEST_F(VtkHostile, DamagedGridsOfOthers) {
         write_grid(*make_grid(whole, {.label = "CellEntityIds", .with_ids = true}), good, form);
       world.barrier();
       ++options.seed;
-      const damage::Outcome outcome = survive(damage::file_bytes(good), name, options);
+      const damage::Outcome outcome = survive(examples::bytes_of(good), name, options);
       EXPECT_GT(outcome.refused, outcome.cases / 4) << name;
       EXPECT_GT(outcome.accepted, 0) << name << ": names and spare arrays do not matter";
     }
@@ -45,14 +45,14 @@ TEST_F(VtkHostile, DamagedGridsOfOthers) {
 
 TEST_F(VtkHostile, DamagedPartsOfOurOwn) {
   write_volume(world, examples::mixed_mesh(world, 2, 2), folder, "mesh");
-  const std::string good = damage::file_bytes(folder / "mesh" / "mesh_000000.vtu");
+  const std::string good = examples::bytes_of(folder / "mesh" / "mesh_000000.vtu");
   const damage::Outcome outcome = survive(good, "part.vtu", options);
   EXPECT_GT(outcome.refused, outcome.cases / 4);
 }
 
 TEST_F(VtkHostile, DamagedIndices) {
   write_volume(world, examples::mixed_mesh(world, 2, 2), folder, "mesh");
-  const damage::Outcome outcome = survive(damage::file_bytes(path("mesh.pvtu")), "other.pvtu", options);
+  const damage::Outcome outcome = survive(examples::bytes_of(path("mesh.pvtu")), "other.pvtu", options);
   EXPECT_GT(outcome.refused, outcome.cases / 4);
 }
 

@@ -29,7 +29,7 @@ using geometry::Vec3;
 using mesh::GlobalIndex;
 using parallel::Communicator;
 
-class VtkMixed : public ScratchFolder {};
+class VtkMixed : public examples::ScratchFolder {};
 
 /// Of all cells of each shape, by the divergence integral over their faces.
 std::array<double, cell_shape_count> volumes(const Communicator& communicator, const FileMesh& mesh) {
@@ -79,9 +79,9 @@ TEST_F(VtkMixed, IsTheSameBytesOnAnyNumberOfRanks) {
   const FileMesh alone = examples::mixed_mesh(self, 5, 7);
   write_volume(self, alone, folder / "alone", "mesh");
   write_surface(self, alone, folder / "alone", "surface");
-  const auto here = contents(folder / "all");
+  const auto here = examples::files_below(folder / "all");
   EXPECT_EQ(here.size(), 4U);
-  EXPECT_TRUE(here == contents(folder / "alone"));
+  EXPECT_TRUE(here == examples::files_below(folder / "alone"));
 }
 
 TEST_F(VtkMixed, HasVtksOrderAndArrays) {

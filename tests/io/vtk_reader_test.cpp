@@ -19,7 +19,7 @@ using examples::write_grid;
 using mesh::GlobalIndex;
 using parallel::Communicator;
 
-class VtkReader : public ScratchFolder {
+class VtkReader : public examples::ScratchFolder {
 protected:
   /// Rank 0 writes files, all wait.
   void on_root(const std::function<void()>& work) {

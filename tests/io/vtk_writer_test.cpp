@@ -2,6 +2,7 @@
 
 #include "mesh/quality.hpp"
 #include "parallel/collective_error.hpp"
+#include "tests/io/scratch_folder.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <array>
@@ -35,41 +36,15 @@ namespace {
 namespace fs = std::filesystem;
 using parallel::Communicator;
 
-/// A folder of this test alone, the same on every rank, empty at the start, removed at the end.
-class VtkWriter : public testing::Test {
+class VtkWriter : public examples::ScratchFolder {
 protected:
-  void SetUp() override {
-    const auto id = world.sum(world.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
-    folder = fs::temp_directory_path() / ("aeroloom_io_" + std::to_string(id));
-    if (world.is_root()) fs::remove_all(folder);
-    world.barrier();
-  }
-  void TearDown() override {
-    world.barrier();
-    if (world.is_root()) fs::remove_all(folder);
-    world.barrier();
-  }
   void write_cube(const Communicator& communicator, int n, int pieces, const std::string& where) {
     const auto mesh = mesh::examples::cube(communicator, n, pieces);
     write_volume(communicator, mesh, mesh::number_mesh(communicator, mesh), where, "mesh");
     const auto surface = mesh::examples::cube_surface(communicator, n, pieces);
     write_surface(communicator, surface, mesh::number_mesh(communicator, surface), where, "surface");
   }
-
-  const Communicator world = Communicator::world();
-  fs::path folder;
 };
-
-/// All files below a folder with their bytes.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
-  }
-  return files;
-}
 
 TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
   write_cube(world, 4, 7, folder / "here");
@@ -86,7 +61,7 @@ TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
   EXPECT_EQ(ids.GetDataTypeSize(), 8);
   EXPECT_EQ(grid.GetPoints()->GetDataType(), VTK_DOUBLE);
   if (world.is_root()) {
-    const std::string part = contents(folder / "here")["mesh/mesh_000000.vtu"];
+    const std::string part = examples::files_below(folder / "here")["mesh/mesh_000000.vtu"];
     EXPECT_NE(part.find("type=\"Int32\" Name=\"connectivity\""), std::string::npos);
     EXPECT_EQ(part.find("compressor"), std::string::npos);
   }
@@ -129,7 +104,7 @@ TEST_F(VtkWriter, CompressedFilesAreSmallerAndHoldTheSame) {
     reader->Update();
     vtkUnstructuredGrid& grid = *reader->GetOutput();
     Read result;
-    for (const auto& [file, bytes] : contents(folder / name)) result.bytes += bytes.size();
+    for (const auto& [file, bytes] : examples::files_below(folder / name)) result.bytes += bytes.size();
     for (vtkIdType i = 0; i < grid.GetNumberOfPoints(); ++i) {
       for (int axis = 0; axis < 3; ++axis) result.coordinates.push_back(grid.GetPoint(i)[axis]);
       result.ids.push_back(grid.GetPointData()->GetArray("global_id")->GetTuple1(i));
@@ -187,9 +162,9 @@ TEST_F(VtkWriter, WritesTheSameBytesOnAnyNumberOfRanks) {
   write_cube(world, 4, 9, folder / "here");
   if (world.is_root()) {
     write_cube(Communicator::self(), 4, 9, folder / "alone");
-    const auto here = contents(folder / "here");
+    const auto here = examples::files_below(folder / "here");
     EXPECT_EQ(here.size(), 4U);
-    EXPECT_TRUE(here == contents(folder / "alone"));
+    EXPECT_TRUE(here == examples::files_below(folder / "alone"));
   }
 }
 
@@ -232,7 +207,7 @@ TEST_F(VtkWriter, CutsALargeSurfaceIntoPartsThatReadTogether) {
   write_surface(world, surface, mesh::number_mesh(world, surface), folder, "surface");
   if (!world.is_root()) return;
   std::set<std::string> names;
-  for (const auto& [name, bytes] : contents(folder)) names.insert(name);
+  for (const auto& [name, bytes] : examples::files_below(folder)) names.insert(name);
   EXPECT_EQ(names, (std::set<std::string>{"surface.pvtp", "surface/surface_000000.vtp",
                                           "surface/surface_000001.vtp", "surface/surface_000002.vtp"}));
   vtkNew<vtkXMLPPolyDataReader> reader;
@@ -283,14 +258,14 @@ TEST_F(VtkWriter, EscapesWhatXmlReserves) {
 }
 
 TEST_F(VtkWriter, NamesThePathItCannotCreateOnAllRanks) {
-  if (world.is_root()) std::ofstream(folder) << "a file where the folder should be";
-  world.barrier();
+  const std::string file = path("file");
+  examples::put_bytes(world, file, "a file where the folder should be");
   try {
-    write_cube(world, 2, 2, folder / "out");
+    write_cube(world, 2, 2, file + "/out");
     FAIL() << "no rank may go on";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::files);
-    EXPECT_NE(std::string(error.what()).find(folder.string()), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("Not a directory"), std::string::npos) << error.what();
   }
 }

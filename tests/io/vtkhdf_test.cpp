@@ -4,6 +4,7 @@
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
+#include "tests/io/scratch_folder.hpp"
 
 #include <csignal>
 #include <filesystem>
@@ -20,20 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using parallel::Communicator;
 
-/// A folder of this test alone, the same on every rank, removed at the end.
-class Vtkhdf : public testing::Test {
+class Vtkhdf : public examples::ScratchFolder {
 protected:
-  void SetUp() override {
-    const auto id = world.sum(world.is_root() ? static_cast<std::int64_t>(getpid()) : 0);
-    folder = fs::temp_directory_path() / ("aeroloom_vtkhdf_" + std::to_string(id));
-    if (world.is_root()) fs::create_directories(folder);
-    world.barrier();
-  }
-  void TearDown() override {
-    world.barrier();
-    if (world.is_root()) fs::remove_all(folder);
-    world.barrier();
-  }
   std::string message_of_reading(const std::string& path) const {
     try {
       read_vtkhdf(world, path);
@@ -43,9 +32,6 @@ protected:
     }
     return "";
   }
-
-  const Communicator world = Communicator::world();
-  fs::path folder;
 };
 
 double volume_of(const FilePart& part, const Block& block, CellShape shape, mesh::LocalIndex cell) {
@@ -110,8 +96,8 @@ TEST_F(Vtkhdf, WritesTheSameBytesOnAnyNumberOfRanks) {
   const FileMesh mesh = examples::mixed_mesh(Communicator::self(), 3, 7);
   write_vtkhdf(Communicator::self(), mesh, folder / "alone");
   write_vtkhdf_surface(Communicator::self(), mesh, folder / "alone_too");
-  EXPECT_TRUE(damage::file_bytes(folder / "here") == damage::file_bytes(folder / "alone"));
-  EXPECT_TRUE(damage::file_bytes(folder / "here_too") == damage::file_bytes(folder / "alone_too"));
+  EXPECT_TRUE(examples::bytes_of(folder / "here") == examples::bytes_of(folder / "alone"));
+  EXPECT_TRUE(examples::bytes_of(folder / "here_too") == examples::bytes_of(folder / "alone_too"));
 }
 
 TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
@@ -121,7 +107,7 @@ TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
   if (!world.is_root()) return;
   const auto self = Communicator::self();
   write_vtkhdf(self, assemble(self, read_vtkhdf(self, path), path, 2).mesh, folder / "alone");
-  EXPECT_TRUE(damage::file_bytes(folder / "again") == damage::file_bytes(folder / "alone"));
+  EXPECT_TRUE(examples::bytes_of(folder / "again") == examples::bytes_of(folder / "alone"));
 }
 
 TEST_F(Vtkhdf, SaysWhatItCannotRead) {
@@ -148,7 +134,7 @@ TEST_F(Vtkhdf, SaysWhatItCannotRead) {
 
 TEST_F(Vtkhdf, SurvivesDamagedFiles) {
   write_vtkhdf(world, examples::mixed_mesh(world, 1, 2), folder / "good");
-  const std::string good = damage::file_bytes(folder / "good");
+  const std::string good = examples::bytes_of(folder / "good");
   damage::Options options;
   options.truncations = world.size() > 1 ? 20 : 40;
   options.flips = world.size() > 1 ? 40 : 150;
