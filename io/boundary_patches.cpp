@@ -1,9 +1,6 @@
 #include "io/boundary_patches.hpp"
 
-#include <map>
-#include <set>
-
-#include <fmt/format.h>
+#include "io/distinct_names.hpp"
 
 namespace aeroloom::io {
 
@@ -15,20 +12,11 @@ bool is_allowed(char c, const NameRule& rule) {
          byte >= 0x80 || rule.signs.find(c) != std::string_view::npos;
 }
 
-/// The beginning of a text, not ending within a character.
-std::string cut(const std::string& text, std::size_t most_bytes) {
-  if (text.size() <= most_bytes) return text;
-  std::size_t length = most_bytes;
-  while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
-  return text.substr(0, length);
-}
-
 std::string plain_name(const std::string& name, const NameRule& rule) {
   std::string plain = name;
   for (char& c : plain) {
     if (!is_allowed(c, rule)) c = '_';
   }
-  plain = cut(plain, rule.most_bytes);
   return plain.empty() ? std::string("patch") : plain;
 }
 
@@ -51,31 +39,8 @@ BoundaryPatches boundary_patches(const FileMesh& mesh) {
 }
 
 std::vector<std::string> plain_names(std::span<const std::string> names, const NameRule& rule) {
-  std::set<std::string> taken;
-  for (const std::string_view reserved : rule.reserved) taken.emplace(reserved);
-  // Those that stay as they are go first, lest a renamed one takes their place.
-  std::vector<std::string> result(names.size());
-  std::vector<std::size_t> others;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string plain = plain_name(names[i], rule);
-    if (plain == names[i] && taken.insert(plain).second) {
-      result[i] = plain;
-    } else {
-      others.push_back(i);
-    }
-  }
-  std::map<std::string, int> last;  // number that a name has been given
-  for (const std::size_t i : others) {
-    const std::string plain = plain_name(names[i], rule);
-    int& n = last.try_emplace(plain, 1).first->second;
-    std::string candidate = plain;
-    while (!taken.insert(candidate).second) {
-      const std::string ending = fmt::format("_{}", ++n);
-      candidate = fmt::format("{}{}", cut(plain, rule.most_bytes - ending.size()), ending);
-    }
-    result[i] = candidate;
-  }
-  return result;
+  const auto fit = [&](const std::string& name) { return plain_name(name, rule); };
+  return distinct_names(names, rule.most_bytes, fit, rule.reserved);
 }
 
 }  // namespace aeroloom::io

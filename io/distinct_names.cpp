@@ -1,38 +1,37 @@
 #include "io/distinct_names.hpp"
 
-#include <unordered_map>
-#include <unordered_set>
-
 namespace aeroloom::io {
 
-namespace {
-
-/// At most `longest` bytes, no character cut in two.
-std::string cut(const std::string& name, std::size_t longest) {
-  if (name.size() <= longest) return name;
-  std::size_t end = longest;
+std::string cut_name(const std::string& name, std::size_t bytes) {
+  if (name.size() <= bytes) return name;
+  std::size_t end = bytes;
   while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
-  return name.substr(0, end);
+  return name.substr(0, end == 0 ? bytes : end);
 }
 
-}  // namespace
+std::string TakenNames::take(const std::string& key,
+                             const std::function<std::string(const std::string&)>& spell) {
+  std::string result = spell("");
+  while (!reserve(result)) result = spell("_" + std::to_string(++_numbers.try_emplace(key, 1).first->second));
+  return result;
+}
 
 std::vector<std::string> distinct_names(std::span<const std::string> names, std::size_t longest,
-                                        const std::function<std::string(const std::string&)>& fit) {
+                                        const std::function<std::string(const std::string&)>& fit,
+                                        std::span<const std::string_view> reserved) {
+  TakenNames taken;
+  for (const std::string_view name : reserved) taken.reserve(std::string(name));
   std::vector<std::string> result(names.size());
-  std::unordered_set<std::string> taken;
   std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    result[i] = cut(fit(names[i]), longest);
-    if (result[i] != names[i] || !taken.insert(result[i]).second) changed.push_back(i);
+    result[i] = cut_name(fit(names[i]), longest);
+    if (result[i] != names[i] || !taken.reserve(result[i])) changed.push_back(i);
   }
-  std::unordered_map<std::string, int> next;  // so that many equal names take no time
+  // Those that stay as they are have gone first, lest a renamed one takes their place.
   for (const std::size_t i : changed) {
-    const std::string wanted = result[i];
-    while (!taken.insert(result[i]).second) {
-      const std::string ending = "_" + std::to_string(++next.try_emplace(wanted, 1).first->second);
-      result[i] = cut(wanted, longest - ending.size()) + ending;
-    }
+    result[i] = taken.take(result[i], [&, wanted = result[i]](const std::string& number) {
+      return cut_name(wanted, longest - number.size()) + number;
+    });
   }
   return result;
 }

@@ -2,20 +2,9 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace aeroloom::io::cgns {
 
 namespace {
-
-/// The longest beginning of at most `bytes` bytes that ends between two characters.
-std::string cut(const std::string& name, std::size_t bytes) {
-  if (name.size() <= bytes) return name;
-  std::size_t end = bytes;
-  const auto continues = [](char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) == 0x80U; };
-  while (end > 0 && continues(name[end])) --end;
-  return name.substr(0, end == 0 ? bytes : end);
-}
 
 std::string made_fit(std::string name) {
   for (char& letter : name) {
@@ -30,7 +19,7 @@ std::string made_fit(std::string name) {
 
 /// As made_fit; a blank at which a name is cut is no end of a name.
 std::string with_ending(const std::string& name, const std::string& ending) {
-  return made_fit(cut(name, longest_name - std::min(ending.size(), longest_name)) + ending);
+  return made_fit(cut_name(name, longest_name - std::min(ending.size(), longest_name)) + ending);
 }
 
 }  // namespace
@@ -42,10 +31,8 @@ bool is_fit(const std::string& name) {
 std::string NodeNames::take(const std::string& wanted, const std::string& stand_in,
                             const std::string& ending) {
   const std::string name = made_fit(wanted.empty() ? stand_in : wanted);
-  std::string result = with_ending(name, ending);
-  for (int number = 2; !_taken.insert(result).second; ++number)
-    result = with_ending(name, fmt::format("_{}{}", number, ending));
-  return result;
+  return _taken.take(name + '/' + ending,
+                     [&](const std::string& number) { return with_ending(name, number + ending); });
 }
 
 }  // namespace aeroloom::io::cgns

@@ -1,7 +1,9 @@
 /// Names as CGNS can hold them.
 #pragma once
 
-#include <set>
+#include "io/distinct_names.hpp"
+
+#include <cstddef>
 #include <string>
 
 namespace aeroloom::io::cgns {
@@ -12,7 +14,7 @@ inline constexpr std::size_t longest_name = 32;
 class NodeNames {
 public:
   /// Keeps a name for a node that has it already.
-  void reserve(const std::string& name) { _taken.insert(name); }
+  void reserve(const std::string& name) { _taken.reserve(name); }
 
   /// The name itself where it is fit and free. Otherwise: slashes, control characters and blanks at either
   /// end become `_`, as do names of dots alone; what is longer than 32 bytes is cut between two characters
@@ -21,7 +23,7 @@ public:
   std::string take(const std::string& wanted, const std::string& stand_in, const std::string& ending = "");
 
 private:
-  std::set<std::string> _taken;
+  TakenNames _taken;
 };
 
 /// Whether take() could leave the name alone.
