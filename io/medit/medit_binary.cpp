@@ -1,16 +1,9 @@
 #include "io/medit/medit_share.hpp"
+#include "io/streams/range_reader.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <concepts>
 #include <cstddef>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <span>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -25,7 +18,7 @@ constexpr std::int64_t chunk_bytes = std::int64_t{1} << 20;
 /// How a file writes its numbers.
 struct Widths {
   std::int32_t version = 3;
-  std::int32_t swapped = 0;  ///< 1: in the other byte order
+  ByteOrder order = ByteOrder::little;
   int real() const { return version == 1 ? 4 : 8; }
   int integer() const { return version < 4 ? 4 : 8; }
   int position() const { return version < 3 ? 4 : 8; }
@@ -37,58 +30,18 @@ struct Section {
   std::int64_t lines = 0, count = 0;
 };
 
-/// A file whose bytes are read at places.
-class ByteFile {
-public:
-  explicit ByteFile(const std::string& path) : _path(path), _stream(path, std::ios::binary) {
-    std::error_code code;
-    const auto size = std::filesystem::file_size(path, code);
-    if (!_stream || code) {
-      throw std::filesystem::filesystem_error("cannot open", path,
-                                              code ? code : std::make_error_code(std::errc::io_error));
-    }
-    _size = static_cast<std::int64_t>(size);
-  }
-  std::int64_t size() const { return _size; }
-  [[noreturn]] void refuse(std::int64_t at, const std::string& what) const {
-    throw std::runtime_error(fmt::format("'{}', byte {}: {}", _path, at, what));
-  }
-  void read(std::int64_t at, std::span<char> to) {
-    if (at > _size || static_cast<std::int64_t>(to.size()) > _size - at) refuse(at, "the file ends here");
-    _stream.seekg(at);
-    _stream.read(to.data(), static_cast<std::streamsize>(to.size()));
-    if (!_stream) {
-      throw std::filesystem::filesystem_error("cannot read", _path,
-                                              std::make_error_code(std::errc::io_error));
-    }
-  }
-
-private:
-  std::string _path;
-  std::ifstream _stream;
-  std::int64_t _size = 0;
-};
-
-template <class Number>
-Number decode(const char* at, bool swapped) {
-  std::array<char, sizeof(Number)> raw;
-  std::memcpy(raw.data(), at, sizeof(Number));
-  if (swapped) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<Number>(raw);
+std::int64_t decode_integer(const RangeReader& file, const std::byte* at, int width) {
+  return width == 4 ? std::int64_t{file.decoded<std::int32_t>(at)} : file.decoded<std::int64_t>(at);
 }
 
-std::int64_t decode_integer(const char* at, int width, bool swapped) {
-  return width == 4 ? std::int64_t{decode<std::int32_t>(at, swapped)} : decode<std::int64_t>(at, swapped);
-}
-
-double decode_real(const char* at, int width, bool swapped) {
-  return width == 4 ? double{decode<float>(at, swapped)} : decode<double>(at, swapped);
+double decode_real(const RangeReader& file, const std::byte* at, int width) {
+  return width == 4 ? double{file.decoded<float>(at)} : file.decoded<double>(at);
 }
 
 /// The chain of sections of a file.
 class SectionChain {
 public:
-  explicit SectionChain(ByteFile& file) : _file(file) {}
+  explicit SectionChain(RangeReader& file) : _file(file) {}
 
   Widths widths;
   std::vector<Section> sections;
@@ -100,24 +53,24 @@ public:
 
 private:
   std::int64_t integer(std::int64_t at, int width) {
-    std::array<char, 8> raw{};
-    _file.read(at, std::span(raw).first(static_cast<std::size_t>(width)));
-    return decode_integer(raw.data(), width, widths.swapped != 0);
+    return width == 4 ? std::int64_t{_file.value<std::int32_t>(at)} : _file.value<std::int64_t>(at);
   }
 
   /// Magic, version and dimension; returns where the next section begins.
   std::int64_t read_start() {
+    _file.set_order(widths.order);
     const std::int64_t magic = integer(0, 4);
-    if (magic != 1 && magic != 16777216) _file.refuse(0, "this is no Medit file: it does not begin with 1");
-    widths.swapped = magic == 1 ? 0 : 1;
+    if (magic != 1 && magic != 16777216) _file.fail(0, "this is no Medit file: it does not begin with 1");
+    if (magic != 1) widths.order = ByteOrder::big;
+    _file.set_order(widths.order);
     const std::int64_t version = integer(4, 4);
-    if (version < 1 || version > 4) _file.refuse(4, fmt::format("there is no version {}", version));
+    if (version < 1 || version > 4) _file.fail(4, fmt::format("there is no version {}", version));
     widths.version = static_cast<std::int32_t>(version);
     if (integer(8, 4) != static_cast<std::int32_t>(MeditKeyword::dimension))
-      _file.refuse(8, "the file does not begin with its dimension");
+      _file.fail(8, "the file does not begin with its dimension");
     const std::int64_t next = position(12), value_at = 12 + widths.position();
     const std::int64_t dimension = integer(value_at, 4);
-    if (dimension != 3) _file.refuse(value_at, fmt::format("the mesh has {} dimensions, not 3", dimension));
+    if (dimension != 3) _file.fail(value_at, fmt::format("the mesh has {} dimensions, not 3", dimension));
     return after(8, value_at + 4, next);
   }
 
@@ -127,10 +80,9 @@ private:
   std::int64_t after(std::int64_t begin, std::int64_t end, std::int64_t next) const {
     if (next == 0) return 0;
     if (next < end || next > _file.size() - 4) {
-      _file.refuse(begin,
-                   fmt::format("the section that begins here is followed by one at byte {}, but it ends "
-                               "at byte {} and the file at byte {}",
-                               next, end, _file.size()));
+      _file.fail(begin, fmt::format("the section that begins here is followed by one at byte {}, but it ends "
+                                    "at byte {} and the file at byte {}",
+                                    next, end, _file.size()));
     }
     return next;
   }
@@ -146,7 +98,7 @@ private:
   std::int64_t read_section(std::int64_t at) {
     const std::int64_t keyword = integer(at, 4);
     if (keyword == static_cast<std::int32_t>(MeditKeyword::end)) return 0;
-    if (keyword <= 0) _file.refuse(at, fmt::format("there is no keyword {}", keyword));
+    if (keyword <= 0) _file.fail(at, fmt::format("there is no keyword {}", keyword));
     const std::int64_t next = position(at + 4), count_at = at + 4 + widths.position();
     const std::string unreadable = medit_unreadable(static_cast<std::int32_t>(keyword));
     const std::int64_t bytes = line_bytes(keyword);
@@ -154,31 +106,32 @@ private:
     const std::int64_t count = integer(count_at, widths.integer()), lines = count_at + widths.integer();
     if (!unreadable.empty()) {
       if (count == 0) return after(at, lines, next);
-      _file.refuse(at,
-                   fmt::format("there are {} {}; only tetrahedra, pyramids and prisms with straight edges "
-                               "can be read",
-                               count, unreadable));
+      _file.fail(at, fmt::format("there are {} {}; only tetrahedra, pyramids and prisms with straight edges "
+                                 "can be read",
+                                 count, unreadable));
     }
     if (count < 0 || count > (_file.size() - lines) / bytes) {
-      _file.refuse(count_at, fmt::format("{} {} do not fit into the file, which ends at byte {}", count,
-                                         name_of(static_cast<MeditKeyword>(keyword)), _file.size()));
+      _file.fail(count_at, fmt::format("{} {} do not fit into the file, which ends at byte {}", count,
+                                       name_of(static_cast<MeditKeyword>(keyword)), _file.size()));
     }
     for (const Section& other : sections) {
       if (other.keyword == keyword)
-        _file.refuse(at, fmt::format("{} come twice", name_of(static_cast<MeditKeyword>(keyword))));
+        _file.fail(at, fmt::format("{} come twice", name_of(static_cast<MeditKeyword>(keyword))));
     }
     sections.push_back({static_cast<std::int32_t>(keyword), 0, lines, count});
     return after(at, lines + count * bytes, next);
   }
 
-  ByteFile& _file;
+  RangeReader& _file;
 };
 
 /// Reads the share of a rank.
 class ShareReader {
 public:
   ShareReader(const std::string& path, Widths widths, parallel::Rank rank, int ranks)
-      : _file(path), _widths(widths), _rank(rank), _ranks(ranks) {}
+      : _file(path), _widths(widths), _rank(rank), _ranks(ranks) {
+    _file.set_order(widths.order);
+  }
 
   MeditShare share;
 
@@ -191,58 +144,52 @@ public:
   }
 
 private:
-  std::int64_t share_begin(std::int64_t count, int rank) const {
-    return count / _ranks * rank + count % _ranks * rank / _ranks;
-  }
+  Share share_of(const Section& section) const { return Share::of(section.count, _rank, _ranks); }
 
   /// Calls `visit(line)` for the lines of this rank.
   template <class Visit>
   void for_each_line(const Section& section, std::int64_t line_bytes, const Visit& visit) {
-    const std::int64_t begin = share_begin(section.count, _rank), end = share_begin(section.count, _rank + 1);
+    const auto [begin, end] = share_of(section);
     const std::int64_t in_chunk = std::max<std::int64_t>(1, chunk_bytes / line_bytes);
     for (std::int64_t first = begin; first < end; first += in_chunk) {
       const std::int64_t lines = std::min(in_chunk, end - first);
       _buffer.resize(static_cast<std::size_t>(lines * line_bytes));
-      _file.read(section.lines + first * line_bytes, _buffer);
+      _file.read_bytes(section.lines + first * line_bytes, _buffer);
       for (std::int64_t i = 0; i < lines; ++i) visit(_buffer.data() + i * line_bytes);
     }
   }
 
-  std::size_t share_size(const Section& section) const {
-    return static_cast<std::size_t>(share_begin(section.count, _rank + 1) -
-                                    share_begin(section.count, _rank));
-  }
-
   void read_vertices(const Section& section) {
-    share.first_point = share_begin(section.count, _rank);
-    share.coordinates.reserve(3 * share_size(section));
+    share.first_point = share_of(section).begin;
+    share.coordinates.reserve(3 * static_cast<std::size_t>(share_of(section).count()));
     const int width = _widths.real();
-    for_each_line(section, 3 * width + _widths.integer(), [&](const char* line) {
+    for_each_line(section, 3 * width + _widths.integer(), [&](const std::byte* line) {
       for (int axis = 0; axis < 3; ++axis)
-        share.coordinates.push_back(decode_real(line + axis * width, width, _widths.swapped != 0));
+        share.coordinates.push_back(decode_real(_file, line + axis * width, width));
     });
   }
 
   void read_items(const Section& section, MeditItems& items, int corners) {
-    items.corners.reserve(static_cast<std::size_t>(corners) * share_size(section));
-    items.references.reserve(share_size(section));
+    items.corners.reserve(static_cast<std::size_t>(corners) *
+                          static_cast<std::size_t>(share_of(section).count()));
+    items.references.reserve(static_cast<std::size_t>(share_of(section).count()));
     const int width = _widths.integer();
-    std::int64_t at = section.lines + share_begin(section.count, _rank) * (corners + 1) * width;
-    for_each_line(section, std::int64_t{corners + 1} * width, [&](const char* line) {
+    std::int64_t at = section.lines + share_of(section).begin * (corners + 1) * width;
+    for_each_line(section, std::int64_t{corners + 1} * width, [&](const std::byte* line) {
       for (int k = 0; k < corners; ++k) {
-        const std::int64_t corner = decode_integer(line + k * width, width, _widths.swapped != 0);
-        if (corner < 1) _file.refuse(at + k * width, fmt::format("there is no vertex {}", corner));
+        const std::int64_t corner = decode_integer(_file, line + k * width, width);
+        if (corner < 1) _file.fail(at + k * width, fmt::format("there is no vertex {}", corner));
         items.corners.push_back(corner - 1);
       }
-      items.references.push_back(decode_integer(line + corners * width, width, _widths.swapped != 0));
+      items.references.push_back(decode_integer(_file, line + corners * width, width));
       at += std::int64_t{corners + 1} * width;
     });
   }
 
-  ByteFile _file;
+  RangeReader _file;
   Widths _widths;
   int _rank, _ranks;
-  std::vector<char> _buffer;
+  std::vector<std::byte> _buffer;
 };
 
 }  // namespace
@@ -252,7 +199,7 @@ MeditShare read_medit_binary(const parallel::Communicator& communicator, const s
   std::vector<Section> sections;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    ByteFile file(path);
+    RangeReader file(path);
     SectionChain chain(file);
     chain.follow();
     widths = {chain.widths};

@@ -1,5 +1,7 @@
 #include "io/medit/medit_names.hpp"
 
+#include "io/streams/text_lines.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -67,12 +69,6 @@ std::string_view word_for(const Counts& counts, const Words& words) {
   return words[0];
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
-
 std::string_view take_word(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
   const std::string_view word = text.substr(0, end);
@@ -101,9 +97,7 @@ std::string parse_line(std::string_view line, MeditNames& names) {
     return fmt::format("'{}' is none of tetrahedra, pyramids, prisms, triangles, quadrilaterals", word);
   const std::string_view number = take_word(line);
   std::int64_t reference = 0;
-  const auto [stop, code] = std::from_chars(number.data(), number.data() + number.size(), reference);
-  if (code != std::errc{} || stop != number.data() + number.size())
-    return fmt::format("'{}' is no reference", number);
+  if (!parse_number(number, reference)) return fmt::format("'{}' is no reference", number);
   std::optional<mesh::PatchType> type;
   if (!of_cells) {
     const std::string_view type_word = take_last_word(line);
@@ -145,7 +139,7 @@ MeditNames parse_medit_names(const std::string& text, const std::string& path) {
     begin = end + 1, ++number;
     if (line.empty() || line.front() == '#') continue;
     const std::string problem = parse_line(line, names);
-    if (!problem.empty()) throw std::runtime_error(fmt::format("'{}', line {}: {}", path, number, problem));
+    if (!problem.empty()) throw std::runtime_error(fmt::format("{}, line {}: {}", path, number, problem));
   }
   return names;
 }

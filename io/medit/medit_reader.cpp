@@ -2,15 +2,14 @@
 
 #include "io/medit/medit_names.hpp"
 #include "io/medit/medit_share.hpp"
+#include "io/streams/range_reader.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -22,7 +21,7 @@ namespace {
 using mesh::GlobalIndex;
 
 constexpr std::size_t most_references = 65'536;
-constexpr std::uintmax_t largest_names_file = std::uintmax_t{64} << 20;
+constexpr std::int64_t largest_names_file = std::int64_t{64} << 20;
 
 void sort_unique(std::vector<std::int64_t>& values) {
   std::sort(values.begin(), values.end());
@@ -70,17 +69,13 @@ std::vector<std::int32_t> ids_of(const MeditItems& items, const std::vector<std:
 }
 
 std::string read_names_file(const std::string& path) {
-  std::error_code code;
-  const auto size = std::filesystem::file_size(path, code);
-  if (code) return {};
-  if (size > largest_names_file) throw std::runtime_error(fmt::format("'{}' is too large", path));
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) {
-    throw std::filesystem::filesystem_error("cannot read", path, std::make_error_code(std::errc::io_error));
-  }
-  return text.str();
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return {};
+  RangeReader file(path);
+  if (file.size() > largest_names_file) throw std::runtime_error(fmt::format("'{}' is too large", path));
+  std::string text(static_cast<std::size_t>(file.size()), '\0');
+  file.read_bytes(0, std::as_writable_bytes(std::span(text)));
+  return text;
 }
 
 /// Reads the names on one rank for all. Collective.
@@ -103,13 +98,9 @@ bool is_text(const parallel::Communicator& communicator, const std::string& path
   std::int64_t text = 0;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(path)) {
-      throw std::filesystem::filesystem_error("cannot open", path,
-                                              std::make_error_code(std::errc::no_such_file_or_directory));
-    }
-    const int first = stream.get();
-    text = first >= '\t' ? 1 : 0;  // a binary file begins with the bytes 0 or 1
+    RangeReader file(path);
+    // A binary file begins with the bytes 0 or 1.
+    text = file.size() > 0 && file.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
   });
   return communicator.sum(text) > 0;
 }

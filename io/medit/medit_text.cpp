@@ -1,11 +1,10 @@
 #include "io/medit/medit_share.hpp"
+#include "io/streams/text_lines.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -23,20 +22,12 @@ constexpr std::size_t longest_word = 400;
 /// The words of a text, one after another; comments, from # to the end of the line, are no words.
 class WordReader {
 public:
-  explicit WordReader(const std::string& path) : _path(path), _stream(path, std::ios::binary) {
-    std::error_code code;
-    const auto size = std::filesystem::file_size(path, code);
-    if (!_stream || code) {
-      throw std::filesystem::filesystem_error("cannot open", path,
-                                              code ? code : std::make_error_code(std::errc::io_error));
-    }
-    _left = static_cast<std::int64_t>(size);
-  }
+  explicit WordReader(const std::string& path) : _file(path) {}
 
-  /// Bytes that are still to come, at most.
-  std::int64_t left() const { return _left; }
+  /// Bytes that are still to come.
+  std::int64_t left() const { return _file.bytes_from(_offset) + static_cast<std::int64_t>(_filled - _at); }
   [[noreturn]] void refuse(const std::string& what) const {
-    throw std::runtime_error(fmt::format("'{}', line {}: {}", _path, _line, what));
+    throw std::runtime_error(fmt::format("{}, line {}: {}", _file.path(), _line, what));
   }
 
   /// The next word; empty at the end of the file.
@@ -77,16 +68,16 @@ private:
 
   int get() {
     if (_at == _filled && !fill()) return end_of_file;
-    --_left;
     const char c = _buffer[_at++];
     if (c == '\n') ++_lines_ended;
     return static_cast<unsigned char>(c);
   }
 
   bool fill() {
-    _buffer.resize(std::size_t{1} << 20);
-    _stream.read(_buffer.data(), static_cast<std::streamsize>(_buffer.size()));
-    _filled = static_cast<std::size_t>(_stream.gcount());
+    _buffer.resize(static_cast<std::size_t>(std::min(std::int64_t{1} << 20, _file.bytes_from(_offset))));
+    _file.read_bytes(_offset, std::as_writable_bytes(std::span(_buffer)));
+    _filled = _buffer.size();
+    _offset += static_cast<std::int64_t>(_filled);
     _at = 0;
     return _filled > 0;
   }
@@ -95,17 +86,13 @@ private:
   void parse(Number& value, const char* what) {
     next();
     if (_word.empty()) refuse(fmt::format("the file ends where {} should be", what));
-    const char* const begin = _word.data() + (_word.front() == '+' ? 1 : 0);
-    const char* const end = _word.data() + _word.size();
-    const auto [stop, code] = std::from_chars(begin, end, value);
-    if (code != std::errc{} || stop != end) refuse(fmt::format("'{}' should be {}", _word, what));
+    if (!parse_number(_word, value)) refuse(fmt::format("'{}' should be {}", _word, what));
   }
 
-  std::string _path;
-  std::ifstream _stream;
+  RangeReader _file;
   std::string _buffer, _word;
   std::size_t _at = 0, _filled = 0;
-  std::int64_t _left = 0;
+  std::int64_t _offset = 0;                  // of the file, behind the buffer
   std::int64_t _line = 1, _lines_ended = 0;  // _line: of the last word
 };
 
