@@ -1,20 +1,15 @@
 #include "io/gmsh/msh_scanner.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <filesystem>
-#include <stdexcept>
+#include <span>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/types.h>
 
 namespace aeroloom::io {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -28,25 +23,19 @@ bool is_blank(int letter) {
 
 }  // namespace
 
-MshScanner::MshScanner(std::string path) : _path(std::move(path)) {
-  if (fs::is_directory(_path))
-    throw fs::filesystem_error("cannot read", _path, std::make_error_code(std::errc::is_a_directory));
-  _size = static_cast<std::int64_t>(fs::file_size(_path));
-  _file.reset(std::fopen(_path.c_str(), "rb"));
-  if (!_file)
-    throw fs::filesystem_error("cannot open", _path, std::error_code(errno, std::generic_category()));
-  std::setvbuf(_file.get(), nullptr, _IONBF, 0);
-  _buffer.resize(std::min(buffer_size, static_cast<std::size_t>(_size) + 1));
+MshScanner::MshScanner(std::string path) : _file(std::make_unique<RangeReader>(std::move(path))) {
+  _buffer.resize(std::min(buffer_size, static_cast<std::size_t>(size())));
 }
 
 void MshScanner::fail(const std::string& what) const {
-  throw std::runtime_error(fmt::format("{}: byte {}: {}", _path, position(), what));
+  _file->fail(position(), what);
 }
 
 bool MshScanner::fill() {
   _begin += static_cast<std::int64_t>(_end);
   _next = 0;
-  _end = std::fread(_buffer.data(), 1, _buffer.size(), _file.get());
+  _end = std::min(_buffer.size(), static_cast<std::size_t>(_file->bytes_from(_begin)));
+  _file->read_bytes(_begin, std::as_writable_bytes(std::span(_buffer.data(), _end)));
   return _end > 0;
 }
 
@@ -68,12 +57,11 @@ void MshScanner::raw(void* to, std::int64_t bytes) {
 }
 
 void MshScanner::seek(std::int64_t position) {
-  if (position < 0 || position > _size) fail("the file ends too early");
+  if (position < 0 || position > size()) fail("the file ends too early");
   if (position >= _begin && position <= _begin + static_cast<std::int64_t>(_end)) {
     _next = static_cast<std::size_t>(position - _begin);
     return;
   }
-  if (fseeko(_file.get(), static_cast<off_t>(position), SEEK_SET) != 0) fail("cannot go there");
   _begin = position;
   _next = _end = 0;
 }
@@ -131,7 +119,7 @@ std::int64_t MshScanner::count(std::int64_t item_bytes) {
   const std::int64_t value = int64();
   if (value < 0) fail(fmt::format("a count of {}", value));
   const std::int64_t least = binary ? item_bytes : 2;
-  if (value > (_size - position()) / least + 1)
+  if (value > (size() - position()) / least + 1)
     fail(fmt::format("a count of {}, more than the rest of the file can hold", value));
   return value;
 }
@@ -148,7 +136,7 @@ void MshScanner::reals(double* to, std::int64_t n) {
 
 void MshScanner::skip_values(std::int64_t n) {
   if (binary) {
-    if (n > (_size - position()) / 8) fail("the file ends too early");
+    if (n > (size() - position()) / 8) fail("the file ends too early");
     return seek(position() + 8 * n);
   }
   for (std::int64_t i = 0; i < n; ++i) token();

@@ -1,9 +1,10 @@
 /// Reads values of an MSH file one after another, text or binary.
 #pragma once
 
+#include "io/streams/range_reader.hpp"
+
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@ namespace aeroloom::io {
 
 class MshScanner {
 public:
-  /// Throws std::filesystem::filesystem_error where the file cannot be opened.
+  /// Throws std::filesystem::filesystem_error where there is no plain file that can be read.
   explicit MshScanner(std::string path);
 
   bool binary = false;  ///< how int32, int64 and real read
@@ -37,23 +38,19 @@ public:
   std::string next_line();
 
   std::int64_t position() const { return _begin + static_cast<std::int64_t>(_next); }
-  std::int64_t size() const { return _size; }
+  std::int64_t size() const { return _file->size(); }
   void seek(std::int64_t position);
   /// Throws std::runtime_error with the file, the byte and `what`.
   [[noreturn]] void fail(const std::string& what) const;
 
 private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   bool fill();
   int peek();
   void raw(void* to, std::int64_t bytes);
   std::string_view token();
 
-  std::string _path;
-  std::unique_ptr<std::FILE, Close> _file;
-  std::int64_t _size = 0, _begin = 0;  ///< of the file; of the buffer in it
+  std::unique_ptr<RangeReader> _file;  ///< never null; scanners move
+  std::int64_t _begin = 0;             ///< of the buffer in the file
   std::vector<char> _buffer;
   std::size_t _next = 0, _end = 0;
   std::string _token;
