@@ -1,6 +1,7 @@
 #include "io/file_mesh.hpp"
 
 #include "io/face_links.hpp"
+#include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/mesh/meshes.hpp"
 
@@ -14,18 +15,6 @@ namespace {
 using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using parallel::Communicator;
-
-/// Of all cells, by the divergence integral over their faces.
-double volume_of(const FilePart& part, CellShape shape, LocalIndex cell) {
-  const LocalIndex* v = part.cells[static_cast<std::size_t>(shape)].item(cell);
-  double volume = 0;
-  for (const CellFace& face : faces_of(shape)) {
-    const geometry::Vec3 a = part.point(v[face[0]]);
-    for (int k = 1; k + 1 < (face[3] < 0 ? 3 : 4); ++k)
-      volume += dot(a, cross(part.point(v[face[k]]) - a, part.point(v[face[k + 1]]) - a)) / 6;
-  }
-  return volume;
-}
 
 TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
   const Communicator world = Communicator::world();
@@ -42,7 +31,7 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
     owned += part.owned_count;
     for (const CellShape shape : cell_shapes) {
       for (LocalIndex c = 0; c < part.cells[static_cast<std::size_t>(shape)].count(); ++c) {
-        const double of_cell = volume_of(part, shape, c);
+        const double of_cell = examples::volume_of(part, shape, c);
         EXPECT_GT(of_cell, 0);
         volume += of_cell;
       }
@@ -112,7 +101,8 @@ std::vector<double> volumes(const Communicator& world, const FileMesh& mesh) {
     for (const CellShape shape : cell_shapes) {
       for (const Run& run : part.cells[static_cast<std::size_t>(shape)].runs) {
         for (LocalIndex c = run.begin; c < run.end; ++c)
-          sums[static_cast<std::size_t>(3 * run.id + static_cast<int>(shape))] += volume_of(part, shape, c);
+          sums[static_cast<std::size_t>(3 * run.id + static_cast<int>(shape))] +=
+              examples::volume_of(part, shape, c);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "io/gmsh/msh_tables.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
+#include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
 
@@ -22,30 +23,14 @@ using parallel::Communicator;
 
 class Msh : public examples::ScratchFolder {};
 
-double volume_of(const Communicator& world, const FileMesh& mesh, CellShape shape) {
-  double volume = 0;
-  for (const FilePart& part : mesh.parts) {
-    const Block& block = part.cells[static_cast<std::size_t>(shape)];
-    for (mesh::LocalIndex c = 0; c < block.count(); ++c) {
-      const mesh::LocalIndex* v = block.item(c);
-      for (const CellFace& face : faces_of(shape)) {
-        const geometry::Vec3 a = part.point(v[face[0]]);
-        for (int k = 1; k + 1 < (face[3] < 0 ? 3 : 4); ++k)
-          volume += dot(a, cross(part.point(v[face[k]]) - a, part.point(v[face[k + 1]]) - a)) / 6;
-      }
-    }
-  }
-  return world.sum(volume);
-}
-
 void expect_same(const Communicator& world, const FileMesh& found, const FileMesh& expected) {
   EXPECT_EQ(found.vertex_count, expected.vertex_count);
   EXPECT_EQ(found.patches, expected.patches);
   EXPECT_EQ(found.regions, expected.regions);
   EXPECT_EQ(found.region_cells, expected.region_cells);
   EXPECT_EQ(found.patch_faces, expected.patch_faces);
-  for (const CellShape shape : cell_shapes)
-    EXPECT_NEAR(volume_of(world, found, shape), volume_of(world, expected, shape), 1e-9);
+  const auto volumes = examples::volumes_of(world, found), wanted = examples::volumes_of(world, expected);
+  for (std::size_t s = 0; s < cell_shape_count; ++s) EXPECT_NEAR(volumes[s], wanted[s], 1e-9);
 }
 
 TEST_F(Msh, ComesBackAsItWas) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
+#include "tests/io/mesh_volumes.hpp"
 #include "tests/io/scratch_folder.hpp"
 
 #include <array>
@@ -40,24 +41,13 @@ inline double volume_below(const FilePart& part, const std::vector<mesh::LocalIn
 inline Contents contents_of(const parallel::Communicator& world, const FileMesh& mesh) {
   Contents contents;
   contents.vertices = mesh.vertex_count;
+  contents.volumes = volumes_of(world, mesh);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     if (mesh.patches[p].type == mesh::PatchType::interior) continue;
     contents.faces[mesh.patches[p].name] = mesh.patch_faces[p];
     contents.types[mesh.patches[p].name] = mesh.patches[p].type;
   }
   for (const FilePart& part : mesh.parts) {
-    for (const CellShape shape : cell_shapes) {
-      const auto s = static_cast<std::size_t>(shape);
-      for (mesh::LocalIndex c = 0; c < part.cells[s].count(); ++c) {
-        for (const CellFace& face : faces_of(shape)) {
-          std::vector<mesh::LocalIndex> corners;
-          for (const std::int8_t k : face) {
-            if (k >= 0) corners.push_back(part.cells[s].item(c)[k]);
-          }
-          contents.volumes[s] += volume_below(part, corners);
-        }
-      }
-    }
     for (const Block& block : part.faces) {
       for (const Run& run : block.runs) {
         if (mesh.patches[run.id].type == mesh::PatchType::interior) continue;
@@ -69,7 +59,6 @@ inline Contents contents_of(const parallel::Communicator& world, const FileMesh&
   for (const CellShape shape : cell_shapes) {
     const auto s = static_cast<std::size_t>(shape);
     contents.cells[s] = mesh.cell_count(shape);
-    contents.volumes[s] = world.sum(contents.volumes[s]);
   }
   contents.enclosed = world.sum(contents.enclosed);
   return contents;

@@ -4,6 +4,7 @@
 #include "io/vtk/vtk_writer.hpp"
 #include "io/vtk_order.hpp"
 #include "mesh/quality.hpp"
+#include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
 
@@ -31,26 +32,6 @@ using parallel::Communicator;
 
 class VtkMixed : public examples::ScratchFolder {};
 
-/// Of all cells of each shape, by the divergence integral over their faces.
-std::array<double, cell_shape_count> volumes(const Communicator& communicator, const FileMesh& mesh) {
-  std::array<double, cell_shape_count> sums{};
-  for (const FilePart& part : mesh.parts) {
-    for (const CellShape shape : cell_shapes) {
-      const Block& block = part.cells[static_cast<std::size_t>(shape)];
-      for (mesh::LocalIndex c = 0; c < block.count(); ++c) {
-        const auto p = [&](int k) { return part.point(block.item(c)[k]) - part.point(block.item(c)[0]); };
-        for (const CellFace& f : faces_of(shape)) {
-          double& sum = sums[static_cast<std::size_t>(shape)];
-          sum += dot(p(f[0]), cross(p(f[1]), p(f[2]))) / 6;
-          if (f[3] >= 0) sum += dot(p(f[0]), cross(p(f[2]), p(f[3]))) / 6;
-        }
-      }
-    }
-  }
-  for (double& sum : sums) sum = communicator.sum(sum);
-  return sums;
-}
-
 TEST_F(VtkMixed, ComesBackTheSame) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zlib}) {
@@ -65,7 +46,7 @@ TEST_F(VtkMixed, ComesBackTheSame) {
     EXPECT_EQ(read.mesh.regions, mesh.regions);
     EXPECT_EQ(read.mesh.patch_faces, mesh.patch_faces);
     EXPECT_EQ(read.mesh.region_cells, mesh.region_cells);
-    const auto there = volumes(world, mesh), back = volumes(world, read.mesh);
+    const auto there = examples::volumes_of(world, mesh), back = examples::volumes_of(world, read.mesh);
     for (std::size_t s = 0; s < cell_shape_count; ++s) EXPECT_NEAR(back[s], there[s], 1e-12 * there[s]);
   }
 }

@@ -3,6 +3,7 @@
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
+#include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
 
@@ -34,18 +35,6 @@ protected:
   }
 };
 
-double volume_of(const FilePart& part, const Block& block, CellShape shape, mesh::LocalIndex cell) {
-  // Faces against the first corner, quadrilaterals as two triangles.
-  const geometry::Vec3 apex = part.point(block.item(cell)[0]);
-  double volume = 0;
-  for (const CellFace& face : faces_of(shape)) {
-    const auto p = [&](int k) { return part.point(block.item(cell)[face[k]]) - apex; };
-    volume += dot(cross(p(0), p(1)), p(2)) / 6;
-    if (face[3] >= 0) volume += dot(cross(p(0), p(2)), p(3)) / 6;
-  }
-  return volume;
-}
-
 /// Volumes by region and shape; each cell's must be positive.
 std::array<std::array<double, cell_shape_count>, 2> volumes_of(const Communicator& communicator,
                                                                const FileMesh& mesh) {
@@ -55,7 +44,7 @@ std::array<std::array<double, cell_shape_count>, 2> volumes_of(const Communicato
       const Block& block = part.cells[static_cast<std::size_t>(shape)];
       for (const Run& run : block.runs) {
         for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
-          const double volume = volume_of(part, block, shape, i);
+          const double volume = examples::volume_of(part, shape, i);
           EXPECT_GT(volume, 0);
           volumes[static_cast<std::size_t>(run.id)][static_cast<std::size_t>(shape)] += volume;
         }
