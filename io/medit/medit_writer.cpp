@@ -2,15 +2,16 @@
 
 #include "io/medit/medit_layout.hpp"
 #include "io/medit/medit_names.hpp"
+#include "io/streams/range_writer.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/shared_file.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <span>
-#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,68 +22,47 @@ namespace {
 using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
-/// Lines of a section on their way into the file; what is full is written.
+/// Lines of a section on their way into the file.
 class LineBuffer {
 public:
-  LineBuffer(parallel::SharedFile& file, const MeditLayout& layout) : _file(file), _layout(layout) {
-    _bytes.reserve(capacity + 1024);
-  }
+  LineBuffer(parallel::SharedFile& file, const MeditLayout& layout) : _writer(file), _layout(layout) {}
 
   /// The lines that follow begin with this one.
   void begin_at(const MeditSection& section, GlobalIndex line) {
-    flush();
-    _offset = section.lines + line * section.line_bytes;
+    _writer.move_to(section.lines + line * section.line_bytes);
   }
   void coordinate(double value) {
-    if (binary()) {
-      append(value);
-    } else {
-      fmt::format_to(std::back_inserter(_bytes), "{:24.16e} ", value);
-    }
+    if (binary()) return _writer.put(value);
+    put_formatted("{:24.16e} ", value);
   }
   void integer(GlobalIndex value, bool last) {
-    if (!binary()) {
-      fmt::format_to(std::back_inserter(_bytes), "{:{}}{}", value, _layout.integer_width, last ? '\n' : ' ');
-    } else if (_layout.version < 4) {
-      append(static_cast<std::int32_t>(value));
-    } else {
-      append(value);
-    }
-    if (last) end_line();
+    if (!binary()) return put_formatted("{:{}}{}", value, _layout.integer_width, last ? '\n' : ' ');
+    if (_layout.version < 4) return _writer.put(static_cast<std::int32_t>(value));
+    _writer.put(value);
   }
   /// Ends a line of coordinates: vertices have no reference.
   void no_reference() {
     if (binary()) return integer(0, true);
-    _bytes += "0\n";
-    end_line();
+    _writer.put_text("0\n");
   }
   void text(std::int64_t offset, const std::string& bytes) {
-    _file.write(offset, std::as_bytes(std::span(bytes.data(), bytes.size())));
+    _writer.move_to(offset);
+    _writer.put_text(bytes);
   }
-  void flush() {
-    if (!_bytes.empty()) text(_offset, _bytes);
-    _offset += static_cast<std::int64_t>(_bytes.size());
-    _bytes.clear();
-  }
+  void flush() { _writer.flush(); }
 
 private:
-  static constexpr std::size_t capacity = std::size_t{1} << 20;
-
   bool binary() const { return _layout.encoding == MeditEncoding::binary; }
-  template <class Number>
-  void append(Number number) {
-    char raw[sizeof(Number)];
-    std::memcpy(raw, &number, sizeof(Number));
-    _bytes.append(raw, sizeof(Number));
-  }
-  void end_line() {
-    if (_bytes.size() >= capacity) flush();
+  template <class... Values>
+  void put_formatted(fmt::format_string<Values...> format, Values... values) {
+    _text.clear();
+    fmt::format_to(std::back_inserter(_text), format, std::forward<Values>(values)...);
+    _writer.put_text({_text.data(), _text.size()});
   }
 
-  parallel::SharedFile& _file;
+  RangeWriter _writer;
   const MeditLayout& _layout;
-  std::string _bytes;
-  std::int64_t _offset = 0;
+  fmt::memory_buffer _text;  ///< of a number
 };
 
 MeditCounts counts_of(const FileMesh& mesh) {
