@@ -17,7 +17,6 @@
 namespace aeroloom::io {
 namespace {
 
-namespace fs = std::filesystem;
 using parallel::Communicator;
 
 class Cgns : public examples::ScratchFolder {};
