@@ -1,5 +1,7 @@
 #include "io/distinct_names.hpp"
 
+#include <fmt/format.h>
+
 namespace aeroloom::io {
 
 std::string cut_name(const std::string& name, std::size_t bytes) {
@@ -12,7 +14,7 @@ std::string cut_name(const std::string& name, std::size_t bytes) {
 std::string TakenNames::take(const std::string& key,
                              const std::function<std::string(const std::string&)>& spell) {
   std::string result = spell("");
-  while (!reserve(result)) result = spell("_" + std::to_string(++_numbers.try_emplace(key, 1).first->second));
+  while (!reserve(result)) result = spell(fmt::format("_{}", ++_numbers.try_emplace(key, 1).first->second));
   return result;
 }
 

@@ -159,6 +159,7 @@ void own_by_part(const parallel::Communicator& communicator, std::vector<Draft>&
   const std::vector<GlobalIndex> first = first_numbers(communicator, drafts);
   constexpr GlobalIndex question = -1;  // sorts before every number: the answer is the last of a key
   std::vector<Note> notes;
+  notes.reserve(2 * of_vertex.size());
   for (const Note& note : of_vertex) notes.push_back({note.key, question, communicator.rank()});
   for (std::size_t d = 0; d < drafts.size(); ++d) {
     GlobalIndex next = first[d];

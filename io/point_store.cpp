@@ -3,13 +3,23 @@
 #include "mesh/delivery.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <limits>
 #include <utility>
 
 namespace aeroloom::io {
 
 using mesh::GlobalIndex;
+
+namespace {
+
+bool same_bits(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+}  // namespace
 
 parallel::Rank KeyRanges::rank_of(GlobalIndex key) const {
   const auto found = std::upper_bound(first.begin(), first.end() - 1, key);
@@ -39,7 +49,7 @@ PointStore::PointStore(const parallel::Communicator& communicator, KeyRanges ran
   std::size_t kept = 0;
   for (const KeyedPoint& point : _points) {
     if (kept > 0 && _points[kept - 1].key == point.key) {
-      const bool equal = std::memcmp(_points[kept - 1].at.data(), point.at.data(), sizeof point.at) == 0;
+      const bool equal = same_bits(_points[kept - 1].at, point.at);
       if (!equal && _clash < 0) _clash = point.key;
     } else {
       _points[kept++] = point;

@@ -199,6 +199,7 @@ public:
              const std::vector<std::string>& regions, const std::vector<Found>& found)
       : _patches(std::move(patches)) {
     std::vector<Use> uses;
+    uses.reserve(found.size());
     for (const Found& face : found) uses.push_back(use_of(face));
     std::sort(uses.begin(), uses.end());
     uses.erase(std::unique(uses.begin(), uses.end()), uses.end());

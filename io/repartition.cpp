@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -102,7 +103,7 @@ std::vector<RegionShare> share_out(const FileMesh& mesh, std::int32_t parts, boo
   const auto all = static_cast<double>(std::max<GlobalIndex>(1, mesh.cell_count()));
   for (const auto& shapes : mesh.region_cells) {
     const GlobalIndex cells = std::accumulate(shapes.begin(), shapes.end(), GlobalIndex{0});
-    const auto fair = static_cast<std::int32_t>(static_cast<double>(cells) / all * parts + 0.5);
+    const auto fair = static_cast<std::int32_t>(std::lround(static_cast<double>(cells) / all * parts));
     shares.push_back({next, cells == 0 ? 0 : std::max(1, fair)});
     next += shares.back().count;
   }

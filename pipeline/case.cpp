@@ -172,6 +172,7 @@ void declare_stages(KeyTable& root, Case& result) {
   KeyTable& output = root.section("output");
   output.text("directory", result.output.directory);
   std::vector<std::pair<std::string, io::FileFormat>> formats;
+  formats.reserve(io::format_names.size());
   for (const io::FormatName& format : io::format_names) formats.emplace_back(format.name, format.format);
   output.choices("formats", result.output.formats, formats);
   output.integer("parts", result.output.parts, Range::between(0, 1e6));

@@ -125,7 +125,7 @@ std::size_t cell_inside(const Communicator& world, const examples::MixedMesh& wh
   for (std::size_t c = 0; c < whole.cells.size(); ++c) {
     for (const CellFace& face : faces_of(whole.cells[c].shape)) {
       std::set<int> corners;
-      for (const int k : face) {
+      for (const std::int8_t k : face) {
         if (k >= 0) corners.insert(whole.cells[c].corners[static_cast<std::size_t>(k)]);
       }
       cells_at[corners].push_back(c);

@@ -101,7 +101,7 @@ std::vector<double> volumes(const Communicator& world, const FileMesh& mesh) {
     for (const CellShape shape : cell_shapes) {
       for (const Run& run : part.cells[static_cast<std::size_t>(shape)].runs) {
         for (LocalIndex c = run.begin; c < run.end; ++c)
-          sums[static_cast<std::size_t>(3 * run.id + static_cast<int>(shape))] +=
+          sums[3 * static_cast<std::size_t>(run.id) + static_cast<std::size_t>(shape)] +=
               examples::volume_of(part, shape, c);
       }
     }
