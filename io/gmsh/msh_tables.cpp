@@ -1,7 +1,8 @@
 #include "io/gmsh/msh_tables.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstdint>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -9,6 +10,11 @@
 namespace aeroloom::io {
 
 namespace {
+
+/// The number of a physical group; a minus says that the group looks at the entity from behind.
+std::int32_t group_of(std::int32_t tag) {
+  return tag < 0 ? -std::max(tag, -std::numeric_limits<std::int32_t>::max()) : tag;
+}
 
 /// Back from what msh_head.cpp makes of line breaks.
 std::string unescaped(const std::string& text) {
@@ -125,7 +131,7 @@ private:
       const std::size_t first = text.find('"'), last = text.rfind('"');
       if (!(line >> dimension >> tag) || first == std::string::npos || first == last)
         _scanner.fail(fmt::format("'{}' where a physical name was expected", text.substr(0, 40)));
-      _tables.physical_names[{dimension, std::abs(tag)}] = text.substr(first + 1, last - first - 1);
+      _tables.physical_names[{dimension, group_of(tag)}] = text.substr(first + 1, last - first - 1);
     }
   }
 
@@ -148,7 +154,7 @@ private:
 
   void read_physical(MshEntity& entity) {
     const std::int64_t count = _scanner.count(4);
-    for (std::int64_t i = 0; i < count; ++i) entity.physical.push_back(std::abs(_scanner.int32()));
+    for (std::int64_t i = 0; i < count; ++i) entity.physical.push_back(group_of(_scanner.int32()));
   }
 
   /// What follows the tag of an entity, up to its end.
