@@ -110,10 +110,10 @@ std::string known_extensions() {
 
 void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
                 const std::string& path, const WriteOptions& options) {
-  const bool cut = has_parts(format) && options.parts > 0 && options.parts != mesh.part_count;
+  const std::int32_t parts = options.parts > 0 ? options.parts : mesh.part_count;
+  const bool cut = has_parts(format) && (parts != mesh.part_count || (options.recut && parts > 1));
   if (!cut) return write_parts_as_they_are(communicator, mesh, format, path, options);
-  write_parts_as_they_are(communicator, repartition(communicator, mesh, options.parts), format, path,
-                          options);
+  write_parts_as_they_are(communicator, repartition(communicator, mesh, parts), format, path, options);
 }
 
 }  // namespace aeroloom::io

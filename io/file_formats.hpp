@@ -56,6 +56,9 @@ std::string known_extensions();
 struct WriteOptions {
   std::int32_t parts = 0;                       ///< of formats that come in parts; 0: those of the mesh
   Compression compression = Compression::none;  ///< of .vtu and .vtp
+  /// Parts are cut anew even where the mesh has as many: those of assemble() are runs of the file's cells,
+  /// which may lie anywhere, and own vertices that they do not use.
+  bool recut = false;
 };
 
 /// Writes a mesh to `path`, which has the extension of the format; what lies beside it (`.mapbc`, folders of

@@ -30,7 +30,9 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
         mesh.patches.size(), parallel::wall_seconds() - begin, io::describe(file)));
   }
   const double read = parallel::wall_seconds();
-  io::write_mesh(communicator, mesh, *format, conversion.to, conversion.options);
+  io::WriteOptions options = conversion.options;
+  options.recut = true;
+  io::write_mesh(communicator, mesh, *format, conversion.to, options);
   if (communicator.is_root()) {
     parallel::log_info(fmt::format("wrote '{}' ({}) in {:.2f} s", conversion.to, io::name_of(*format),
                                    parallel::wall_seconds() - read));
