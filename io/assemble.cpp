@@ -1,9 +1,10 @@
+#include "geometry/predicates.hpp"
+#include "io/cell_measures.hpp"
 #include "io/id_table.hpp"
 #include "io/part_items.hpp"
 #include "io/point_store.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
-#include "mesh/quality.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -104,18 +105,18 @@ geometry::Vec3 at(const std::vector<std::array<double, 3>>& points, const std::a
   return {p[0], p[1], p[2]};
 }
 
-/// Six times the volume, by the divergence integral over the faces seen from the first corner.
+/// The sign of the volume: of tetrahedra exact, as the program's own checks have it.
 template <std::size_t N>
-double volume6(CellShape shape, const std::vector<std::array<double, 3>>& points,
-               const std::array<LocalIndex, N>& corners) {
-  const geometry::Vec3 origin = at(points, corners, 0);
-  const auto seen = [&](std::int8_t k) { return at(points, corners, static_cast<std::size_t>(k)) - origin; };
-  double volume = 0;
-  for (const CellFace& face : faces_of(shape)) {
-    volume += dot(seen(face[0]), cross(seen(face[1]), seen(face[2])));
-    if (face[3] >= 0) volume += dot(seen(face[0]), cross(seen(face[2]), seen(face[3])));
+int volume_sign(CellShape shape, const std::vector<std::array<double, 3>>& points,
+                const std::array<LocalIndex, N>& corners) {
+  std::array<geometry::Vec3, N> p;
+  for (std::size_t k = 0; k < N; ++k) p[k] = at(points, corners, k);
+  if constexpr (N == 4) {
+    return geometry::has_positive_volume(p[0], p[1], p[2], p[3]) ? 1
+                                                                 : geometry::orient3d(p[0], p[1], p[2], p[3]);
   }
-  return volume;
+  const double volume = cell_volume(shape, p.data());
+  return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
 /// The corners of the mirror image.
@@ -164,9 +165,9 @@ public:
 private:
   template <std::size_t N>
   void require_volume(CellShape shape, std::array<LocalIndex, N>& corners, GlobalIndex first) {
-    const double volume = volume6(shape, _points, corners);
-    if (volume < 0) turn_over(corners), ++turned;
-    if (volume != 0) return;
+    const int sign = volume_sign(shape, _points, corners);
+    if (sign < 0) turn_over(corners), ++turned;
+    if (sign != 0) return;
     const geometry::Vec3 p = at(_points, corners, 0);
     throw std::runtime_error(
         fmt::format("a cell at point {} ({:.10g}, {:.10g}, {:.10g}) has no volume", first, p.x, p.y, p.z));
@@ -223,8 +224,8 @@ PointStore store_points(const parallel::Communicator& communicator, RawMesh& raw
     const double* p = raw.coordinates.data() + 3 * i;
     points[i] = {raw.point_ids[i], {p[0], p[1], p[2]}};
   }
-  raw.coordinates = {};
-  raw.point_ids = {};
+  std::vector<double>().swap(raw.coordinates);
+  std::vector<GlobalIndex>().swap(raw.point_ids);
   PointStore store(communicator, even_ranges(communicator.size(), limit), std::move(points));
   if (store.clash() >= 0)
     refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));

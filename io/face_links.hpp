@@ -45,8 +45,8 @@ struct FaceLinks {
   LinkDefects defects;
 };
 
-/// Matches the faces of all cells by the numbers of their vertices; only those all of whose vertices several
-/// parts may know travel. Collective.
+/// Matches the faces of all cells by the numbers of their vertices; only sides that find no other cell in
+/// their part travel. Collective.
 FaceLinks link_faces(const parallel::Communicator& communicator, const FileMesh& mesh);
 
 }  // namespace aeroloom::io

@@ -146,7 +146,11 @@ SplitPatches split_patches(const parallel::Communicator& communicator, const mes
   for (std::size_t p = 0; p < count; ++p) {
     if (!used[p] || !used[count + p]) continue;
     split.target[count + p] = static_cast<std::int32_t>(split.patches.size());
-    split.patches.push_back({mesh.patches[p] + "_interior", mesh::PatchType::interior});
+    std::string name = mesh.patches[p] + "_interior";
+    while (std::any_of(split.patches.begin(), split.patches.end(),
+                       [&](const mesh::Patch& patch) { return patch.name == name; }))
+      name += "_";
+    split.patches.push_back({name, mesh::PatchType::interior});
   }
   return split;
 }

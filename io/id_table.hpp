@@ -21,7 +21,7 @@ public:
     if (static_cast<std::size_t>(*high - *low) / 4 <= numbers.size()) {
       _places.assign(static_cast<std::size_t>(*high - *low) + 1, -1);
       for (const mesh::GlobalIndex number : numbers) _places[static_cast<std::size_t>(number - _low)] = 0;
-      numbers = {};
+      std::vector<mesh::GlobalIndex>().swap(numbers);
       for (std::size_t i = 0; i < _places.size(); ++i) {
         if (_places[i] < 0) continue;
         _places[i] = static_cast<mesh::LocalIndex>(_numbers.size());

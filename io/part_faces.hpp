@@ -35,13 +35,19 @@ FaceKey<Index> corners_at(const CellFace& face, const Index* cell) {
   return corners;
 }
 
-/// Whether two ways round the same corners have the same direction.
+/// Whether two ways round the same corners are the same, or the same the other way round. Corners of a
+/// quadrilateral may be in an order that is neither.
 template <class Index>
 bool same_direction(const FaceKey<Index>& a, const FaceKey<Index>& b) {
   const std::size_t corners = a[3] < 0 ? 3 : 4;
   std::size_t at = 0;
   while (at < corners && b[at] != a[0]) ++at;
-  return b[(at + 1) % corners] == a[1];
+  return b[(at + 1) % corners] == a[1] && b[(at + 2) % corners] == a[2];
+}
+template <class Index>
+bool opposite_direction(FaceKey<Index> a, const FaceKey<Index>& b) {
+  std::swap(a[1], a[a[3] < 0 ? 2 : 3]);
+  return same_direction(a, b);
 }
 
 /// One that has the face: a side of a cell (cell and side), or a boundary face (side -1 and its number).

@@ -87,7 +87,7 @@ std::vector<Comer> comers_of(const parallel::Communicator& communicator, const N
         met.clear();
         for (const FaceUser& user : users) met.push_back(faces.comer(user));
         const bool settled = met.size() == 2 && met[0].region == met[1].region &&
-                             !same_direction(met[0].corners, met[1].corners) && !may_be_elsewhere(key);
+                             opposite_direction(met[0].corners, met[1].corners) && !may_be_elsewhere(key);
         if (!settled) comers.insert(comers.end(), met.begin(), met.end());
       });
   GlobalIndex count = 0;
@@ -145,7 +145,7 @@ private:
     std::size_t faces = 0;
     while (faces < group.size() && !group[faces].is_cell()) ++faces;
     const auto cells = group.subspan(faces);
-    if (cells.size() > 2 || (cells.size() == 2 && same_direction(cells[0].corners, cells[1].corners))) {
+    if (cells.size() > 2 || (cells.size() == 2 && !opposite_direction(cells[0].corners, cells[1].corners))) {
       misfits.push_back({group[0].key, static_cast<std::int64_t>(cells.size())});
       return;
     }
@@ -166,10 +166,11 @@ private:
     face.patch = given != nullptr ? given->patch : none;
   }
 
-  /// The corners as the file has them, from the first one, in the direction of the cell's side.
+  /// The corners as the file has them, from the first one, in the direction of the cell's side; those of the
+  /// side where the file goes crosswise.
   static FaceKey<GlobalIndex> turned_like(FaceKey<GlobalIndex> corners, const FaceKey<GlobalIndex>& side) {
-    if (!same_direction(corners, side)) std::swap(corners[1], corners[corners[3] < 0 ? 2 : 3]);
-    return corners;
+    if (opposite_direction(corners, side)) std::swap(corners[1], corners[corners[3] < 0 ? 2 : 3]);
+    return same_direction(corners, side) ? corners : side;
   }
 
   std::vector<Comer> _met;
@@ -186,9 +187,13 @@ void require_fit(const parallel::Communicator& communicator, const std::vector<M
   const Misfit& worst = *std::min_element(all.begin(), all.end(), less);
   throw parallel::CollectiveError(
       parallel::FailureKind::input,
-      fmt::format("'{}': {} at the face of points {}, {} and {} (counted from 0 in the order of the file): "
+      fmt::format("'{}': {} at the face of points {}, {} and {} (counted from 0 in the order of their ids, "
+                  "without those "
+                  "that no cell uses): "
                   "the mesh does not conform; {} such faces",
-                  path, worst.cells > 2 ? "more than two cells meet" : "two cells lie on the same side",
+                  path,
+                  worst.cells > 2 ? "more than two cells meet"
+                                  : "two cells lie on the same side, or their corners cross,",
                   worst.key[0], worst.key[1], worst.key[2], count));
 }
 

@@ -46,11 +46,17 @@ public:
     }
     std::array<std::uint32_t, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-      at[axis] = static_cast<std::uint32_t>((middle[axis] / block.corners - _low[axis]) * _cells_per_length);
+      at[axis] = place((middle[axis] / block.corners - _low[axis]) * _cells_per_length);
     return hilbert_key(at);
   }
 
 private:
+  /// Rounding may lead a little, sums of huge coordinates far, beyond the box.
+  static std::uint32_t place(double along) {
+    constexpr double last = (1U << hilbert_bits) - 1;
+    return along > 0 ? static_cast<std::uint32_t>(std::min(along, last)) : 0;
+  }
+
   std::array<double, 3> _low{};
   double _cells_per_length = 0;
 };
@@ -61,7 +67,7 @@ public:
   Cuts(const parallel::Communicator& communicator, std::vector<std::uint64_t> keys, std::int32_t shares) {
     std::sort(keys.begin(), keys.end());
     const GlobalIndex total = communicator.sum(static_cast<std::int64_t>(keys.size()));
-    // The lowest key with at least so many keys at or below it, bit by bit for all cuts at a time.
+    // The highest key with no more than so many keys below it, bit by bit for all cuts at a time.
     const auto cuts = static_cast<std::size_t>(shares - 1);
     std::vector<GlobalIndex> wanted(cuts), below(cuts);
     for (std::size_t i = 0; i < cuts; ++i) {

@@ -55,7 +55,7 @@ std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T
   const auto append_parcels = [&](parallel::Rank end) {
     for (; next < arrived.size() && arrived[next].rank < end; ++next) {
       append(arrived[next].content.data(), arrived[next].content.size());
-      arrived[next].content = {};
+      parallel::Bytes().swap(arrived[next].content);
     }
   };
   append_parcels(here);

@@ -40,7 +40,7 @@ void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
     while (!unpacker.at_end()) staying.push_back(unpack_piece(unpacker.array<std::byte>()));
-    parcel.content = {};
+    parallel::Bytes().swap(parcel.content);
   }
   std::sort(staying.begin(), staying.end(), [](const Piece& a, const Piece& b) { return a.id < b.id; });
   mesh.pieces = std::move(staying);

@@ -5,6 +5,7 @@
 #include "parallel/timers.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
         fmt::format("'{}': no format that is written here ends like this; known are {}", conversion.to,
                     io::known_extensions()));
   }
+  std::error_code ignored;
+  if (std::filesystem::equivalent(conversion.from, conversion.to, ignored))
+    throw std::invalid_argument(fmt::format("'{}' cannot be converted onto itself", conversion.from));
   const double begin = parallel::wall_seconds();
   const io::Assembled file = io::read_mesh(communicator, conversion.from, 0);
   const io::FileMesh& mesh = file.mesh;

@@ -53,16 +53,23 @@ std::vector<std::string> names_of(const cad::Model& model) {
 void take_faces(const cad::Model& model, const PatchRule& rule, std::vector<std::string>& patch_of_face,
                 std::vector<char>& taken) {
   const std::vector<std::string> own{rule.name};
+  bool takes_any = false;
   for (const std::string& pattern : rule.faces.empty() ? own : rule.faces) {
     bool any = false;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       if (!is_like(model, f, pattern)) continue;
       any = true;
       if (taken[f]) continue;
+      takes_any = true;
       taken[f] = 1;
       patch_of_face[f] = rule.name;
     }
     if (!any) refuse_pattern(model, rule, pattern);
+  }
+  if (!takes_any) {
+    throw std::invalid_argument(
+        fmt::format("patches.{}: all faces that it matches belong to patches before it. Remedy: put it first",
+                    rule.name));
   }
 }
 

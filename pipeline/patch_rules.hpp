@@ -28,7 +28,7 @@ struct TypedPatches {
 /// default a patch called as its type or one of its usual other names ("symmetry_plane", "inflow") is that,
 /// what the program added around a body is `farfield`, all others are walls; a patch with faces between
 /// regions alone is `interior`. Throws std::invalid_argument with the nearest names for a pattern that
-/// matches no face.
+/// matches no face, and for a rule whose faces others have all taken.
 TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules);
 
 /// What a patch is by its name alone; empty: nothing to tell.

@@ -232,8 +232,6 @@ void read_block(Source& source, const MshElementBlock& block, std::int64_t begin
   const std::vector<std::int64_t>& ghosts = source.tables.ghosts;
   std::vector<std::int64_t> records;
   source.scanner.seek(block.place + 8 * width * begin);
-  corners.reserve(corners.size() + static_cast<std::size_t>((end - begin) * block.corners));
-  ids.reserve(ids.size() + static_cast<std::size_t>(end - begin));
   for (std::int64_t i = begin; i < end; i += step) {
     const std::int64_t taken = std::min(step, end - i);
     records.resize(static_cast<std::size_t>(taken * width));

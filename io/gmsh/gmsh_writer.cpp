@@ -136,13 +136,6 @@ void write_frame(parallel::SharedFile& file, const std::string& head, std::int64
   put(layout.end, msh_elements_end);
 }
 
-/// Whether a file is STEM_<digits>.msh.
-bool is_part_of(const std::string& stem, const std::string& file) {
-  if (!file.starts_with(stem + "_") || !file.ends_with(".msh") || file.size() < stem.size() + 6) return false;
-  return std::all_of(file.begin() + static_cast<std::ptrdiff_t>(stem.size()) + 1, file.end() - 4,
-                     [](char letter) { return letter >= '0' && letter <= '9'; });
-}
-
 struct PartNames {
   fs::path folder;
   std::string stem;
@@ -153,13 +146,11 @@ struct PartNames {
   std::string unfinished(std::int32_t part) const { return path(part) + ".unfinished"; }
 };
 
-void clear_parts(const PartNames& names) {
+void clear_parts(const PartNames& names, std::int32_t parts) {
   if (!names.folder.empty()) fs::create_directories(names.folder);
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::directory_iterator(names.folder.empty() ? fs::path(".") : names.folder)) {
-    if (is_part_of(names.stem, entry.path().filename().string())) stale.push_back(entry.path());
-  }
-  for (const fs::path& path : stale) fs::remove(path);
+  // Those of an earlier run follow each other; other files of such names are not ours.
+  for (std::int32_t part = 0; part < parts || fs::exists(names.path(part)); ++part)
+    fs::remove(names.path(part));
 }
 
 void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks& blocks,
@@ -230,7 +221,7 @@ void write_msh_parts(const parallel::Communicator& communicator, const FileMesh&
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   parallel::agree(communicator, [&] {
     require_small_tags(mesh);
-    if (communicator.is_root()) clear_parts(names);
+    if (communicator.is_root()) clear_parts(names, mesh.part_count);
   });
   try {
     parallel::agree(communicator, [&] {

@@ -54,8 +54,9 @@ public:
   }
   void box(const MshBox& box) {
     const bool empty = box.least[0] > box.largest[0];
-    for (const double x : box.least) put(empty ? 0.0 : x);
-    for (const double x : box.largest) put(empty ? 0.0 : x);
+    // Plus zero: which sign a zero of several parts has depends on who came first.
+    for (const double x : box.least) put(empty ? 0.0 : x + 0.0);
+    for (const double x : box.largest) put(empty ? 0.0 : x + 0.0);
   }
 
 private:

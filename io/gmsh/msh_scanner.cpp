@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 #include <span>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -109,7 +111,8 @@ double MshScanner::real() {
   }
   const std::string_view text = token();
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  // What lies below the least number that is no zero counts as read; assemble() judges what is no number.
+  // Below the least number that is no zero it is zero, above the largest infinite: assemble() judges that.
+  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
   if ((error != std::errc() && error != std::errc::result_out_of_range) || end != text.data() + text.size())
     fail(fmt::format("'{}' where a number was expected", text));
   return value;

@@ -154,9 +154,11 @@ void write_dictionaries(const FoamCase& foam_case) {
   const auto write = [&](const char* name, const std::string& content) {
     const fs::path path = system / name;
     if (fs::exists(path)) return;
-    LocalFile file(path.string());
+    const fs::path unfinished = path.string() + ".unfinished";
+    LocalFile file(unfinished.string());
     file.text(dictionary(name, content));
     file.finish();
+    fs::rename(unfinished, path);
   };
   write("controlDict", control);
   write("fvSchemes", schemes);

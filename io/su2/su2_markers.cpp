@@ -16,7 +16,7 @@ namespace aeroloom::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> reserved = {"SEND_RECEIVE"};
+constexpr std::array<std::string_view, 2> reserved = {"SEND_RECEIVE", "NONE"};
 
 /// An option and what follows each name in its list.
 struct MarkerOption {

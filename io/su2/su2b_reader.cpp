@@ -35,7 +35,7 @@ public:
     read_zone();
     const Elements cells = find_elements(first_section, "cells");
     _points = count_at(cells.end, "points", 24 + width);
-    read_elements(cells, -1, raw);
+    read_elements(cells, Share::of(cells.count, _rank, _size), -1, raw);
     read_points(cells.end + width, raw);
     read_markers(cells.end + width + _points * (24 + width), raw);
   }
@@ -103,7 +103,12 @@ private:
     const auto count = _file.value<std::int32_t>(offset);
     if (count < 0 || count > _file.bytes_from(offset) / (su2b_name_bytes + 2 * width))
       _file.fail(offset, fmt::format("{} markers do not fit a file of {} bytes", count, _file.size()));
-    std::int64_t at = offset + 4;
+    struct Marker {
+      Elements faces;
+      std::int32_t patch;
+    };
+    std::vector<Marker> markers;
+    std::int64_t at = offset + 4, total = 0;
     std::map<std::string, std::int32_t> patch_of;
     for (std::int32_t marker = 0; marker < count; ++marker) {
       std::array<char, su2b_name_bytes + 1> name{};
@@ -115,13 +120,23 @@ private:
       const std::string tag = text.empty() ? fmt::format("marker_{}", marker + 1) : std::string(text);
       const auto [found, is_new] = patch_of.try_emplace(tag, static_cast<std::int32_t>(raw.patches.size()));
       if (is_new) raw.patches.push_back({tag, mesh::PatchType::wall});
-      read_elements(faces, found->second, raw);
+      markers.push_back({faces, found->second});
+      total += faces.count;
+    }
+    // One share of all faces: ranks' shares one after another have the order of the file.
+    const Share share = Share::of(total, _rank, _size);
+    std::int64_t before = 0;
+    for (const Marker& marker : markers) {
+      const auto inside = [&](std::int64_t i) {
+        return std::clamp(i - before, std::int64_t{0}, marker.faces.count);
+      };
+      read_elements(marker.faces, {inside(share.begin), inside(share.end)}, marker.patch, raw);
+      before += marker.faces.count;
     }
   }
 
   /// Elements of a patch, -1: of the volume.
-  void read_elements(const Elements& section, std::int32_t patch, RawMesh& raw) {
-    const Share share = Share::of(section.count, _rank, _size);
+  void read_elements(const Elements& section, Share share, std::int32_t patch, RawMesh& raw) {
     std::vector<Integer> places, integers;
     for (std::int64_t begin = share.begin; begin < share.end; begin += chunk_items) {
       const std::int64_t end = std::min(begin + chunk_items, share.end);

@@ -68,7 +68,7 @@ std::vector<GlobalIndex> find_joined(const parallel::Communicator& communicator,
   std::vector<std::pair<parallel::Rank, std::size_t>> counts;
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     const auto came = parallel::from_bytes<PlacedPoint>(parcel.content);
-    parcel.content = {};
+    parallel::Bytes().swap(parcel.content);
     counts.emplace_back(parcel.rank, came.size());
     points.insert(points.end(), came.begin(), came.end());
   }

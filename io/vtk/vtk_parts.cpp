@@ -194,7 +194,7 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
     while (!unpacker.at_end()) pieces.push_back(unpack_piece(unpacker));
-    parcel.content = {};
+    parallel::Bytes().swap(parcel.content);
   }
   return pieces;
 }

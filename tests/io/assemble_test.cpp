@@ -22,7 +22,7 @@ bool is_mine(const Communicator& world, std::size_t item, std::size_t count) {
   return static_cast<int>(item * static_cast<std::size_t>(world.size()) / count) == world.rank();
 }
 
-/// The mesh as a file might have it: sparse ids, some cells and faces the other way round.
+/// The mesh as a file might have it: sparse ids, some cells and faces the other way round or crosswise.
 RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
   RawMesh raw;
   raw.patches = whole.patches;
@@ -45,6 +45,7 @@ RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
     std::vector<int> corners = whole.faces[f].corners;
     const std::size_t s = corners.size() - 3;
     if (f % 2 == 0) std::reverse(corners.begin(), corners.end());
+    if (s == 1 && f % 3 == 0) std::swap(corners[1], corners[2]);  // crosswise
     for (const int v : corners) raw.faces[s].push_back(7 * v + 1000);
     raw.face_patches[s].push_back(whole.faces[f].patch);
   }
@@ -71,6 +72,7 @@ TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
     EXPECT_EQ(result.mesh.patch_faces, examples::distribute(world, whole, 3).patch_faces);
     EXPECT_EQ(result.mesh.region_cells, examples::distribute(world, whole, 3).region_cells);
     expect_sound(world, result.mesh);
+    expect_sound(world, repartition(world, result.mesh, 3));
     for (const FilePart& part : result.mesh.parts) {
       for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
         const geometry::Vec3 p = whole.points[static_cast<std::size_t>(part.numbers[v])];

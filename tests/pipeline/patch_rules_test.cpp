@@ -50,13 +50,11 @@ TEST(PatchRules, APlaneOfSymmetryIsNoFarField) {
 }
 
 TEST(PatchRules, PatternsJoinFacesAndTheFirstRuleHolds) {
-  const TypedPatches patches =
-      apply_patch_rules(transport(), {{"lifting", {"*wing*", "*tail*"}, PatchType::slip},
-                                      {"rest", {"*"}, {}},
-                                      {"farfield", {}, PatchType::inlet}});
+  const TypedPatches patches = apply_patch_rules(
+      transport(), {{"lifting", {"*wing*", "*tail*"}, PatchType::slip}, {"rest", {"*"}, {}}});
   const std::vector<std::string>& names = patches.model.patches();
   EXPECT_EQ(std::count(names.begin(), names.end(), "lifting"), 1);
-  EXPECT_EQ(names.size(), 2U);  // the third rule comes too late
+  EXPECT_EQ(names.size(), 2U);
   EXPECT_EQ(type_of(patches, "lifting"), PatchType::slip);
   EXPECT_EQ(type_of(patches, "rest"), PatchType::wall);
   for (cad::FaceId f = 0; f < patches.model.face_count(); ++f) {
@@ -67,6 +65,11 @@ TEST(PatchRules, PatternsJoinFacesAndTheFirstRuleHolds) {
                        (face + " " + patch).find("tail") != std::string::npos;
     EXPECT_EQ(lifting, named) << face;
   }
+}
+
+TEST(PatchRules, ARuleThatComesTooLateIsRefused) {
+  EXPECT_THROW(apply_patch_rules(transport(), {{"all", {"*"}, {}}, {"farfield", {}, PatchType::inlet}}),
+               std::invalid_argument);
 }
 
 TEST(PatchRules, APatchOfThisNameNeedsNoPattern) {
