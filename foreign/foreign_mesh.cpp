@@ -79,13 +79,13 @@ std::vector<Face> all_faces(const parallel::Communicator& communicator,
   return faces;
 }
 
-/// What parts know of a vertex: the largest face around it (-1: none), and whether several know it.
+/// What a part knows of a vertex: the largest face around it, -1: none.
 struct VertexNote {
   GlobalIndex number;
   std::int32_t face, part, place, rank;
 };
 
-/// Notes of all vertices that several parts know, or whose face another part told.
+/// Notes of all vertices that several parts know, each with the largest face that any of them knows.
 std::vector<VertexNote> exchange_notes(const parallel::Communicator& communicator, const io::FileMesh& mesh,
                                        std::vector<VertexNote> notes, std::vector<VertexNote>& shared) {
   const io::KeyRanges ranges = io::even_ranges(communicator.size(), mesh.vertex_count);
