@@ -26,8 +26,8 @@ struct FoamProcessorPatch {
   mesh::LocalIndex count = 0;
 };
 
-/// Inner faces by owner, then neighbour; those of each patch by owner; those towards other parts, which have
-/// them in the same order.
+/// Inner faces by owner, then neighbour; those of each patch in their order; those towards other parts, which
+/// have them in the same order.
 struct FoamFaces {
   std::vector<FoamFace> faces;
   mesh::LocalIndex inner = 0;
