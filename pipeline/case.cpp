@@ -180,6 +180,10 @@ void declare_stages(KeyTable& root, Case& result) {
   output.choice<io::Compression>(
       "compression", result.output.compression,
       {{"none", io::Compression::none}, {"lz4", io::Compression::lz4}, {"zlib", io::Compression::zlib}});
+  output.choice<Checkpoints>(
+      "checkpoints", result.output.checkpoints,
+      {{"none", Checkpoints::none}, {"write", Checkpoints::write}, {"resume", Checkpoints::resume}});
+  output.flag("pictures", result.output.pictures);
   output.choice<parallel::LogLevel>("log", result.output.log,
                                     {{"quiet", parallel::LogLevel::quiet},
                                      {"normal", parallel::LogLevel::normal},

@@ -38,6 +38,13 @@ struct SizingRequest {
 /// What happens to faces narrower than the smallest size that go on smoothly in a neighbour.
 enum class NarrowFaces { join, keep };
 
+/// Whether what stages have made is kept for a later run.
+enum class Checkpoints {
+  none,
+  write,  ///< anew, whatever is there
+  resume  ///< goes on from what is there, and writes the rest
+};
+
 struct OutputOptions {
   std::string directory = "out";                                ///< relative to the working directory
   std::vector<io::FileFormat> formats = {io::FileFormat::vtu};  ///< that are written, each once
@@ -45,6 +52,8 @@ struct OutputOptions {
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
   bool tasks = false;                                   ///< writes tasks.csv, a row for each task
   io::Compression compression = io::Compression::none;  ///< of mesh.pvtu and its like
+  Checkpoints checkpoints = Checkpoints::none;          ///< in DIRECTORY/checkpoint
+  bool pictures = true;                                 ///< in report.html
 };
 
 struct Case {

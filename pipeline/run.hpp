@@ -11,6 +11,7 @@
 #include "parallel/timers.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
+#include "pipeline/picture.hpp"
 #include "pipeline/size_conformity.hpp"
 #include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
@@ -41,8 +42,10 @@ struct RegionRow {
 };
 
 /// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
-/// rank except `domain`, which rank 0 alone holds.
+/// rank except `domain` and `pictures`, which rank 0 alone holds.
 struct RunRecord {
+  std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
+  std::vector<std::string> resumed;  ///< stages whose results came from an earlier run
   cad::DomainReport domain;
   std::string unit;
   double unit_in_metres = 0;
@@ -67,6 +70,7 @@ struct RunRecord {
   std::optional<io::MixedQuality> cells;  ///< where the gate asks for what only this has
   std::vector<PatchRow> patches;
   std::vector<RegionRow> regions_filled;
+  std::vector<Picture> pictures;
   parallel::StageClock clock;
   double wall_seconds = 0;  ///< of the program, from its start to the end of the last stage
 };

@@ -1,0 +1,17 @@
+/// A picture of the report.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+struct Picture {
+  std::string name;     ///< of a file without its extension: letters, digits, underscores
+  std::string caption;  ///< what is to be seen, a sentence
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> png;
+};
+
+}  // namespace aeroloom::pipeline
