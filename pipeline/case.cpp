@@ -180,9 +180,9 @@ void declare_stages(KeyTable& root, Case& result) {
   output.choice<io::Compression>(
       "compression", result.output.compression,
       {{"none", io::Compression::none}, {"lz4", io::Compression::lz4}, {"zlib", io::Compression::zlib}});
-  output.choice<Checkpoints>(
+  output.choice<CheckpointUse>(
       "checkpoints", result.output.checkpoints,
-      {{"none", Checkpoints::none}, {"write", Checkpoints::write}, {"resume", Checkpoints::resume}});
+      {{"none", CheckpointUse::none}, {"write", CheckpointUse::write}, {"resume", CheckpointUse::resume}});
   output.flag("pictures", result.output.pictures);
   output.choice<parallel::LogLevel>("log", result.output.log,
                                     {{"quiet", parallel::LogLevel::quiet},
