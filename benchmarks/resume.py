@@ -75,18 +75,19 @@ def main():
     print(f"undisturbed on 2 ranks: {seconds:.1f} s, {report['mesh']['tetrahedra']} tetrahedra, hash {wanted}")
     print("| killed after s | by | on ranks | resumed on | stages found | s | hash |\n|---|---|---|---|---|---|---|")
     for _ in range(arguments.kills):
-        shutil.rmtree(folder / "killed", ignore_errors=True)
-        ranks, moment = chance.choice([1, 2, 3]), chance.uniform(0, 1) * seconds
-        by = chance.choice([signal.SIGKILL, signal.SIGTERM])
-        after = run_and_kill(program, case, folder / "killed", ranks, lambda t, m=moment: t >= m,
-                             "output.checkpoints=write", killed_by=by)
+        after = None
+        while after is None:  # until it is killed before it ends
+            shutil.rmtree(folder / "killed", ignore_errors=True)
+            ranks, moment = chance.choice([1, 2, 3]), chance.uniform(0, 1) * seconds
+            by = chance.choice([signal.SIGKILL, signal.SIGTERM])
+            after = run_and_kill(program, case, folder / "killed", ranks, lambda t, m=moment: t >= m,
+                                 "output.checkpoints=write", killed_by=by)
         again = chance.choice([r for r in (1, 2, 3, 4) if r != ranks])
         took, report = run(program, case, folder / "killed", again, "output.checkpoints=resume")
         same = report["mesh"]["hash"] == wanted
         wrong += not same
-        moment = "had ended" if after is None else f"{after:.2f}"
         found = ", ".join(report.get("resumed", [])) or "none"
-        print(f"| {moment} | {by.name} | {ranks} | {again} | {found} | {took:.1f} | {'same' if same else 'OTHER'} |", flush=True)
+        print(f"| {after:.2f} | {by.name} | {ranks} | {again} | {found} | {took:.1f} | {'same' if same else 'OTHER'} |", flush=True)
     cost(program, case, folder / "cost", arguments.repeat)
     shutil.rmtree(folder)
     sys.exit(1 if wrong else 0)
