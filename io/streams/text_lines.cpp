@@ -29,12 +29,14 @@ bool parse(std::string_view word, T& value) {
 
 }  // namespace
 
-TextLines::TextLines(const std::string& path) : _file(path), _buffer(buffer_bytes) {}
+TextLines::TextLines(const std::string& path, std::size_t longest)
+    : _file(path), _longest(longest), _buffer(buffer_bytes) {}
 
 bool TextLines::refill() {
   std::memmove(_buffer.data(), _buffer.data() + _begin, _end - _begin);
   _end -= _begin;
   _begin = 0;
+  if (_end == _buffer.size()) _buffer.resize(2 * _buffer.size());
   const auto count = static_cast<std::size_t>(
       std::min(static_cast<std::int64_t>(_buffer.size() - _end), _file.bytes_from(_offset)));
   _file.read_bytes(_offset, std::as_writable_bytes(std::span(_buffer.data() + _end, count)));
@@ -49,10 +51,10 @@ bool TextLines::next() {
     return static_cast<const char*>(std::memchr(_buffer.data() + _begin, '\n', _end - _begin));
   };
   const char* end = find_end();
-  if (end == nullptr && refill()) end = find_end();
+  while (end == nullptr && _end - _begin <= _longest && refill()) end = find_end();
   const std::size_t length =
       end == nullptr ? _end - _begin : static_cast<std::size_t>(end - (_buffer.data() + _begin));
-  if (length > longest_line) fail("the line is too long for a text file of a mesh");
+  if (length > _longest) fail("the line is too long for a text file of a mesh");
   if (end == nullptr && length == 0) return false;
   _line = {_buffer.data() + _begin, length};
   _begin += length + (end == nullptr ? 0 : 1);

@@ -12,14 +12,15 @@
 
 namespace aeroloom::io {
 
-/// Holds one buffer of the file at a time. Lines end in \n or \r\n; the last one may lack it.
+/// Holds one buffer of the file at a time, which grows only where a line needs it. Lines end in \n or \r\n;
+/// the last one may lack it.
 class TextLines {
 public:
-  /// Longer ones are no text.
+  /// Longer ones are no text of a mesh.
   static constexpr std::size_t longest_line = std::size_t{1} << 16;
 
-  /// Throws as RangeReader.
-  explicit TextLines(const std::string& path);
+  /// Lines of up to `longest` bytes. Throws as RangeReader.
+  explicit TextLines(const std::string& path, std::size_t longest = longest_line);
 
   /// Goes to the next line; false at the end of the file. Throws std::runtime_error where a line is too long.
   bool next();
@@ -38,6 +39,7 @@ private:
   bool refill();
 
   RangeReader _file;
+  std::size_t _longest;
   std::vector<char> _buffer;
   std::size_t _begin = 0, _end = 0;  ///< of what has not been given out
   std::int64_t _offset = 0;          ///< of the file, behind the buffer

@@ -17,6 +17,8 @@ namespace aeroloom::io {
 namespace {
 
 constexpr std::array<std::string_view, 2> reserved = {"SEND_RECEIVE", "NONE"};
+/// All markers of an option stand on one line: room for a million of the longest with their values.
+constexpr std::size_t longest_list = std::size_t{1} << 27;
 
 /// An option and what follows each name in its list.
 struct MarkerOption {
@@ -122,7 +124,7 @@ void set_marker_types(const std::string& mesh_path, std::vector<mesh::Patch>& pa
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return;
   std::map<std::string, mesh::PatchType> types;
-  TextLines lines(path);
+  TextLines lines(path, longest_list);
   while (lines.next()) {
     std::string_view line = trimmed(lines.line());
     if (line.starts_with("% MARKER_")) line.remove_prefix(2);

@@ -5,6 +5,7 @@
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/scratch_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -62,6 +64,24 @@ inline Contents contents_of(const parallel::Communicator& world, const FileMesh&
   }
   contents.enclosed = world.sum(contents.enclosed);
   return contents;
+}
+
+/// The same under names as solvers can have them.
+inline Contents with_plain_names(const Contents& contents) {
+  Contents plain = contents;
+  const auto rename = [](auto& map) {
+    std::remove_reference_t<decltype(map)> renamed;
+    for (const auto& [name, value] : map) {
+      std::string changed = name;
+      std::replace_if(
+          changed.begin(), changed.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
+      renamed[changed] = value;
+    }
+    map = renamed;
+  };
+  rename(plain.faces);
+  rename(plain.types);
+  return plain;
 }
 
 inline void expect_same(const Contents& found, const Contents& wanted) {

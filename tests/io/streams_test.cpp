@@ -72,6 +72,23 @@ TEST_F(Streams, LinesAreTheSameAcrossBuffers) {
   EXPECT_FALSE(lines.next());
 }
 
+TEST_F(Streams, LinesAreAsLongAsTheReaderAllows) {
+  const std::string longest(TextLines::longest_line, 'a');
+  examples::put_bytes(world, path("limit"), longest + "\n" + longest + "b\n");
+  TextLines short_lines(path("limit"));
+  ASSERT_TRUE(short_lines.next());
+  EXPECT_EQ(short_lines.line(), longest);
+  EXPECT_THROW(short_lines.next(), std::runtime_error);
+  const std::string huge(std::size_t{5} << 20, 'c');
+  examples::put_bytes(world, path("huge"), "first\n" + huge + "\r\nlast");
+  TextLines lines(path("huge"), huge.size() + 1);
+  for (const std::string& line : {std::string("first"), huge, std::string("last")}) {
+    ASSERT_TRUE(lines.next());
+    EXPECT_TRUE(lines.line() == line) << lines.number();
+  }
+  EXPECT_FALSE(lines.next());
+}
+
 TEST_F(Streams, PlainFilesAloneAreRead) {
   EXPECT_THROW(RangeReader(path("none")), std::filesystem::filesystem_error);
   EXPECT_THROW(RangeReader(folder.string()), std::filesystem::filesystem_error);

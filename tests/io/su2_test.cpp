@@ -12,6 +12,8 @@
 #include <cstring>
 #include <set>
 
+#include <fmt/format.h>
+
 namespace aeroloom::io {
 namespace {
 
@@ -48,20 +50,7 @@ protected:
 
 /// What a file of the mixed mesh must give back: names as SU2 can have them.
 examples::Contents expected(const Communicator& world, const FileMesh& mesh) {
-  examples::Contents contents = examples::contents_of(world, mesh);
-  const auto rename = [](auto& map) {
-    std::remove_reference_t<decltype(map)> renamed;
-    for (const auto& [name, value] : map) {
-      std::string plain = name;
-      std::replace_if(
-          plain.begin(), plain.end(), [](char c) { return c == ' ' || c == '/'; }, '_');
-      renamed[plain] = value;
-    }
-    map = renamed;
-  };
-  rename(contents.faces);
-  rename(contents.types);
-  return contents;
+  return examples::with_plain_names(examples::contents_of(world, mesh));
 }
 
 TEST_F(Su2, TextAndBinaryReadBackTheSame) {
@@ -125,6 +114,21 @@ TEST_F(Su2, ConditionsOfAllTypesComeBack) {
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
   set_marker_types(path("types.su2"), read);
+  EXPECT_EQ(read, mesh.patches);
+}
+
+TEST_F(Su2, ConditionsOfThousandsOfMarkersComeBack) {
+  FileMesh mesh = examples::mixed_mesh(world, 1, 1);
+  BoundaryPatches patches;
+  mesh.patches.clear();
+  for (std::int32_t i = 0; i < 50000; ++i) {
+    mesh.patches.push_back({fmt::format("outside_of_the_building_{:08}", i), mesh::PatchType::farfield});
+    patches.ids.push_back(i);
+  }
+  write_markers(world, path("many.su2"), mesh, patches, marker_names(mesh, patches));
+  std::vector<mesh::Patch> read = mesh.patches;
+  for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
+  set_marker_types(path("many.su2"), read);
   EXPECT_EQ(read, mesh.patches);
 }
 
