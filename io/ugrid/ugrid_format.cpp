@@ -97,23 +97,28 @@ int mapbc_code_of(mesh::PatchType type, NormalAxis axis) {
 
 mesh::PatchType patch_type_of_mapbc(std::int64_t code) {
   switch (code) {
-    case 5:  // older numbers of grids: 3 far field, 4 viscous, 5 tangency
+    case 5:
     case 3000:
       return mesh::PatchType::slip;
+    case 1:
     case 6661:
     case 6662:
     case 6663:
       return mesh::PatchType::symmetry;
+    case 0:
     case 3:
     case 5000:
     case 5005:
     case 5025:
     case 5050:
       return mesh::PatchType::farfield;
+    case 1001:
     case 7011:
     case 7036:
     case 7100:
       return mesh::PatchType::inlet;
+    case 2:
+    case 1002:
     case 5026:
     case 5051:
     case 5052:

@@ -63,7 +63,9 @@ inline constexpr std::array<std::array<std::int8_t, 6>, cell_shape_count> to_ugr
 /// normal to, 3000 (no flow through it) where that is none of x, y, z.
 enum class NormalAxis { x, y, z, none };
 int mapbc_code_of(mesh::PatchType type, NormalAxis axis);
-/// What a number means here; walls are the answer to numbers that mean nothing here.
+/// What a number means here: FUN3D's, and USM3D's (its web page `Boundary conditions`: 0 free stream, 1 plane
+/// of reflection, 2 extrapolation, 3 characteristic, 4 no slip, 5 tangent flow, 1001 and 1002 inflow and
+/// outflow of channels); walls are the answer to numbers that mean nothing here.
 mesh::PatchType patch_type_of_mapbc(std::int64_t code);
 
 }  // namespace aeroloom::io

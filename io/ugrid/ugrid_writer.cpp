@@ -146,7 +146,9 @@ std::string mapbc_text(const parallel::Communicator& communicator, const FileMes
                        const BoundaryPatches& patches) {
   std::vector<std::string> names;
   for (const std::int32_t id : patches.ids) names.push_back(mesh.patches[id].name);
-  names = plain_names(names, {.signs = "!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}~"});
+  // List-directed reads of Fortran end a name at a comma, a semicolon or a slash, and take quotes and stars
+  // for signs of their own.
+  names = plain_names(names, {.signs = "!#$%&()+-.:<=>?@[\\]^_`{|}~"});
   std::string text = fmt::format("{}\n", patches.size());
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const mesh::PatchType type = mesh.patches[patches.ids[i]].type;

@@ -16,7 +16,7 @@ import solver_oracle
 KINDS = {"lb8": ("<i4", "<f8"), "b8": (">i4", ">f8"), "lb8l": ("<i8", "<f8"), "b8l": (">i8", ">f8")}
 # UG_IO: the base of a pyramid is 1, 4, 5, 2 seen from its apex 3.
 BASE_AND_APEX = [0, 3, 4, 1, 2]
-NAMES = ["wing_/_lower_side", "symmetry", "far_field"]
+NAMES = ["wing___lower_side", "symmetry", "far_field"]
 
 
 def split(faces, ids):

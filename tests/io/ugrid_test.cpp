@@ -34,20 +34,9 @@ protected:
   }
 };
 
-/// What a file of the mixed mesh must give back: names without blanks, an oblique plane of symmetry as slip.
+/// What a file of the mixed mesh must give back: plain names, an oblique plane of symmetry as slip.
 examples::Contents expected(const Communicator& world, const FileMesh& mesh) {
-  examples::Contents contents = examples::contents_of(world, mesh);
-  const auto rename = [](auto& map) {
-    std::remove_reference_t<decltype(map)> renamed;
-    for (const auto& [name, value] : map) {
-      std::string plain = name;
-      std::replace(plain.begin(), plain.end(), ' ', '_');
-      renamed[plain] = value;
-    }
-    map = renamed;
-  };
-  rename(contents.faces);
-  rename(contents.types);
+  examples::Contents contents = examples::with_plain_names(examples::contents_of(world, mesh));
   contents.types["symmetry"] = mesh::PatchType::slip;
   return contents;
 }
@@ -65,7 +54,7 @@ TEST_F(Ugrid, AllKindsReadBackTheSame) {
     examples::expect_same(examples::contents_of(world, read.mesh), expected(world, mesh));
   }
   EXPECT_EQ(bytes_of(path("mixed.mapbc")),
-            "3\n1 4000 wing_/_lower_side\n2 3000 symmetry\n3 5000 far_field\n");
+            "3\n1 4000 wing___lower_side\n2 3000 symmetry\n3 5000 far_field\n");
 }
 
 TEST_F(Ugrid, BytesDependOnPartsAlone) {
@@ -153,6 +142,17 @@ TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
   EXPECT_NE(error_of(file).find("bare.mapbc, line 3"), std::string::npos);
   examples::put_bytes(world, path("bare.mapbc"), "2\n1 4000 shell\n");
   EXPECT_NE(error_of(file).find("the file ends after 1 of 2"), std::string::npos);
+}
+
+TEST_F(Ugrid, NumbersOfUsm3dAreConditionsToo) {
+  const std::string file = path("old.mapbc");
+  examples::put_bytes(world, file, "8\n1 0 a\n2 1 b\n3 2 c\n4 3 d\n5 4 e\n6 5 f\n7 1001 g\n8 1002 h\n");
+  const auto table = read_mapbc(world, file);
+  using mesh::PatchType;
+  const std::array types = {PatchType::farfield, PatchType::symmetry, PatchType::outlet, PatchType::farfield,
+                            PatchType::wall,     PatchType::slip,     PatchType::inlet,  PatchType::outlet};
+  for (std::size_t i = 0; i < types.size(); ++i)
+    EXPECT_EQ(table.at(static_cast<std::int64_t>(i) + 1).type, types[i]) << i;
 }
 
 TEST_F(Ugrid, MeshesTooLargeFor32BitsNameTheSuffixThatIsNot) {
