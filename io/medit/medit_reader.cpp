@@ -1,5 +1,6 @@
 #include "io/medit/medit_reader.hpp"
 
+#include "io/distinct_numbers.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/medit/medit_share.hpp"
 #include "io/streams/range_reader.hpp"
@@ -23,39 +24,17 @@ using mesh::GlobalIndex;
 constexpr std::size_t most_references = 65'536;
 constexpr std::int64_t largest_names_file = std::int64_t{64} << 20;
 
-void sort_unique(std::vector<std::int64_t>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 /// The different references of items, and of those that have a name, over all ranks, ascending. Collective.
 template <class Shapes, class Names>
 std::vector<std::int64_t> all_references(const parallel::Communicator& communicator, const std::string& path,
                                          const Shapes& shapes, const Names& names) {
-  std::vector<std::int64_t> found;
-  const auto require_few = [&](std::size_t most) {
-    if (found.size() > most) {
-      throw std::runtime_error(
-          fmt::format("'{}': there are more than {} different references", path, most_references));
-    }
-  };
-  parallel::agree(communicator, [&] {
-    for (const auto& [reference, name] : names) found.push_back(reference);
-    for (const MeditItems& items : shapes) {
-      for (const std::int64_t reference : items.references) {
-        if (found.empty() || found.back() != reference) found.push_back(reference);
-        if (found.size() <= 2 * most_references) continue;
-        sort_unique(found);
-        require_few(most_references);
-      }
-    }
-    sort_unique(found);
-    require_few(most_references);
-  });
-  found = communicator.all_gather_items(std::span<const std::int64_t>(found));
-  sort_unique(found);
-  parallel::agree(communicator, [&] { require_few(most_references); });
-  return found;
+  std::vector<std::int64_t> named;
+  for (const auto& [reference, name] : names) named.push_back(reference);
+  std::vector<std::span<const std::int64_t>> lists{named};
+  for (const MeditItems& items : shapes) lists.emplace_back(items.references);
+  return distinct_numbers(
+      communicator, lists, most_references,
+      fmt::format("'{}': there are more than {} different references", path, most_references));
 }
 
 std::vector<std::int32_t> ids_of(const MeditItems& items, const std::vector<std::int64_t>& references) {

@@ -1,5 +1,6 @@
 #include "io/ugrid/ugrid_reader.hpp"
 
+#include "io/distinct_numbers.hpp"
 #include "io/streams/range_reader.hpp"
 #include "io/ugrid/mapbc.hpp"
 #include "io/ugrid/ugrid_format.hpp"
@@ -135,38 +136,12 @@ private:
   UgridLayout _layout;
 };
 
-void sort_unique(std::vector<std::int64_t>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-/// The ids of all ranks, ascending. Collective.
-std::vector<std::int64_t> distinct_ids(const parallel::Communicator& communicator, const PatchIds& patch_ids,
-                                       const std::string& path) {
-  std::vector<std::int64_t> ids;
-  for (const auto& of_shape : patch_ids) {
-    std::vector<std::int64_t> distinct = of_shape;
-    sort_unique(distinct);
-    ids.insert(ids.end(), distinct.begin(), distinct.end());
-  }
-  sort_unique(ids);
-  const auto require_few = [&] {
-    if (ids.size() > most_patches)
-      throw std::runtime_error(
-          fmt::format("{}: its faces have {} different patch ids or more; at most {} are supported", path,
-                      ids.size(), most_patches));
-  };
-  parallel::agree(communicator, require_few);
-  ids = communicator.all_gather_items(std::span<const std::int64_t>(ids));
-  sort_unique(ids);
-  parallel::agree(communicator, require_few);
-  return ids;
-}
-
 /// Collective.
 void set_patches(const parallel::Communicator& communicator, const std::string& path,
                  const PatchIds& patch_ids, RawMesh& raw) {
-  const std::vector<std::int64_t> ids = distinct_ids(communicator, patch_ids, path);
+  const std::vector<std::int64_t> ids = distinct_numbers<std::int64_t>(
+      communicator, {patch_ids[0], patch_ids[1]}, most_patches,
+      fmt::format("{}: its faces have more than {} different patch ids", path, most_patches));
   const std::map<std::int64_t, mesh::Patch> table = read_mapbc(communicator, mapbc_path_of(path));
   std::set<std::string> taken;
   for (const std::int64_t id : ids) {

@@ -1,9 +1,14 @@
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 
+#include "io/distinct_numbers.hpp"
+#include "io/streams/range_reader.hpp"
 #include "io/vtkhdf/vtkhdf_share.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -22,9 +27,11 @@ public:
       : _communicator(communicator), _points(points), _mine(mine) {}
 
   void replace(const std::vector<std::vector<mesh::GlobalIndex>*>& lists) {
-    for (const auto* list : lists) _places.insert(_places.end(), list->begin(), list->end());
-    std::sort(_places.begin(), _places.end());
-    _places.erase(std::unique(_places.begin(), _places.end()), _places.end());
+    parallel::agree(_communicator, [&] {
+      for (const auto* list : lists) _places.insert(_places.end(), list->begin(), list->end());
+      std::sort(_places.begin(), _places.end());
+      _places.erase(std::unique(_places.begin(), _places.end()), _places.end());
+    });
     ask();
     for (auto* list : lists) {
       for (mesh::GlobalIndex& place : *list) {
@@ -37,28 +44,43 @@ public:
 private:
   /// Places ascend, and so do ranks: the answers of all come in the order of the questions.
   void ask() {
-    std::vector<parallel::Parcel> questions;
+    std::vector<parallel::Parcel> parcels;
+    parallel::agree(_communicator, [&] { parcels = questions(); });
+    parcels = _communicator.exchange(std::move(parcels));
+    parallel::agree(_communicator, [&] { parcels = answers(parcels); });
+    parcels = _communicator.exchange(std::move(parcels));
+    parallel::agree(_communicator, [&] {
+      for (const parallel::Parcel& answer : parcels) {
+        const auto ids = parallel::from_bytes<mesh::GlobalIndex>(answer.content);
+        _ids.insert(_ids.end(), ids.begin(), ids.end());
+      }
+    });
+  }
+
+  std::vector<parallel::Parcel> questions() const {
+    std::vector<parallel::Parcel> result;
     auto next = _places.begin();
     for (int rank = 0; rank < _communicator.size() && next != _places.end(); ++rank) {
       const auto end =
-          std::lower_bound(next, _places.end(), vtkhdf::share_of(_points, rank, _communicator.size()).end);
+          std::lower_bound(next, _places.end(), Share::of(_points, rank, _communicator.size()).end);
       if (end != next) {
-        questions.push_back({rank, parallel::to_bytes(std::span<const mesh::GlobalIndex>(
-                                       &*next, static_cast<std::size_t>(end - next)))});
+        result.push_back({rank, parallel::to_bytes(std::span<const mesh::GlobalIndex>(
+                                    &*next, static_cast<std::size_t>(end - next)))});
       }
       next = end;
     }
-    const std::int64_t first = vtkhdf::share_of(_points, _communicator.rank(), _communicator.size()).begin;
-    std::vector<parallel::Parcel> answers;
-    for (const parallel::Parcel& question : _communicator.exchange(std::move(questions))) {
+    return result;
+  }
+
+  std::vector<parallel::Parcel> answers(const std::vector<parallel::Parcel>& questions) const {
+    const std::int64_t first = Share::of(_points, _communicator.rank(), _communicator.size()).begin;
+    std::vector<parallel::Parcel> result;
+    for (const parallel::Parcel& question : questions) {
       auto places = parallel::from_bytes<mesh::GlobalIndex>(question.content);
       for (mesh::GlobalIndex& place : places) place = _mine[static_cast<std::size_t>(place - first)];
-      answers.push_back({question.rank, parallel::to_bytes(std::span<const mesh::GlobalIndex>(places))});
+      result.push_back({question.rank, parallel::to_bytes(std::span<const mesh::GlobalIndex>(places))});
     }
-    for (const parallel::Parcel& answer : _communicator.exchange(std::move(answers))) {
-      const auto ids = parallel::from_bytes<mesh::GlobalIndex>(answer.content);
-      _ids.insert(_ids.end(), ids.begin(), ids.end());
-    }
+    return result;
   }
 
   const Communicator& _communicator;
@@ -67,35 +89,52 @@ private:
   std::vector<mesh::GlobalIndex> _places, _ids;
 };
 
-/// The names that the values in `lists` stand for. Values become places in it; where `known` has a name for
-/// each value in use, they stay. Collective.
-std::vector<std::string> name_values(const Communicator& communicator,
-                                     const std::vector<std::vector<std::int32_t>*>& lists,
-                                     const std::vector<std::string>& known, const char* stem) {
+/// More are no names.
+constexpr std::size_t most_names = std::size_t{1} << 20;
+
+std::vector<std::span<const std::int32_t>> spans_of(const std::vector<std::vector<std::int32_t>*>& lists) {
+  std::vector<std::span<const std::int32_t>> spans;
+  for (const auto* list : lists) spans.emplace_back(*list);
+  return spans;
+}
+
+/// What the values of cell data stand for: values of the file, and their names.
+struct NamedValues {
   std::vector<std::int32_t> values;
-  for (const auto* list : lists) {
-    values.insert(values.end(), list->begin(), list->end());
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  }
-  values = communicator.all_gather_items(std::span<const std::int32_t>(values));
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  if (values.empty() || (values.front() >= 0 && static_cast<std::size_t>(values.back()) < known.size()))
-    return known;
   std::vector<std::string> names;
-  names.reserve(values.size());
-  for (const std::int32_t value : values) {
-    const bool has_name = value >= 0 && static_cast<std::size_t>(value) < known.size();
-    names.push_back(has_name ? known[static_cast<std::size_t>(value)] : fmt::format("{}_{}", stem, value));
-  }
-  for (auto* list : lists) {
-    for (std::int32_t& value : *list) {
-      value =
-          static_cast<std::int32_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+};
+
+/// Finds what the values in `lists` stand for; they become places in it. Where `known` has a name for each
+/// value in use, they stay. Collective; throws CollectiveError (input) where there are too many to be names.
+NamedValues name_values(const Communicator& communicator, const std::string& path,
+                        const std::vector<std::vector<std::int32_t>*>& lists,
+                        const std::vector<std::string>& known, const char* stem) {
+  NamedValues named;
+  named.values = distinct_numbers(
+      communicator, spans_of(lists), most_names,
+      fmt::format("{}: the cell data {} has more than {} different values", path, stem, most_names));
+  parallel::agree(communicator, [&] {
+    const auto has_name = [&](std::int32_t value) {
+      return value >= 0 && static_cast<std::size_t>(value) < known.size();
+    };
+    if (std::all_of(named.values.begin(), named.values.end(), has_name)) {
+      named.names = known;
+      named.values.resize(known.size());
+      std::iota(named.values.begin(), named.values.end(), 0);
+      return;
     }
-  }
-  return names;
+    for (const std::int32_t value : named.values) {
+      named.names.push_back(has_name(value) ? known[static_cast<std::size_t>(value)]
+                                            : fmt::format("{}_{}", stem, value));
+    }
+    for (auto* list : lists) {
+      for (std::int32_t& value : *list) {
+        const auto place = std::lower_bound(named.values.begin(), named.values.end(), value);
+        value = static_cast<std::int32_t>(place - named.values.begin());
+      }
+    }
+  });
+  return named;
 }
 
 template <std::size_t N, class T>
@@ -106,22 +145,25 @@ std::vector<std::vector<T>*> pointers_to(std::array<std::vector<T>, N>& lists) {
   return pointers;
 }
 
-void name_regions(const Communicator& communicator, const FileFacts& facts, RawMesh& raw) {
+void name_regions(const Communicator& communicator, const std::string& path, const FileFacts& facts,
+                  RawMesh& raw) {
   std::vector<std::string> known = facts.region_names;
   if (!facts.has_regions && known.size() != 1) known = {"fluid"};
-  raw.regions = name_values(communicator, pointers_to(raw.cell_regions), known, "region");
+  raw.regions = name_values(communicator, path, pointers_to(raw.cell_regions), known, "region").names;
   if (raw.regions.empty()) raw.regions = {"fluid"};
 }
 
-void name_patches(const Communicator& communicator, const FileFacts& facts, RawMesh& raw) {
-  const std::vector<std::string> names =
-      name_values(communicator, pointers_to(raw.face_patches), facts.patch_names, "patch");
-  for (const std::string& name : names) {
-    mesh::Patch patch{name, mesh::PatchType::wall};
-    const auto known = std::find(facts.patch_names.begin(), facts.patch_names.end(), name);
-    const auto p = static_cast<std::size_t>(known - facts.patch_names.begin());
-    if (p < facts.patch_types.size())
-      patch.type = mesh::patch_type_of(facts.patch_types[p]).value_or(mesh::PatchType::wall);
+void name_patches(const Communicator& communicator, const std::string& path, const FileFacts& facts,
+                  RawMesh& raw) {
+  NamedValues named =
+      name_values(communicator, path, pointers_to(raw.face_patches), facts.patch_names, "patch");
+  for (std::size_t i = 0; i < named.names.size(); ++i) {
+    mesh::Patch patch{std::move(named.names[i]), mesh::PatchType::wall};
+    const std::int32_t value = named.values[i];
+    if (value >= 0 && static_cast<std::size_t>(value) < facts.patch_types.size()) {
+      patch.type = mesh::patch_type_of(facts.patch_types[static_cast<std::size_t>(value)])
+                       .value_or(mesh::PatchType::wall);
+    }
     raw.patches.push_back(std::move(patch));
   }
 }
@@ -147,8 +189,8 @@ RawMesh read_vtkhdf(const Communicator& communicator, const std::string& path) {
     raw.faces = std::move(boundary.faces);
     raw.face_patches = std::move(boundary.face_patches);
   }
-  name_regions(communicator, facts, raw);
-  name_patches(communicator, facts, raw);
+  name_regions(communicator, path, facts, raw);
+  name_patches(communicator, path, facts, raw);
   return raw;
 }
 

@@ -14,7 +14,8 @@ namespace aeroloom::io {
 /// this order. Without any a file of one partition has its own numbers; one of several is an error, for
 /// nothing says which points of two partitions are one (never matched by coordinates).
 /// Regions are the cell data `region`, called as the field data `region_names` says or region_VALUE; without
-/// it there is one, `fluid`. Faces come from the group /Boundary (vtkhdf_writer.hpp); without it, from
+/// it there is one, `fluid`. Faces come from the group /Boundary where it has Patch and
+/// PatchNames (vtkhdf_writer.hpp); without it, from
 /// triangles and quadrilaterals among the cells if there is cell data `patch` (names: field data
 /// `patch_names`, or patch_VALUE; conditions: `patch_types`, or wall). Cells that `vtkGhostType` marks as
 /// duplicates, points and lines are left out.

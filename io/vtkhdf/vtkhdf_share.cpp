@@ -1,8 +1,10 @@
 #include "io/vtkhdf/vtkhdf_share.hpp"
 
 #include "io/hdf5/input_file.hpp"
+#include "io/streams/range_reader.hpp"
 #include "io/vtk_order.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -47,7 +49,7 @@ public:
       : _facts(facts), _file(path), _rank(rank), _ranks(ranks) {}
 
   void read_points(RawMesh& raw) const {
-    const Share mine = share_of(_facts.all().points, _rank, _ranks);
+    const Share mine = Share::of(_facts.all().points, _rank, _ranks);
     raw.coordinates = _file.reals("/VTKHDF/Points", mine.begin, mine.end - mine.begin);
     if (_facts.id_array.empty()) {
       for (std::int64_t i = mine.begin; i < mine.end; ++i) raw.point_ids.push_back(i);
@@ -64,7 +66,7 @@ public:
 
   /// Corners become places among the points of all partitions.
   void read_cells(RawMesh& raw) {
-    const Share mine = share_of(_facts.all().cells, _rank, _ranks);
+    const Share mine = Share::of(_facts.all().cells, _rank, _ranks);
     for (std::int64_t begin = mine.begin; begin < mine.end; begin += cells_at_a_time)
       read_cells(raw, {begin, std::min(mine.end, begin + cells_at_a_time)});
   }
@@ -72,7 +74,7 @@ public:
   /// Corners are ids of points.
   void read_boundary(RawMesh& raw) const {
     if (!_facts.has_boundary) return;
-    const Share mine = share_of(_facts.boundary_faces, _rank, _ranks);
+    const Share mine = Share::of(_facts.boundary_faces, _rank, _ranks);
     for (std::int64_t begin = mine.begin; begin < mine.end; begin += cells_at_a_time) {
       const std::int64_t count = std::min(mine.end - begin, cells_at_a_time);
       Elements faces;
@@ -129,6 +131,19 @@ private:
     return static_cast<std::size_t>(above - _facts.before.begin()) - 1;
   }
 
+  /// The cells of a partition take its corners from the first to the last. Whoever reads the cell asks, so
+  /// that the answer does not depend on where shares end.
+  void require_all_corners(std::int64_t cell, std::size_t p, std::int64_t begin, std::int64_t end) const {
+    const GridCounts &before = _facts.before[p], &after = _facts.before[p + 1];
+    const std::int64_t corners = after.corners - before.corners;
+    if (cell == before.cells && begin != 0)
+      fail(fmt::format("the corners of cell {}, the first of partition {}, begin at {}", cell, p, begin));
+    if (cell + 1 == after.cells && end != corners) {
+      fail(fmt::format("the corners of cell {}, the last of partition {}, end at {} of {}", cell, p, end,
+                       corners));
+    }
+  }
+
   /// The cells of a range with offsets into all corners of the file: each partition has one offset more than
   /// cells, and counts from 0.
   Elements elements_of(Share range) {
@@ -154,10 +169,8 @@ private:
                            offsets[end], in_partition, p));
         }
       }
-      const std::int64_t begin = _facts.before[p].corners + offsets[at];
-      if (!cells.corner_begin.empty() && begin != cells.corner_begin.back())
-        fail(fmt::format("the corners of cell {} do not follow those of the cell before", cell));
-      if (cells.corner_begin.empty()) cells.corner_begin.push_back(begin);
+      require_all_corners(cell, p, offsets[at], offsets[at + 1]);
+      if (cells.corner_begin.empty()) cells.corner_begin.push_back(_facts.before[p].corners + offsets[at]);
       cells.corner_begin.push_back(_facts.before[p].corners + offsets[at + 1]);
     }
     take_corners(cells, "/VTKHDF/Connectivity", _facts.all().corners);

@@ -4,20 +4,10 @@
 #include "io/raw_mesh.hpp"
 #include "io/vtkhdf/vtkhdf_survey.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 
 namespace aeroloom::io::vtkhdf {
-
-/// What each rank takes of `count` things: an even share.
-struct Share {
-  std::int64_t begin = 0, end = 0;
-};
-inline Share share_of(std::int64_t count, int rank, int ranks) {
-  const auto bound = [&](int r) { return count / ranks * r + std::min<std::int64_t>(r, count % ranks); };
-  return {bound(rank), bound(rank + 1)};
-}
 
 /// Reads the share of a rank. In `grid`, cells and the faces among them have places among the points of all
 /// partitions for corners, and points their ids; in `boundary`, the faces of /Boundary have ids. Regions and

@@ -19,7 +19,6 @@ namespace {
 /// The arrays that are asked for, in this order.
 enum Array : std::uint8_t {
   group,
-  boundary,
   number_of_points,
   number_of_cells,
   number_of_corners,
@@ -45,7 +44,6 @@ enum Array : std::uint8_t {
 };
 constexpr std::array<const char*, array_count> array_names = {
     "/VTKHDF",
-    "/Boundary",
     "/VTKHDF/NumberOfPoints",
     "/VTKHDF/NumberOfCells",
     "/VTKHDF/NumberOfConnectivityIds",
@@ -90,7 +88,8 @@ public:
     facts.has_patches = has_column(patches, facts.all().cells);
     facts.has_ghosts = has_column(ghosts, facts.all().cells);
     facts.region_names = texts(region_names);
-    facts.has_boundary = array(boundary).exists();
+    // A group of this name with other things in it is somebody else's.
+    facts.has_boundary = array(face_patches).exists() && array(face_patch_names).kind == ItemKind::text;
     if (facts.has_boundary) find_boundary(facts);
     facts.patch_names = texts(facts.has_boundary ? face_patch_names : patch_names);
     facts.patch_types = texts(facts.has_boundary ? face_patch_types : patch_types);
@@ -154,8 +153,11 @@ private:
     const std::vector<std::int64_t> cell_counts = counts(number_of_cells, rows);
     const std::vector<std::int64_t> corner_counts = counts(number_of_corners, rows);
     std::vector<GridCounts> partitions;
-    for (std::size_t p = 0; p < point_counts.size(); ++p)
+    for (std::size_t p = 0; p < point_counts.size(); ++p) {
       partitions.push_back({point_counts[p], cell_counts[p], corner_counts[p]});
+      if (cell_counts[p] == 0 && corner_counts[p] > 0)
+        fail(fmt::format("partition {} has {} corners, but no cells", p, corner_counts[p]));
+    }
     facts.before = sums_before(partitions);
   }
 

@@ -142,6 +142,49 @@ def faces_among_cells(t):
     assert told[:2] == t.sizes and "patch boundary_of_fluid" in told[3] and len(told) == 4, told
 
 
+def equal_names(t):
+    """Conditions go by the places of patches: two of one name may have different ones."""
+    grid = t.merged()
+    volume_cells = len(t.grid["Types"])
+    patch = np.concatenate([np.full(volume_cells, -1), 2 - np.arange(len(t.boundary["Types"])) % 3])
+    names = np.array(["same", "same", "other"], dtype=NAMES)
+    kinds = np.array(["wall", "farfield", "symmetry"], dtype=NAMES)
+    told = t.tell(t.make("equal", grid, cells={"patch": patch}, fields={"patch_names": names, "patch_types": kinds}))
+    assert sorted(line.split()[1:3] for line in told if line.startswith("patch ")) == \
+        [["other", "symmetry"], ["same", "farfield"], ["same", "wall"]], told
+
+
+def boundary_of_others(t):
+    path = t.make("others", points={"global_id": t.ids}, cells={"region": t.region})
+    with h5py.File(path, "r+") as file:
+        file["Boundary/Inlet/Types"] = np.arange(3)
+        file["Boundary/Types"] = np.zeros(4)
+    told = t.tell(path)
+    assert told[:2] == t.sizes and any("boundary_of" in line for line in told), told
+
+
+def corners_without_cells(t):
+    """Refused by any number of ranks, wherever their shares end."""
+    grid = {name: items.copy() for name, items in t.grid.items()}
+    grid["Connectivity"] = np.insert(grid["Connectivity"], grid["NumberOfConnectivityIds"][0], [0, 0])
+    grid["NumberOfConnectivityIds"][0] += 2
+    t.refused(t.make("behind", grid, points={"global_id": t.ids}), "the last of partition 0, end at")
+    last = {name: items.copy() for name, items in t.grid.items()}
+    last["Connectivity"] = np.append(last["Connectivity"], [0, 0])
+    last["NumberOfConnectivityIds"][-1] += 2
+    t.refused(t.make("at_end", last, points={"global_id": t.ids}), "the last of partition 2, end at")
+    alone = {name: np.append(items, [0] if items.ndim == 1 else np.zeros((0, 3)), axis=0) for name, items in t.grid.items()}
+    alone["NumberOfConnectivityIds"][-1] = 1
+    alone["Types"] = t.grid["Types"]
+    t.refused(t.make("alone", alone, points={"global_id": t.ids}), "partition 3 has 1 corners, but no cells")
+
+
+def too_many_regions(t):
+    count = 2**20 + 1
+    grid = t.single(np.eye(4, 3), np.tile([0, 1, 2, 3], count), 4 * np.arange(count + 1), np.full(count, 10))
+    t.refused(t.make("regions", grid, cells={"region": np.arange(count)}), "more than 1048576 different values")
+
+
 def t_names():
     return np.array(["lower layer", "upper"], dtype=NAMES)
 
@@ -204,7 +247,8 @@ def what_is_no_mesh(t):
 def main():
     with tempfile.TemporaryDirectory() as name:
         tester = Tester(sys.argv[1], sys.argv[2], pathlib.Path(name))
-        for test in (other_layouts, ids_of_points, faces_among_cells, cells_of_other_kinds, ghosts, what_is_no_mesh):
+        for test in (other_layouts, ids_of_points, faces_among_cells, cells_of_other_kinds, ghosts, equal_names,
+                     boundary_of_others, corners_without_cells, too_many_regions, what_is_no_mesh):
             test(tester)
             print(test.__name__, "good", flush=True)
 

@@ -1,0 +1,51 @@
+/// The different numbers among many, of all ranks. Internal to io/.
+#pragma once
+
+#include "parallel/collective_error.hpp"
+#include "parallel/communicator.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace aeroloom::io {
+
+/// The different ones in the lists of all ranks, ascending, where there are `most` of them at the most;
+/// otherwise throws CollectiveError (input) with `complaint`. Needs no more memory than a few times `most`
+/// numbers before it asks other ranks. Collective.
+template <class Number>
+std::vector<Number> distinct_numbers(const parallel::Communicator& communicator,
+                                     const std::vector<std::span<const Number>>& lists, std::size_t most,
+                                     const std::string& complaint) {
+  std::vector<Number> found;
+  const auto is_too_many = [&] {
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found.size() > most;
+  };
+  bool fails = false;
+  parallel::agree(communicator, [&] {
+    for (const std::span<const Number> list : lists) {
+      for (const Number number : list) {
+        if (found.empty() || found.back() != number) found.push_back(number);
+        if (found.size() > 2 * most && (fails = is_too_many())) return;
+      }
+    }
+    fails = is_too_many();
+  });
+  // The text does not depend on how many ranks find too many in their shares.
+  const auto require_few = [&] {
+    if (communicator.maximum(std::int64_t{fails}) > 0)
+      throw parallel::CollectiveError(parallel::FailureKind::input, complaint);
+  };
+  require_few();
+  found = communicator.all_gather_items(std::span<const Number>(found));
+  parallel::agree(communicator, [&] { fails = is_too_many(); });
+  require_few();
+  return found;
+}
+
+}  // namespace aeroloom::io
