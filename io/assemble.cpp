@@ -225,8 +225,8 @@ PointStore store_points(const parallel::Communicator& communicator, RawMesh& raw
     points[i] = {raw.point_ids[i], {p[0], p[1], p[2]}};
   }
   std::vector<double>().swap(raw.coordinates);
-  std::vector<GlobalIndex>().swap(raw.point_ids);
-  PointStore store(communicator, even_ranges(communicator.size(), limit), std::move(points));
+  KeyRanges ranges = fair_ranges(communicator, std::move(raw.point_ids), limit);
+  PointStore store(communicator, std::move(ranges), std::move(points));
   if (store.clash() >= 0)
     refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));
   return store;

@@ -27,7 +27,8 @@ public:
     write(std::as_bytes(std::span(&item, 1)));
   }
   void write(std::span<const std::byte> bytes);
-  /// All is in the file, which is closed. Without it the file may be cut short.
+  /// All is handed over to the file system, and the file closed, which reports what a server refuses. It is
+  /// not waited for the disk: a mesh may have thousands of such files. Without it the file may be cut short.
   void finish();
 
 private:

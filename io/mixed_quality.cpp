@@ -192,7 +192,7 @@ MeasureDistribution distribution_of(const parallel::Communicator& communicator, 
                                     const Scale& scale, double sum) {
   if (local.bins.empty()) local.bins.assign(scale.bins(), 0);
   const std::vector<std::int64_t> bins = mesh::sum_bins(communicator, local.bins);
-  local.bins = {};
+  std::vector<std::int64_t>().swap(local.bins);
   MeasureDistribution result;
   result.histogram = {scale.low, scale.high, scale.logarithmic, {}};
   const auto merged = static_cast<std::size_t>(scale.merged);

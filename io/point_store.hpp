@@ -23,6 +23,11 @@ struct KeyRanges {
 };
 /// Ranges of equal width below `limit`.
 KeyRanges even_ranges(int ranks, mesh::GlobalIndex limit);
+/// Ranges below `limit` that share out the keys of all ranks: even ones where keys are dense, otherwise such
+/// that a few keys far from the others change nothing (splitters of samples: Shi, Schaeffer, J. Parallel
+/// Distrib. Comput. 14, 1992, doi:10.1016/0743-7315(92)90075-X). Collective.
+KeyRanges fair_ranges(const parallel::Communicator& communicator, std::vector<mesh::GlobalIndex> keys,
+                      mesh::GlobalIndex limit);
 
 class PointStore {
 public:

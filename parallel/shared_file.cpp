@@ -46,6 +46,27 @@ void prepare(const std::string& path, const std::string& unfinished) {
   fs::remove(unfinished);
 }
 
+/// Closes the file whatever happens. Collective.
+void work_and_close(const Communicator& communicator, SharedFile::Handle& handle,
+                    const std::function<void(SharedFile&)>& work) {
+  try {
+    agree(communicator, [&] {
+      SharedFile file(handle);
+      work(file);
+    });
+  } catch (const CollectiveError&) {
+    MPI_File_close(&handle.file);
+    throw;
+  }
+  // What a file system puts off, it may fail at later: closing through MPI would not tell.
+  const int synchronized = MPI_File_sync(handle.file);
+  const int closed = MPI_File_close(&handle.file);
+  agree(communicator, [&] {
+    require_success(synchronized, "cannot write", handle.path);
+    require_success(closed, "cannot close", handle.path);
+  });
+}
+
 }  // namespace
 
 void SharedFile::write(std::int64_t offset, std::span<const std::byte> bytes) {
@@ -72,14 +93,14 @@ void write_shared_file(const Communicator& communicator, const std::string& path
   });
   const int opened = MPI_File_open(host_communicator(communicator), handle.path.c_str(),
                                    MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &handle.file);
-  agree(communicator, [&] { require_success(opened, "cannot create", handle.path); });
   try {
+    // Closing is collective: where some ranks have not opened the file, the others cannot close it.
+    agree(communicator, [&] { require_success(opened, "cannot create", handle.path); });
+    work_and_close(communicator, handle, work);
     agree(communicator, [&] {
-      SharedFile file(handle);
-      work(file);
+      if (communicator.is_root()) fs::rename(handle.path, path);
     });
   } catch (const CollectiveError&) {
-    MPI_File_close(&handle.file);
     if (communicator.is_root()) {
       std::error_code ignored;
       fs::remove(handle.path, ignored);
@@ -87,11 +108,6 @@ void write_shared_file(const Communicator& communicator, const std::string& path
     communicator.barrier();
     throw;
   }
-  const int closed = MPI_File_close(&handle.file);
-  agree(communicator, [&] { require_success(closed, "cannot close", handle.path); });
-  agree(communicator, [&] {
-    if (communicator.is_root()) fs::rename(handle.path, path);
-  });
 }
 
 }  // namespace aeroloom::parallel

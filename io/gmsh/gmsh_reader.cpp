@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -67,10 +68,13 @@ std::int64_t count_parts(const std::string& path) {
   const std::string stem = stem_of(path);
   if (stem.empty()) return 0;
   MshScanner scanner(part_path(stem, 1));
-  const std::int64_t parts = read_msh_tables(scanner, 0, MshExtent::before_nodes).partitions;
+  const MshTables tables = read_msh_tables(scanner, 0, MshExtent::before_nodes);
+  const std::int64_t parts = tables.partitions;
   const bool is_pattern = path.ends_with("_*.msh");
   if (parts < 1 && is_pattern) scanner.fail("the file has no partitions: give its own name");
-  if (parts < 1 || (!is_pattern && !fs::exists(part_path(stem, 2)))) return is_pattern ? 1 : 0;
+  // A file of all partitions may be called like the first of several; such a one has its own volumes alone.
+  const bool is_first = parts > 1 && tables.cell_partitions == std::set<std::int32_t>{1};
+  if (parts < 1 || (!is_pattern && !is_first && !fs::exists(part_path(stem, 2)))) return is_pattern ? 1 : 0;
   for (std::int64_t part = 1; part <= parts; ++part) {
     if (!fs::exists(part_path(stem, part))) {
       throw fs::filesystem_error(fmt::format("the mesh has {} partitions, one of them is missing", parts),

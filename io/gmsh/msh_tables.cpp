@@ -165,7 +165,10 @@ private:
       entity.parent_dimension = _scanner.int32();
       entity.parent = _scanner.int32();
       const std::int64_t parts = _scanner.count(4);
-      for (std::int64_t i = 0; i < parts; ++i) _scanner.int32();
+      for (std::int64_t i = 0; i < parts; ++i) {
+        const std::int32_t part = _scanner.int32();
+        if (dimension == 3) _tables.cell_partitions.insert(part);
+      }
     }
     for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) _scanner.real();
     read_physical(entity);

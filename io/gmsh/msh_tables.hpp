@@ -40,7 +40,8 @@ struct MshTables {
   std::map<MshTag, MshComment> comments;  ///< by physical group
   std::map<MshTag, MshEntity> entities;
   std::int64_t partitions = 0;
-  std::set<std::int32_t> ghost_entities;  ///< whose elements belong to other partitions
+  std::set<std::int32_t> cell_partitions;  ///< which of them the volumes of this file lie in
+  std::set<std::int32_t> ghost_entities;   ///< whose elements belong to other partitions
   std::vector<MshNodeBlock> nodes;
   std::vector<MshElementBlock> elements;  ///< of two and three dimensions
   std::vector<std::int64_t> ghosts;  ///< tags of elements that belong to another partition's file, ascending

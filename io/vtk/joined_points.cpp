@@ -62,7 +62,7 @@ std::vector<GlobalIndex> find_joined(const parallel::Communicator& communicator,
   std::vector<parallel::Parcel> parcels;
   for (auto& [rank, points] : outgoing) {
     parcels.push_back({rank, parallel::to_bytes(std::span<const PlacedPoint>(points))});
-    points = {};
+    std::vector<PlacedPoint>().swap(points);
   }
   std::vector<PlacedPoint> points;
   std::vector<std::pair<parallel::Rank, std::size_t>> counts;

@@ -201,6 +201,7 @@ VtkPart extract_vtk_part(const std::string& path) {
     std::move(patches.of_cells.begin(), patches.of_cells.end(), part.face_labels.begin());
     part.patches = std::move(patches.table);
   }
+  part.has_ids = ids.has_value();
   if (ids) part.ids = std::move(*ids);
   return part;
 }

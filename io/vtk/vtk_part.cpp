@@ -51,13 +51,14 @@ std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker) {
 template <class T>
 void hand_over(parallel::Packer& packer, std::vector<T>& items) {
   packer.array(items);
-  items = {};
+  std::vector<T>().swap(items);
 }
 
 parallel::Bytes pack(VtkPart part) {
   parallel::Packer packer;
   hand_over(packer, part.coordinates);
   hand_over(packer, part.ids);
+  packer.value(part.has_ids);
   for (auto& items : part.cells) hand_over(packer, items);
   for (auto& items : part.cell_labels) hand_over(packer, items);
   for (auto& items : part.faces) hand_over(packer, items);
@@ -72,6 +73,7 @@ VtkPart unpack(const parallel::Bytes& bytes) {
   VtkPart part;
   part.coordinates = unpacker.array<double>();
   part.ids = unpacker.array<mesh::GlobalIndex>();
+  part.has_ids = unpacker.value<bool>();
   for (auto& items : part.cells) items = unpacker.array<mesh::GlobalIndex>();
   for (auto& items : part.cell_labels) items = unpacker.array<std::int32_t>();
   for (auto& items : part.faces) items = unpacker.array<mesh::GlobalIndex>();

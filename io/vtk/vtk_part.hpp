@@ -21,7 +21,8 @@ struct VtkLabel {
 /// 0 .. n - 1, in their order.
 struct VtkPart {
   std::vector<double> coordinates;     ///< (n,3)
-  std::vector<mesh::GlobalIndex> ids;  ///< (n), or empty: the file has none
+  std::vector<mesh::GlobalIndex> ids;  ///< (n), or empty where there are none
+  bool has_ids = false;                ///< a part without points may have ids: its faces have those of others
   std::array<std::vector<mesh::GlobalIndex>, cell_shape_count> cells;
   std::array<std::vector<std::int32_t>, cell_shape_count> cell_labels;  ///< into `regions`
   std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;

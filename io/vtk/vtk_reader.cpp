@@ -96,7 +96,7 @@ template <class T>
 void append(std::vector<T>& items, std::vector<T>& more) {
   if (items.empty()) items.swap(more);
   items.insert(items.end(), more.begin(), more.end());
-  more = {};
+  std::vector<T>().swap(more);
 }
 
 std::int32_t label_offset(const std::vector<VtkLabel>& before, const std::vector<VtkLabel>& more) {
@@ -107,12 +107,11 @@ std::int32_t label_offset(const std::vector<VtkLabel>& before, const std::vector
 
 void append_part(VtkPart part, Share& share) {
   RawMesh& raw = share.raw;
-  const bool has_ids = !part.ids.empty();
-  if (part.point_count() > 0) ++(has_ids ? share.with_ids : share.without_ids);
+  if (part.point_count() > 0) ++(part.has_ids ? share.with_ids : share.without_ids);
   const auto first_point = static_cast<GlobalIndex>(raw.point_ids.size());
   const std::int32_t first_region = label_offset(share.regions, part.regions),
                      first_patch = label_offset(share.patches, part.patches);
-  if (!has_ids) {
+  if (!part.has_ids) {
     for (auto& corners : part.cells)
       for (GlobalIndex& v : corners) v += first_point;
     for (auto& corners : part.faces)

@@ -14,6 +14,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
@@ -71,6 +72,37 @@ inline vtkSmartPointer<vtkUnstructuredGrid> make_grid(const MixedMesh& whole, co
   grid->SetPoints(points);
   if (*choice.label != '\0') grid->GetCellData()->AddArray(labels);
   if (choice.with_ids) grid->GetPointData()->AddArray(ids);
+  return grid;
+}
+
+/// A part of no cells, nor points but their array of ids, with the boundary faces of the whole as field
+/// arrays.
+inline vtkSmartPointer<vtkUnstructuredGrid> faces_without_points(const MixedMesh& whole) {
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  grid->SetPoints(points);
+  const auto add = [](vtkFieldData& data, const char* name) {
+    vtkNew<vtkTypeInt64Array> array;
+    array->SetName(name);
+    data.AddArray(array);
+    return vtkTypeInt64Array::SafeDownCast(data.GetAbstractArray(name));
+  };
+  add(*grid->GetPointData(), "global_id");
+  vtkFieldData& fields = *grid->GetFieldData();
+  auto *corners = add(fields, "boundary_corners"), *offsets = add(fields, "boundary_offsets"),
+       *patch = add(fields, "boundary_patch");
+  vtkNew<vtkStringArray> names;
+  names->SetName("patch_names");
+  for (int p = 0; p < 3; ++p) names->InsertNextValue("shell_" + std::to_string(p));
+  fields.AddArray(names);
+  offsets->InsertNextValue(0);
+  for (const WholeFace& face : whole.faces) {
+    if (face.patch == MixedMesh::interface) continue;
+    for (const int v : face.corners) corners->InsertNextValue((std::int64_t{1} << 61) + 3 * v);
+    offsets->InsertNextValue(corners->GetNumberOfValues());
+    patch->InsertNextValue(face.patch);
+  }
   return grid;
 }
 

@@ -114,6 +114,20 @@ TEST_F(VtkReader, JoinsPartsByIdsOrByPlace) {
   }
 }
 
+TEST_F(VtkReader, APartWithoutPointsHasFacesOfOthers) {
+  on_root([&] {
+    write_parts("parts.pvtu", 4, {.label = "CellEntityIds", .with_faces = false, .with_ids = true});
+    write_grid(*examples::faces_without_points(whole), path("faces.vtu"));
+    write_index("parts.pvtu", {"part_0.vtu", "part_1.vtu", "part_2.vtu", "part_3.vtu", "faces.vtu"});
+  });
+  const Assembled result = read("parts.pvtu");
+  expect_whole(result, whole);
+  ASSERT_EQ(result.mesh.patches.size(), 4U);
+  EXPECT_EQ(result.mesh.patches[0].name, "shell_0");
+  EXPECT_EQ(result.mesh.patch_faces[0], (std::array<GlobalIndex, 2>{32, 4}));
+  EXPECT_EQ(result.left_out_faces, 0);
+}
+
 TEST_F(VtkReader, MakesOneMeshWhateverTheRanks) {
   on_root([&] { write_parts("parts.pvtu", 4, {.label = "CellEntityIds"}); });
   const RawMesh mine = read_vtk(world, path("parts.pvtu"));

@@ -2,6 +2,7 @@
 
 #include "parallel/collective_error.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace aeroloom::parallel {
@@ -56,6 +58,42 @@ TEST(SharedFile, WhatFailsAnywhereLeavesNothing) {
     if (world.rank() == world.size() - 1) throw fs::filesystem_error("full", std::error_code());
   };
   EXPECT_THROW(write_shared_file(world, path, work), CollectiveError);
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_FALSE(fs::exists(path + ".unfinished"));
+  world.barrier();
+  if (world.is_root()) fs::remove_all(fs::path(path).parent_path());
+}
+
+TEST(SharedFile, AFileThatCannotTakeItsNameIsGone) {
+  const Communicator world = Communicator::world();
+  const std::string path = scratch(world, "taken");
+  const auto work = [&](SharedFile& file) {
+    const std::vector<char> some(100, 'x');
+    file.write_items(100 * world.rank(), std::span<const char>(some));
+    if (world.is_root()) fs::create_directories(fs::path(path) / "inside");
+  };
+  EXPECT_THROW(write_shared_file(world, path, work), CollectiveError);
+  EXPECT_TRUE(fs::is_directory(path));
+  EXPECT_FALSE(fs::exists(path + ".unfinished"));
+  world.barrier();
+  if (world.is_root()) fs::remove_all(fs::path(path).parent_path());
+}
+
+TEST(SharedFile, NoRoomIsAnErrorAndNoFile) {
+  const Communicator world = Communicator::world();
+  const std::string path = scratch(world, "full");
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{1 << 16, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const auto work = [&](SharedFile& file) {
+    const std::vector<char> some(1 << 20, 'x');
+    file.write_items((1 << 20) * world.rank(), std::span<const char>(some));
+  };
+  EXPECT_THROW(write_shared_file(world, path, work), CollectiveError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
   EXPECT_FALSE(fs::exists(path));
   EXPECT_FALSE(fs::exists(path + ".unfinished"));
   world.barrier();
