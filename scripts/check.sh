@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh
+scripts/setup.sh --tests
 
 echo "check: format"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror

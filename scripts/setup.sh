@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# setup.sh: installs the Debian 12 packages Aeroloom needs, only where they are missing.
+# setup.sh [--tests]: installs the Debian 12 packages that Aeroloom is built and run with, only where they are missing;
+# with --tests those of the tests and checks too.
 # Works as root, or as a user who may use sudo.
 set -euo pipefail
 
@@ -11,11 +12,23 @@ packages=(
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
   libvtk9-dev libhdf5-openmpi-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
-  libgtest-dev libbenchmark-dev clang-format clang-tidy
-  python3 python3-numpy python3-vtk9
+  # the build is configured with its tests
+  libgtest-dev libbenchmark-dev python3
+)
+test_packages=(
+  clang-format clang-tidy
+  python3-numpy python3-vtk9
   # readers of our files that others wrote: tests compare with them
   cgns-convert gmsh openfoam python3-h5py python3-meshio
 )
+case "${1:-}" in
+  "") ;;
+  --tests) packages+=("${test_packages[@]}") ;;
+  *)
+    echo "usage: $0 [--tests]" >&2
+    exit 2
+    ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do
