@@ -24,6 +24,10 @@ inline std::optional<PatchType> patch_type_of(std::string_view name) {
   return std::nullopt;
 }
 
+/// What a patch is by its name alone, whatever else than letters is in it: that of a type ("far_field"), or
+/// one of its usual other names ("symmetry plane", "Inflow 2"). Empty: nothing to tell. Never `interior`.
+std::optional<PatchType> patch_type_by_name(std::string_view name);
+
 /// A patch as solvers know it.
 struct Patch {
   std::string name;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -82,39 +81,11 @@ PatchType default_type(const cad::Model& model, std::int32_t patch) {
   }
   if (inner) return PatchType::interior;
   // The plane of symmetry that the program cuts belongs to the far field, too.
-  return patch_type_by_name(model.patches()[patch]).value_or(far ? PatchType::farfield : PatchType::wall);
-}
-
-/// Small letters alone.
-std::string letters_of(const std::string& name) {
-  std::string letters;
-  for (const char c : name) {
-    if (std::isalpha(static_cast<unsigned char>(c)))
-      letters.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
-  }
-  return letters;
+  return mesh::patch_type_by_name(model.patches()[patch])
+      .value_or(far ? PatchType::farfield : PatchType::wall);
 }
 
 }  // namespace
-
-std::optional<PatchType> patch_type_by_name(const std::string& name) {
-  using Name = std::pair<std::string_view, PatchType>;
-  constexpr std::array<Name, 10> names = {{{"symmetry", PatchType::symmetry},
-                                           {"symmetryplane", PatchType::symmetry},
-                                           {"sym", PatchType::symmetry},
-                                           {"symm", PatchType::symmetry},
-                                           {"farfield", PatchType::farfield},
-                                           {"freestream", PatchType::farfield},
-                                           {"inlet", PatchType::inlet},
-                                           {"inflow", PatchType::inlet},
-                                           {"outlet", PatchType::outlet},
-                                           {"outflow", PatchType::outlet}}};
-  const std::string letters = letters_of(name);
-  for (const auto& [known, type] : names) {
-    if (letters == known) return type;
-  }
-  return std::nullopt;
-}
 
 TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules) {
   std::vector<std::string> patch_of_face(model.face_count());

@@ -31,7 +31,4 @@ struct TypedPatches {
 /// matches no face, and for a rule whose faces others have all taken.
 TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules);
 
-/// What a patch is by its name alone; empty: nothing to tell.
-std::optional<mesh::PatchType> patch_type_by_name(const std::string& name);
-
 }  // namespace aeroloom::pipeline

@@ -37,18 +37,16 @@ struct Group {
 struct Source {
   MshScanner scanner;
   MshTables tables;
-  std::int64_t share = 0, shares = 1;
+  int share = 0, shares = 1;
 };
 
 /// Items begin ... end of a block with `count` items, the first of which is number `before` of `total`, that
 /// belong to a share.
 std::pair<std::int64_t, std::int64_t> share_of(const Source& source, std::int64_t before, std::int64_t count,
                                                std::int64_t total) {
-  const auto bound = [&](std::int64_t share) {
-    const std::int64_t each = total / source.shares, rest = total % source.shares;
-    return std::clamp(each * share + std::min(share, rest) - before, std::int64_t{0}, count);
-  };
-  return {bound(source.share), bound(source.share + 1)};
+  const Share share = Share::of(total, source.share, source.shares);
+  return {std::clamp(share.begin - before, std::int64_t{0}, count),
+          std::clamp(share.end - before, std::int64_t{0}, count)};
 }
 
 std::string part_path(const std::string& stem, std::int64_t part) {
@@ -90,7 +88,7 @@ std::vector<Source> open_sources(const parallel::Communicator& communicator, con
   std::vector<Source> sources;
   const std::int64_t rank = communicator.rank(), ranks = communicator.size();
   if (parts == 0) {
-    Source source{MshScanner(path), {}, rank, ranks};
+    Source source{MshScanner(path), {}, communicator.rank(), communicator.size()};
     source.tables = read_msh_tables(source.scanner, 0, MshExtent::before_nodes);
     if (!source.scanner.binary && rank > 0) return sources;
     if (!source.scanner.binary) source.share = 0, source.shares = 1;
@@ -133,10 +131,7 @@ struct NamedGroup {
 
 mesh::PatchType type_of(const std::string& comment, const std::string& name) {
   if (const auto type = mesh::patch_type_of(comment)) return *type;
-  std::string lower = name;
-  for (char& letter : lower)
-    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
-  return mesh::patch_type_of(lower).value_or(mesh::PatchType::wall);
+  return mesh::patch_type_by_name(name).value_or(mesh::PatchType::wall);
 }
 
 NamedGroup name_group(const MshTables& tables, const Group& group) {

@@ -5,6 +5,7 @@
 #include "io/medit/medit_share.hpp"
 #include "io/streams/range_reader.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -24,17 +25,32 @@ using mesh::GlobalIndex;
 constexpr std::size_t most_references = 65'536;
 constexpr std::int64_t largest_names_file = std::int64_t{64} << 20;
 
-/// The different references of items, and of those that have a name, over all ranks, ascending. Collective.
-template <class Shapes, class Names>
+/// The different references of items over all ranks, ascending. Collective.
+template <class Shapes>
 std::vector<std::int64_t> all_references(const parallel::Communicator& communicator, const std::string& path,
-                                         const Shapes& shapes, const Names& names) {
-  std::vector<std::int64_t> named;
-  for (const auto& [reference, name] : names) named.push_back(reference);
-  std::vector<std::span<const std::int64_t>> lists{named};
+                                         const Shapes& shapes) {
+  std::vector<std::span<const std::int64_t>> lists;
   for (const MeditItems& items : shapes) lists.emplace_back(items.references);
   return distinct_numbers(
       communicator, lists, most_references,
       fmt::format("'{}': there are more than {} different references", path, most_references));
+}
+
+/// The first reference in use that has no name, though others have; nothing where there is none.
+template <class Names>
+std::optional<std::int64_t> first_nameless(const std::vector<std::int64_t>& references, const Names& names) {
+  if (names.empty()) return std::nullopt;
+  const auto found = std::find_if(references.begin(), references.end(),
+                                  [&](std::int64_t reference) { return !names.contains(reference); });
+  return found == references.end() ? std::nullopt : std::optional(*found);
+}
+
+/// Those in use and those that have a name: a patch without faces keeps its place.
+template <class Names>
+void add_named(const Names& names, std::vector<std::int64_t>& references) {
+  for (const auto& [reference, name] : names) references.push_back(reference);
+  std::sort(references.begin(), references.end());
+  references.erase(std::unique(references.begin(), references.end()), references.end());
 }
 
 std::vector<std::int32_t> ids_of(const MeditItems& items, const std::vector<std::int64_t>& references) {
@@ -97,9 +113,20 @@ MeditShare read_share(const parallel::Communicator& communicator, const std::str
 
 RawMesh read_medit(const parallel::Communicator& communicator, const std::string& path) {
   MeditShare share = read_share(communicator, path);
-  const MeditNames names = read_names(communicator, path);
-  const auto regions = all_references(communicator, path, share.cells, names.regions);
-  const auto patches = all_references(communicator, path, share.faces, names.patches);
+  MeditNames names = read_names(communicator, path);
+  std::vector<std::int64_t> regions = all_references(communicator, path, share.cells),
+                            patches = all_references(communicator, path, share.faces);
+  std::optional<std::int64_t> nameless = first_nameless(regions, names.regions);
+  if (!nameless) nameless = first_nameless(patches, names.patches);
+  if (nameless) {
+    if (communicator.is_root()) {
+      parallel::log_warning(fmt::format("'{}' is left alone: it has no name for the reference {} of '{}'",
+                                        medit_names_path(path), *nameless, path));
+    }
+    names = {};
+  }
+  add_named(names.regions, regions);
+  add_named(names.patches, patches);
   RawMesh raw;
   for (const std::int64_t reference : regions) {
     const auto named = names.regions.find(reference);

@@ -2,11 +2,14 @@
 
 #include "io/streams/text_lines.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "parallel/shared_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -91,6 +94,46 @@ std::string markers_text(const std::string& mesh_path, const FileMesh& mesh, con
   return text;
 }
 
+std::map<std::string, mesh::PatchType> read_markers(const std::string& path) {
+  std::map<std::string, mesh::PatchType> types;
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) return types;
+  TextLines lines(path, longest_list);
+  while (lines.next()) {
+    std::string_view line = trimmed(lines.line());
+    if (line.starts_with("% MARKER_")) line.remove_prefix(2);
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const MarkerOption* const option = find_option(trimmed(line.substr(0, equals)));
+    if (option != nullptr) add_markers(line.substr(equals + 1), *option, types);
+  }
+  return types;
+}
+
+/// What each patch is. Lines for markers that the mesh does not have are those of another mesh.
+std::vector<mesh::PatchType> types_of_markers(const std::string& path,
+                                              const std::vector<mesh::Patch>& patches) {
+  std::map<std::string, mesh::PatchType> markers = read_markers(path);
+  std::set<std::string_view> known;
+  for (const mesh::Patch& patch : patches) known.insert(patch.name);
+  const auto stranger = std::find_if(markers.begin(), markers.end(),
+                                     [&](const auto& marker) { return !known.contains(marker.first); });
+  if (stranger != markers.end()) {
+    parallel::log_warning(
+        fmt::format("'{}' is left alone: it has conditions for the marker '{}', which the "
+                    "mesh does not have",
+                    path, stranger->first));
+    markers.clear();
+  }
+  std::vector<mesh::PatchType> types;
+  for (const mesh::Patch& patch : patches) {
+    const auto found = markers.find(patch.name);
+    types.push_back(found != markers.end() ? found->second
+                                           : mesh::patch_type_by_name(patch.name).value_or(patch.type));
+  }
+  return types;
+}
+
 }  // namespace
 
 std::vector<std::string> marker_names(const FileMesh& mesh, const BoundaryPatches& patches) {
@@ -119,24 +162,14 @@ void write_markers(const parallel::Communicator& communicator, const std::string
   });
 }
 
-void set_marker_types(const std::string& mesh_path, std::vector<mesh::Patch>& patches) {
-  const std::string path = markers_path_of(mesh_path);
-  std::error_code none;
-  if (!std::filesystem::exists(path, none)) return;
-  std::map<std::string, mesh::PatchType> types;
-  TextLines lines(path, longest_list);
-  while (lines.next()) {
-    std::string_view line = trimmed(lines.line());
-    if (line.starts_with("% MARKER_")) line.remove_prefix(2);
-    const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) continue;
-    const MarkerOption* const option = find_option(trimmed(line.substr(0, equals)));
-    if (option != nullptr) add_markers(line.substr(equals + 1), *option, types);
-  }
-  for (mesh::Patch& patch : patches) {
-    const auto found = types.find(patch.name);
-    if (found != types.end()) patch.type = found->second;
-  }
+void set_marker_types(const parallel::Communicator& communicator, const std::string& mesh_path,
+                      std::vector<mesh::Patch>& patches) {
+  std::vector<mesh::PatchType> types;
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) types = types_of_markers(markers_path_of(mesh_path), patches);
+  });
+  communicator.broadcast_items(types);
+  for (std::size_t p = 0; p < patches.size(); ++p) patches[p].type = types[p];
 }
 
 }  // namespace aeroloom::io

@@ -34,7 +34,10 @@ void write_markers(const parallel::Communicator& communicator, const std::string
                    const std::vector<std::string>& names);
 
 /// Gives patches the conditions that NAME_markers.cfg has for their names, where there is one; comments that
-/// begin with `% MARKER_` count. Not collective; throws as TextLines.
-void set_marker_types(const std::string& mesh_path, std::vector<mesh::Patch>& patches);
+/// begin with `% MARKER_` count. Others are what their name says (mesh::patch_type_by_name), or stay. A file
+/// with a marker that the mesh does not have is left alone, with a warning. Collective; throws
+/// CollectiveError (input, files).
+void set_marker_types(const parallel::Communicator& communicator, const std::string& mesh_path,
+                      std::vector<mesh::Patch>& patches);
 
 }  // namespace aeroloom::io

@@ -198,20 +198,14 @@ RawMesh read_su2(const parallel::Communicator& communicator, const std::string& 
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     Su2Text(path, raw).read();
-    set_marker_types(path, raw.patches);
-    for (const mesh::Patch& patch : raw.patches) {
-      packer.value(patch.type);
-      packer.text(patch.name);
-    }
+    for (const mesh::Patch& patch : raw.patches) packer.text(patch.name);
   });
   parallel::Bytes bytes = packer.take();
   communicator.broadcast(bytes);
   parallel::Unpacker unpacker(bytes);
   raw.patches.clear();
-  while (!unpacker.at_end()) {
-    const auto type = unpacker.value<mesh::PatchType>();
-    raw.patches.push_back({unpacker.text(), type});
-  }
+  while (!unpacker.at_end()) raw.patches.push_back({unpacker.text(), mesh::PatchType::wall});
+  set_marker_types(communicator, path, raw.patches);
   raw.regions = {"fluid"};
   return raw;
 }

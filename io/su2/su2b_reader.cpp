@@ -213,8 +213,8 @@ RawMesh read_su2b(const parallel::Communicator& communicator, const std::string&
     } else {
       file.fail(0, "no binary SU2 mesh: it begins with the size of its integers, 4 or 8");
     }
-    set_marker_types(path, raw.patches);
   });
+  set_marker_types(communicator, path, raw.patches);
   return raw;
 }
 

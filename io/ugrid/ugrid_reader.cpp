@@ -5,6 +5,7 @@
 #include "io/ugrid/mapbc.hpp"
 #include "io/ugrid/ugrid_format.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,13 +137,28 @@ private:
   UgridLayout _layout;
 };
 
+/// Whether the table is about these ids, no fewer and no others.
+bool are_keys(const std::map<std::int64_t, mesh::Patch>& table, const std::vector<std::int64_t>& ids) {
+  return std::equal(table.begin(), table.end(), ids.begin(), ids.end(),
+                    [](const auto& row, std::int64_t id) { return row.first == id; });
+}
+
 /// Collective.
 void set_patches(const parallel::Communicator& communicator, const std::string& path,
                  const PatchIds& patch_ids, RawMesh& raw) {
   const std::vector<std::int64_t> ids = distinct_numbers<std::int64_t>(
       communicator, {patch_ids[0], patch_ids[1]}, most_patches,
       fmt::format("{}: its faces have more than {} different patch ids", path, most_patches));
-  const std::map<std::int64_t, mesh::Patch> table = read_mapbc(communicator, mapbc_path_of(path));
+  std::map<std::int64_t, mesh::Patch> table = read_mapbc(communicator, mapbc_path_of(path));
+  if (!table.empty() && !are_keys(table, ids)) {
+    if (communicator.is_root()) {
+      parallel::log_warning(
+          fmt::format("'{}' is left alone: its patches are not those of '{}', which has {} from {} to {}",
+                      mapbc_path_of(path), path, ids.size(), ids.empty() ? 0 : ids.front(),
+                      ids.empty() ? 0 : ids.back()));
+    }
+    table.clear();
+  }
   std::set<std::string> taken;
   for (const std::int64_t id : ids) {
     const auto found = table.find(id);

@@ -35,8 +35,7 @@ template <class Integer>
 class UgridParts {
 public:
   UgridParts(const FileMesh& mesh, const BoundaryPatches& patches, RangeWriter& writer)
-      : _mesh(mesh),
-        _patches(patches),
+      : _patches(patches),
         _counts(counts_of(mesh)),
         _layout(ugrid_layout(_counts, sizeof(Integer))),
         _writer(writer) {}
@@ -95,7 +94,6 @@ private:
     _writer.put(static_cast<Integer>(part.numbers[vertex] + 1));
   }
 
-  const FileMesh& _mesh;
   const BoundaryPatches& _patches;
   UgridCounts _counts;
   UgridLayout _layout;

@@ -60,7 +60,7 @@ std::vector<mesh::Patch> patches_of(vtkFieldData& fields) {
                                  types = texts_of(fields, "patch_types");
   std::vector<mesh::Patch> patches;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto type = i < types.size() ? mesh::patch_type_of(types[i]) : std::nullopt;
+    const auto type = i < types.size() ? mesh::patch_type_of(types[i]) : mesh::patch_type_by_name(names[i]);
     patches.push_back({names[i], type.value_or(mesh::PatchType::wall)});
   }
   return patches;

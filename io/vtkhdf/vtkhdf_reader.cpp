@@ -158,13 +158,11 @@ void name_patches(const Communicator& communicator, const std::string& path, con
   NamedValues named =
       name_values(communicator, path, pointers_to(raw.face_patches), facts.patch_names, "patch");
   for (std::size_t i = 0; i < named.names.size(); ++i) {
-    mesh::Patch patch{std::move(named.names[i]), mesh::PatchType::wall};
     const std::int32_t value = named.values[i];
-    if (value >= 0 && static_cast<std::size_t>(value) < facts.patch_types.size()) {
-      patch.type = mesh::patch_type_of(facts.patch_types[static_cast<std::size_t>(value)])
-                       .value_or(mesh::PatchType::wall);
-    }
-    raw.patches.push_back(std::move(patch));
+    const bool has_type = value >= 0 && static_cast<std::size_t>(value) < facts.patch_types.size();
+    const auto type = has_type ? mesh::patch_type_of(facts.patch_types[static_cast<std::size_t>(value)])
+                               : mesh::patch_type_by_name(named.names[i]);
+    raw.patches.push_back({std::move(named.names[i]), type.value_or(mesh::PatchType::wall)});
   }
 }
 

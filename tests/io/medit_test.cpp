@@ -266,6 +266,20 @@ TEST_F(Medit, HostileFiles) {
   }
 }
 
+TEST_F(Medit, NamesOfAnotherMeshAreLeftAlone) {
+  const std::string file = path("shared.meshb");
+  write_medit(world, examples::mixed_mesh(world, 2, 2), file);
+  examples::put_bytes(world, medit_names_path(file),
+                      "tetrahedra 1 lower\ntetrahedra 2 upper\ntriangles 1 hull slip\n");
+  RawMesh raw = read_medit(world, file);
+  EXPECT_EQ(raw.regions[0], "region_1");
+  EXPECT_EQ(raw.patches[0], (mesh::Patch{"patch_1", mesh::PatchType::wall}));
+  examples::put_bytes(world, medit_names_path(file), "tetrahedra 1 lower\ntetrahedra 2 upper\n");
+  raw = read_medit(world, file);
+  EXPECT_EQ(raw.regions, (std::vector<std::string>{"lower", "upper"}));
+  EXPECT_EQ(raw.patches[0].name, "patch_1");
+}
+
 TEST_F(Medit, HostileNames) {
   const std::string file = path("named.meshb");
   write_medit(world, examples::mixed_mesh(world, 2, 2), file);

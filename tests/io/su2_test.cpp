@@ -113,8 +113,22 @@ TEST_F(Su2, ConditionsOfAllTypesComeBack) {
   write_markers(world, path("types.su2b"), mesh, patches, marker_names(mesh, patches));
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
-  set_marker_types(path("types.su2"), read);
+  set_marker_types(world, path("types.su2"), read);
   EXPECT_EQ(read, mesh.patches);
+}
+
+TEST_F(Su2, ConditionsOfAnotherMeshAreLeftAlone) {
+  examples::put_bytes(world, path("shared_markers.cfg"),
+                      "MARKER_EULER= ( hull, tail )\nMARKER_FAR= ( out )\n");
+  std::vector<mesh::Patch> patches = {{"hull"}, {"out"}, {"Inflow 2"}};
+  set_marker_types(world, path("shared.su2"), patches);
+  EXPECT_EQ(patches, (std::vector<mesh::Patch>{{"hull"}, {"out"}, {"Inflow 2", mesh::PatchType::inlet}}));
+  patches.push_back({"tail"});
+  set_marker_types(world, path("shared.su2"), patches);
+  EXPECT_EQ(patches[0].type, mesh::PatchType::slip);
+  EXPECT_EQ(patches[1].type, mesh::PatchType::farfield);
+  EXPECT_EQ(patches[2].type, mesh::PatchType::inlet);
+  EXPECT_EQ(patches[3].type, mesh::PatchType::slip);
 }
 
 TEST_F(Su2, ConditionsOfThousandsOfMarkersComeBack) {
@@ -128,7 +142,7 @@ TEST_F(Su2, ConditionsOfThousandsOfMarkersComeBack) {
   write_markers(world, path("many.su2"), mesh, patches, marker_names(mesh, patches));
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
-  set_marker_types(path("many.su2"), read);
+  set_marker_types(world, path("many.su2"), read);
   EXPECT_EQ(read, mesh.patches);
 }
 

@@ -132,12 +132,17 @@ TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
   if (world.is_root()) fs::remove(path("bare.mapbc"));
   world.barrier();
   EXPECT_EQ(read_ugrid(world, file).patches[1], (mesh::Patch{"patch_2", mesh::PatchType::wall}));
-  examples::put_bytes(world, path("bare.mapbc"), "3\n1 3000 shell\n3 5050 shell \n\n7 6662\n");
+  examples::put_bytes(world, path("bare.mapbc"), "3\n1 3000 shell\n3 5050 shell \n\n2 6662\n");
   const RawMesh raw = read_ugrid(world, file);
   ASSERT_EQ(raw.patches.size(), 3U);
   EXPECT_EQ(raw.patches[0], (mesh::Patch{"shell", mesh::PatchType::slip}));
-  EXPECT_EQ(raw.patches[1], (mesh::Patch{"patch_2", mesh::PatchType::wall}));
+  EXPECT_EQ(raw.patches[1], (mesh::Patch{"patch_2", mesh::PatchType::symmetry}));
   EXPECT_EQ(raw.patches[2], (mesh::Patch{"shell_3", mesh::PatchType::farfield}));
+  for (const char* other : {"3\n1 3000 a\n2 5050 b\n7 6662 c\n", "2\n1 3000 a\n2 5050 b\n",
+                            "4\n1 3000 a\n2 5050 b\n3 3000 c\n4 3000 d\n"}) {
+    examples::put_bytes(world, path("bare.mapbc"), other);
+    EXPECT_EQ(read_ugrid(world, file).patches[0], (mesh::Patch{"patch_1", mesh::PatchType::wall}));
+  }
   examples::put_bytes(world, path("bare.mapbc"), "2\n1 4000 shell\n1 4000 hull\n");
   EXPECT_NE(error_of(file).find("bare.mapbc, line 3"), std::string::npos);
   examples::put_bytes(world, path("bare.mapbc"), "2\n1 4000 shell\n");

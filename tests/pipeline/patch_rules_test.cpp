@@ -89,14 +89,5 @@ TEST(PatchRules, APatternWithoutFacesNamesTheNearest) {
   }
 }
 
-TEST(PatchRules, NamesTellTypes) {
-  EXPECT_EQ(patch_type_by_name("Symmetry plane"), PatchType::symmetry);
-  EXPECT_EQ(patch_type_by_name("far_field"), PatchType::farfield);
-  EXPECT_EQ(patch_type_by_name("Inlet 2"), PatchType::inlet);
-  EXPECT_EQ(patch_type_by_name("OUTFLOW"), PatchType::outlet);
-  EXPECT_EQ(patch_type_by_name("inlet_lip"), std::nullopt);
-  EXPECT_EQ(patch_type_by_name("asymmetry"), std::nullopt);
-}
-
 }  // namespace
 }  // namespace aeroloom::pipeline
