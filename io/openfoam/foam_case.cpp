@@ -2,8 +2,12 @@
 
 #include "io/distinct_names.hpp"
 #include "io/local_file.hpp"
+#include "parallel/log.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -65,6 +69,28 @@ std::string dictionary(const std::string& name, const std::string& content) {
       "   "
       "\"system\";\n    object      {};\n}}\n\n{}",
       name, content);
+}
+
+std::string decomposition(std::int64_t parts) {
+  return fmt::format("numberOfSubdomains {};\nmethod          scotch;\n", parts);
+}
+
+/// Empty where there is no such file, or it is too large for a dictionary.
+std::string text_of(const fs::path& path) {
+  constexpr std::uintmax_t largest = 1 << 20;
+  if (!fs::is_regular_file(path) || fs::file_size(path) > largest) return {};
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What a decomposeParDict says; 0: nothing.
+std::int64_t subdomains_of(const fs::path& path) {
+  const std::string text = text_of(path), word = "numberOfSubdomains";
+  const std::size_t at = text.find(word);
+  if (at == std::string::npos) return 0;
+  std::istringstream rest(text.substr(at + word.size(), 100));
+  std::int64_t count = 0;
+  return rest >> count ? count : 0;
 }
 
 constexpr char control[] = R"foam(application     simpleFoam;
@@ -132,9 +158,11 @@ void clear_case(const FoamCase& foam_case) {
     const std::int64_t number = processor_of(entry.path().filename().string());
     if (number < 0 || !entry.is_directory()) continue;
     processors.push_back(entry.path());
-    if (foam_case.parts > 1 && number >= foam_case.parts && holds_results(entry.path())) {
+    const bool is_beyond = foam_case.parts == 1 || number >= foam_case.parts;
+    if (is_beyond && holds_results(entry.path())) {
       throw fs::filesystem_error(
-          fmt::format("the mesh has {} parts, this folder holds results of more: remove it", foam_case.parts),
+          fmt::format("the mesh has {} part(s), this folder holds results of more: remove it",
+                      foam_case.parts),
           entry.path(), std::make_error_code(std::errc::directory_not_empty));
     }
   }
@@ -163,10 +191,19 @@ void write_dictionaries(const FoamCase& foam_case) {
   write("controlDict", control);
   write("fvSchemes", schemes);
   write("fvSolution", solution);
-  if (foam_case.parts > 1) {
-    write("decomposeParDict",
-          fmt::format("numberOfSubdomains {};\nmethod          scotch;\n", foam_case.parts));
+  if (foam_case.parts == 1) return;
+  const fs::path old = system / "decomposeParDict";
+  const std::int64_t subdomains = subdomains_of(old);
+  if (subdomains > 0 && subdomains != foam_case.parts) {
+    if (text_of(old) == dictionary("decomposeParDict", decomposition(subdomains))) {
+      fs::remove(old);
+    } else {
+      parallel::log_warning(
+          fmt::format("'{}' has numberOfSubdomains {}, but the mesh has {} parts: change it", old.string(),
+                      subdomains, foam_case.parts));
+    }
   }
+  write("decomposeParDict", decomposition(foam_case.parts));
 }
 
 std::vector<std::string> foam_words(const std::vector<std::string>& names) {

@@ -22,7 +22,8 @@ struct FoamCase {
 /// holds anything else. By one rank.
 void clear_case(const FoamCase& foam_case);
 
-/// Writes dictionaries under system/ where they are missing. By one rank.
+/// Writes dictionaries under system/ where they are missing. A decomposeParDict of another number of parts is
+/// written anew if it is as it was written here, otherwise a warning says so. By one rank.
 void write_dictionaries(const FoamCase& foam_case);
 
 /// Names as OpenFOAM's words, distinct.

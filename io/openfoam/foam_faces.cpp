@@ -112,7 +112,7 @@ void add_notes(const FileMesh& mesh, const FilePart& part, const PartLinks& link
   const auto add = [&](LocalIndex cell, std::size_t side, const CellBehind& behind, GlobalIndex number) {
     const LocalIndex face = links.boundary_face[first_side(part, cell) + side];
     notes.push_back({behind.part, behind.cell, behind.side, face < 0 ? -1 : places.of(face).patch,
-                     rows[static_cast<std::size_t>(behind.part)].rank, part.id, number});
+                     rows[static_cast<std::size_t>(behind.part)].rank, number});
   };
   for_owned_faces(part, links,
                   [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {

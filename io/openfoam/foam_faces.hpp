@@ -47,8 +47,8 @@ FoamCorners corners_of_face(const FilePart& part, const FoamFace& face);
 struct FoamFaceNote {
   std::int32_t part = 0, cell = 0, side = 0;  ///< whose face it is
   std::int32_t zone = -1;                     ///< if the other side has the boundary face
-  std::int32_t rank = 0, from_part = 0;
-  mesh::GlobalIndex number = -1;  ///< among the inner faces of from_part, if its cell is the owner
+  std::int32_t rank = 0;
+  mesh::GlobalIndex number = -1;  ///< among the inner faces of the part that tells, if its cell is the owner
 };
 
 /// Numbers of the whole mesh: cells part by part; faces as OpenFOAM orders them there.

@@ -147,19 +147,36 @@ TEST_F(OpenFoam, FilesOfUsersStay) {
   world.barrier();
   if (world.is_root()) fs::create_directories(folder / "case" / "processor7" / "100");
   world.barrier();
-  try {
-    write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
-    ADD_FAILURE();
-  } catch (const CollectiveError& error) {
-    EXPECT_EQ(error.kind(), parallel::FailureKind::files);
-    EXPECT_NE(std::string(error.what()).find("processor7"), std::string::npos) << error.what();
+  for (const int parts : {2, 1}) {
+    try {
+      write_openfoam(world, examples::mixed_mesh(world, 4, parts), path("case"));
+      ADD_FAILURE() << parts;
+    } catch (const CollectiveError& error) {
+      EXPECT_EQ(error.kind(), parallel::FailureKind::files);
+      EXPECT_NE(std::string(error.what()).find("processor7"), std::string::npos) << error.what();
+    }
   }
   EXPECT_TRUE(fs::exists(path("case/processor1/constant/polyMesh/points")));
+  world.barrier();
+  if (world.is_root()) fs::remove_all(folder / "case" / "processor7");
   world.barrier();
   // One part: a mesh that needs no decomposition.
   write_openfoam(world, examples::mixed_mesh(world, 4, 1), path("case"));
   EXPECT_TRUE(fs::exists(path("case/constant/polyMesh/owner")));
   EXPECT_FALSE(fs::exists(path("case/processor0")));
+}
+
+TEST_F(OpenFoam, DecompositionsOfOtherCountsAreOfUsersAlone) {
+  const std::string dictionary = path("case/system/decomposeParDict");
+  for (const int parts : {4, 3, 2}) {
+    write_openfoam(world, examples::mixed_mesh(world, 4, parts), path("case"));
+    EXPECT_NE(examples::bytes_of(dictionary).find("numberOfSubdomains " + std::to_string(parts) + ";"),
+              std::string::npos);
+  }
+  const std::string own = "numberOfSubdomains 7; method simple;\n";
+  examples::put_bytes(world, dictionary, own);
+  write_openfoam(world, examples::mixed_mesh(world, 4, 3), path("case"));
+  EXPECT_EQ(examples::bytes_of(dictionary), own);
 }
 
 TEST_F(OpenFoam, OpenMeshesAreRefused) {
