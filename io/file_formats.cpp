@@ -40,9 +40,19 @@ std::string without(const std::string& path, std::string_view end) {
 }
 
 void write_vtu(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
-               Compression compression) {
-  const fs::path file = without(path, ".pvtu");
-  write_volume(communicator, mesh, file.parent_path().string(), file.filename().string(), compression);
+               const WriteOptions& options) {
+  const fs::path file = without(written_path(FileFormat::vtu, path), ".pvtu");
+  const std::string folder = file.parent_path().string(), name = file.filename().string();
+  write_volume(communicator, mesh, folder, name, options.compression);
+  if (!options.surface) return;
+  write_surface(communicator, mesh, folder, name + "_surface", options.compression);
+  const bool has_interfaces = std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const auto& patch) {
+    return patch.type == mesh::PatchType::interior;
+  });
+  if (has_interfaces) {
+    write_surface(communicator, mesh, folder, name + "_interfaces", options.compression,
+                  SurfaceFaces::between_regions);
+  }
 }
 
 /// The case is the folder of the file, which viewers open and which holds nothing.
@@ -56,7 +66,7 @@ void write_parts_as_they_are(const parallel::Communicator& communicator, const F
                              FileFormat format, const std::string& path, const WriteOptions& options) {
   switch (format) {
     case FileFormat::vtu:
-      return write_vtu(communicator, mesh, path, options.compression);
+      return write_vtu(communicator, mesh, path, options);
     case FileFormat::vtkhdf:
       write_vtkhdf(communicator, mesh, path);
       return write_vtkhdf_surface(communicator, mesh, without(path, ".vtkhdf") + "_surface.vtkhdf");
@@ -74,7 +84,7 @@ void write_parts_as_they_are(const parallel::Communicator& communicator, const F
     case FileFormat::msh:
       return write_msh(communicator, mesh, path);
     case FileFormat::msh_parts:
-      return write_msh_parts(communicator, mesh, without(without(path, "_1.msh"), ".msh") + ".msh");
+      return write_msh_parts(communicator, mesh, without(written_path(format, path), "_1.msh") + ".msh");
     case FileFormat::openfoam:
       return write_foam(communicator, mesh, path);
   }
@@ -106,6 +116,12 @@ std::string known_extensions() {
   }
   for (const auto& [extension, format] : other_extensions) text += fmt::format(", {}", extension);
   return text;
+}
+
+std::string written_path(FileFormat format, const std::string& path) {
+  if (format == FileFormat::vtu) return without(without(path, ".pvtu"), ".vtu") + ".pvtu";
+  if (format == FileFormat::msh_parts) return without(without(path, "_1.msh"), ".msh") + "_1.msh";
+  return path;
 }
 
 void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,

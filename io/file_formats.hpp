@@ -53,15 +53,22 @@ std::string_view name_of(FileFormat format);
 /// All ends of paths that mean a format, for messages.
 std::string known_extensions();
 
+/// The file that write_mesh() makes for `path`: formats that viewers know by the end of the name alone get
+/// it, .pvtu instead of .vtu, _1.msh instead of .msh; otherwise `path` itself.
+std::string written_path(FileFormat format, const std::string& path);
+
 struct WriteOptions {
   std::int32_t parts = 0;                       ///< of formats that come in parts; 0: those of the mesh
   Compression compression = Compression::none;  ///< of .vtu and .vtp
   /// Parts are cut anew even where the mesh has as many: those of assemble() are runs of the file's cells,
   /// which may lie anywhere, and own vertices that they do not use.
   bool recut = false;
+  /// Beside NAME.pvtu the boundary as NAME_surface.pvtp, and faces between regions, where there are some, as
+  /// NAME_interfaces.pvtp. NAME.vtkhdf has its surface always.
+  bool surface = false;
 };
 
-/// Writes a mesh to `path`, which has the extension of the format; what lies beside it (`.mapbc`, folders of
+/// Writes a mesh to written_path(format, path); what lies beside it (`.mapbc`, folders of
 /// parts, surfaces for viewers) takes its name from there. Formats in parts get as many as asked for, cut
 /// anew by repartition() where the mesh has others. Never gathers; the files depend on the parts, not on
 /// ranks. Collective; throws CollectiveError (files) where something cannot be written, (input) where the

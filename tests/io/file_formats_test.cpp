@@ -43,6 +43,33 @@ TEST_F(FileFormats, WhatIsReadIsTheMeshThatWasWritten) {
   }
 }
 
+TEST_F(FileFormats, FilesHaveTheNameThatIsSaid) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  for (const FormatName& format : format_names) {
+    const std::string file = path("asked_" + std::string(format.name));
+    if (format.format == FileFormat::ugrid || format.format == FileFormat::ugrid64 ||
+        format.format == FileFormat::meshb)
+      continue;  // their names say more than the format
+    write_mesh(world, mesh, format.format, file, {});
+    EXPECT_TRUE(std::filesystem::is_regular_file(written_path(format.format, file))) << format.name;
+  }
+  EXPECT_EQ(written_path(FileFormat::vtu, "a/b.vtu"), "a/b.pvtu");
+  EXPECT_EQ(written_path(FileFormat::vtu, "a/b.pvtu"), "a/b.pvtu");
+  EXPECT_EQ(written_path(FileFormat::msh_parts, "b.msh"), "b_1.msh");
+  EXPECT_EQ(written_path(FileFormat::msh_parts, "b_1.msh"), "b_1.msh");
+  EXPECT_EQ(written_path(FileFormat::cgns, "b.hdf"), "b.hdf");
+}
+
+TEST_F(FileFormats, SurfacesStandBesideVtuWhereTheyAreWanted) {
+  const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
+  write_mesh(world, mesh, FileFormat::vtu, path("plain.pvtu"), {});
+  write_mesh(world, mesh, FileFormat::vtu, path("shown.pvtu"), {.surface = true});
+  world.barrier();
+  EXPECT_FALSE(std::filesystem::exists(path("plain_surface.pvtp")));
+  EXPECT_TRUE(std::filesystem::exists(path("shown_surface.pvtp")));
+  EXPECT_TRUE(std::filesystem::exists(path("shown_interfaces.pvtp")));
+}
+
 TEST_F(FileFormats, RunsOfAFileAreCutAnewIntoParts) {
   write_mesh(world, examples::mixed_mesh(world, 4, 3), FileFormat::su2b, path("whole.su2b"), {});
   const Assembled file = read_mesh(world, path("whole.su2b"), 3);
