@@ -87,7 +87,7 @@ struct VertexNote {
 
 /// Notes of all vertices that several parts know, each with the largest face that any of them knows.
 std::vector<VertexNote> exchange_notes(const parallel::Communicator& communicator, const io::FileMesh& mesh,
-                                       std::vector<VertexNote> notes, std::vector<VertexNote>& shared) {
+                                       std::vector<VertexNote> notes) {
   const io::KeyRanges ranges = io::even_ranges(communicator.size(), mesh.vertex_count);
   std::vector<VertexNote> met = mesh::deliver(
       communicator, std::move(notes), [&](const VertexNote& note) { return ranges.rank_of(note.number); });
@@ -104,12 +104,13 @@ std::vector<VertexNote> exchange_notes(const parallel::Communicator& communicato
       answers.push_back(met[k]);
     }
   }
-  shared = mesh::deliver(communicator, std::move(answers),
-                         [](const VertexNote& note) { return static_cast<parallel::Rank>(note.rank); });
+  std::vector<VertexNote> shared =
+      mesh::deliver(communicator, std::move(answers),
+                    [](const VertexNote& note) { return static_cast<parallel::Rank>(note.rank); });
   std::sort(shared.begin(), shared.end(), [](const VertexNote& a, const VertexNote& b) {
     return std::tie(a.part, a.place) < std::tie(b.part, b.place);
   });
-  return std::move(shared);
+  return shared;
 }
 
 /// One part as a piece, but for what others know of its vertices.
@@ -139,13 +140,13 @@ mesh::Piece piece_of(const io::FilePart& part, RegionId region, const std::vecto
 /// What all parts know of the vertices: which lie on faces, and which are shared.
 void settle_vertices(const parallel::Communicator& communicator, const io::FileMesh& mesh,
                      std::vector<mesh::Piece>& pieces) {
-  std::vector<VertexNote> notes, shared;
+  std::vector<VertexNote> notes;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     for (LocalIndex v = 0; v < pieces[p].vertex_count(); ++v)
       notes.push_back(
           {mesh.parts[p].numbers[v], pieces[p].vertex_entity[v], pieces[p].id, v, communicator.rank()});
   }
-  for (const VertexNote& note : exchange_notes(communicator, mesh, std::move(notes), shared)) {
+  for (const VertexNote& note : exchange_notes(communicator, mesh, std::move(notes))) {
     const auto piece =
         std::lower_bound(pieces.begin(), pieces.end(), note.part,
                          [](const mesh::Piece& item, std::int32_t id) { return item.id < id; });

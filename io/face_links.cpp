@@ -2,7 +2,6 @@
 
 #include "io/part_faces.hpp"
 #include "mesh/delivery.hpp"
-#include "mesh/mixing.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -95,9 +94,7 @@ private:
 std::vector<Introduction> introduce(const parallel::Communicator& communicator, std::vector<LoneSide> lone,
                                     LinkDefects& defects) {
   std::vector<LoneSide> met = mesh::deliver(communicator, std::move(lone), [&](const LoneSide& side) {
-    std::uint64_t mixed = 0;
-    for (const GlobalIndex v : side.key) mixed = mesh::mix_in(mixed, static_cast<std::uint64_t>(v));
-    return mesh::meeting_rank(mixed, communicator.size());
+    return meeting_rank(side.key, communicator.size());
   });
   std::sort(met.begin(), met.end(), [](const LoneSide& a, const LoneSide& b) {
     return std::tie(a.key, a.part, a.cell) < std::tie(b.key, b.part, b.cell);

@@ -3,6 +3,7 @@
 
 #include "io/face_links.hpp"
 #include "io/file_mesh.hpp"
+#include "mesh/mixing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,13 @@ FaceKey<Index> face_key(FaceKey<Index> corners) {
   order(0, 1), order(1, 2), order(0, 1);
   if (corners[3] >= 0) order(2, 3), order(1, 2), order(0, 1);
   return corners;
+}
+
+/// The rank on which all that have a face meet.
+inline parallel::Rank meeting_rank(const FaceKey<mesh::GlobalIndex>& key, int ranks) {
+  std::uint64_t mixed = 0;
+  for (const mesh::GlobalIndex v : key) mixed = mesh::mix_in(mixed, static_cast<std::uint64_t>(v));
+  return mesh::meeting_rank(mixed, ranks);
 }
 
 /// The corners of a cell's face as vertices, counter-clockwise from outside; a triangle's last is -1.

@@ -2,7 +2,6 @@
 
 #include "io/part_faces.hpp"
 #include "mesh/delivery.hpp"
-#include "mesh/mixing.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -262,9 +261,7 @@ MatchedFaces match_boundary(const parallel::Communicator& communicator, const Nu
                             std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
                             const std::string& path) {
   Meeting meeting(mesh::deliver(communicator, comers_of(communicator, share), [&](const Comer& comer) {
-    std::uint64_t mixed = 0;
-    for (const GlobalIndex v : comer.key) mixed = mesh::mix_in(mixed, static_cast<std::uint64_t>(v));
-    return mesh::meeting_rank(mixed, communicator.size());
+    return meeting_rank(comer.key, communicator.size());
   }));
   require_fit(communicator, meeting.misfits, path);
   PatchTable table(communicator, std::move(patches), regions, meeting.found);

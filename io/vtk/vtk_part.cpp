@@ -27,26 +27,6 @@ parallel::ContainedLimits limits_of(std::int64_t file_bytes) {
   return limits;
 }
 
-void pack_labels(parallel::Packer& packer, const std::vector<VtkLabel>& labels) {
-  packer.value(static_cast<std::uint64_t>(labels.size()));
-  for (const VtkLabel& label : labels) {
-    packer.value(label.value);
-    packer.text(label.named.name);
-    packer.value(label.named.type);
-  }
-}
-
-std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker) {
-  std::vector<VtkLabel> labels;
-  for (auto left = unpacker.value<std::uint64_t>(); left > 0; --left) {
-    VtkLabel& label = labels.emplace_back();
-    label.value = unpacker.value<std::int64_t>();
-    label.named.name = unpacker.text();
-    label.named.type = unpacker.value<mesh::PatchType>();
-  }
-  return labels;
-}
-
 /// Packs an array and lets go of it: the whole is never there twice.
 template <class T>
 void hand_over(parallel::Packer& packer, std::vector<T>& items) {
@@ -131,6 +111,26 @@ parallel::Bytes run(const char* task, const std::string& path) {
 }
 
 }  // namespace
+
+void pack_labels(parallel::Packer& packer, const std::vector<VtkLabel>& labels) {
+  packer.value(static_cast<std::uint64_t>(labels.size()));
+  for (const VtkLabel& label : labels) {
+    packer.value(label.value);
+    packer.text(label.named.name);
+    packer.value(label.named.type);
+  }
+}
+
+std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker) {
+  std::vector<VtkLabel> labels;
+  for (auto left = unpacker.value<std::uint64_t>(); left > 0; --left) {
+    VtkLabel& label = labels.emplace_back();
+    label.value = unpacker.value<std::int64_t>();
+    label.named.name = unpacker.text();
+    label.named.type = unpacker.value<mesh::PatchType>();
+  }
+  return labels;
+}
 
 std::int64_t readable_bytes(const std::string& path) {
   namespace fs = std::filesystem;

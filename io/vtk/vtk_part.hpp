@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
+#include "parallel/communicator.hpp"
 
 #include <array>
 #include <cstdint>
@@ -16,6 +17,9 @@ struct VtkLabel {
   std::int64_t value = 0;  ///< in the array that tells them apart
   mesh::Patch named;       ///< its name; `type` of patches only
 };
+
+void pack_labels(parallel::Packer& packer, const std::vector<VtkLabel>& labels);
+std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker);
 
 /// n points, cells and faces by corners in CellShape's order. Corners are ids of points; without ids they are
 /// 0 .. n - 1, in their order.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -166,20 +167,12 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
   std::vector<VtkLabel> all = table;
   sort_labels(all);
   parallel::Packer packer;
-  for (const VtkLabel& label : all) {
-    packer.value(label.value);
-    packer.text(label.named.name);
-    packer.value(label.named.type);
-  }
+  pack_labels(packer, all);
   all.clear();
   for (const parallel::Bytes& bytes : communicator.all_gather(packer.take())) {
     parallel::Unpacker unpacker(bytes);
-    while (!unpacker.at_end()) {
-      VtkLabel& label = all.emplace_back();
-      label.value = unpacker.value<std::int64_t>();
-      label.named.name = unpacker.text();
-      label.named.type = unpacker.value<mesh::PatchType>();
-    }
+    std::vector<VtkLabel> labels_of_rank = unpack_labels(unpacker);
+    std::move(labels_of_rank.begin(), labels_of_rank.end(), std::back_inserter(all));
   }
   sort_labels(all);
   std::vector<std::int32_t> place;
