@@ -46,7 +46,8 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   Loudness loudness;
   add_loudness(program, loudness);
   std::vector<Command> commands;
-  for (const auto add : {add_run, add_check, add_improve, add_quality, add_convert, add_export_cad}) {
+  for (const auto add :
+       {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad}) {
     commands.push_back(add(program));
     add_loudness(*commands.back().app, loudness);
   }
