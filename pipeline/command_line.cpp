@@ -1,5 +1,6 @@
 #include "pipeline/command_line.hpp"
 
+#include "parallel/progress.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/usage_error.hpp"
@@ -46,12 +47,13 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   Loudness loudness;
   add_loudness(program, loudness);
   std::vector<Command> commands;
-  for (const auto add :
-       {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad}) {
+  for (const auto add : {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad,
+                         add_completion}) {
     commands.push_back(add(program));
     add_loudness(*commands.back().app, loudness);
   }
   parallel::configure_log(communicator, parallel::LogLevel::normal);
+  parallel::watch_node_memory(communicator);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {

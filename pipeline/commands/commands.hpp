@@ -12,5 +12,7 @@ Command add_improve(CLI::App& program);
 Command add_quality(CLI::App& program);
 Command add_convert(CLI::App& program);
 Command add_export_cad(CLI::App& program);
+/// Knows the commands that the program has when it runs.
+Command add_completion(CLI::App& program);
 
 }  // namespace aeroloom::pipeline

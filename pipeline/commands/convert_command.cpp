@@ -54,7 +54,7 @@ Command add_convert(CLI::App& program) {
       ->group(option_group::output);
   add_help_footer(*app,
                   {{"aeroloom convert out/mesh.pvtu mesh.cgns", "for a solver (docs/formats.md)"},
-                   {"mpirun -n 2 aeroloom convert out/mesh.pvtu mesh.vtu --format vtkhdf", "by two ranks"},
+                   {"mpirun -n 2 aeroloom convert out/mesh.pvtu mesh.hdf --format vtkhdf", "by two ranks"},
                    {"aeroloom convert out/mesh.pvtu wing.foam --parts 4", "OpenFOAM, for four processors"}},
                   {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
   return {app, [conversion](const parallel::Communicator& communicator, const Loudness& loudness) {

@@ -20,7 +20,7 @@ Command add_improve(CLI::App& program) {
   add_overrides(*app, *arguments);
   add_help_footer(*app,
                   {{"aeroloom improve out/mesh.pvtu --set output.directory=better", "what a run has made"},
-                   {"mpirun -n 2 aeroloom improve mesh.vtu --set improve.target_angle=20",
+                   {"mpirun -n 2 aeroloom improve mesh.meshb --set improve.target_angle=20",
                     "another program's mesh, by two ranks"}},
                   {ExitCode::ok, ExitCode::usage, ExitCode::volume, ExitCode::quality_gate, ExitCode::files,
                    ExitCode::resources, ExitCode::bug});

@@ -36,7 +36,7 @@ Command add_quality(CLI::App& program) {
       *app,
       {{"aeroloom quality out/mesh.pvtu", "angles, shapes, ratios, worst cells (docs/quality.md)"},
        {"aeroloom quality out/mesh.pvtu --gate.largest_edge_ratio=1000", "exit code 6 where one is larger"},
-       {"aeroloom quality mesh.vtu --json --output quality.json", "the same for programs"}},
+       {"aeroloom quality mesh.meshb --json --output quality.json", "the same for programs"}},
       {ExitCode::ok, ExitCode::usage, ExitCode::quality_gate, ExitCode::files, ExitCode::resources,
        ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
