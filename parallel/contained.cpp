@@ -3,6 +3,7 @@
 #include "parallel/contained_server.hpp"
 #include "parallel/file_descriptor.hpp"
 #include "parallel/log.hpp"
+#include "parallel/progress.hpp"
 #include "parallel/session.hpp"
 #include "parallel/timers.hpp"
 
@@ -87,7 +88,10 @@ void send_request(int socket, const ContainedRequest& request, const FileDescrip
 
 ContainedReply await_reply(int socket) {
   pollfd waiting{socket, POLLIN, 0};
-  while (poll(&waiting, 1, progress_interval_ms) <= 0) session::make_progress();
+  while (poll(&waiting, 1, progress_interval_ms) <= 0) {
+    session::make_progress();
+    beat();
+  }
   ContainedReply reply;
   ssize_t received = 0;
   do {

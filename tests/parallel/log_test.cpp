@@ -1,5 +1,7 @@
 #include "parallel/log.hpp"
 
+#include "parallel/progress.hpp"
+
 #include <functional>
 #include <string>
 
