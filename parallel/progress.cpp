@@ -5,6 +5,7 @@
 #include "parallel/log_line.hpp"
 #include "parallel/timers.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -57,7 +58,7 @@ public:
   std::int64_t bytes(double now) {
     if (now - _last_look < seconds_between_looks) return _bytes;
     _last_look = now;
-    _bytes = 0;
+    _bytes = std::max<std::int64_t>(0, resident_bytes() - own_bytes_of(getpid()));  // shared by all: once
     for (const pid_t rank : _ranks) {
       _bytes += own_bytes_of(rank);
       // A rank's child is the server of contained runs, whose children run the tasks.

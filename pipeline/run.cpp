@@ -6,6 +6,7 @@
 #include "mesh/validity.hpp"
 #include "parallel/collective_error.hpp"
 #include "pipeline/finished_volume.hpp"
+#include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
@@ -219,7 +220,9 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
     return std::move(patches.model);
   });
   SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
-    return build_sizes(communicator, loaded, input, input.narrow_faces, record);
+    SizedDomain built = build_sizes(communicator, loaded, input, input.narrow_faces, record);
+    require_memory(communicator, built, input.memory_limit, record.clock);
+    return built;
   });
   FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface_or_advise(communicator, loaded, input, sized, record);

@@ -29,8 +29,7 @@ constexpr Rung ladder[] = {
     {"a wider halo, other perturbations of its points", true, 0},
     {"a wider halo, points farther off the surface", true, 1},
 };
-/// What the halo grows by with each of them.
-constexpr double wider = 1.5;
+constexpr double wider = 1.5;  // the halo, each time
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
 

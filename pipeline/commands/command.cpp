@@ -1,5 +1,6 @@
 #include "pipeline/commands/command.hpp"
 
+#include "parallel/memory_limit.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/stage.hpp"
 
@@ -74,6 +75,9 @@ int guarded(const Communicator& communicator, ExitCode otherwise, const std::fun
     return fail(communicator, ExitCode::usage, error.what());
   } catch (const parallel::CollectiveError& error) {
     return fail(communicator, code_of(error, otherwise), error.what());
+  } catch (const std::bad_alloc&) {
+    parallel::give_up_without_memory();
+    return fail(communicator, ExitCode::resources, parallel::out_of_memory_text());
   }
 }
 

@@ -1,5 +1,6 @@
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/memory_option.hpp"
 #include "pipeline/convert_file.hpp"
 #include "pipeline/nearest_name.hpp"
 
@@ -38,7 +39,10 @@ io::FileFormat format_called(const std::string& name) {
 
 Command add_convert(CLI::App& program) {
   CLI::App* app = program.add_subcommand("convert", "write a mesh in another format");
-  const auto conversion = std::make_shared<Conversion>();
+  struct Arguments : Conversion {
+    std::int64_t memory = 0;  // bytes; 0: no limit
+  };
+  const auto conversion = std::make_shared<Arguments>();
   add_mesh_file(*app, "from", conversion->from);
   app->add_option("to", conversion->to, "the file to write; its extension says the format")
       ->required()
@@ -52,6 +56,7 @@ Command add_convert(CLI::App& program) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->group(option_group::output);
+  add_memory_option(*app, conversion->memory);
   add_help_footer(*app,
                   {{"aeroloom convert out/mesh.pvtu mesh.cgns", "for a solver (docs/formats.md)"},
                    {"mpirun -n 2 aeroloom convert out/mesh.pvtu mesh.hdf --format vtkhdf", "by two ranks"},
@@ -59,9 +64,11 @@ Command add_convert(CLI::App& program) {
                   {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
   return {app, [conversion](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
-            return guarded(communicator, ExitCode::files, [&] {
-              convert_file(communicator, *conversion);
-              return ExitCode::ok;
+            return within_memory(communicator, conversion->memory, [&] {
+              return guarded(communicator, ExitCode::files, [&] {
+                convert_file(communicator, *conversion);
+                return ExitCode::ok;
+              });
             });
           }};
 }

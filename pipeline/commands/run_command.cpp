@@ -1,5 +1,6 @@
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/memory_option.hpp"
 #include "pipeline/commands/staged_run.hpp"
 
 #include <memory>
@@ -12,6 +13,7 @@ namespace {
 
 struct RunArguments : CaseArguments {
   bool resume = false, checkpoints = false;
+  std::int64_t memory = 0;  // bytes; 0: no limit
 };
 
 }  // namespace
@@ -29,12 +31,14 @@ Command add_run(CLI::App& program) {
       ->excludes(resume)
       ->group(option_group::checkpoints);
   resume->group(option_group::checkpoints);
+  add_memory_option(*app, arguments->memory);
   add_help_footer(
       *app,
       {{"aeroloom run case.yaml", "the mesh goes to the folder out"},
        {"mpirun -n 2 aeroloom run case.yaml", "the same mesh, bit for bit, by two ranks"},
        {"aeroloom run case.yaml --set sizing.minimum=0.2 --set output.directory=coarse",
         "override keys of the case"},
+       {"aeroloom run case.yaml --max-memory 80%", "end with a message before the node runs short"},
        {"aeroloom run case.yaml --checkpoints -q", "keep what each stage has made; print no facts"},
        {"aeroloom run case.yaml --resume", "go on where an earlier run was ended"}},
       {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::surface, ExitCode::volume,
@@ -43,9 +47,13 @@ Command add_run(CLI::App& program) {
             CaseArguments given = *arguments;
             if (arguments->resume) given.overrides.push_back("output.checkpoints=resume");
             if (arguments->checkpoints) given.overrides.push_back("output.checkpoints=write");
-            return with_case(communicator, given, loudness, [&](const Case& input) {
-              return run_stages(communicator, input, "",
-                                [&](RunRecord& record) { run_case(communicator, input, record); });
+            return with_case(communicator, given, loudness, [&](const Case& read) {
+              Case input = read;
+              input.memory_limit = arguments->memory;
+              return within_memory(communicator, arguments->memory, [&] {
+                return run_stages(communicator, input, "",
+                                  [&](RunRecord& record) { run_case(communicator, input, record); });
+              });
             });
           }};
 }
