@@ -163,7 +163,7 @@ TEST_F(CaseTest, UnknownKeysOfAnotherSectionNameIt) {
 TEST_F(CaseTest, UnknownKeysWithNothingNearListTheValidOnes) {
   EXPECT_EQ(error_of(transport + "output: {quux: 1}\n"),
             "case.yaml:2:10: unknown key 'quux' in 'output'; valid keys: directory, formats, parts, tasks, "
-            "compression, log");
+            "compression, checkpoints, pictures, log");
 }
 
 TEST_F(CaseTest, RetiredKeysSayWhyTheyAre) {
