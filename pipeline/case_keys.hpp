@@ -1,7 +1,8 @@
-/// The keys of a case: what each accepts and which option of a stage it sets.
+/// The keys of a case: what each accepts, which option of a stage it sets, and what users are told of it.
 #pragma once
 
 #include "pipeline/case.hpp"
+#include "pipeline/key_info.hpp"
 #include "pipeline/yaml_reader.hpp"
 
 #include <deque>
@@ -24,7 +25,16 @@ struct CaseDraft {
   std::deque<PatchRule> patches;  ///< they stay where they are while others are added
 };
 
+/// The unit of lengths in the geometry's own unit.
+inline constexpr const char* length_unit = "(length unit of the geometry)";
+
 /// Declares all keys of a case, bound to the draft, which must outlive the table.
 void declare_case_keys(KeyTable& root, CaseDraft& draft);
+
+/// Its parts: what is meshed (geometry, far field, patches); how it is improved, judged and written.
+void declare_geometry_keys(KeyTable& root, CaseDraft& draft);
+void declare_result_keys(KeyTable& root, Case& result);
+/// A failure to provoke, for tests of what contains it.
+void declare_sabotage(KeyTable& keys, parallel::Sabotage& sabotage, const KeyDoc& doc);
 
 }  // namespace aeroloom::pipeline

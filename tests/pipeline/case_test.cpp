@@ -219,7 +219,7 @@ TEST_F(CaseTest, ValuesOutOfRangeNameTheRange) {
             "case.yaml:2:20: 'farfield.extent' is -1, but must be above 0 reference lengths");
   EXPECT_EQ(
       error_of(transport + "volume: {piece_tets: 1e300}\n"),
-      "case.yaml:2:22: 'volume.piece_tets' is 1e+300, but must be at least 100 and at most 1e+09 elements");
+      "case.yaml:2:22: 'volume.piece_tets' is 1e300, but must be at least 100 and at most 1e9 elements");
   EXPECT_EQ(
       error_of(transport + "volume: {perturbation: 0.1}\n"),
       "case.yaml:2:24: 'volume.perturbation' is 0.1, but must be at least 0 and at most 0.05 mean edges of "
