@@ -1,0 +1,15 @@
+/// The commands of the program. Each adds itself to the command line.
+#pragma once
+
+#include "pipeline/commands/command.hpp"
+
+namespace aeroloom::pipeline {
+
+Command add_run(CLI::App& program);
+Command add_check(CLI::App& program);
+Command add_improve(CLI::App& program);
+Command add_quality(CLI::App& program);
+Command add_convert(CLI::App& program);
+Command add_export_cad(CLI::App& program);
+
+}  // namespace aeroloom::pipeline
