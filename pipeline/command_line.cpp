@@ -15,6 +15,7 @@ constexpr const char* description =
 
 constexpr const char* examples =
     "Examples:\n"
+    "  aeroloom init case.yaml --geometry wing.step        a commented case to start from\n"
     "  aeroloom run configs/transport.yaml                 mesh the built-in aircraft on one rank\n"
     "  mpirun -n 8 aeroloom run case.yaml                  the same mesh, bit for bit, by eight ranks\n"
     "  aeroloom check case.yaml                            what is wrong with the CAD, what a run will cost\n"
@@ -42,7 +43,8 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   program.require_subcommand(1);
   Loudness loudness;
   std::vector<Command> commands;
-  for (const auto add : {add_run, add_check, add_improve, add_quality, add_convert, add_export_cad}) {
+  for (const auto add :
+       {add_run, add_check, add_improve, add_quality, add_convert, add_export_cad, add_init, add_schema}) {
     commands.push_back(add(program));
     add_loudness(*commands.back().app, loudness);
   }

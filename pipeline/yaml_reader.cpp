@@ -274,8 +274,12 @@ std::vector<KeyInfo> KeyTable::infos() const {
 
 void KeyTable::collect_infos(std::vector<KeyInfo>& infos) const {
   for (const Entry& entry : _entries) {
-    infos.push_back(entry.info);
-    infos.back().default_value = entry.default_value();
+    KeyInfo& info = infos.emplace_back(entry.info);
+    info.default_value = entry.default_value();
+    if (info.default_value.empty() && info.doc.example == info.doc.left_out) {  // a constant
+      info.default_value = info.doc.example;
+      info.doc.example = info.doc.left_out = "";
+    }
     if (entry.below) entry.below->collect_infos(infos);
   }
 }

@@ -11,5 +11,7 @@ Command add_improve(CLI::App& program);
 Command add_quality(CLI::App& program);
 Command add_convert(CLI::App& program);
 Command add_export_cad(CLI::App& program);
+Command add_init(CLI::App& program);
+Command add_schema(CLI::App& program);
 
 }  // namespace aeroloom::pipeline
