@@ -157,9 +157,12 @@ void declare_patches(KeyTable& root, CaseDraft& draft) {
         for (const PatchType type : {PatchType::wall, PatchType::slip, PatchType::symmetry,
                                      PatchType::farfield, PatchType::inlet, PatchType::outlet})
           types.emplace_back(mesh::name_of(type), type);
-        keys.choice("type", rule.type, types,
-                    common({"The condition that goes into solver files ([Formats](formats.md)).",
-                            "by its name, or else `wall`", "wall"}));
+        keys.choice(
+            "type", rule.type, types,
+            common(
+                {"The condition that goes into solver files ([Formats](formats.md)).",
+                 "`farfield` for the far field that the program added, others by their names, or else `wall`",
+                 "wall"}));
       });
 }
 

@@ -38,8 +38,9 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
 }
 
 void declare_improve(KeyTable& keys, Case& result) {
-  keys.flag("enabled", result.improve.enabled,
-            "Whether the mesh is improved at all. Without it tetrahedra stay as TetGen makes them.");
+  keys.flag(
+      "enabled", result.improve.enabled,
+      "Whether the mesh is improved at all. Without it tetrahedra stay as the volume stage makes them.");
   keys.number("target_angle", result.improve.target_angle, Range::above(0, 50, "degrees"),
               "Tetrahedra with a smaller dihedral angle, or a larger one than 180 minus 1.5 times this, are "
               "worked on.");
