@@ -111,7 +111,10 @@ std::string case_schema(const std::vector<KeyInfo>& keys) {
                  {"additionalProperties", false}};
   for (const KeyInfo& key : keys) {
     if (key.kind == KeyKind::retired) continue;
-    Json one = {{"description", description(key)}};
+    const std::string text = description(key);
+    Json one = {{"description", text}};
+    // Editors that know Markdown show code as code, and not the ticks around it.
+    if (text.find('`') != std::string::npos) one["markdownDescription"] = text;
     add_type(one, key);
     if (!key.default_value.empty()) one["default"] = json_value(key, key.default_value);
     if (!key.has_keys_below() && key.choices.empty() && !key.doc.example.empty())

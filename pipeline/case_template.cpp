@@ -17,7 +17,7 @@ constexpr std::size_t line_width = 100;
 std::string comment(const std::string& text, const std::string& indent) {
   std::string lines;
   for (const std::string& line : wrapped(text, line_width - indent.size() - 2))
-    lines += indent + "# " + line + "\n";
+    lines.append(indent).append("# ").append(line).append("\n");
   return lines;
 }
 

@@ -21,7 +21,7 @@ struct Arguments {
 /// What is to be written: the schema, or the page of the reference with its tables renewed.
 std::string schema_text(const Arguments& arguments) {
   if (!arguments.markdown) return case_schema(case_keys());
-  const std::string reference = case_reference(case_keys());
+  std::string reference = case_reference(case_keys());
   if (arguments.output.empty() || !std::filesystem::exists(arguments.output)) return reference;
   try {
     return with_reference(read_text(arguments.output), reference);
