@@ -76,9 +76,9 @@ void declare_files(KeyTable& keys, OutputOptions& output) {
       "compression", output.compression,
       {{"none", io::Compression::none}, {"lz4", io::Compression::lz4}, {"zlib", io::Compression::zlib}},
       "Of the arrays of `.vtu` and `.vtp` files: `none`, `lz4` (quick) or `zlib` (smaller).");
-  keys.choice<Checkpoints>(
+  keys.choice<CheckpointUse>(
       "checkpoints", output.checkpoints,
-      {{"none", Checkpoints::none}, {"write", Checkpoints::write}, {"resume", Checkpoints::resume}},
+      {{"none", CheckpointUse::none}, {"write", CheckpointUse::write}, {"resume", CheckpointUse::resume}},
       common("`write`: what each stage has made is kept in `checkpoint` in the output "
              "directory. `resume`: a run goes on from there, on any number of ranks, and "
              "keeps the rest."));
