@@ -1,5 +1,6 @@
 #include "pipeline/commands/command.hpp"
 
+#include "pipeline/commands/help.hpp"
 #include "pipeline/stage.hpp"
 
 #include <cstdio>
@@ -17,14 +18,24 @@ parallel::LogLevel Loudness::level(parallel::LogLevel otherwise) const {
 }
 
 void add_case_file(CLI::App& command, CaseArguments& arguments) {
-  command.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")->required();
+  command.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
+      ->required()
+      ->type_name(file_kind::of_case);
+}
+
+void add_mesh_file(CLI::App& command, const std::string& name, std::string& file) {
+  command.add_option(name, file, "the mesh, in any format that is read (docs/formats.md)")
+      ->required()
+      ->type_name(file_kind::mesh);
 }
 
 void add_overrides(CLI::App& command, CaseArguments& arguments) {
   command
       .add_option("--set", arguments.overrides,
                   "override a key of the case, as section.key=value; repeatable")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name(assignment)
+      ->group(option_group::of_case);
 }
 
 int with_case(const Communicator& communicator, const CaseArguments& arguments, const Loudness& loudness,

@@ -36,6 +36,9 @@ struct CaseArguments {
   std::vector<std::string> overrides;
 };
 void add_case_file(CLI::App& command, CaseArguments& arguments);
+/// A file with a mesh that is read.
+void add_mesh_file(CLI::App& command, const std::string& name, std::string& file);
+/// `--set`.
 void add_overrides(CLI::App& command, CaseArguments& arguments);
 
 /// Reads the case, on every rank, lets the log speak as the line or else the case asks for, and does the

@@ -7,6 +7,7 @@ namespace aeroloom::pipeline {
 
 Command add_run(CLI::App& program);
 Command add_check(CLI::App& program);
+Command add_info(CLI::App& program);
 Command add_improve(CLI::App& program);
 Command add_quality(CLI::App& program);
 Command add_convert(CLI::App& program);

@@ -1,4 +1,5 @@
 #include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
 #include "pipeline/commands/staged_run.hpp"
 #include "pipeline/improve_file.hpp"
 
@@ -15,9 +16,14 @@ Command add_improve(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "improve", "improve a mesh of tetrahedra from a file, its boundary kept as it is");
   const auto arguments = std::make_shared<Arguments>();
-  app->add_option("mesh", arguments->mesh, "the mesh, in any format that is read (docs/formats.md)")
-      ->required();
+  add_mesh_file(*app, "mesh", arguments->mesh);
   add_overrides(*app, *arguments);
+  add_help_footer(*app,
+                  {{"aeroloom improve out/mesh.pvtu --set output.directory=better", "what a run has made"},
+                   {"mpirun -n 2 aeroloom improve mesh.vtu --set improve.target_angle=20",
+                    "another program's mesh, by two ranks"}},
+                  {ExitCode::ok, ExitCode::usage, ExitCode::volume, ExitCode::quality_gate, ExitCode::files,
+                   ExitCode::resources, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return with_case(communicator, *arguments, loudness, [&](const Case& input) {
               return run_stages(communicator, input, arguments->mesh, [&](RunRecord& record) {

@@ -1,6 +1,7 @@
 #include "pipeline/case_schema.hpp"
 #include "pipeline/case_template.hpp"
 #include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
 #include "pipeline/text_file.hpp"
 
 #include <filesystem>
@@ -59,12 +60,21 @@ void write_template(const Arguments& arguments) {
 Command add_init(CLI::App& program) {
   CLI::App* app = program.add_subcommand("init", "write a commented case to start from");
   const auto arguments = std::make_shared<Arguments>();
-  app->add_option("file", arguments->file, "the case to write")->capture_default_str();
-  app->add_option("--geometry", arguments->geometry, "the CAD file: STEP, IGES or BREP");
-  app->add_flag("--full", arguments->full, "every key, not only those that are often touched");
-  app->add_flag("--force", arguments->force, "replace what is there");
+  app->add_option("file", arguments->file, "the case to write; left out: " + arguments->file)
+      ->type_name(file_kind::of_case);
+  app->add_option("--geometry", arguments->geometry, "the CAD file: STEP, IGES or BREP")
+      ->type_name(file_kind::any)
+      ->group(option_group::of_case);
+  app->add_flag("--full", arguments->full, "every key, not only those that are often touched")
+      ->group(option_group::of_case);
+  app->add_flag("--force", arguments->force, "replace what is there")->group(option_group::output);
   app->add_flag("--no-schema", arguments->no_schema,
-                std::string("do not write ") + schema_name + " beside it, for editors");
+                std::string("do not write ") + schema_name + " beside it, for editors")
+      ->group(option_group::output);
+  add_help_footer(*app,
+                  {{"aeroloom init case.yaml --geometry wing.step", "a case of all defaults"},
+                   {"aeroloom init every.yaml --full", "with every key"}},
+                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
             return guarded(communicator, ExitCode::usage, [&] {

@@ -1,6 +1,7 @@
 #include "pipeline/case_reference.hpp"
 #include "pipeline/case_schema.hpp"
 #include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
 #include "pipeline/text_file.hpp"
 
 #include <filesystem>
@@ -36,10 +37,16 @@ Command add_schema(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("schema", "print the keys of a case as a JSON Schema, for editors of YAML");
   const auto arguments = std::make_shared<Arguments>();
-  app->add_option("--output", arguments->output, "write to this file instead");
-  app->add_flag(
-      "--markdown", arguments->markdown,
-      "the reference in Markdown; in a file that has the marks of its place, that alone is renewed");
+  app->add_option("--output", arguments->output, "write to this file instead")
+      ->type_name(file_kind::any)
+      ->group(option_group::output);
+  app->add_flag("--markdown", arguments->markdown,
+                "the reference in Markdown; in a file that has the marks of its place, that alone is renewed")
+      ->group(option_group::output);
+  add_help_footer(*app,
+                  {{"aeroloom schema --output aeroloom.schema.json", "for editors (docs/usage.md)"},
+                   {"aeroloom schema --markdown", "the keys with their texts, ranges and defaults"}},
+                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
             return guarded(communicator, ExitCode::usage, [&] {
