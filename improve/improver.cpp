@@ -143,10 +143,30 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   total.min_angle_after = after.least_angle;
 }
 
+/// As improve_piece(), or what came of it in an earlier run.
+ImproveReport improve_or_find(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source,
+                              parallel::TaskStore* tasks) {
+  if (tasks == nullptr || !options.enabled) return improve_piece(piece, options, source);
+  const parallel::Digest key =
+      parallel::Digester().value(options.target_angle).bytes(mesh::pack_piece(piece)).result();
+  if (const std::optional<parallel::Bytes> known = tasks->find(key)) {
+    parallel::Unpacker unpacker(*known);
+    const auto report = unpacker.value<ImproveReport>();
+    piece = mesh::unpack_piece(unpacker.array<std::byte>());
+    return report;
+  }
+  const ImproveReport report = improve_piece(piece, options, source);
+  parallel::Packer packer;
+  packer.value(report);
+  packer.array(mesh::pack_piece(piece));
+  tasks->keep(key, packer.take());
+  return report;
+}
+
 /// For one target.
 ImproveReport improve_for_target(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                                  const ImproveOptions& options, parallel::StageClock& clock,
-                                 const MeshSource& source) {
+                                 const MeshSource& source, parallel::TaskStore* tasks) {
   ImproveReport total;
   total.min_angle_before = total.min_angle_after = 180;
   std::vector<double> work;
@@ -166,7 +186,7 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
     for (mesh::Piece& piece : mesh.pieces) {
       const double begin = parallel::cpu_seconds();
       const auto cells = static_cast<double>(piece.cell_count());
-      const ImproveReport mine = improve_piece(piece, options, source);
+      const ImproveReport mine = improve_or_find(piece, options, source, tasks);
       clock.note_task(
           {"improved piece", piece.id, cells, parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
       total.bad_before += mine.bad_before;
@@ -223,9 +243,9 @@ void examine_again(const parallel::Communicator& communicator, const mesh::Distr
 
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock,
-                           const MeshSource& source) {
+                           const MeshSource& source, parallel::TaskStore* tasks) {
   constexpr double largest_target = 50;  // degrees
-  ImproveReport total = improve_for_target(communicator, mesh, options, clock, source);
+  ImproveReport total = improve_for_target(communicator, mesh, options, clock, source, tasks);
   if (!options.enabled || options.percentiles.empty()) return total;
   std::vector<PercentileTarget> targets = options.percentiles;
   std::sort(targets.begin(), targets.end(),
@@ -234,7 +254,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
     if (part_below(communicator, mesh, target.angle) <= target.part) continue;
     ImproveOptions more = options;
     more.target_angle = std::min(target.angle, largest_target);
-    total.add_changes(improve_for_target(communicator, mesh, more, clock, source));
+    total.add_changes(improve_for_target(communicator, mesh, more, clock, source, tasks));
   }
   examine_again(communicator, mesh, TetQuality(options.target_angle), total);
   return total;

@@ -7,6 +7,7 @@
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/piece.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/task_store.hpp"
 #include "parallel/timers.hpp"
 
 #include <vector>
@@ -30,9 +31,10 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 /// the average where they are (border_relaxation.hpp), and what is still bad in cavities in which borders are
 /// inside (cavities/rounds.hpp), shifted from round to round; the last ones by several trials. All of it once
 /// more for percentiles that are missed. The report counts the whole mesh, the same on every rank.
-/// Collective. Throws CollectiveError.
+/// Pieces found in `tasks`, whose context stands for the source and the options, are not improved again on
+/// their own; those improved are kept there. Collective. Throws CollectiveError.
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                            const ImproveOptions& options, parallel::StageClock& clock,
-                           const MeshSource& source = {});
+                           const MeshSource& source = {}, parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::improve

@@ -39,7 +39,7 @@ struct SizingRequest {
 enum class NarrowFaces { join, keep };
 
 /// Whether what stages have made is kept for a later run.
-enum class Checkpoints {
+enum class CheckpointUse {
   none,
   write,  ///< anew, whatever is there
   resume  ///< goes on from what is there, and writes the rest
@@ -52,7 +52,7 @@ struct OutputOptions {
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
   bool tasks = false;                                   ///< writes tasks.csv, a row for each task
   io::Compression compression = io::Compression::none;  ///< of mesh.pvtu and its like
-  Checkpoints checkpoints = Checkpoints::none;          ///< in DIRECTORY/checkpoint
+  CheckpointUse checkpoints = CheckpointUse::none;      ///< in DIRECTORY/checkpoint
   bool pictures = true;                                 ///< in report.html
 };
 

@@ -28,7 +28,7 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   Forecast forecast;
   const SizedDomain sized = size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
   forecast.sizes = sized.sizes;
-  forecast.joined = sized.joined;
+  forecast.joined = sized.joined.changes;
   forecast.features = sized.features;
   forecast.counts =
       sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);

@@ -29,7 +29,8 @@ void describe_program(CLI::App& program) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   add_help_footer(program,
-                  {{"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
+                  {{"aeroloom init case.yaml --geometry wing.step", "a commented case to start from"},
+                   {"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
                    {"aeroloom run case.yaml", "from CAD to a mesh, in the folder out"},
                    {"mpirun -n 2 aeroloom run case.yaml", "the same mesh, bit for bit, by two ranks"},
                    {"aeroloom quality out/mesh.pvtu", "how good it is"},
@@ -48,7 +49,7 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   add_loudness(program, loudness);
   std::vector<Command> commands;
   for (const auto add : {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad,
-                         add_completion}) {
+                         add_completion, add_init, add_schema}) {
     commands.push_back(add(program));
     add_loudness(*commands.back().app, loudness);
   }

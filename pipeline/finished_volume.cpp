@@ -53,11 +53,11 @@ void require_valid(const std::string& what, const mesh::ValidityReport& report) 
 }
 
 void improve_volume(const Communicator& communicator, const Case& input, const improve::MeshSource& source,
-                    mesh::DistributedMesh& volume, RunRecord& record) {
+                    mesh::DistributedMesh& volume, RunRecord& record, parallel::TaskStore* tasks) {
   if (!input.improve.enabled) return;
   improve::ImproveOptions options = input.improve;
   options.percentiles = percentile_targets(input.gate);
-  record.improve = improve::improve_mesh(communicator, volume, options, record.clock, source);
+  record.improve = improve::improve_mesh(communicator, volume, options, record.clock, source, tasks);
   log_improve(record);
 }
 

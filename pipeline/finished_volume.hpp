@@ -14,9 +14,10 @@ namespace aeroloom::pipeline {
 /// with the violations.
 void require_valid(const std::string& what, const mesh::ValidityReport& report);
 
-/// Improves the mesh as the case asks for. Collective.
+/// Improves the mesh as the case asks for; `tasks` as in improve::improve_mesh. Collective.
 void improve_volume(const parallel::Communicator& communicator, const Case& input,
-                    const improve::MeshSource& source, mesh::DistributedMesh& volume, RunRecord& record);
+                    const improve::MeshSource& source, mesh::DistributedMesh& volume, RunRecord& record,
+                    parallel::TaskStore* tasks = nullptr);
 
 /// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
 /// on record; `surface` may be null. Collective. Throws as require_valid().

@@ -79,12 +79,6 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
       {"A built-in shape instead of `file`, to try the program without CAD. `transport`: a transport "
        "aircraft of about 38 m length and 34 m span.",
        "", "transport"});
-  declare_dimensions(
-      keys.section("dimensions",
-                   "Dimensions of the built-in aircraft, any of them, such as `wing: {half_span: 18}`. Goes "
-                   "with `builtin` only.",
-                   &draft.dimensions_given),
-      draft.dimensions);
   keys.choice<DomainKind>(
       "domain", draft.result.domain.kind,
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}},
@@ -97,6 +91,12 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   declare_trailing_edges(keys, draft);
   declare_sabotage(keys, draft.result.geometry_sabotage,
                    "A failure to provoke in the contained run of the CAD library; for tests.");
+  declare_dimensions(
+      keys.section("dimensions",
+                   "Dimensions of the built-in aircraft, any of them, such as `wing: {half_span: 18}`. Goes "
+                   "with `builtin` only.",
+                   &draft.dimensions_given),
+      draft.dimensions);
 }
 
 void declare_far_field(KeyTable& keys, CaseDraft& draft) {
@@ -133,10 +133,11 @@ void declare_far_field(KeyTable& keys, CaseDraft& draft) {
 void declare_patches(KeyTable& root, CaseDraft& draft) {
   root.named_sections(
       "patches",
-      "Joins and renames patches and says what they are to a solver "
-      "([Patches and conditions](configuration.md#patches-and-conditions)). `aeroloom check` lists the "
-      "patches "
-      "that the CAD file has.",
+      common(
+          "Joins and renames patches and says what they are to a solver "
+          "([Patches and conditions](configuration.md#patches-and-conditions)). `aeroloom check` lists the "
+          "patches "
+          "that the CAD file has."),
       common(
           {"A patch of the mesh, of a name that you choose. The first patch of the list that a face matches "
            "has it.",
@@ -156,9 +157,12 @@ void declare_patches(KeyTable& root, CaseDraft& draft) {
         for (const PatchType type : {PatchType::wall, PatchType::slip, PatchType::symmetry,
                                      PatchType::farfield, PatchType::inlet, PatchType::outlet})
           types.emplace_back(mesh::name_of(type), type);
-        keys.choice("type", rule.type, types,
-                    common({"The condition that goes into solver files ([Formats](formats.md)).",
-                            "by its name, or else `wall`", "wall"}));
+        keys.choice(
+            "type", rule.type, types,
+            common(
+                {"The condition that goes into solver files ([Formats](formats.md)).",
+                 "`farfield` for the far field that the program added, others by their names, or else `wall`",
+                 "wall"}));
       });
 }
 

@@ -13,7 +13,8 @@ namespace aeroloom::pipeline {
 struct KeyDoc {
   /// `text`: sentences in Markdown, what the key does and when to touch it; links are relative to docs/.
   /// `left_out`: what holds where the key is not given and its default is no constant, or what the default
-  /// stands for. `example`: a value, as YAML, for keys without a default.
+  /// stands for. `example`: a value, as YAML, for keys without a default. Where both are the same, this is
+  /// the default.
   KeyDoc(const char* text, std::string left_out = "", std::string example = "")
       : text(text), left_out(std::move(left_out)), example(std::move(example)) {}
 

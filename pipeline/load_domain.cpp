@@ -3,6 +3,7 @@
 #include "cad/model/step_trace.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/contained.hpp"
+#include "pipeline/domain_bytes.hpp"
 
 #include <atomic>
 #include <cstdio>
@@ -15,7 +16,6 @@
 namespace aeroloom::pipeline {
 namespace {
 
-using cad::Change;
 using cad::DomainOptions;
 using parallel::Bytes;
 using parallel::Packer;
@@ -78,51 +78,6 @@ DomainOptions unpack_options(Unpacker& unpacker) {
   options.trailing_edges.width = unpacker.value<double>();
   options.smallest_size = unpacker.value<double>();
   return options;
-}
-
-void pack_change(const Change& change, Packer& packer) {
-  packer.text(change.what);
-  packer.value(std::uint8_t{change.where.has_value()});
-  packer.value(change.where.value_or(geometry::Vec3{}));
-  packer.value(change.how_much);
-}
-
-Change unpack_change(Unpacker& unpacker) {
-  Change change;
-  change.what = unpacker.text();
-  const bool placed = unpacker.value<std::uint8_t>() != 0;
-  const auto where = unpacker.value<geometry::Vec3>();
-  if (placed) change.where = where;
-  change.how_much = unpacker.value<double>();
-  return change;
-}
-
-void pack_changes(const cad::Changes& changes, Packer& packer) {
-  packer.value(static_cast<std::uint64_t>(changes.size()));
-  for (const Change& change : changes) pack_change(change, packer);
-}
-
-cad::Changes unpack_changes(Unpacker& unpacker) {
-  cad::Changes changes(unpacker.value<std::uint64_t>());
-  for (Change& change : changes) change = unpack_change(unpacker);
-  return changes;
-}
-
-void pack_domain(const cad::Domain& domain, Packer& packer) {
-  packer.value(domain.report.kind);
-  packer.text(domain.report.reason);
-  packer.value(domain.report.reference_length);
-  pack_changes(domain.report.changes, packer);
-  packer.array(domain.model.serialise());
-}
-
-cad::Domain unpack_domain(Unpacker& unpacker) {
-  cad::DomainReport report;
-  report.kind = unpacker.value<cad::DomainKind>();
-  report.reason = unpacker.text();
-  report.reference_length = unpacker.value<double>();
-  report.changes = unpack_changes(unpacker);
-  return {cad::Model::from_bytes(unpacker.array<std::byte>()), std::move(report)};
 }
 
 void pack_diagnosis(const cad::Diagnosis& diagnosis, Packer& packer) {

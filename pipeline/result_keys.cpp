@@ -38,8 +38,9 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
 }
 
 void declare_improve(KeyTable& keys, Case& result) {
-  keys.flag("enabled", result.improve.enabled,
-            "Whether the mesh is improved at all. Without it tetrahedra stay as TetGen makes them.");
+  keys.flag(
+      "enabled", result.improve.enabled,
+      "Whether the mesh is improved at all. Without it tetrahedra stay as the volume stage makes them.");
   keys.number("target_angle", result.improve.target_angle, Range::above(0, 50, "degrees"),
               "Tetrahedra with a smaller dihedral angle, or a larger one than 180 minus 1.5 times this, are "
               "worked on.");
@@ -75,9 +76,9 @@ void declare_files(KeyTable& keys, OutputOptions& output) {
       "compression", output.compression,
       {{"none", io::Compression::none}, {"lz4", io::Compression::lz4}, {"zlib", io::Compression::zlib}},
       "Of the arrays of `.vtu` and `.vtp` files: `none`, `lz4` (quick) or `zlib` (smaller).");
-  keys.choice<Checkpoints>(
+  keys.choice<CheckpointUse>(
       "checkpoints", output.checkpoints,
-      {{"none", Checkpoints::none}, {"write", Checkpoints::write}, {"resume", Checkpoints::resume}},
+      {{"none", CheckpointUse::none}, {"write", CheckpointUse::write}, {"resume", CheckpointUse::resume}},
       common("`write`: what each stage has made is kept in `checkpoint` in the output "
              "directory. `resume`: a run goes on from there, on any number of ranks, and "
              "keeps the rest."));

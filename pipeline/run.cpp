@@ -1,19 +1,22 @@
 #include "pipeline/run.hpp"
 
 #include "io/vtk/vtk_writer.hpp"
-#include "mesh/boundary_mesh.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
 #include "parallel/collective_error.hpp"
+#include "pipeline/checkpoints.hpp"
+#include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/run_identity.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
+#include "pipeline/stage_products.hpp"
 #include "pipeline/write_outputs.hpp"
 
-#include <algorithm>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,160 +24,7 @@ namespace aeroloom::pipeline {
 namespace {
 
 using parallel::Communicator;
-
-void describe_domain(const cad::Model& model, RunRecord& record) {
-  record.unit = model.unit_name();
-  record.unit_in_metres = model.unit_in_metres();
-  record.bounds = model.bounds();
-  record.regions = model.region_count();
-  record.faces = model.face_count();
-  record.edges = model.edge_count();
-  log_geometry(model, record);
-}
-
-/// Sizes, and the model they are for.
-SizedDomain build_sizes(const Communicator& communicator, const cad::Model& model, const Case& input,
-                        NarrowFaces narrow_faces, RunRecord& record) {
-  SizedDomain sized = size_domain(communicator, model, input.sizing, narrow_faces, record.clock);
-  record.sizes = sized.sizes;
-  record.size_field_leaves = sized.field.leaf_count();
-  record.face_names.clear();
-  for (cad::FaceId f = 0; f < sized.model.face_count(); ++f) {
-    record.face_names.push_back(sized.model.face(f).name);
-  }
-  record.joined_faces = sized.joined;
-  record.features = sized.features;
-  log_sizing(record);
-  return sized;
-}
-
-/// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
-std::vector<PatchRow> table_of_patches(const Communicator& communicator, const cad::Model& model,
-                                       const mesh::DistributedMesh& surface,
-                                       const std::vector<mesh::PatchType>& types) {
-  struct PieceRow {
-    mesh::PieceId piece;
-    cad::FaceId face;
-    double area;
-    std::int64_t triangles;
-  };
-  std::vector<PieceRow> mine;
-  for (const mesh::Piece& piece : surface.pieces) {
-    double area = 0;
-    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const mesh::LocalIndex* v = piece.cell(t);
-      const geometry::Vec3 a = piece.point(v[0]);
-      area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
-    }
-    mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
-  }
-  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
-  std::vector<PatchRow> patches;
-  for (std::size_t p = 0; p < model.patches().size(); ++p)
-    patches.push_back({.name = model.patches()[p], .type = types.at(p)});
-  std::vector<char> counted(model.face_count(), 0);
-  for (const PieceRow& row : rows) {
-    PatchRow& patch = patches[model.face(row.face).patch];
-    patch.inner = patch.inner || model.face(row.face).back != cad::no_entity;
-    patch.area += row.area;
-    patch.triangles += row.triangles;
-    if (!counted[row.face]) patch.cad_area += model.face_area(row.face);
-    counted[row.face] = 1;
-  }
-  return patches;
-}
-
-/// A mesh with its global numbers.
-struct NumberedMesh {
-  mesh::DistributedMesh mesh;
-  mesh::Numbering numbering;
-};
-
-/// The finished surface with its sizes.
-struct FinishedSurface : NumberedMesh {
-  sizing::SizeField field;
-};
-
-void inspect_surface(const Communicator& communicator, const cad::Model& model, const std::string& what,
-                     const NumberedMesh& surface, RunRecord& record) {
-  const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
-  require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
-  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
-  record.patches = table_of_patches(communicator, model, surface.mesh, record.patch_types);
-}
-
-FinishedSurface build_surface(const Communicator& communicator, const cad::Model& model,
-                              const sizing::SizeField& field, const Case& input, RunRecord& record) {
-  surface::SurfaceMesh surface =
-      surface::mesh_surface(communicator, model, field, input.surface, record.clock);
-  record.surface = surface.report;
-  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
-  FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
-  inspect_surface(communicator, model, "the surface mesh", finished, record);
-  log_surface(record);
-  if (communicator.is_root()) log_needles(record);
-  return finished;
-}
-
-/// The surface of the sized domain. Where joined faces cannot be meshed, that of the model as it was, and
-/// `sized` becomes its.
-FinishedSurface build_surface(const Communicator& communicator, const cad::Model& model, const Case& input,
-                              SizedDomain& sized, RunRecord& record) {
-  if (sized.joined.empty()) return build_surface(communicator, sized.model, sized.field, input, record);
-  try {
-    return build_surface(communicator, sized.model, sized.field, input, record);
-  } catch (const parallel::CollectiveError& error) {
-    if (error.kind() != parallel::FailureKind::input) throw;
-    log_surface_again(error.what());
-  } catch (const surface::SurfaceError& error) {
-    log_surface_again(error.what());
-  }
-  sized = build_sizes(communicator, model, input, NarrowFaces::keep, record);
-  return build_surface(communicator, sized.model, sized.field, input, record);
-}
-
-/// As above; what fails near trailing edges that were closed may not fail where they stay.
-FinishedSurface build_surface_or_advise(const Communicator& communicator, const cad::Model& model,
-                                        const Case& input, SizedDomain& sized, RunRecord& record) {
-  const bool sharpened = input.domain.trailing_edges.treatment == cad::TrailingEdges::sharpen;
-  const auto advised = [&](const std::string& text) {
-    return text +
-           "; or leave the trailing edges there as they are (geometry.sharpen_faces, "
-           "geometry.sharpen_width)";
-  };
-  try {
-    return build_surface(communicator, model, input, sized, record);
-  } catch (const parallel::CollectiveError& error) {
-    if (!sharpened) throw;
-    throw parallel::CollectiveError(error.kind(), advised(error.what()));
-  } catch (const surface::SurfaceError& error) {
-    if (!sharpened) throw;
-    throw surface::SurfaceError(advised(error.what()));
-  }
-}
-
-volume::VolumeInput volume_input(const FinishedSurface& surface, const Case& input) {
-  return {surface.mesh, surface.numbering, surface.field, input.volume};
-}
-
-volume::Decomposition decompose(const Communicator& communicator, const FinishedSurface& surface,
-                                const Case& input, RunRecord& record) {
-  volume::Decomposition decomposition =
-      volume::decompose(communicator, volume_input(surface, input), record.clock);
-  record.decomposition = decomposition.report();
-  log_decompose(record);
-  return decomposition;
-}
-
-/// The surface follows a volume whose boundary was improved.
-void adopt_boundary(const Communicator& communicator, const cad::Model& model,
-                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, RunRecord& record) {
-  surface.mesh = mesh::boundary_mesh(communicator, volume, numbering);
-  surface.numbering = mesh::number_mesh(communicator, surface.mesh);
-  inspect_surface(communicator, model, "the improved surface mesh", surface, record);
-}
+using volume::Decomposition;
 
 /// Leaves the triangles at fault in a file and throws the failure with the file's name. Collective.
 [[noreturn]] void point_at_offenders(const Communicator& communicator, const volume::VolumeFailure& failure,
@@ -190,67 +40,282 @@ void adopt_boundary(const Communicator& communicator, const cad::Model& model,
   throw parallel::CollectiveError(failure.kind(), fmt::format("{}; {}", failure.what(), outcome));
 }
 
-mesh::DistributedMesh fill_volume(const Communicator& communicator, const FinishedSurface& surface,
-                                  volume::Decomposition decomposition, const Case& input, RunRecord& record) {
-  try {
-    return volume::fill_zones(communicator, volume_input(surface, input), std::move(decomposition),
-                              record.clock, record.volume);
-  } catch (const volume::VolumeFailure& failure) {
-    point_at_offenders(communicator, failure, input.output.directory + "/offending_triangles.vtp");
-  }
-}
+/// The stages of one run. What a stage has made is taken from the checkpoint of an earlier run where there is
+/// one, else made and kept; later stages cannot tell which.
+class CaseRun {
+public:
+  CaseRun(const Communicator& communicator, const Case& input, RunRecord& record)
+      : _communicator(communicator), _input(input), _record(record) {}
 
-mesh::DistributedMesh build_volume(const Communicator& communicator, const FinishedSurface& surface,
-                                   volume::Decomposition decomposition, const Case& input,
-                                   RunRecord& record) {
-  mesh::DistributedMesh filled = fill_volume(communicator, surface, std::move(decomposition), input, record);
-  log_volume(record);
-  return filled;
-}
+  void run() {
+    const cad::Model domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
+    SizedDomain sized = stage("sizing", ExitCode::cad, [&] {
+      SizedDomain found = find_or_build_sizes(domain);
+      require_memory(_communicator, found, _input.memory_limit, _record.clock);
+      return found;
+    });
+    FinishedSurface surface =
+        stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
+    mesh::DistributedMesh volume = find_or_build_volume(sized, surface);
+    const mesh::Numbering numbering =
+        stage("inspect", ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
+    volume.patch_types = _record.patch_types;
+    stage("output", ExitCode::files, [&] { write(volume, numbering, surface); });
+    require_quality(_input.gate, _record);
+  }
+
+private:
+  template <class Work>
+  std::invoke_result_t<Work> stage(const std::string& name, ExitCode code, Work work) {
+    return run_stage(_record, name, code, work);
+  }
+
+  std::optional<io::CheckpointContent> find(SavedStage saved, const char* name) {
+    std::optional<io::CheckpointContent> content = _checkpoints->find(saved);
+    if (content) _record.resumed.emplace_back(name);
+    return content;
+  }
+
+  // --- geometry
+
+  cad::Model load_geometry() {
+    const RunIdentity identity = identify_run(_communicator, _input);
+    _record.input_hash = identity.digest.text();
+    _checkpoints.emplace(_communicator, _input, identity);
+    TypedPatches patches = apply_patch_rules(find_or_load_domain(), _input.patches);
+    _record.patch_types = std::move(patches.types);
+    describe(patches.model);
+    return std::move(patches.model);
+  }
+
+  cad::Model find_or_load_domain() {
+    if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
+      std::optional<cad::Domain> domain;
+      parallel::agree(_communicator, [&] {
+        const parallel::ScopedCpu cpu(_record.clock, parallel::ScopedCpu::As::serial);
+        domain = unpack_domain_product(std::move(*found));
+      });
+      if (_communicator.is_root()) _record.domain = std::move(domain->report);
+      return std::move(domain->model);
+    }
+    cad::Model model =
+        load_domain(_communicator, _input.domain, _record.clock, _record.domain, _input.geometry_sabotage);
+    _checkpoints->keep(SavedStage::geometry, [&] {
+      return _communicator.is_root() ? pack_domain_product({model, _record.domain}) : io::CheckpointDraft();
+    });
+    return model;
+  }
+
+  void describe(const cad::Model& model) {
+    _record.unit = model.unit_name();
+    _record.unit_in_metres = model.unit_in_metres();
+    _record.bounds = model.bounds();
+    _record.regions = model.region_count();
+    _record.faces = model.face_count();
+    _record.edges = model.edge_count();
+    log_geometry(model, _record);
+  }
+
+  // --- sizes, and the model they are for
+
+  SizedDomain find_or_build_sizes(const cad::Model& domain) {
+    if (std::optional<io::CheckpointContent> found = find(SavedStage::sizing, "sizing")) {
+      SizedDomain sized = unpack_sizes(_communicator, std::move(*found), domain);
+      note_sizes(sized);
+      return sized;
+    }
+    return build_sizes(domain, _input.narrow_faces);
+  }
+
+  SizedDomain build_sizes(const cad::Model& domain, NarrowFaces narrow_faces) {
+    SizedDomain sized = size_domain(_communicator, domain, _input.sizing, narrow_faces, _record.clock);
+    note_sizes(sized);
+    _checkpoints->keep(SavedStage::sizing,
+                       [&] { return _communicator.is_root() ? pack_sizes(sized) : io::CheckpointDraft(); });
+    return sized;
+  }
+
+  void note_sizes(const SizedDomain& sized) {
+    _record.sizes = sized.sizes;
+    _record.size_field_leaves = sized.field.leaf_count();
+    _record.face_names.clear();
+    for (cad::FaceId f = 0; f < sized.model.face_count(); ++f)
+      _record.face_names.push_back(sized.model.face(f).name);
+    _record.joined_faces = sized.joined.changes;
+    _record.features = sized.features;
+    log_sizing(_record);
+  }
+
+  // --- surface
+
+  FinishedSurface find_or_build_surface(const cad::Model& domain, SizedDomain& sized) {
+    if (std::optional<io::CheckpointContent> found = find(SavedStage::surface, "surface")) {
+      if (std::optional<surface::SurfaceMesh> known = unpack_surface(_communicator, std::move(*found), sized))
+        return finish_surface(sized.model, std::move(*known));
+      _record.resumed.pop_back();
+    }
+    surface::SurfaceMesh made = build_surface_or_advise(domain, sized);
+    FinishedSurface finished = finish_surface(sized.model, std::move(made));
+    _checkpoints->keep(SavedStage::surface,
+                       [&] { return pack_surface(finished.mesh, finished.field, _record.surface, sized); });
+    return finished;
+  }
+
+  /// Numbers it, checks it, tells of it.
+  FinishedSurface finish_surface(const cad::Model& model, surface::SurfaceMesh surface) {
+    _record.surface = std::move(surface.report);
+    mesh::Numbering numbering = mesh::number_mesh(_communicator, surface.mesh);
+    FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
+    inspect_surface(_communicator, model, "the surface mesh", finished, _record);
+    log_surface(_record);
+    if (_communicator.is_root()) log_needles(_record);
+    return finished;
+  }
+
+  surface::SurfaceMesh build_surface(const SizedDomain& sized) {
+    return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface, _record.clock,
+                                 _checkpoints->tasks(SavedStage::surface));
+  }
+
+  /// The surface of the sized domain. Where joined faces cannot be meshed, that of the model as it was, and
+  /// `sized` becomes its.
+  surface::SurfaceMesh build_surface(const cad::Model& domain, SizedDomain& sized) {
+    if (sized.joined.groups.empty()) return build_surface(sized);
+    try {
+      return build_surface(sized);
+    } catch (const parallel::CollectiveError& error) {
+      if (error.kind() != parallel::FailureKind::input) throw;
+      log_surface_again(error.what());
+    } catch (const surface::SurfaceError& error) {
+      log_surface_again(error.what());
+    }
+    sized = build_sizes(domain, NarrowFaces::keep);
+    return build_surface(sized);
+  }
+
+  /// As above; what fails near trailing edges that were closed may not fail where they stay.
+  surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, SizedDomain& sized) {
+    const bool sharpened = _input.domain.trailing_edges.treatment == cad::TrailingEdges::sharpen;
+    const auto advised = [&](const std::string& text) {
+      return text +
+             "; or leave the trailing edges there as they are (geometry.sharpen_faces, "
+             "geometry.sharpen_width)";
+    };
+    try {
+      return build_surface(domain, sized);
+    } catch (const parallel::CollectiveError& error) {
+      if (!sharpened) throw;
+      throw parallel::CollectiveError(error.kind(), advised(error.what()));
+    } catch (const surface::SurfaceError& error) {
+      if (!sharpened) throw;
+      throw surface::SurfaceError(advised(error.what()));
+    }
+  }
+
+  // --- volume
+
+  /// Improved, where the case asks for that.
+  mesh::DistributedMesh find_or_build_volume(const SizedDomain& sized, const FinishedSurface& surface) {
+    std::optional<io::CheckpointContent> improved, filled;
+    stage("decompose", ExitCode::volume, [&] {
+      if (_input.improve.enabled) improved = find(SavedStage::improve, "improve");
+      if (!improved) filled = find(SavedStage::volume, "volume");
+    });
+    if (improved) {
+      stage("volume", ExitCode::volume, [] {});
+      return stage("improve", ExitCode::volume, [&] { return adopt(std::move(*improved)); });
+    }
+    mesh::DistributedMesh volume =
+        filled ? stage("volume", ExitCode::volume, [&] { return adopt(std::move(*filled)); })
+               : build_volume(surface);
+    stage("improve", ExitCode::volume, [&] { improve(sized.model, surface, volume); });
+    return volume;
+  }
+
+  mesh::DistributedMesh build_volume(const FinishedSurface& surface) {
+    Decomposition decomposition = stage("decompose", ExitCode::volume, [&] { return decompose(surface); });
+    return stage("volume", ExitCode::volume, [&] {
+      mesh::DistributedMesh volume = fill(surface, std::move(decomposition));
+      log_volume(_record);
+      keep_volume(SavedStage::volume, volume);
+      return volume;
+    });
+  }
+
+  mesh::DistributedMesh adopt(io::CheckpointContent content) {
+    VolumeProduct product;
+    parallel::agree(_communicator, [&] { product = unpack_volume(std::move(content)); });
+    _record.decomposition = product.decomposition;
+    _record.volume = std::move(product.volume);
+    _record.improve = product.improve;
+    log_volume(_record);
+    return std::move(product.mesh);
+  }
+
+  void keep_volume(SavedStage saved, const mesh::DistributedMesh& volume) {
+    _checkpoints->keep(
+        saved, [&] { return pack_volume(volume, _record.decomposition, _record.volume, _record.improve); });
+  }
+
+  volume::VolumeInput volume_input(const FinishedSurface& surface) {
+    return {surface.mesh, surface.numbering, surface.field, _input.volume,
+            _checkpoints->tasks(SavedStage::volume)};
+  }
+
+  Decomposition decompose(const FinishedSurface& surface) {
+    Decomposition decomposition = volume::decompose(_communicator, volume_input(surface), _record.clock);
+    _record.decomposition = decomposition.report();
+    log_decompose(_record);
+    return decomposition;
+  }
+
+  mesh::DistributedMesh fill(const FinishedSurface& surface, Decomposition decomposition) {
+    try {
+      return volume::fill_zones(_communicator, volume_input(surface), std::move(decomposition), _record.clock,
+                                _record.volume);
+    } catch (const volume::VolumeFailure& failure) {
+      point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
+    }
+  }
+
+  void improve(const cad::Model& model, const FinishedSurface& surface, mesh::DistributedMesh& volume) {
+    if (!_input.improve.enabled) return;
+    cad::PointLocator locator(model);
+    improve_volume(_communicator, _input, {&locator, &surface.field}, volume, _record,
+                   _checkpoints->tasks(SavedStage::improve));
+    keep_volume(SavedStage::improve, volume);
+  }
+
+  // --- the finished mesh
+
+  mesh::Numbering inspect(const cad::Model& model, const mesh::DistributedMesh& volume,
+                          FinishedSurface& surface) {
+    mesh::Numbering numbering = mesh::number_mesh(_communicator, volume);
+    if (_record.improve.changed_triangles > 0)
+      adopt_boundary(_communicator, model, volume, numbering, surface, _record);
+    inspect_volume(_communicator, _input, volume, numbering, &surface.mesh, _record);
+    const parallel::ScopedCpu check(_record.clock, parallel::ScopedCpu::As::check);
+    _record.conformity = measure_conformity(_communicator, volume, surface.field);
+    return numbering;
+  }
+
+  void write(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+             const FinishedSurface& surface) {
+    write_outputs(_communicator, volume, numbering, _input.output);
+    if (wants_vtk(_input.output))
+      write_surfaces(_communicator, surface.mesh, surface.numbering, _input.output);
+  }
+
+  const Communicator& _communicator;
+  const Case& _input;
+  RunRecord& _record;
+  std::optional<Checkpoints> _checkpoints;  // from the first stage on
+};
 
 }  // namespace
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
-  const cad::Model loaded = run_stage(record, "geometry", ExitCode::cad, [&] {
-    const cad::Model model =
-        load_domain(communicator, input.domain, record.clock, record.domain, input.geometry_sabotage);
-    TypedPatches patches = apply_patch_rules(model, input.patches);
-    record.patch_types = std::move(patches.types);
-    describe_domain(patches.model, record);
-    return std::move(patches.model);
-  });
-  SizedDomain sized = run_stage(record, "sizing", ExitCode::cad, [&] {
-    SizedDomain built = build_sizes(communicator, loaded, input, input.narrow_faces, record);
-    require_memory(communicator, built, input.memory_limit, record.clock);
-    return built;
-  });
-  FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
-    return build_surface_or_advise(communicator, loaded, input, sized, record);
-  });
-  volume::Decomposition decomposition = run_stage(
-      record, "decompose", ExitCode::volume, [&] { return decompose(communicator, surface, input, record); });
-  mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
-    return build_volume(communicator, surface, std::move(decomposition), input, record);
-  });
-  run_stage(record, "improve", ExitCode::volume, [&] {
-    cad::PointLocator locator(sized.model);
-    improve_volume(communicator, input, {&locator, &surface.field}, volume, record);
-  });
-  const mesh::Numbering numbering = run_stage(record, "inspect", ExitCode::volume, [&] {
-    mesh::Numbering finished = mesh::number_mesh(communicator, volume);
-    if (record.improve.changed_triangles > 0)
-      adopt_boundary(communicator, sized.model, volume, finished, surface, record);
-    inspect_volume(communicator, input, volume, finished, &surface.mesh, record);
-    const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
-    record.conformity = measure_conformity(communicator, volume, surface.field);
-    return finished;
-  });
-  volume.patch_types = record.patch_types;
-  run_stage(record, "output", ExitCode::files, [&] {
-    write_outputs(communicator, volume, numbering, input.output);
-    if (wants_vtk(input.output)) write_surfaces(communicator, surface.mesh, surface.numbering, input.output);
-  });
-  require_quality(input.gate, record);
+  CaseRun(communicator, input, record).run();
 }
 
 }  // namespace aeroloom::pipeline

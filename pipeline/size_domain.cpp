@@ -20,7 +20,7 @@ constexpr double join_tolerance = 0.05;
 /// The model without faces narrower than `width`, where neighbours can take them in.
 std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
                                             const cad::Model& model, double width,
-                                            parallel::StageClock& clock, cad::Changes& changes) {
+                                            parallel::StageClock& clock, JoinedFaces& what) {
   const double tolerance = join_tolerance * width;
   std::vector<sizing::NarrowFace> narrow =
       sizing::find_narrow_faces(communicator, model, width, tolerance, clock);
@@ -28,10 +28,11 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   std::optional<cad::Model> joined;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
-    joined = cad::join_faces(model, sizing::group_narrow_faces(model, narrow, tolerance));
+    what.groups = sizing::group_narrow_faces(model, narrow, tolerance);
+    joined = cad::join_faces(model, what.groups);
   });
   for (const sizing::NarrowFace& each : narrow) {
-    changes.push_back(
+    what.changes.push_back(
         {fmt::format("face '{}' is {:.3g} wide, less than the smallest size, and was joined with "
                      "'{}', from which it turns by {:.2g} degrees",
                      model.face(each.face).name, each.width, model.face(each.into).name, each.degrees),
@@ -69,7 +70,7 @@ sizing::SizingOptions overrule(const sizing::SizingOptions& chosen, const Sizing
 
 /// The sized domain of the sampler's model, which stays as it is.
 SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& request,
-                   const std::optional<sizing::SizingOptions>& near, cad::Changes joined) {
+                   const std::optional<sizing::SizingOptions>& near, JoinedFaces joined) {
   if (!leaves_a_choice(request)) {
     const sizing::SizingOptions sizes = overrule({}, request);
     return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
@@ -96,11 +97,11 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   std::optional<sizing::SizingOptions> near;
   if (leaves_a_choice(request)) near = sizing::estimate_sizes(sampler, request.target_tetrahedra);
   const double width = overrule(near.value_or(sizing::SizingOptions{}), request).minimum;
-  cad::Changes changes;
-  const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, changes);
+  JoinedFaces what;
+  const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, what);
   if (!joined) return finish(sampler, request, near, {});
   const sizing::ModelSampler of_joined(std::move(sampler), *joined);
-  return finish(of_joined, request, near, std::move(changes));
+  return finish(of_joined, request, near, std::move(what));
 }
 
 }  // namespace aeroloom::pipeline

@@ -10,14 +10,21 @@
 #include "sizing/size_field.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace aeroloom::pipeline {
+
+/// What was joined.
+struct JoinedFaces {
+  std::vector<std::vector<cad::FaceId>> groups;  ///< for cad::join_faces
+  cad::Changes changes;                          ///< one for each face that vanished
+};
 
 struct SizedDomain {
   cad::Model model;  ///< faces narrower than the smallest size joined with neighbours, if wanted
   sizing::SizingOptions sizes;
   sizing::SizeField field;
-  cad::Changes joined;                            ///< one for each face that vanished
+  JoinedFaces joined;
   std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
   std::optional<FeatureReport> features;          ///< where sizes at features were chosen
 };

@@ -178,14 +178,15 @@ void KeyTable::read_override(const std::string& assignment) {
   read(node, {name, false, *this});
 }
 
-void KeyTable::read(const YAML::Node& node, const Source& source) {
-  if (node.IsNull()) return;  // everything below is left out
+bool KeyTable::read(const YAML::Node& node, const Source& source) {
+  if (node.IsNull()) return false;  // everything below is left out
   if (!node.IsMap()) {
     const std::string place = _path.empty() ? "" : " below '" + _path + "'";
     throw CaseError(
         fmt::format("{}: expected keys{}, got {}", origin_in(source, node), place, describe(node)));
   }
   std::set<std::string> seen;
+  bool given = node.size() == 0;
   for (const auto& item : node) {
     const YAML::Node& key = item.first;
     const std::string where = origin_in(source, key);
@@ -205,19 +206,21 @@ void KeyTable::read(const YAML::Node& node, const Source& source) {
     if (!seen.insert(name).second)
       throw CaseError(fmt::format("{}: key '{}' is given twice", where, path_of(name)));
     entry->where = where;
-    read_entry(*entry, item.second, source);
+    if (read_entry(*entry, item.second, source)) given = true;
   }
+  return given;
 }
 
-void KeyTable::read_entry(Entry& entry, const YAML::Node& node, const Source& source) {
+bool KeyTable::read_entry(Entry& entry, const YAML::Node& node, const Source& source) {
   if (entry.below) {
-    entry.below->read(node, source);
-    if (entry.given && !node.IsNull()) *entry.given = true;
-    return;
+    const bool given = entry.below->read(node, source);
+    if (given && entry.given) *entry.given = true;
+    return given;
   }
   // What is not there has no place of its own: the key's is shown.
   const std::string where = node.IsNull() ? entry.where : origin_in(source, node);
   entry.read(YamlValue(node, path_of(entry.name), where));
+  return true;
 }
 
 KeyTable::Entry* KeyTable::find(const std::string& name) {
@@ -274,8 +277,12 @@ std::vector<KeyInfo> KeyTable::infos() const {
 
 void KeyTable::collect_infos(std::vector<KeyInfo>& infos) const {
   for (const Entry& entry : _entries) {
-    infos.push_back(entry.info);
-    infos.back().default_value = entry.default_value();
+    KeyInfo& info = infos.emplace_back(entry.info);
+    info.default_value = entry.default_value();
+    if (info.default_value.empty() && info.doc.example == info.doc.left_out) {  // a constant
+      info.default_value = info.doc.example;
+      info.doc.example = info.doc.left_out = "";
+    }
     if (entry.below) entry.below->collect_infos(infos);
   }
 }

@@ -92,8 +92,9 @@ private:
   Entry& add(const std::string& name, KeyKind kind, const KeyDoc& doc);
   void add(const std::string& name, KeyKind kind, const KeyDoc& doc, const Range& range,
            std::function<void(const YamlValue&)> read, std::function<std::optional<std::string>()> written);
-  void read(const YAML::Node& node, const Source& source);
-  void read_entry(Entry& entry, const YAML::Node& node, const Source& source);
+  // Whether something is given: an empty section among others is as if it were not there.
+  bool read(const YAML::Node& node, const Source& source);
+  bool read_entry(Entry& entry, const YAML::Node& node, const Source& source);
   Entry* find(const std::string& name);
   Entry& make_named(const std::string& name);
   std::string path_of(const std::string& name) const { return _path.empty() ? name : _path + "." + name; }

@@ -10,11 +10,13 @@ packages=(
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
   libvtk9-dev libhdf5-openmpi-dev
-  libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
+  libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
   libgtest-dev libbenchmark-dev clang-format clang-tidy
   python3 python3-numpy python3-vtk9
   # readers of our files that others wrote: tests compare with them
   cgns-convert gmsh openfoam python3-h5py python3-meshio
+  # what checks cases by our schema
+  python3-jsonschema python3-yaml
 )
 
 missing=()

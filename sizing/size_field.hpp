@@ -3,6 +3,7 @@
 
 #include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/digest.hpp"
 #include "parallel/node_array.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/octree.hpp"
@@ -91,6 +92,13 @@ public:
   /// where surfaces come too close. Collective.
   SizeField refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
                     parallel::StageClock& clock) const;
+  /// Bit for bit, for another run.
+  parallel::Bytes pack() const;
+  /// Held once per node. Every rank gives the same bytes. Collective; throws std::logic_error for bytes that
+  /// are no field.
+  static SizeField unpack(const parallel::Communicator& communicator, std::span<const std::byte> bytes);
+  /// Fields with the same digest have the same sizes everywhere.
+  parallel::Digest digest() const;
   /// The field with all sizes and bounds `factor` times as large, in the memory of this one.
   SizeField scaled(double factor) const;
 

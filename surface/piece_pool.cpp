@@ -31,11 +31,12 @@ std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece&
 }  // namespace
 
 PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
-                     const SurfaceOptions& options, parallel::StageClock& clock)
+                     const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
     : _communicator(communicator),
       _model(model),
       _options(options),
       _clock(clock),
+      _tasks(tasks),
       _parts(model.face_count(), 0),
       _whole(model.face_count(), 0) {}
 
@@ -209,19 +210,29 @@ PiecePool::Seeds PiecePool::divide(const std::vector<FaceId>& faces, const Curve
   return seeds;
 }
 
+/// Depends on the seed and the field; model and options are the context of the store.
+mesh::Piece PiecePool::mesh_or_find(const PieceSeed& seed, const SizeField& field,
+                                    const parallel::Digest& of_field) const {
+  if (_tasks == nullptr) return mesh_piece(_model, seed, field, _options);
+  const parallel::Digest key =
+      parallel::Digester().value(of_field.low).value(of_field.high).bytes(pack_seed(seed)).result();
+  if (const std::optional<parallel::Bytes> known = _tasks->find(key)) return mesh::unpack_piece(*known);
+  mesh::Piece piece = mesh_piece(_model, seed, field, _options);
+  _tasks->keep(key, mesh::pack_piece(piece));
+  return piece;
+}
+
 Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
                                 const CurveMesh& curves, const SizeField& field) {
   Conflicts conflicts;
+  const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
   parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()), "triangles");
   for (const auto& [key, seed] : seeds) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
     try {
-      Meshed meshed{mesh_piece(_model, seed, field, _options),
-                    {},
-                    edge_vertices(curves, key[0]),
-                    seed.load,
-                    places.at(key)};
+      Meshed meshed{
+          mesh_or_find(seed, field, of_field), {}, edge_vertices(curves, key[0]), seed.load, places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       _clock.note_task({"surface piece", key[0], seed.load, parallel::cpu_seconds() - begin,
                         mesh::bytes_at_rest(meshed.piece)});

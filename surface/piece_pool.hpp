@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mesh/distributed_mesh.hpp"
+#include "parallel/task_store.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_division.hpp"
 #include "surface/surface_options.hpp"
@@ -26,7 +27,7 @@ struct Conflicts {
 class PiecePool {
 public:
   PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
-            const SurfaceOptions& options, parallel::StageClock& clock);
+            const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
 
   /// Meshes every face whose curves or sizes are not those of the round before. Collective. Conflicts are
   /// those of this rank.
@@ -73,6 +74,8 @@ private:
   bool is_to_divide(const Row& row, int level) const;
   std::vector<Row> tabulate(const Seeds& seeds) const;
   Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
+  mesh::Piece mesh_or_find(const PieceSeed& seed, const sizing::SizeField& field,
+                           const parallel::Digest& of_field) const;
   Conflicts mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places, const CurveMesh& curves,
                        const sizing::SizeField& field);
 
@@ -80,6 +83,7 @@ private:
   const cad::Model& _model;
   const SurfaceOptions& _options;
   parallel::StageClock& _clock;
+  parallel::TaskStore* _tasks;  // may be null
   bool _started = false;
   std::vector<std::int32_t> _parts;              // per face: pieces, 0 before it is divided
   std::vector<char> _whole;                      // per face: 1 where it must not be divided

@@ -97,12 +97,12 @@ std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh&
 class SurfaceRounds {
 public:
   SurfaceRounds(const parallel::Communicator& communicator, const cad::Model& model, const SizeField& field,
-                const SurfaceOptions& options, parallel::StageClock& clock)
+                const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
       : _communicator(communicator),
         _model(model),
         _options(options),
         _clock(clock),
-        _pool(communicator, model, options, clock),
+        _pool(communicator, model, options, clock, tasks),
         _field(field) {}
 
   SurfaceMesh run() {
@@ -208,8 +208,9 @@ private:
 }  // namespace
 
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                         const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock) {
-  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, clock).run();
+                         const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock,
+                         parallel::TaskStore* tasks) {
+  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, clock, tasks).run();
   clock.add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
   return result;
 }

@@ -93,7 +93,7 @@ private:
     const double begin = parallel::cpu_seconds();
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
-    ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone));
+    ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone), _input.tasks);
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);
     parallel::log_verbose(fmt::format(

@@ -6,6 +6,7 @@
 
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/task_store.hpp"
 #include "parallel/timers.hpp"
 #include "sizing/size_field.hpp"
 #include "volume/volume_failure.hpp"
@@ -22,6 +23,7 @@ struct VolumeInput {
   const mesh::Numbering& numbering;      ///< of the surface
   const sizing::SizeField& field;
   VolumeOptions options;
+  parallel::TaskStore* tasks = nullptr;  ///< where filled zones are kept and found, if anywhere
 };
 
 /// The points and zones of a volume. Each rank has the points of its blocks.

@@ -127,6 +127,17 @@ Bytes fill_task(std::span<const std::byte> input) {
   return packer.take();
 }
 
+void unpack_filling(std::span<const std::byte> bytes, ZoneFilling& filling) {
+  parallel::Unpacker unpacker(bytes);
+  filling.owned.cells = unpacker.array<LocalCell>();
+  filling.owned.regions = unpacker.array<mesh::RegionId>();
+  filling.owned.crossings = unpacker.array<Crossing>();
+  filling.owned.triangles = unpacker.array<std::int32_t>();
+  filling.owned.touched = unpacker.array<mesh::LocalIndex>();
+  filling.added = unpacker.array<Vec3>();
+  filling.filled = true;
+}
+
 std::string describe(const parallel::ContainedResult& result) {
   using Status = parallel::ContainedStatus;
   switch (result.status) {
@@ -148,27 +159,31 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
                                    tetrahedra_per_triangle * static_cast<double>(problem.triangles.size()));
 }
 
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage) {
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, parallel::TaskStore* tasks) {
+  if (sabotage != parallel::Sabotage::none) tasks = nullptr;
+  const Bytes packed = pack_problem(problem, sabotage);
+  ZoneFilling filling;
+  parallel::Digest key;
+  if (tasks != nullptr) {
+    key = parallel::digest_of(packed);
+    if (const std::optional<Bytes> known = tasks->find(key)) {
+      unpack_filling(*known, filling);
+      return filling;
+    }
+  }
   const std::int64_t predicted = predict_tetrahedra(problem);
   const parallel::ContainedLimits limits{
       base_cpu_seconds + cpu_seconds_per_tetrahedron * static_cast<double>(predicted),
       base_bytes + bytes_per_tetrahedron * predicted};
-  const auto result = parallel::run_contained(task_name, pack_problem(problem, sabotage), limits);
-  ZoneFilling filling;
+  const auto result = parallel::run_contained(task_name, packed, limits);
   filling.cpu_seconds = result.cpu_seconds;
   filling.child_peak_bytes = result.peak_resident_bytes;
-  filling.filled = result.status == parallel::ContainedStatus::ok;
-  if (!filling.filled) {
+  if (result.status != parallel::ContainedStatus::ok) {
     filling.failure = describe(result);
     return filling;
   }
-  parallel::Unpacker unpacker(result.output);
-  filling.owned.cells = unpacker.array<LocalCell>();
-  filling.owned.regions = unpacker.array<mesh::RegionId>();
-  filling.owned.crossings = unpacker.array<Crossing>();
-  filling.owned.triangles = unpacker.array<std::int32_t>();
-  filling.owned.touched = unpacker.array<mesh::LocalIndex>();
-  filling.added = unpacker.array<Vec3>();
+  if (tasks != nullptr) tasks->keep(key, result.output);
+  unpack_filling(result.output, filling);
   return filling;
 }
 

@@ -1,6 +1,7 @@
 /// One try at filling a zone, in a contained child.
 #pragma once
 
+#include "parallel/task_store.hpp"
 #include "volume/owned_cells.hpp"
 #include "volume/volume_options.hpp"
 
@@ -24,7 +25,8 @@ struct ZoneFilling {
 std::int64_t predict_tetrahedra(const ZoneProblem& problem);
 
 /// Runs TetGen in a child under limits that follow from the predicted count. Nothing the child does harms the
-/// caller.
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage);
+/// caller. What is found in `tasks` is not filled again, what is filled is kept there.
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage,
+                      parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::volume

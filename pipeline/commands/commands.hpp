@@ -14,5 +14,7 @@ Command add_convert(CLI::App& program);
 Command add_export_cad(CLI::App& program);
 /// Knows the commands that the program has when it runs.
 Command add_completion(CLI::App& program);
+Command add_init(CLI::App& program);
+Command add_schema(CLI::App& program);
 
 }  // namespace aeroloom::pipeline

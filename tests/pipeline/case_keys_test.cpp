@@ -62,7 +62,7 @@ TEST(CaseKeys, TellsWhatIsDeclared) {
   EXPECT_EQ(growth.kind, KeyKind::number);
   EXPECT_EQ(growth.range.low, 1);
   EXPECT_FALSE(growth.range.low_allowed);
-  EXPECT_EQ(growth.doc.left_out, "1.3");
+  EXPECT_EQ(growth.default_value, "1.3");
   EXPECT_EQ(keys.at("sizing.target_tetrahedra").default_value, "1000000");
   EXPECT_EQ(keys.at("output.formats").default_value, "[vtu]");
   EXPECT_EQ(keys.at("output.formats").choices.size(), io::format_names.size());
@@ -76,13 +76,17 @@ TEST(CaseKeys, TellsWhatIsDeclared) {
 }
 
 TEST(CaseKeys, SectionsStandBeforeTheirKeys) {
-  std::vector<std::string> seen;
+  std::vector<std::string> seen, common;
   for (const KeyInfo& key : case_keys()) {
     const std::size_t dot = key.path.rfind('.');
     if (dot != std::string::npos) {
       EXPECT_EQ(std::count(seen.begin(), seen.end(), key.path.substr(0, dot)), 1) << key.path;
     }
     if (key.has_keys_below()) seen.push_back(key.path);
+    if (key.has_keys_below() && key.doc.common) common.push_back(key.path);
+    if (dot != std::string::npos && key.doc.common) {
+      EXPECT_EQ(std::count(common.begin(), common.end(), key.path.substr(0, dot)), 1) << key.path;
+    }
   }
 }
 

@@ -266,6 +266,14 @@ TEST_F(CaseTest, AFluidHasNoFarField) {
             "case.yaml:1:32: the built-in geometry is a body, 'geometry.domain' cannot be fluid");
 }
 
+TEST_F(CaseTest, EmptySectionsAreAsIfTheyWereNotThere) {
+  const std::string file = "geometry:\n  file: a.step\n  dimensions:\n    wing:\n  domain: fluid\n";
+  EXPECT_EQ(error_of(file + "farfield:\npatches:\nsizing:\nimprove:\n  gate:\n"), "no error");
+  EXPECT_EQ(resolved_yaml(read(file + "farfield:\n")), resolved_yaml(read(file)));
+  EXPECT_NE(error_of(file + "farfield: {}\n"), "no error");
+  EXPECT_TRUE(read("geometry: {file: a.step}\nfarfield: {}\n").domain.far_field);
+}
+
 TEST_F(CaseTest, SyntaxErrorsHaveTheirPlace) {
   EXPECT_EQ(error_of("geometry: {file: a.step\nsizing: [").rfind("case.yaml:2:", 0), 0u)
       << error_of("geometry: {file: a.step\nsizing: [");

@@ -34,8 +34,9 @@ def main():
         assert set(words) == found if exactly else set(words) <= found, f"{line!r}: {sorted(found)}"
         return found
 
-    expect("aeroloom ", "run", "check", "improve", "info", "quality", "convert", "export-cad", "completion")
+    expect("aeroloom ", "run", "check", "improve", "info", "quality", "convert", "export-cad", "completion", "init", "schema")
     expect("aeroloom ru", "run", exactly=True)
+    expect("aeroloom init --geometry wi", "wing.step", "with space.yaml", exactly=True)
     expect("aeroloom -q ch", "check", exactly=True)
     expect("aeroloom --ver", "--version", "--verbose", exactly=True)
     expect("aeroloom run --", "--set", "--resume", "--checkpoints", "--verbose", "--quiet", "--help")

@@ -25,20 +25,20 @@ TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
   const SizedDomain joined = size(model, 0.1, NarrowFaces::join);
   EXPECT_EQ(joined.model.face_count(), model.face_count() - 1);
-  ASSERT_EQ(joined.joined.size(), 1u);
-  EXPECT_TRUE(joined.joined[0].where);
-  EXPECT_NE(joined.joined[0].what.find("joined with"), std::string::npos);
-  EXPECT_LT(joined.joined[0].how_much, 1e-6);
+  ASSERT_EQ(joined.joined.changes.size(), 1u);
+  EXPECT_TRUE(joined.joined.changes[0].where);
+  EXPECT_NE(joined.joined.changes[0].what.find("joined with"), std::string::npos);
+  EXPECT_LT(joined.joined.changes[0].how_much, 1e-6);
   const SizedDomain kept = size(model, 0.1, NarrowFaces::keep);
   EXPECT_EQ(kept.model.face_count(), model.face_count());
-  EXPECT_TRUE(kept.joined.empty());
+  EXPECT_TRUE(kept.joined.changes.empty());
   // Half-way up, where the strip's ends are far away, its width asks for nothing any more.
   EXPECT_GT(joined.field({1, 0, 0.75}), 2 * kept.field({1, 0, 0.75}));
 }
 
 TEST(SizeDomain, LeavesFacesAsWideAsElements) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
-  EXPECT_TRUE(size(model, 0.01, NarrowFaces::join).joined.empty());
+  EXPECT_TRUE(size(model, 0.01, NarrowFaces::join).joined.changes.empty());
 }
 
 // Sizes from the model go by what is left of it.
@@ -49,7 +49,7 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   parallel::StageClock clock;
   const auto world = parallel::Communicator::world();
   const SizedDomain sized = size_domain(world, model, request, NarrowFaces::join, clock);
-  ASSERT_EQ(sized.joined.size(), 1u);
+  ASSERT_EQ(sized.joined.changes.size(), 1u);
   const double predicted = sizing::predict_counts(world, sized.model, sized.field, clock).tetrahedra;
   EXPECT_GT(predicted, 14'000);
   EXPECT_LT(predicted, 28'000);

@@ -1,0 +1,207 @@
+#include "io/checkpoint_file.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/schedule.hpp"
+#include "parallel/shared_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace aeroloom::io {
+namespace {
+
+using parallel::Bytes;
+using parallel::Communicator;
+using parallel::Digest;
+using parallel::Packer;
+using parallel::Unpacker;
+
+constexpr std::uint64_t magic = 0x54504b43'4f524541;  // "AEROCKPT"
+constexpr std::uint64_t version = 1;
+
+/// The beginning of the file.
+struct Preamble {
+  std::uint64_t magic = 0, version = 0;
+  std::int64_t header_bytes = 0, file_bytes = 0;
+  Digest digest;  ///< of the above and of the header
+
+  Digest right_digest(std::span<const std::byte> header) const {
+    return parallel::Digester()
+        .value(magic)
+        .value(version)
+        .value(header_bytes)
+        .value(file_bytes)
+        .bytes(header)
+        .result();
+  }
+};
+
+/// The common bytes, or an item.
+struct Row {
+  std::int64_t number = 0, bytes = 0;
+  Digest digest;
+};
+
+struct Header {
+  CheckpointLabel label;
+  std::vector<Row> rows;              ///< of the common bytes, then of the items by number
+  std::vector<std::int64_t> offsets;  ///< of each
+
+  void place_behind(std::int64_t first) {
+    offsets.clear();
+    for (const Row& row : rows) offsets.push_back(std::exchange(first, first + row.bytes));
+    offsets.push_back(first);
+  }
+};
+
+Bytes pack_header(const Header& header) {
+  Packer packer;
+  packer.value(header.label.key);
+  packer.value(static_cast<std::uint64_t>(header.label.about.size()));
+  for (const std::string& text : header.label.about) packer.text(text);
+  packer.array(header.rows);
+  return packer.take();
+}
+
+Header unpack_header(std::span<const std::byte> bytes) {
+  Unpacker unpacker(bytes);
+  Header header;
+  header.label.key = unpacker.value<Digest>();
+  const auto texts = unpacker.value<std::uint64_t>();
+  for (std::uint64_t i = 0; i < texts; ++i) header.label.about.push_back(unpacker.text());
+  header.rows = unpacker.array<Row>();
+  return header;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw std::ios_base::failure(fmt::format("'{}' is damaged: {}", path, why));
+}
+
+void read_at(std::ifstream& stream, const std::string& path, std::int64_t offset, std::span<std::byte> to) {
+  stream.seekg(offset);
+  stream.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+  if (!stream) refuse(path, "it cannot be read to its end");
+}
+
+/// The packed header, checked; rank 0 reads it. Empty where there is no file.
+Bytes read_header(const std::string& path, Preamble& preamble) {
+  if (!std::filesystem::exists(path)) return {};
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw std::ios_base::failure("cannot open '" + path + "'");
+  read_at(stream, path, 0, std::as_writable_bytes(std::span(&preamble, 1)));
+  if (preamble.magic != magic) refuse(path, "it does not begin as a checkpoint does");
+  if (preamble.version != version)
+    refuse(path, fmt::format("layout {}, this program reads {}", preamble.version, version));
+  if (preamble.file_bytes != size)
+    refuse(path, fmt::format("{} bytes, its beginning says {}", size, preamble.file_bytes));
+  if (preamble.header_bytes <= 0 || preamble.header_bytes > size) refuse(path, "its header is too long");
+  Bytes header(static_cast<std::size_t>(preamble.header_bytes));
+  read_at(stream, path, sizeof preamble, header);
+  if (preamble.right_digest(header) != preamble.digest) refuse(path, "its header is not what was written");
+  return header;
+}
+
+/// On every rank; empty where there is no file.
+Bytes share_header(const Communicator& communicator, const std::string& path) {
+  Bytes bytes;
+  parallel::agree(communicator, [&] {
+    Preamble preamble;
+    if (communicator.is_root()) bytes = read_header(path, preamble);
+  });
+  communicator.broadcast(bytes);
+  return bytes;
+}
+
+/// Rows and places of the whole file, the same on every rank.
+Header plan(const Communicator& communicator, const CheckpointLabel& label, const CheckpointDraft& draft) {
+  std::vector<Row> mine;
+  for (const CheckpointDraft::Item& item : draft.items) {
+    const Bytes bytes = item.bytes();
+    mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
+  }
+  Header header{label, communicator.all_gather_items<Row>(mine), {}};
+  std::sort(header.rows.begin(), header.rows.end(),
+            [](const Row& a, const Row& b) { return a.number < b.number; });
+  std::vector<Row> common{
+      {-1, static_cast<std::int64_t>(draft.common.size()), parallel::digest_of(draft.common)}};
+  communicator.broadcast_items(common);
+  header.rows.insert(header.rows.begin(), common.front());
+  return header;
+}
+
+Bytes read_checked(std::ifstream& stream, const std::string& path, const Row& row, std::int64_t offset) {
+  Bytes bytes(static_cast<std::size_t>(row.bytes));
+  read_at(stream, path, offset, bytes);
+  if (parallel::digest_of(bytes) != row.digest)
+    refuse(path, fmt::format("the {} bytes from {} on are not what was written", row.bytes, offset));
+  return bytes;
+}
+
+}  // namespace
+
+void write_checkpoint(const Communicator& communicator, const std::string& path, const CheckpointLabel& label,
+                      const CheckpointDraft& draft) {
+  Header header = plan(communicator, label, draft);
+  const Bytes packed = pack_header(header);
+  header.place_behind(static_cast<std::int64_t>(sizeof(Preamble) + packed.size()));
+  // What stood there stays until all of the new one does.
+  const std::string fresh = path + ".new";
+  parallel::write_shared_file(communicator, fresh, [&](parallel::SharedFile& file) {
+    if (communicator.is_root()) {
+      Preamble preamble{magic, version, static_cast<std::int64_t>(packed.size()), header.offsets.back(), {}};
+      preamble.digest = preamble.right_digest(packed);
+      file.write(0, std::as_bytes(std::span(&preamble, 1)));
+      file.write(sizeof preamble, packed);
+      file.write(header.offsets.front(), draft.common);
+    }
+    for (const CheckpointDraft::Item& item : draft.items) {
+      const auto row = std::lower_bound(header.rows.begin() + 1, header.rows.end(), item.number,
+                                        [](const Row& a, std::int64_t number) { return a.number < number; });
+      file.write(header.offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
+    }
+  });
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) std::filesystem::rename(fresh, path);
+  });
+}
+
+std::optional<CheckpointLabel> read_checkpoint_label(const Communicator& communicator,
+                                                     const std::string& path, std::size_t texts) {
+  const Bytes packed = share_header(communicator, path);
+  if (packed.empty()) return std::nullopt;
+  CheckpointLabel label = unpack_header(packed).label;
+  if (label.about.size() != texts) return std::nullopt;
+  return label;
+}
+
+CheckpointContent read_checkpoint(const Communicator& communicator, const std::string& path) {
+  const Bytes packed = share_header(communicator, path);
+  CheckpointContent content;
+  parallel::agree(communicator, [&] {
+    if (packed.empty()) throw std::ios_base::failure("there is no '" + path + "'");
+    Header header = unpack_header(packed);
+    header.place_behind(static_cast<std::int64_t>(sizeof(Preamble) + packed.size()));
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw std::ios_base::failure("cannot open '" + path + "'");
+    if (communicator.is_root())
+      content.common = read_checked(stream, path, header.rows.front(), header.offsets.front());
+    std::vector<double> loads;
+    for (std::size_t i = 1; i < header.rows.size(); ++i)
+      loads.push_back(static_cast<double>(header.rows[i].bytes));
+    const std::vector<parallel::Rank> owners = parallel::assign_largest_first(loads, communicator.size());
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+      if (owners[i] != communicator.rank()) continue;
+      content.items.push_back(
+          {header.rows[i + 1].number, read_checked(stream, path, header.rows[i + 1], header.offsets[i + 1])});
+    }
+  });
+  communicator.broadcast(content.common);
+  return content;
+}
+
+}  // namespace aeroloom::io

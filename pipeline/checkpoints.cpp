@@ -1,0 +1,225 @@
+#include "pipeline/checkpoints.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
+
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using parallel::log_warning;
+
+constexpr std::array<const char*, saved_stages> names{"geometry", "sizing", "surface", "volume", "improve"};
+
+const char* name_of(SavedStage stage) {
+  return names.at(static_cast<std::size_t>(stage));
+}
+
+/// The texts of a label.
+enum About : std::uint8_t { about_version, about_build, about_input, about_digest, about_keys, about_texts };
+
+/// The case with only what matters up to a stage; all else is as by default.
+Case relevant_part(const Case& input, SavedStage stage) {
+  Case part;
+  part.domain = input.domain;
+  if (!part.domain.file.empty()) part.domain.file = std::filesystem::path(input.domain.file).filename();
+  if (stage >= SavedStage::sizing) {
+    part.patches = input.patches;
+    part.narrow_faces = input.narrow_faces;
+    part.sizing = input.sizing;
+  } else {
+    part.sizing.minimum = input.domain.smallest_size > 0 ? input.sizing.minimum : std::nullopt;
+  }
+  if (stage >= SavedStage::surface) part.surface = input.surface;
+  if (stage >= SavedStage::volume) {
+    part.volume = input.volume;
+    part.volume.sabotage = parallel::Sabotage::none;
+    part.volume.sabotaged_zone = -1;
+  }
+  if (stage >= SavedStage::improve) {
+    part.improve = input.improve;
+    part.gate.percentile_01 = input.gate.percentile_01;
+    part.gate.percentile_1 = input.gate.percentile_1;
+    part.gate.percentile_5 = input.gate.percentile_5;
+  }
+  return part;
+}
+
+/// The first line of two texts that differs, in words.
+std::string difference(const std::string& then, const std::string& now) {
+  std::istringstream old_lines(then), new_lines(now);
+  std::string before, after;
+  while (true) {
+    const bool more_before = static_cast<bool>(std::getline(old_lines, before));
+    const bool more_after = static_cast<bool>(std::getline(new_lines, after));
+    if (!more_before && !more_after) return "other keys";
+    if (more_before && more_after && before == after) continue;
+    const auto trimmed = [](bool there, const std::string& line) {
+      const std::size_t begin = line.find_first_not_of(' ');
+      return there && begin != std::string::npos ? fmt::format("'{}'", line.substr(begin))
+                                                 : std::string("nothing");
+    };
+    return fmt::format("{} where the case has {}", trimmed(more_before, before), trimmed(more_after, after));
+  }
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(const parallel::Communicator& communicator, const Case& input,
+                         const RunIdentity& identity)
+    : _communicator(communicator),
+      _input(input),
+      _identity(identity),
+      _folder(input.output.directory + "/checkpoint"),
+      _writes(input.output.checkpoints != CheckpointUse::none),
+      _resumes(input.output.checkpoints == CheckpointUse::resume) {
+  if (_resumes) refuse_foreign();
+}
+
+std::string Checkpoints::path_of(SavedStage stage) const {
+  return fmt::format("{}/{}.checkpoint", _folder, name_of(stage));
+}
+
+io::CheckpointLabel Checkpoints::label_of(SavedStage stage) const {
+  io::CheckpointLabel label;
+  label.about.resize(about_texts);
+  label.about[about_version] = _identity.version;
+  label.about[about_build] = _identity.build.text();
+  label.about[about_input] = _identity.input;
+  label.about[about_digest] = _identity.digest.text();
+  label.about[about_keys] = resolved_yaml(relevant_part(_input, stage));
+  parallel::Digester digester;
+  digester.text(name_of(stage));
+  for (const std::string& text : label.about) digester.text(text);
+  label.key = digester.result();
+  return label;
+}
+
+/// Nothing where there is none that can be read.
+std::optional<io::CheckpointLabel> Checkpoints::read_label(SavedStage stage) const {
+  try {
+    return io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
+  } catch (const parallel::CollectiveError& error) {
+    if (_communicator.is_root())
+      log_warning(fmt::format("checkpoint: {}; stage {} is done anew", error.what(), name_of(stage)));
+    return std::nullopt;
+  }
+}
+
+/// Or is not there at all.
+bool Checkpoints::is_of_this_case(SavedStage stage) const {
+  try {
+    const std::optional<io::CheckpointLabel> found =
+        io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
+    return !found || found->key == label_of(stage).key;
+  } catch (const parallel::CollectiveError&) {
+    return false;
+  }
+}
+
+void Checkpoints::refuse_foreign() const {
+  for (std::size_t s = 0; s < saved_stages; ++s) {
+    const auto stage = static_cast<SavedStage>(s);
+    const std::optional<io::CheckpointLabel> found = read_label(stage);
+    if (!found) continue;
+    const io::CheckpointLabel own = label_of(stage);
+    const auto differs = [&](About text) { return found->about[text] != own.about[text]; };
+    std::string what;
+    if (differs(about_digest)) {
+      what = fmt::format("of another geometry: '{}' ({}), this is '{}' ({})", found->about[about_input],
+                         found->about[about_digest], own.about[about_input], own.about[about_digest]);
+    } else if (differs(about_version) || differs(about_build)) {
+      what =
+          fmt::format("by another program: {} (build {}), this is {} (build {})", found->about[about_version],
+                      found->about[about_build], own.about[about_version], own.about[about_build]);
+    }
+    if (what.empty()) continue;
+    throw std::invalid_argument(
+        fmt::format("'{}' is {}. Remedy: give another output.directory, or start anew with --checkpoints, "
+                    "which replaces it",
+                    path_of(stage), what));
+  }
+}
+
+std::optional<io::CheckpointContent> Checkpoints::find(SavedStage stage) {
+  if (!_resumes) return std::nullopt;
+  const std::optional<io::CheckpointLabel> found = read_label(stage);
+  if (!found) return std::nullopt;
+  const io::CheckpointLabel own = label_of(stage);
+  if (found->key != own.key) {
+    parallel::log_info(fmt::format("checkpoint: stage {} was run with {}: done anew", name_of(stage),
+                                   difference(found->about[about_keys], own.about[about_keys])));
+    return std::nullopt;
+  }
+  try {
+    io::CheckpointContent content = io::read_checkpoint(_communicator, path_of(stage));
+    parallel::log_info(fmt::format("checkpoint: stage {} from '{}'", name_of(stage), path_of(stage)));
+    return content;
+  } catch (const parallel::CollectiveError& error) {
+    if (_communicator.is_root())
+      log_warning(fmt::format("checkpoint: {}; stage {} is done anew", error.what(), name_of(stage)));
+    return std::nullopt;
+  }
+}
+
+/// False where files could not be written; nothing is kept from then on.
+bool Checkpoints::attempt(const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const parallel::CollectiveError& error) {
+    if (error.kind() != parallel::FailureKind::files) throw;
+    if (_communicator.is_root()) {
+      log_warning(fmt::format("checkpoint: {}. The run goes on; from here on nothing is kept for another run",
+                              error.what()));
+    }
+    _writes = false;
+    return false;
+  }
+}
+
+void Checkpoints::keep(SavedStage stage, const std::function<io::CheckpointDraft()>& draft) {
+  if (!_writes) return;
+  attempt([&] {
+    io::write_checkpoint(_communicator, path_of(stage), label_of(stage), draft());
+    remove_needless(stage);
+  });
+}
+
+parallel::TaskStore* Checkpoints::tasks(SavedStage stage) {
+  std::unique_ptr<parallel::TaskStore>& store = _tasks.at(static_cast<std::size_t>(stage));
+  if (!store && _writes) {
+    attempt([&] {
+      store = std::make_unique<parallel::TaskStore>(
+          _communicator, _folder, name_of(stage), label_of(stage).key,
+          _resumes ? parallel::TaskStore::Earlier::find : parallel::TaskStore::Earlier::forget);
+    });
+  }
+  return store.get();
+}
+
+/// The tasks of a stage that is kept as a whole; a volume that has been improved; later stages of what the
+/// case no longer is.
+void Checkpoints::remove_needless(SavedStage kept) {
+  std::unique_ptr<parallel::TaskStore>& store = _tasks.at(static_cast<std::size_t>(kept));
+  if (store) store->remove();
+  store.reset();
+  for (auto s = static_cast<std::size_t>(kept) + 1; s < saved_stages; ++s) {
+    const auto later = static_cast<SavedStage>(s);
+    if (is_of_this_case(later)) continue;
+    parallel::agree(_communicator, [&] {
+      if (_communicator.is_root()) std::filesystem::remove(path_of(later));
+    });
+  }
+  if (kept != SavedStage::improve) return;
+  parallel::agree(_communicator, [&] {
+    if (_communicator.is_root()) std::filesystem::remove(path_of(SavedStage::volume));
+  });
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,35 @@
+/// A finished surface: its numbers, its sizes, checks and figures.
+#pragma once
+
+#include "cad/model/model.hpp"
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "pipeline/run.hpp"
+#include "sizing/size_field.hpp"
+
+#include <string>
+
+namespace aeroloom::pipeline {
+
+/// A mesh with its global numbers.
+struct NumberedMesh {
+  mesh::DistributedMesh mesh;
+  mesh::Numbering numbering;
+};
+
+/// The finished surface with its sizes.
+struct FinishedSurface : NumberedMesh {
+  sizing::SizeField field;
+};
+
+/// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
+/// require_valid().
+void inspect_surface(const parallel::Communicator& communicator, const cad::Model& model,
+                     const std::string& what, const NumberedMesh& surface, RunRecord& record);
+
+/// The surface follows a volume whose boundary was improved. Collective.
+void adopt_boundary(const parallel::Communicator& communicator, const cad::Model& model,
+                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                    FinishedSurface& surface, RunRecord& record);
+
+}  // namespace aeroloom::pipeline

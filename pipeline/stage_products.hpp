@@ -1,0 +1,46 @@
+/// What stages hand on, as the content of checkpoints and back. Unpacking with a communicator is collective.
+/// Drafts refer to the meshes they are of. Bytes that are none of ours throw std::logic_error (checkpoints
+/// are checked before).
+#pragma once
+
+#include "cad/domain/domain.hpp"
+#include "improve/improve_report.hpp"
+#include "io/checkpoint_file.hpp"
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "pipeline/size_domain.hpp"
+#include "surface/surface_mesher.hpp"
+#include "volume/volume_report.hpp"
+
+#include <optional>
+
+namespace aeroloom::pipeline {
+
+io::CheckpointDraft pack_domain_product(const cad::Domain& domain);
+cad::Domain unpack_domain_product(io::CheckpointContent content);
+
+/// The model is that of the domain with its faces joined: it is made again.
+io::CheckpointDraft pack_sizes(const SizedDomain& sized);
+SizedDomain unpack_sizes(const parallel::Communicator& communicator, io::CheckpointContent content,
+                         const cad::Model& domain);
+
+/// The field is left out where it is the one of the sized domain.
+io::CheckpointDraft pack_surface(const mesh::DistributedMesh& mesh, const sizing::SizeField& field,
+                                 const surface::SurfaceReport& report, const SizedDomain& sized);
+/// Nothing where it is the surface of a domain with other faces joined or of other sizes.
+std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
+                                                   io::CheckpointContent content, const SizedDomain& sized);
+
+/// A volume with what its stages tell.
+struct VolumeProduct {
+  mesh::DistributedMesh mesh;
+  volume::DecompositionReport decomposition;
+  volume::VolumeReport volume;
+  improve::ImproveReport improve;  ///< as it is before improvement
+};
+io::CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
+                                const volume::DecompositionReport& decomposition,
+                                const volume::VolumeReport& volume, const improve::ImproveReport& improve);
+VolumeProduct unpack_volume(io::CheckpointContent content);
+
+}  // namespace aeroloom::pipeline
