@@ -11,6 +11,14 @@ foreach(folder IN LISTS AEROLOOM_FOLDERS)
 endforeach()
 install(TARGETS aeroloom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
+# Completion for bash, printed by the program itself.
+set(completion ${CMAKE_BINARY_DIR}/completion/aeroloom)
+install(CODE "
+  file(MAKE_DIRECTORY \"${CMAKE_BINARY_DIR}/completion\")
+  execute_process(COMMAND \"$<TARGET_FILE:aeroloom>\" completion bash OUTPUT_FILE \"${completion}\"
+    COMMAND_ERROR_IS_FATAL ANY)")
+install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Aeroloom)
 install(EXPORT AeroloomTargets NAMESPACE Aeroloom:: DESTINATION ${package_folder})
 configure_package_config_file(cmake/AeroloomConfig.cmake.in ${CMAKE_BINARY_DIR}/AeroloomConfig.cmake

@@ -11,6 +11,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/sharing.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/progress.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -124,8 +125,11 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
     mesh::forget_unshared(communicator, mesh);  // cavities name more than borders
   };
   int shift = 0;
+  parallel::Progress progress("improve", options.shifted_rounds + last_rounds, "tetrahedra to improve");
   const auto wish = [&](Effort effort) {
-    return communicator.sum(wish_for_bad(mesh, bad, measure, shift, effort, wishes));
+    const std::int64_t left = communicator.sum(wish_for_bad(mesh, bad, measure, shift, effort, wishes));
+    progress.reach(shift, left);
+    return left;
   };
   for (; shift < options.shifted_rounds && wish(Effort::sparing) > 0; ++shift) refill({}, 0, shift);
   for (const int end = shift + last_rounds; options.shifted_rounds > 0 && shift < end; ++shift) {
@@ -178,6 +182,7 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
   if (options.enabled && communicator.size() > 1) balance_pieces(communicator, mesh, work);
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    parallel::Progress progress("improve", static_cast<std::int64_t>(mesh.pieces.size()), "tetrahedra");
     for (mesh::Piece& piece : mesh.pieces) {
       const double begin = parallel::cpu_seconds();
       const auto cells = static_cast<double>(piece.cell_count());
@@ -190,6 +195,7 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
       total.min_angle_before = std::min(total.min_angle_before, mine.min_angle_before);
       total.min_angle_after = std::min(total.min_angle_after, mine.min_angle_after);
       clock.add_pieces(1);
+      progress.advance(1, piece.cell_count());
     }
   });
   improve_across(communicator, mesh, options, source, total, clock);

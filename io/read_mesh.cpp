@@ -55,6 +55,12 @@ Assembled read_mesh(const parallel::Communicator& communicator, const std::strin
   return assemble(communicator, found->read(communicator, path), path, parts);
 }
 
+std::vector<std::string> readable_extensions() {
+  std::vector<std::string> extensions;
+  for (const NamedReader& reader : readers) extensions.emplace_back(reader.extension);
+  return extensions;
+}
+
 std::string describe(const Assembled& file) {
   std::string text;
   const auto add = [&](mesh::GlobalIndex count, std::string_view what) {

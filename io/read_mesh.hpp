@@ -4,6 +4,7 @@
 #include "io/raw_mesh.hpp"
 
 #include <string>
+#include <vector>
 
 namespace aeroloom::io {
 
@@ -12,6 +13,9 @@ namespace aeroloom::io {
 /// assemble() has it. Collective; throws CollectiveError (files where the file cannot be opened, input for
 /// what is in it).
 Assembled read_mesh(const parallel::Communicator& communicator, const std::string& path, std::int32_t parts);
+
+/// The ends of paths that read_mesh() knows, each with its dot.
+std::vector<std::string> readable_extensions();
 
 /// What was done to a file's mesh: "3 cells turned over, 10 points without a cell dropped, ..."; "nothing
 /// changed".

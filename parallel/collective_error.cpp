@@ -1,5 +1,7 @@
 #include "parallel/collective_error.hpp"
 
+#include "parallel/memory_limit.hpp"
+
 #include <filesystem>
 #include <ios>
 #include <new>
@@ -14,15 +16,26 @@ struct Failure {
   std::string message;
 };
 
+/// How many agree() are at work, one within the other.
+int depth = 0;
+
+struct Depth {
+  Depth() { ++depth; }
+  ~Depth() { --depth; }
+  Depth(const Depth&) = delete;
+  Depth& operator=(const Depth&) = delete;
+};
+
 /// Runs the work; what it threw, if anything. A CollectiveError passes.
 std::optional<Failure> attempt(const std::function<void()>& work) {
   try {
+    const Depth deeper;
     work();
     return std::nullopt;
   } catch (const CollectiveError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    return Failure{FailureKind::resources, "out of memory"};
+    return Failure{FailureKind::resources, out_of_memory_text()};
   } catch (const std::logic_error& error) {
     return Failure{FailureKind::bug, error.what()};
   } catch (const std::ios_base::failure& error) {
@@ -37,6 +50,10 @@ std::optional<Failure> attempt(const std::function<void()>& work) {
 }
 
 }  // namespace
+
+bool is_agreeing() {
+  return depth > 0;
+}
 
 void agree(const Communicator& communicator, const std::function<void()>& work) {
   const std::optional<Failure> mine = attempt(work);

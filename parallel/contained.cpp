@@ -3,6 +3,8 @@
 #include "parallel/contained_server.hpp"
 #include "parallel/file_descriptor.hpp"
 #include "parallel/log.hpp"
+#include "parallel/memory_limit.hpp"
+#include "parallel/progress.hpp"
 #include "parallel/session.hpp"
 #include "parallel/timers.hpp"
 
@@ -87,7 +89,10 @@ void send_request(int socket, const ContainedRequest& request, const FileDescrip
 
 ContainedReply await_reply(int socket) {
   pollfd waiting{socket, POLLIN, 0};
-  while (poll(&waiting, 1, progress_interval_ms) <= 0) session::make_progress();
+  while (poll(&waiting, 1, progress_interval_ms) <= 0) {
+    session::make_progress();
+    beat();
+  }
   ContainedReply reply;
   ssize_t received = 0;
   do {
@@ -190,13 +195,16 @@ ContainedServer::~ContainedServer() {
 
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
                               const ContainedLimits& limits) {
-  const ContainedRequest request{position_of_task(name), limits};
+  ContainedRequest request{position_of_task(name), limits};
   if (!is_containment_ready()) return run_uncontained(registry().tasks[request.task], input);
   FileDescriptor input_memory = shared_memory("input"), output_memory = shared_memory("output");
   if (!write_all(input_memory.number(), input)) throw std::bad_alloc();
   return_free_memory();
+  request.limits.address_space_bytes = allowed_for_child(limits.address_space_bytes);
   send_request(server().socket.number(), request, input_memory, output_memory);
   const ContainedReply reply = await_reply(server().socket.number());
+  const bool was_short = request.limits.address_space_bytes < limits.address_space_bytes;
+  if (reply.status == ContainedStatus::out_of_memory && was_short) throw std::bad_alloc();
   ContainedResult result;
   result.status = reply.status;
   result.cpu_seconds = reply.cpu_seconds;

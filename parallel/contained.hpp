@@ -58,7 +58,8 @@ struct ContainedResult {
 /// Runs the task in a child of this rank's server and waits for it. Without a server the task runs here: what
 /// it throws is caught, but limits do not hold, and what aborts ends the program; the first such run warns.
 /// Not collective. Throws std::logic_error when the name is unknown and std::runtime_error when the server
-/// itself is gone.
+/// itself is gone; std::bad_alloc where it ran out of memory that the user's limit (memory_limit.hpp) kept
+/// from it: a result must not depend on that one.
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
                               const ContainedLimits& limits);
 

@@ -1,8 +1,10 @@
 #include "parallel/log.hpp"
 
-#include "parallel/timers.hpp"
+#include "parallel/log_line.hpp"
 
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -12,9 +14,11 @@ namespace aeroloom::parallel {
 
 namespace {
 
-/// Seconds between two lines of progress where lines stay, and where they are rewritten.
-constexpr double seconds_between_lines = 5;
-constexpr double seconds_between_rewrites = 0.2;
+/// Whether the user or the terminal wants neither colours nor lines that are rewritten.
+bool wants_plain_lines() {
+  const char *no_colour = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+  return (no_colour && *no_colour) || (terminal && std::strcmp(terminal, "dumb") == 0);
+}
 
 /// Facts go to standard output, warnings and errors to standard error.
 class Log {
@@ -25,29 +29,44 @@ public:
     _ranks = communicator.size();
     _level = level;
     // Under a launcher standard output may look like a terminal when the launcher's own is a file.
-    _rewrites = isatty(STDOUT_FILENO) && isatty(STDERR_FILENO);
+    _rewrites = isatty(STDOUT_FILENO) && isatty(STDERR_FILENO) && !wants_plain_lines();
     if (_facts) return;
-    _facts = spdlog::stdout_color_mt("aeroloom facts");
-    _troubles = spdlog::stderr_color_mt("aeroloom troubles");
+    const auto colours = wants_plain_lines() ? spdlog::color_mode::never : spdlog::color_mode::automatic;
+    _facts = spdlog::stdout_color_mt("aeroloom facts", colours);
+    _troubles = spdlog::stderr_color_mt("aeroloom troubles", colours);
     _facts->set_pattern("%v");
     _troubles->set_pattern("%^%v%$");
     _facts->flush_on(spdlog::level::info);
   }
   void fact(const std::string& message, LogLevel from) {
-    if (speaks_at(from)) _facts->info(message);
+    if (!speaks_at(from)) return;
+    erase_line();
+    _facts->info(message);
   }
   void trouble(spdlog::level::level_enum severity, const char* word, const std::string& message) {
     if (!_configured) {
       std::fprintf(stderr, "%s: %s\n", word, message.c_str());
       return;
     }
+    erase_line();
     _troubles->log(severity, "{}{}: {}", word, _ranks > 1 ? fmt::format(" (rank {})", _rank) : "", message);
   }
   bool speaks_at(LogLevel level) const { return _configured && _rank == 0 && _level >= level; }
   bool rewrites() const { return _rewrites; }
+  void show_line(const std::string& line) {
+    std::fputs((_rewrites ? "\r\033[K" + line : line + "\n").c_str(), stdout);
+    std::fflush(stdout);
+    _line_stands = _rewrites;
+  }
+  void erase_line() {
+    if (!_line_stands) return;
+    std::fputs("\r\033[K", stdout);
+    std::fflush(stdout);
+    _line_stands = false;
+  }
 
 private:
-  bool _configured = false, _rewrites = false;
+  bool _configured = false, _rewrites = false, _line_stands = false;
   Rank _rank = 0;
   int _ranks = 1;
   LogLevel _level = LogLevel::normal;
@@ -81,28 +100,24 @@ void log_error(const std::string& message) {
   log().trouble(spdlog::level::err, "error", message);
 }
 
-Progress::Progress(std::string stage, std::int64_t total)
-    : _stage(std::move(stage)), _total(total), _last_print(wall_seconds()) {}
+namespace log_line {
 
-Progress::~Progress() {
-  if (_printed && log().rewrites()) std::fputc('\n', stdout);
+bool is_wanted() {
+  return log().speaks_at(LogLevel::normal);
 }
 
-void Progress::advance(std::int64_t count) {
-  _done += count;
-  if (!log().speaks_at(LogLevel::normal)) return;
-  const double interval = log().rewrites() ? seconds_between_rewrites : seconds_between_lines;
-  const double now = wall_seconds();
-  const bool last_rewrite = _printed && log().rewrites() && _done == _total;
-  if (now - _last_print < interval && !last_rewrite) return;
-  _last_print = now;
-  _printed = true;
-  const double percent =
-      _total > 0 ? 100.0 * static_cast<double>(_done) / static_cast<double>(_total) : 100.0;
-  const std::string line = fmt::format("{:<10} {:3.0f} %  {} of {}  {} MB", _stage, percent, _done, _total,
-                                       resident_bytes() / 1'000'000);
-  std::fputs((log().rewrites() ? "\r\033[K" + line : line + "\n").c_str(), stdout);
-  std::fflush(stdout);
+bool is_rewritten() {
+  return log().rewrites();
 }
+
+void show(const std::string& line) {
+  log().show_line(line);
+}
+
+void erase() {
+  log().erase_line();
+}
+
+}  // namespace log_line
 
 }  // namespace aeroloom::parallel

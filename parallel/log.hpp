@@ -4,7 +4,6 @@
 
 #include "parallel/communicator.hpp"
 
-#include <cstdint>
 #include <string>
 
 namespace aeroloom::parallel {
@@ -21,22 +20,5 @@ void log_verbose(const std::string& message);
 /// Printed by the calling rank, with its number when there are several.
 void log_warning(const std::string& message);
 void log_error(const std::string& message);
-
-/// Progress of a stage on rank 0, of the work of that rank: percentage, count, memory. One line rewritten in
-/// place on a terminal, a plain line at most every few seconds elsewhere. Silent at LogLevel::quiet.
-class Progress {
-public:
-  Progress(std::string stage, std::int64_t total);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void advance(std::int64_t count = 1);
-
-private:
-  std::string _stage;
-  std::int64_t _total, _done = 0;
-  double _last_print = 0;  // wall seconds
-  bool _printed = false;
-};
 
 }  // namespace aeroloom::parallel

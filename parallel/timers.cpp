@@ -1,5 +1,6 @@
 #include "parallel/timers.hpp"
 
+#include "parallel/progress.hpp"
 #include "parallel/session.hpp"
 
 #include <algorithm>
@@ -139,6 +140,7 @@ void StageClock::begin(const std::string& name) {
   _message_wall_start = session::message_time().wall_seconds;
   _message_cpu_start = session::message_time().cpu_seconds;
   _shared_at_start = shared_bytes();
+  stage_begins(name);
 }
 
 void StageClock::end() {
@@ -155,6 +157,7 @@ void StageClock::end() {
   const std::int64_t own = peak - std::min(_shared_at_start, shared_bytes()) + share_of_shared_bytes();
   cost.peak_own_bytes = std::max(cost.peak_own_bytes, std::min(own, peak));
   _open = false;
+  stage_ends();
 }
 
 void StageClock::note(const std::string& name, double wall_seconds) {
@@ -226,6 +229,7 @@ ScopedCpu::~ScopedCpu() {
   const double all = cpu_seconds() - session::message_time().cpu_seconds - _start;
   const double used = all - (_clock._scoped_cpu - _scoped_before);
   _clock._scoped_cpu += used;
+  beat();
   if (!_clock._open) return;
   StageCost& cost = _clock.current();
   (_as == As::check ? cost.check_cpu_seconds : cost.task_cpu_seconds) += used;

@@ -67,6 +67,8 @@ struct Case {
   QualityGate gate;
   std::vector<PatchRule> patches;  ///< the first that a face matches holds
   OutputOptions output;
+  /// Bytes that all ranks of this node may take together; 0: any. Not a key: it changes no result.
+  std::int64_t memory_limit = 0;
 };
 
 /// Reads a case and overrides of the form "section.key=value" (the value is YAML; a later one wins). A

@@ -2,6 +2,7 @@
 
 #include "parallel/collective_error.hpp"
 #include "pipeline/change_json.hpp"
+#include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/size_domain.hpp"
 
@@ -21,10 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t shown_contacts = 20;
 constexpr int pieces_per_rank = 4;
 
-// What a run costs on one core, from runs at a million tetrahedra (docs/status.md).
-constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
-constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 120;
-
 Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
                       const Case& input) {
   parallel::StageClock clock;
@@ -36,8 +33,8 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   forecast.counts =
       sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
-  forecast.seconds = seconds_per_triangle * triangles + seconds_per_tetrahedron * tetrahedra;
-  forecast.bytes = base_bytes * communicator.size() + bytes_per_tetrahedron * tetrahedra;
+  forecast.seconds = predicted_seconds(forecast.counts);
+  forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
   const double pieces = pieces_per_rank * communicator.size();
   forecast.piece_triangles = std::clamp<std::int64_t>(std::llround(triangles / pieces), 1000, 200'000);
   forecast.piece_tets = std::clamp<std::int64_t>(std::llround(tetrahedra / pieces), 10'000, 1'000'000);

@@ -1,278 +1,73 @@
 #include "pipeline/command_line.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "pipeline/check.hpp"
-#include "pipeline/convert_file.hpp"
-#include "pipeline/improve_file.hpp"
-#include "pipeline/quality_file.hpp"
-#include "pipeline/report.hpp"
-#include "pipeline/run.hpp"
-#include "pipeline/stage.hpp"
-#include "pipeline/task_table.hpp"
-#include "pipeline/write_outputs.hpp"
+#include "parallel/progress.hpp"
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/commands/usage_error.hpp"
+#include "pipeline/library_versions.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <map>
+#include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 namespace {
-
-using parallel::Communicator;
 
 constexpr const char* description =
     "Aeroloom: from aircraft CAD to a distributed tetrahedral mesh.\n"
     "There are no boundary layers: all elements are isotropic tetrahedra.";
 
-constexpr const char* examples =
-    "Examples:\n"
-    "  aeroloom run configs/transport.yaml                 mesh the built-in aircraft on one rank\n"
-    "  mpirun -n 8 aeroloom run case.yaml                  the same mesh, bit for bit, by eight ranks\n"
-    "  aeroloom check case.yaml                            what is wrong with the CAD, what a run will cost\n"
-    "  aeroloom run case.yaml --set sizing.minimum=0.02    override a key of the case\n"
-    "  aeroloom improve mesh.vtu --set output.directory=better   improve another program's mesh\n"
-    "  aeroloom convert out/mesh.pvtu mesh.cgns             a mesh in the format of a solver "
-    "(docs/formats.md)\n"
-    "  aeroloom quality mesh.meshb --gate.largest_edge_ratio=1000   how good a mesh is (docs/quality.md)\n"
-    "  aeroloom export-cad configs/transport.yaml a.step   write the case's geometry as STEP\n\n"
-    "Exit codes: 0 ok, 2 usage or configuration, 3 CAD, 4 surface, 5 volume, 6 quality gate,\n"
-    "7 input/output, 8 resources, 70 bug.";
-
-/// What was typed.
-struct Arguments {
-  std::string case_file;
-  std::vector<std::string> overrides;
-  std::string cad_file, mesh_file;
-  Conversion conversion;
-  QualityRequest quality;
-  bool verbose = false, quiet = false;
-};
-
-void print(const Communicator& communicator, const std::string& text) {
-  if (communicator.is_root()) fmt::print("{}", text), std::fflush(stdout);
+/// Before the name of the command or behind it.
+void add_loudness(CLI::App& app, Loudness& loudness) {
+  app.add_flag("-v,--verbose", loudness.verbose, "say more")->group(option_group::printing);
+  app.add_flag("-q,--quiet", loudness.quiet, "print warnings and errors only")->group(option_group::printing);
 }
 
-int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
-  if (communicator.is_root()) parallel::log_error(message);
-  communicator.barrier();
-  return static_cast<int>(code);
-}
-
-void write_text(const std::string& file, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-  std::ofstream stream(file);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
-}
-
-/// Writes report.json for a run that ended well or not. Collective; what goes wrong here replaces a good
-/// outcome.
-void report(const Communicator& communicator, const Case& input, const std::string& improved_file,
-            const RunRecord& record, const RunOutcome& outcome) {
-  const auto stages = record.clock.summarise(communicator);
-  const std::string tasks = input.output.tasks ? task_table(communicator, record.clock) : "";
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    if (input.output.tasks) write_text(input.output.directory + "/tasks.csv", tasks);
-    write_text(input.output.directory + "/report.json",
-               improved_file.empty()
-                   ? report_json(input, record, stages, outcome, communicator.size())
-                   : improve_report_json(improved_file, input, record, stages, outcome, communicator.size()));
-  });
-  if (outcome.code == ExitCode::ok) print(communicator, report_table(record, stages, communicator.size()));
-}
-
-/// Runs a case, or improves a file where one is named, and reports; a failure is reported too, as far as the
-/// output directory can be written.
-int run(const Communicator& communicator, const Case& input, const std::string& improved_file) {
-  RunRecord record;
-  RunOutcome outcome;
-  const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
-  record.clock.note("start", age);
-  try {
-    if (improved_file.empty()) {
-      run_case(communicator, input, record);
-    } else {
-      improve_file(communicator, improved_file, input, record);
-    }
-  } catch (const StageFailure& failure) {
-    outcome = {failure.code(), failure.stage(), failure.what()};
-  }
-  record.wall_seconds = age + parallel::wall_seconds() - begin;
-  try {
-    report(communicator, input, improved_file, record, outcome);
-  } catch (const parallel::CollectiveError& error) {
-    if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
-  }
-  if (outcome.code != ExitCode::ok) {
-    return fail(communicator, outcome.code,
-                fmt::format("stage {} failed: {}", outcome.stage, outcome.message));
-  }
-  for (const io::FileFormat format : input.output.formats) {
-    const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
-    print(communicator,
-          fmt::format("{}: {}\n", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
-  }
-  return 0;
-}
-
-int check(const Communicator& communicator, const Case& input) {
-  try {
-    const ExitCode code = check_case(communicator, input);
-    communicator.barrier();
-    return static_cast<int>(code);
-  } catch (const std::invalid_argument& error) {
-    return fail(communicator, ExitCode::usage, error.what());
-  } catch (const parallel::CollectiveError& error) {
-    const bool files = error.kind() == parallel::FailureKind::files;
-    return fail(communicator, files ? ExitCode::files : ExitCode::cad, error.what());
-  }
-}
-
-int convert(const Communicator& communicator, const Arguments& arguments) {
-  try {
-    convert_file(communicator, arguments.conversion);
-    return 0;
-  } catch (const std::invalid_argument& error) {
-    return fail(communicator, ExitCode::usage, error.what());
-  } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, code_of(error, ExitCode::files), error.what());
-  }
-}
-
-int quality(const Communicator& communicator, const Arguments& arguments, const QualityGate& gate) {
-  try {
-    const std::string missed = show_quality(communicator, arguments.quality, gate);
-    return missed.empty() ? 0 : fail(communicator, ExitCode::quality_gate, missed);
-  } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, code_of(error, ExitCode::files), error.what());
-  }
-}
-
-int export_cad(const Communicator& communicator, const Case& input, const std::string& file) {
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) cad::export_step(input.domain, file);
-  });
-  print(communicator, fmt::format("wrote {}\n", file));
-  return 0;
-}
-
-/// Every rank reads the case: it is small, and all learn of an error together.
-Case load_case(const Communicator& communicator, const Arguments& arguments) {
-  Case input;
-  parallel::agree(communicator, [&] {
-    input = arguments.case_file.empty() ? case_of_overrides(arguments.overrides)
-                                        : read_case(arguments.case_file, arguments.overrides);
-  });
-  return input;
-}
-
-void add_common_options(CLI::App& command, Arguments& arguments) {
-  command
-      .add_option("--set", arguments.overrides,
-                  "override a key of the case, as section.key=value; repeatable")
-      ->allow_extra_args(false);
-  command.add_flag("-v,--verbose", arguments.verbose, "say more");
-  command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");
-}
-
-void add_case_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("case", arguments.case_file, "the case, a YAML file (docs/configuration.md)")
-      ->required();
-  add_common_options(command, arguments);
-}
-
-void add_convert_options(CLI::App& command, Arguments& arguments) {
-  Conversion& conversion = arguments.conversion;
-  command.add_option("from", conversion.from, "the mesh to read")->required();
-  command.add_option("to", conversion.to, "the file to write; its extension says the format")->required();
-  std::map<std::string, io::FileFormat> formats;
-  for (const io::FormatName& format : io::format_names) formats.emplace(format.name, format.format);
-  command.add_option("--format", conversion.format, "the format, where the extension does not say it")
-      ->transform(CLI::CheckedTransformer(formats));
-  command.add_option("--parts", conversion.options.parts, "parts of a format that comes in parts")
-      ->check(CLI::Range(1, 1000000));
-  command.add_flag("-v,--verbose", arguments.verbose, "say more");
-  command.add_flag("-q,--quiet", arguments.quiet, "print errors and warnings only");
-}
-
-void add_quality_options(CLI::App& command, Arguments& arguments) {
-  command
-      .add_option("file", arguments.quality.file, "the mesh, in any format that is read (docs/formats.md)")
-      ->required();
-  command.add_flag("--json", arguments.quality.print_json, "print JSON (docs/quality.md)");
-  command.add_option("--output", arguments.quality.json_file, "write the JSON to this file");
-  for (const std::string_view key : gate_keys) {
-    command.add_option_function<std::string>(
-        fmt::format("--gate.{}", key),
-        [&arguments, key](const std::string& value) {
-          arguments.overrides.push_back(fmt::format("improve.gate.{}={}", key, value));
-        },
-        fmt::format("limit; as improve.gate.{} (docs/configuration.md)", key));
-  }
+void describe_program(CLI::App& program) {
+  program.set_help_flag("-h,--help", "print this help and exit");
+  program.set_version_flag("--version", version_text, "print the versions of the program and its libraries");
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(34);
+  add_help_footer(program,
+                  {{"aeroloom init case.yaml --geometry wing.step", "a commented case to start from"},
+                   {"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
+                   {"aeroloom run case.yaml", "from CAD to a mesh, in the folder out"},
+                   {"mpirun -n 2 aeroloom run case.yaml", "the same mesh, bit for bit, by two ranks"},
+                   {"aeroloom quality out/mesh.pvtu", "how good it is"},
+                   {"aeroloom convert out/mesh.pvtu mesh.cgns", "a mesh in the format of a solver"},
+                   {"aeroloom run --help", "the options of a command, with more examples"}},
+                  {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::surface, ExitCode::volume,
+                   ExitCode::quality_gate, ExitCode::files, ExitCode::resources, ExitCode::bug});
 }
 
 }  // namespace
 
-int run_command_line(const Communicator& communicator, int argc, char** argv) {
-  Arguments arguments;
+int run_command_line(const parallel::Communicator& communicator, int argc, char** argv) {
   CLI::App program(description, "aeroloom");
-  program.footer(examples);
-  program.set_version_flag("--version",
-                           std::string("aeroloom ") + AEROLOOM_VERSION + "\n" + AEROLOOM_LIBRARIES);
-  program.require_subcommand(1);
-  CLI::App* run_command = program.add_subcommand("run", "mesh a case");
-  CLI::App* check_command = program.add_subcommand(
-      "check", "diagnose the geometry of a case and predict its mesh, without meshing");
-  CLI::App* export_command = program.add_subcommand("export-cad", "write the geometry of a case as STEP");
-  CLI::App* improve_command = program.add_subcommand(
-      "improve", "improve a mesh of tetrahedra from a file, its boundary kept as it is");
-  improve_command
-      ->add_option("file", arguments.mesh_file, "the mesh, in any format that is read (docs/formats.md)")
-      ->required();
-  CLI::App* convert_command = program.add_subcommand("convert", "write a mesh in another format");
-  add_convert_options(*convert_command, arguments);
-  CLI::App* quality_command =
-      program.add_subcommand("quality", "measure a mesh: angles, ratios, volumes, worst cells, defects");
-  add_quality_options(*quality_command, arguments);
-  add_common_options(*improve_command, arguments);
-  add_case_options(*run_command, arguments);
-  add_case_options(*check_command, arguments);
-  add_case_options(*export_command, arguments);
-  export_command->add_option("file", arguments.cad_file, "the STEP file to write")->required();
+  describe_program(program);
+  Loudness loudness;
+  add_loudness(program, loudness);
+  std::vector<Command> commands;
+  for (const auto add : {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad,
+                         add_completion, add_init, add_schema}) {
+    commands.push_back(add(program));
+    add_loudness(*commands.back().app, loudness);
+  }
+  parallel::configure_log(communicator, parallel::LogLevel::normal);
+  parallel::watch_node_memory(communicator);
   try {
     program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return communicator.is_root() ? program.exit(asked) : 0;
   } catch (const CLI::ParseError& error) {
-    const int code = communicator.is_root() ? program.exit(error) : error.get_exit_code();
-    return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    return fail(communicator, ExitCode::usage, explain_usage_error(program, error));
   }
-
-  parallel::configure_log(communicator, parallel::LogLevel::normal);
-  Case input;
-  try {
-    input = load_case(communicator, arguments);
-  } catch (const std::exception& error) {
-    return fail(communicator, ExitCode::usage, error.what());
+  if (loudness.verbose && loudness.quiet)
+    return fail(communicator, ExitCode::usage, "--verbose and --quiet exclude each other");
+  for (const Command& command : commands) {
+    if (command.app->parsed()) return command.run(communicator, loudness);
   }
-  parallel::configure_log(communicator, arguments.quiet     ? parallel::LogLevel::quiet
-                                        : arguments.verbose ? parallel::LogLevel::verbose
-                                                            : input.output.log);
-  if (run_command->parsed() || improve_command->parsed())
-    return run(communicator, input, arguments.mesh_file);
-  if (convert_command->parsed()) return convert(communicator, arguments);
-  if (quality_command->parsed()) return quality(communicator, arguments, input.gate);
-  if (check_command->parsed()) return check(communicator, input);
-  try {
-    return export_cad(communicator, input, arguments.cad_file);
-  } catch (const parallel::CollectiveError& error) {
-    const bool files = error.kind() == parallel::FailureKind::files;
-    return fail(communicator, files ? ExitCode::files : ExitCode::cad, error.what());
-  }
+  return static_cast<int>(ExitCode::bug);
 }
 
 }  // namespace aeroloom::pipeline

@@ -24,6 +24,7 @@ using parallel::Unpacker;
 
 const char* const prepare_task_name = "geometry.prepare";
 const char* const diagnose_task_name = "geometry.diagnose";
+const char* const look_task_name = "geometry.look";
 
 // Limits of a child, from the size of the file. Real files take up to 13 s per megabyte (an assembly of 222
 // solids) and less than a gigabyte; what takes several times as long is stuck.
@@ -140,6 +141,52 @@ Bytes diagnose_task(std::span<const std::byte> input) {
   });
 }
 
+void pack_named_faces(const std::vector<cad::NamedFaces>& list, Packer& packer) {
+  packer.value(static_cast<std::uint64_t>(list.size()));
+  for (const cad::NamedFaces& named : list) {
+    packer.text(named.name);
+    packer.value(named.faces);
+  }
+}
+
+std::vector<cad::NamedFaces> unpack_named_faces(Unpacker& unpacker) {
+  std::vector<cad::NamedFaces> list(unpacker.value<std::uint64_t>());
+  for (cad::NamedFaces& named : list) {
+    named.name = unpacker.text();
+    named.faces = unpacker.value<std::int32_t>();
+  }
+  return list;
+}
+
+void pack_facts(const cad::CadFacts& facts, Packer& packer) {
+  packer.text(facts.format);
+  packer.text(facts.unit_name);
+  packer.value(facts.unit_in_metres);
+  packer.value(facts.bounds);
+  for (const std::int32_t count : {facts.solids, facts.shells, facts.faces, facts.edges}) packer.value(count);
+  for (const auto* list : {&facts.parts, &facts.face_names, &facts.layers, &facts.colours})
+    pack_named_faces(*list, packer);
+}
+
+cad::CadFacts unpack_facts(Unpacker& unpacker) {
+  cad::CadFacts facts;
+  facts.format = unpacker.text();
+  facts.unit_name = unpacker.text();
+  facts.unit_in_metres = unpacker.value<double>();
+  facts.bounds = unpacker.value<geometry::Box>();
+  for (std::int32_t* count : {&facts.solids, &facts.shells, &facts.faces, &facts.edges})
+    *count = unpacker.value<std::int32_t>();
+  for (auto* list : {&facts.parts, &facts.face_names, &facts.layers, &facts.colours})
+    *list = unpack_named_faces(unpacker);
+  return facts;
+}
+
+Bytes look_task(std::span<const std::byte> input) {
+  return answer(input, [](const DomainOptions& options, Packer& packer) {
+    pack_facts(cad::look_at_cad_file(options.file), packer);
+  });
+}
+
 double file_bytes(const DomainOptions& options) {
   std::error_code ignored;  // a file that is not there is reported by who reads it
   const auto size = options.file.empty() ? 0 : std::filesystem::file_size(options.file, ignored);
@@ -199,6 +246,7 @@ auto run_task(const char* task, const DomainOptions& options, parallel::StageClo
 void register_geometry_tasks() {
   parallel::register_contained_task(prepare_task_name, prepare_task);
   parallel::register_contained_task(diagnose_task_name, diagnose_task);
+  parallel::register_contained_task(look_task_name, look_task);
 }
 
 cad::Domain prepare_contained(const DomainOptions& options, parallel::StageClock& clock, Sabotage sabotage) {
@@ -208,6 +256,13 @@ cad::Domain prepare_contained(const DomainOptions& options, parallel::StageClock
 cad::Diagnosis diagnose_contained(const DomainOptions& options, parallel::StageClock& clock,
                                   Sabotage sabotage) {
   return run_task(diagnose_task_name, options, clock, sabotage, unpack_diagnosis);
+}
+
+cad::CadFacts look_contained(const std::string& file) {
+  DomainOptions options;
+  options.file = file;
+  parallel::StageClock clock;
+  return run_task(look_task_name, options, clock, Sabotage::none, unpack_facts);
 }
 
 cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,

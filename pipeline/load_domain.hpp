@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cad/domain/domain.hpp"
+#include "cad/read/cad_facts.hpp"
 #include "cad/repair/diagnosis.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/sabotage.hpp"
@@ -22,6 +23,10 @@ cad::Domain prepare_contained(const cad::DomainOptions& options, parallel::Stage
 /// diagnosis. Not collective.
 cad::Diagnosis diagnose_contained(const cad::DomainOptions& options, parallel::StageClock& clock,
                                   parallel::Sabotage sabotage = parallel::Sabotage::none);
+
+/// Looks at a file in a child of this rank. Not collective. Throws what cad::look_at_cad_file throws, and as
+/// above.
+cad::CadFacts look_contained(const std::string& file);
 
 /// Rank 0 prepares the domain, every rank numbers its entities from the same bytes. `report` is filled on
 /// rank 0 alone. Collective; throws CollectiveError.

@@ -5,6 +5,7 @@
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
+#include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/size_domain.hpp"
@@ -48,7 +49,11 @@ public:
 
   void run() {
     const cad::Model domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
-    SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return find_or_build_sizes(domain); });
+    SizedDomain sized = stage("sizing", ExitCode::cad, [&] {
+      SizedDomain found = find_or_build_sizes(domain);
+      require_memory(_communicator, found, _input.memory_limit, _record.clock);
+      return found;
+    });
     FinishedSurface surface =
         stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
     mesh::DistributedMesh volume = find_or_build_volume(sized, surface);

@@ -1,5 +1,7 @@
 #include "pipeline/run_identity.hpp"
 
+#include "pipeline/library_versions.hpp"
+
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +25,9 @@ parallel::Digest digest_of_file(const std::string& path) {
 
 RunIdentity identify_run(const parallel::Communicator& communicator, const Case& input) {
   RunIdentity identity;
-  identity.version = std::string("aeroloom ") + AEROLOOM_VERSION + ", " + AEROLOOM_LIBRARIES;
+  identity.version = "aeroloom " + program_version();
+  for (const auto& [library, version] : library_versions())
+    identity.version += ", " + library + " " + version;
   std::vector<parallel::Digest> digests(2);
   if (communicator.is_root()) {
     digests[0] = digest_of_file("/proc/self/exe");

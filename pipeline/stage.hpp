@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/collective_error.hpp"
+#include "parallel/memory_limit.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/run.hpp"
 
@@ -29,7 +30,8 @@ auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work w
   } catch (const parallel::CollectiveError& error) {
     throw StageFailure(name, code_of(error, code), error.what());
   } catch (const std::bad_alloc&) {
-    throw StageFailure(name, ExitCode::resources, "out of memory");
+    parallel::give_up_without_memory();
+    throw StageFailure(name, ExitCode::resources, parallel::out_of_memory_text());
   } catch (const std::invalid_argument& error) {
     throw StageFailure(name, ExitCode::usage, error.what());
   } catch (const std::logic_error& error) {

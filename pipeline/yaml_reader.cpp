@@ -46,76 +46,93 @@ std::string KeyTable::origin_in(const Source& source, const YAML::Node& node) {
   return source.positions ? source.name + position(node.Mark()) : source.name;
 }
 
-void KeyTable::add(const std::string& name, std::function<void(const YamlValue&)> read,
-                   std::function<std::optional<std::string>()> written) {
+KeyTable::Entry& KeyTable::add(const std::string& name, KeyKind kind, const KeyDoc& doc) {
   Entry entry;
   entry.name = name;
+  entry.info.path = path_of(name);
+  entry.info.kind = kind;
+  entry.info.doc = doc;
+  _entries.push_back(std::move(entry));
+  return _entries.back();
+}
+
+void KeyTable::add(const std::string& name, KeyKind kind, const KeyDoc& doc, const Range& range,
+                   std::function<void(const YamlValue&)> read,
+                   std::function<std::optional<std::string>()> written) {
+  Entry& entry = add(name, kind, doc);
+  entry.info.range = range;
   entry.read = std::move(read);
   entry.written = std::move(written);
-  _entries.push_back(std::move(entry));
 }
 
-KeyTable& KeyTable::section(const std::string& name, bool* given) {
-  Entry entry;
-  entry.name = name;
+KeyTable& KeyTable::section(const std::string& name, const KeyDoc& doc, bool* given) {
+  Entry& entry = add(name, _declare_named ? KeyKind::named : KeyKind::section, doc);
   entry.given = given;
   entry.below = std::make_unique<KeyTable>();
-  entry.below->_path = path_of(name);
-  _entries.push_back(std::move(entry));
-  return *_entries.back().below;
+  entry.below->_path = entry.info.path;
+  return *entry.below;
 }
 
-void KeyTable::number(const std::string& name, double& target, const Range& range) {
+void KeyTable::number(const std::string& name, double& target, const Range& range, const KeyDoc& doc) {
   add(
-      name, [&target, range](const YamlValue& value) { target = value.number(range); },
+      name, KeyKind::number, doc, range,
+      [&target, range](const YamlValue& value) { target = value.number(range); },
       [&target] { return shortest(target); });
 }
 
-void KeyTable::number(const std::string& name, std::optional<double>& target, const Range& range) {
+void KeyTable::number(const std::string& name, std::optional<double>& target, const Range& range,
+                      const KeyDoc& doc) {
   add(
-      name, [&target, range](const YamlValue& value) { target = value.number(range); },
+      name, KeyKind::number, doc, range,
+      [&target, range](const YamlValue& value) { target = value.number(range); },
       [&target] { return target ? std::optional(shortest(*target)) : std::nullopt; });
 }
 
-void KeyTable::integer(const std::string& name, std::int64_t& target, const Range& range) {
+void KeyTable::integer(const std::string& name, std::int64_t& target, const Range& range, const KeyDoc& doc) {
   add(
-      name, [&target, range](const YamlValue& value) { target = value.integer(range); },
+      name, KeyKind::integer, doc, range,
+      [&target, range](const YamlValue& value) { target = value.integer(range); },
       [&target] { return std::to_string(target); });
 }
 
-void KeyTable::integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range) {
+void KeyTable::integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range,
+                       const KeyDoc& doc) {
   add(
-      name, [&target, range](const YamlValue& value) { target = value.integer(range); },
+      name, KeyKind::integer, doc, range,
+      [&target, range](const YamlValue& value) { target = value.integer(range); },
       [&target] { return target ? std::optional(std::to_string(*target)) : std::nullopt; });
 }
 
-void KeyTable::integer(const std::string& name, int& target, const Range& range) {
+void KeyTable::integer(const std::string& name, int& target, const Range& range, const KeyDoc& doc) {
   add(
-      name, [&target, range](const YamlValue& value) { target = static_cast<int>(value.integer(range)); },
+      name, KeyKind::integer, doc, range,
+      [&target, range](const YamlValue& value) { target = static_cast<int>(value.integer(range)); },
       [&target] { return std::to_string(target); });
 }
 
-void KeyTable::flag(const std::string& name, bool& target) {
+void KeyTable::flag(const std::string& name, bool& target, const KeyDoc& doc) {
   add(
-      name, [&target](const YamlValue& value) { target = value.flag(); },
+      name, KeyKind::flag, doc, {}, [&target](const YamlValue& value) { target = value.flag(); },
       [&target] { return target ? "true" : "false"; });
 }
 
-void KeyTable::text(const std::string& name, std::string& target) {
+void KeyTable::text(const std::string& name, std::string& target, const KeyDoc& doc) {
   add(
-      name, [&target](const YamlValue& value) { target = value.text(); },
+      name, KeyKind::text, doc, {}, [&target](const YamlValue& value) { target = value.text(); },
       [&target] { return target.empty() ? std::nullopt : std::optional(target); });
 }
 
-void KeyTable::texts(const std::string& name, std::vector<std::string>& target) {
-  add(
-      name, [&target](const YamlValue& value) { target = value.texts(); }, [] { return std::nullopt; });
-  _entries.back().listed = [&target] { return target; };
+void KeyTable::texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc) {
+  Entry& entry = add(name, KeyKind::texts, doc);
+  entry.read = [&target](const YamlValue& value) { target = value.texts(); };
+  entry.listed = [&target] { return target; };
 }
 
-void KeyTable::named_sections(const std::string& name,
+void KeyTable::named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
                               std::function<void(const std::string&, KeyTable&)> declare) {
-  section(name)._declare_named = std::move(declare);
+  KeyTable& below = section(name, doc);
+  below._declare_named = std::move(declare);
+  below._doc_of_named = doc_of_each;
 }
 
 void KeyTable::add_named(const std::string& name, const std::string& made_up) {
@@ -123,15 +140,12 @@ void KeyTable::add_named(const std::string& name, const std::string& made_up) {
 }
 
 KeyTable::Entry& KeyTable::make_named(const std::string& name) {
-  _declare_named(name, section(name));
+  _declare_named(name, section(name, _doc_of_named));
   return _entries.back();
 }
 
 void KeyTable::retired(const std::string& name, const std::string& why) {
-  Entry entry;
-  entry.name = name;
-  entry.why_retired = why;
-  _entries.push_back(std::move(entry));
+  add(name, KeyKind::retired, why.c_str());
 }
 
 void KeyTable::read_file(const std::string& file) {
@@ -164,14 +178,15 @@ void KeyTable::read_override(const std::string& assignment) {
   read(node, {name, false, *this});
 }
 
-void KeyTable::read(const YAML::Node& node, const Source& source) {
-  if (node.IsNull()) return;  // everything below is left out
+bool KeyTable::read(const YAML::Node& node, const Source& source) {
+  if (node.IsNull()) return false;  // everything below is left out
   if (!node.IsMap()) {
     const std::string place = _path.empty() ? "" : " below '" + _path + "'";
     throw CaseError(
         fmt::format("{}: expected keys{}, got {}", origin_in(source, node), place, describe(node)));
   }
   std::set<std::string> seen;
+  bool given = node.size() == 0;
   for (const auto& item : node) {
     const YAML::Node& key = item.first;
     const std::string where = origin_in(source, key);
@@ -186,24 +201,26 @@ void KeyTable::read(const YAML::Node& node, const Source& source) {
     }
     if (entry->is_retired()) {
       throw CaseError(
-          fmt::format("{}: '{}' is no longer needed: {}", where, path_of(name), entry->why_retired));
+          fmt::format("{}: '{}' is no longer needed: {}", where, path_of(name), entry->info.doc.text));
     }
     if (!seen.insert(name).second)
       throw CaseError(fmt::format("{}: key '{}' is given twice", where, path_of(name)));
     entry->where = where;
-    read_entry(*entry, item.second, source);
+    if (read_entry(*entry, item.second, source)) given = true;
   }
+  return given;
 }
 
-void KeyTable::read_entry(Entry& entry, const YAML::Node& node, const Source& source) {
+bool KeyTable::read_entry(Entry& entry, const YAML::Node& node, const Source& source) {
   if (entry.below) {
-    entry.below->read(node, source);
-    if (entry.given) *entry.given = true;
-    return;
+    const bool given = entry.below->read(node, source);
+    if (given && entry.given) *entry.given = true;
+    return given;
   }
   // What is not there has no place of its own: the key's is shown.
   const std::string where = node.IsNull() ? entry.where : origin_in(source, node);
   entry.read(YamlValue(node, path_of(entry.name), where));
+  return true;
 }
 
 KeyTable::Entry* KeyTable::find(const std::string& name) {
@@ -235,6 +252,38 @@ void KeyTable::collect_paths(std::vector<std::string>& paths) const {
   }
   for (const Entry& entry : _entries) {
     if (entry.below) entry.below->collect_paths(paths);
+  }
+}
+
+std::string KeyTable::Entry::default_value() const {
+  YAML::Emitter emitter;
+  if (listed) {
+    const std::vector<std::string> all = listed();
+    if (all.empty()) return "";
+    emitter << YAML::Flow << all;
+  } else {
+    const std::optional<std::string> value = written ? written() : std::nullopt;
+    if (!value) return "";
+    emitter << *value;
+  }
+  return emitter.c_str();
+}
+
+std::vector<KeyInfo> KeyTable::infos() const {
+  std::vector<KeyInfo> all;
+  collect_infos(all);
+  return all;
+}
+
+void KeyTable::collect_infos(std::vector<KeyInfo>& infos) const {
+  for (const Entry& entry : _entries) {
+    KeyInfo& info = infos.emplace_back(entry.info);
+    info.default_value = entry.default_value();
+    if (info.default_value.empty() && info.doc.example == info.doc.left_out) {  // a constant
+      info.default_value = info.doc.example;
+      info.doc.example = info.doc.left_out = "";
+    }
+    if (entry.below) entry.below->collect_infos(infos);
   }
 }
 

@@ -1,8 +1,9 @@
 /// Strict reading of YAML into variables: every key is declared once, with what it accepts and where its
-/// value goes; reading, writing and the search for the nearest key follow from that.
+/// value goes; reading, writing, documentation and the search for the nearest key follow from that.
 #pragma once
 
 #include "pipeline/case_error.hpp"
+#include "pipeline/key_info.hpp"
 #include "pipeline/yaml_value.hpp"
 
 #include <cstdint>
@@ -26,31 +27,34 @@ public:
   KeyTable(const KeyTable&) = delete;
   KeyTable& operator=(const KeyTable&) = delete;
 
-  /// Declares a key with keys below it. `given`, if any, becomes true when the key is read; while it is false
-  /// the section is not written.
-  KeyTable& section(const std::string& name, bool* given = nullptr);
-  void number(const std::string& name, double& target, const Range& range);
+  /// Declares a key with keys below it. `given`, if any, becomes true when something is given there; while it
+  /// is false the section is not written. Every declaration brings its documentation.
+  KeyTable& section(const std::string& name, const KeyDoc& doc, bool* given = nullptr);
+  void number(const std::string& name, double& target, const Range& range, const KeyDoc& doc);
   /// An empty optional is not written.
-  void number(const std::string& name, std::optional<double>& target, const Range& range);
-  void integer(const std::string& name, std::int64_t& target, const Range& range);
-  void integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range);
-  void integer(const std::string& name, int& target, const Range& range);
-  void flag(const std::string& name, bool& target);
+  void number(const std::string& name, std::optional<double>& target, const Range& range, const KeyDoc& doc);
+  void integer(const std::string& name, std::int64_t& target, const Range& range, const KeyDoc& doc);
+  void integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range,
+               const KeyDoc& doc);
+  void integer(const std::string& name, int& target, const Range& range, const KeyDoc& doc);
+  void flag(const std::string& name, bool& target, const KeyDoc& doc);
   /// Empty text is not accepted, and not written.
-  void text(const std::string& name, std::string& target);
+  void text(const std::string& name, std::string& target, const KeyDoc& doc);
   /// A list; the empty one is not written.
-  void texts(const std::string& name, std::vector<std::string>& target);
+  void texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc);
   /// One of the names, each standing for a value of the enumeration.
   template <class Enum>
-  void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values);
+  void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values,
+              const KeyDoc& doc);
   /// A list of such names; the empty one is not written.
   template <class Enum>
   void choices(const std::string& name, std::vector<Enum>& target,
-               const std::vector<std::pair<std::string, Enum>>& values);
-  /// Declares a key whose keys below are names that the user makes up. Each gets a table, which
-  /// `declare(name, table)` fills, when it is read, or by add_named(). Nothing is written while there is
-  /// none.
-  void named_sections(const std::string& name, std::function<void(const std::string&, KeyTable&)> declare);
+               const std::vector<std::pair<std::string, Enum>>& values, const KeyDoc& doc);
+  /// Declares a key whose keys below are names that the user makes up, `doc_of_each` documenting them. Each
+  /// gets a table, which `declare(name, table)` fills, when it is read, or by add_named(). Nothing is written
+  /// while there is none.
+  void named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
+                      std::function<void(const std::string&, KeyTable&)> declare);
   /// Below the key of named_sections(), of which `name` is the name.
   void add_named(const std::string& name, const std::string& made_up);
   /// A key of earlier versions: giving it is an error that says why it is no longer needed. It is neither
@@ -64,69 +68,77 @@ public:
   std::string where(const std::string& path) const;
   /// All values in the order of declaration, as YAML that read_file accepts.
   std::string write() const;
+  /// Everything declared, in that order, a section before what is below it; values there are now count as
+  /// defaults. Below named_sections() only names that were added.
+  std::vector<KeyInfo> infos() const;
 
 private:
   struct Entry {
     std::string name;
+    KeyInfo info;                                         // without the default
     std::unique_ptr<KeyTable> below;                      // of a section
     bool* given = nullptr;                                // of a section
     std::function<void(const YamlValue&)> read;           // of a value
     std::function<std::optional<std::string>()> written;  // of a value
     std::function<std::vector<std::string>()> listed;     // of a list
-    std::string why_retired;                              // of a retired key
     std::string where;
 
-    bool is_retired() const { return !why_retired.empty(); }
+    bool is_retired() const { return info.kind == KeyKind::retired; }
+    std::string default_value() const;
   };
   struct Source;
 
   static std::string origin_in(const Source& source, const YAML::Node& node);
-  void add(const std::string& name, std::function<void(const YamlValue&)> read,
-           std::function<std::optional<std::string>()> written);
-  void read(const YAML::Node& node, const Source& source);
-  void read_entry(Entry& entry, const YAML::Node& node, const Source& source);
+  Entry& add(const std::string& name, KeyKind kind, const KeyDoc& doc);
+  void add(const std::string& name, KeyKind kind, const KeyDoc& doc, const Range& range,
+           std::function<void(const YamlValue&)> read, std::function<std::optional<std::string>()> written);
+  // Whether something is given: an empty section among others is as if it were not there.
+  bool read(const YAML::Node& node, const Source& source);
+  bool read_entry(Entry& entry, const YAML::Node& node, const Source& source);
   Entry* find(const std::string& name);
   Entry& make_named(const std::string& name);
   std::string path_of(const std::string& name) const { return _path.empty() ? name : _path + "." + name; }
   std::string advice(const std::string& unknown, const KeyTable& root) const;
   void collect_paths(std::vector<std::string>& paths) const;
+  void collect_infos(std::vector<KeyInfo>& infos) const;
   void write(YAML::Emitter& emitter) const;
 
   std::string _path;  // of the section; empty at the top
   std::vector<Entry> _entries;
   std::function<void(const std::string&, KeyTable&)> _declare_named;  // where keys are names made up
+  KeyDoc _doc_of_named = "";
 };
 
 template <class Enum>
 void KeyTable::choice(const std::string& name, Enum& target,
-                      const std::vector<std::pair<std::string, Enum>>& values) {
-  std::vector<std::string> names;
+                      const std::vector<std::pair<std::string, Enum>>& values, const KeyDoc& doc) {
+  Entry& entry = add(name, KeyKind::choice, doc);
+  std::vector<std::string>& names = entry.info.choices;
   names.reserve(values.size());
   for (const auto& value : values) names.push_back(value.first);
-  add(
-      name, [&target, names, values](const YamlValue& value) { target = values[value.choice(names)].second; },
-      [&target, values]() -> std::optional<std::string> {
-        for (const auto& value : values) {
-          if (value.second == target) return value.first;
-        }
-        return std::nullopt;
-      });
+  entry.read = [&target, names, values](const YamlValue& value) {
+    target = values[value.choice(names)].second;
+  };
+  entry.written = [&target, values]() -> std::optional<std::string> {
+    for (const auto& value : values) {
+      if (value.second == target) return value.first;
+    }
+    return std::nullopt;
+  };
 }
 
 template <class Enum>
 void KeyTable::choices(const std::string& name, std::vector<Enum>& target,
-                       const std::vector<std::pair<std::string, Enum>>& values) {
-  std::vector<std::string> names;
+                       const std::vector<std::pair<std::string, Enum>>& values, const KeyDoc& doc) {
+  Entry& entry = add(name, KeyKind::choices, doc);
+  std::vector<std::string>& names = entry.info.choices;
   names.reserve(values.size());
   for (const auto& value : values) names.push_back(value.first);
-  add(
-      name,
-      [&target, names, values](const YamlValue& value) {
-        target.clear();
-        for (const std::size_t i : value.choices(names)) target.push_back(values[i].second);
-      },
-      [] { return std::nullopt; });
-  _entries.back().listed = [&target, values] {
+  entry.read = [&target, names, values](const YamlValue& value) {
+    target.clear();
+    for (const std::size_t i : value.choices(names)) target.push_back(values[i].second);
+  };
+  entry.listed = [&target, values] {
     std::vector<std::string> chosen;
     for (const Enum item : target) {
       for (const auto& value : values) {

@@ -43,8 +43,14 @@ std::string describe(const YAML::Node& node) {
 
 std::string shortest(double value) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
+  // Counts are written out; an exponent goes without its plus sign and zeros.
+  const bool count = value == std::floor(value) && std::abs(value) < 1e9;
+  const auto end = count ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr
+                         : std::to_chars(text, text + sizeof text, value).ptr;
+  std::string shown{text, end};
+  const std::size_t exponent = shown.find("e+");
+  if (exponent != std::string::npos) shown.erase(exponent + 1, shown[exponent + 2] == '0' ? 2 : 1);
+  return shown;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -57,6 +63,12 @@ Range Range::above(double low, const std::string& unit) {
 
 Range Range::above(double low, double up_to, const std::string& unit) {
   return {low, up_to, false, unit};
+}
+
+Range Range::any(const std::string& unit) {
+  Range range;
+  range.unit = unit;
+  return range;
 }
 
 Range Range::between(double low, double high, const std::string& unit) {

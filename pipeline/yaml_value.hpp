@@ -20,6 +20,7 @@ struct Range {
   bool low_allowed = true;
   std::string unit;
 
+  static Range any(const std::string& unit);
   static Range above(double low, const std::string& unit = "");
   static Range above(double low, double up_to, const std::string& unit = "");
   static Range between(double low, double high, const std::string& unit = "");
@@ -55,7 +56,7 @@ private:
 
 /// What a node is, in the words of a message.
 std::string describe(const YAML::Node& node);
-/// The shortest text that reads back as the same number.
+/// A short text that reads back as the same number, such as 0.1, 1000000 or 1e9.
 std::string shortest(double value);
 /// Names with commas between them.
 std::string joined(const std::vector<std::string>& names);

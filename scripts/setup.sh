@@ -20,6 +20,8 @@ test_packages=(
   python3-numpy python3-vtk9
   # readers of our files that others wrote: tests compare with them
   cgns-convert gmsh openfoam python3-h5py python3-meshio
+  # what checks cases by our schema
+  python3-jsonschema python3-yaml
 )
 case "${1:-}" in
   "") ;;

@@ -1,6 +1,7 @@
 #include "sizing/model_sampler.hpp"
 
 #include "parallel/collective_error.hpp"
+#include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
 #include "sizing/curvature_size.hpp"
 #include "sizing/field_builder.hpp"
@@ -100,8 +101,11 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
     _far_field = find_far_field(model);
     const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
     _owners = parallel::assign_largest_first(loads, communicator.size());
+    parallel::Progress progress("sizing", model.face_count(), "faces");
     for (FaceId f = 0; f < model.face_count(); ++f) {
-      if (_owners[f] == communicator.rank()) add_face(f);
+      const bool mine = _owners[f] == communicator.rank();
+      if (mine) add_face(f);
+      progress.advance(1, mine ? 1 : 0);
     }
     list_corners();
   });

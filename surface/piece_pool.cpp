@@ -1,7 +1,7 @@
 #include "surface/piece_pool.hpp"
 
 #include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
+#include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
 #include "surface/face_mesher.hpp"
 #include "surface/support_mesher.hpp"
@@ -226,7 +226,7 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
                                 const CurveMesh& curves, const SizeField& field) {
   Conflicts conflicts;
   const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
-  parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()));
+  parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()), "triangles");
   for (const auto& [key, seed] : seeds) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
@@ -250,7 +250,8 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
       if (conflicts.complaint.empty()) conflicts.complaint = error.what();
       conflicts.undivided.push_back(key[0]);
     }
-    progress.advance();
+    const auto made = _meshed.find(key);
+    progress.advance(1, made == _meshed.end() ? 0 : made->second.piece.cell_count());
   }
   return conflicts;
 }

@@ -1,5 +1,6 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "parallel/progress.hpp"
 #include "volume/agreement.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
@@ -28,8 +29,7 @@ constexpr Rung ladder[] = {
     {"a wider halo, other perturbations of its points", true, 0},
     {"a wider halo, points farther off the surface", true, 1},
 };
-/// What the halo grows by with each of them.
-constexpr double wider = 1.5;
+constexpr double wider = 1.5;  // the halo, each time
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
 
@@ -64,16 +64,20 @@ private:
 
   void fill(ZonePlan plan) {
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
+    constexpr std::int64_t steps = 1000;  // of a wave, whatever its zones
+    parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.wants.size()), "tetrahedra");
+    std::int64_t waves = 0, made = 0;
     for (const std::vector<ZoneWant>& wants : plan.wants) {
       std::vector<ZoneContent> contents =
           supply_zones(_communicator, _data.tables(), {_data.points, _data.triangles, *_data.of_blocks},
                        _finder, _data.shares, plan.widths, wants, _clock);
       parallel::agree(_communicator, [&] {
-        for (ZoneContent& content : contents) {
-          fill_one(content);
-          content = {};
+        for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
+          made += fill_one(contents[i]);
+          progress.reach(waves * steps + static_cast<std::int64_t>((i + 1) * steps / contents.size()), made);
         }
       });
+      progress.reach(++waves * steps, made);
     }
   }
 
@@ -83,7 +87,8 @@ private:
     return plan_zones(_communicator, _data.tables(), pending, widths, _clock);
   }
 
-  void fill_one(ZoneContent& content) {
+  /// Tetrahedra made.
+  std::int64_t fill_one(ZoneContent& content) {
     const ScopedCpu task(_clock, ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
     require_size(content);
@@ -103,11 +108,12 @@ private:
       _clock.note_task({"zone", content.zone, static_cast<double>(predict_tetrahedra(content.problem)),
                         parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
                         filling.child_peak_bytes});
-      return;
+      return static_cast<std::int64_t>(filling.owned.cells.size());
     }
     _failures.push_back({content.zone, filling.failure});
     _evidence.note(content, _input.surface, filling.failure,
                    _changes_of[content.zone] == 0 ? Evidence::Look::later : Evidence::Look::for_defects);
+    return 0;
   }
 
   void require_size(const ZoneContent& content) const {

@@ -1,6 +1,7 @@
 #include "io/vtk/vtk_parts.hpp"
 
 #include "parallel/collective_error.hpp"
+#include "parallel/progress.hpp"
 
 #include <algorithm>
 #include <array>
@@ -283,12 +284,14 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
     if (communicator.is_root()) prepare_folder(files);
   });
   const Plan plan = plan_files(communicator, mine, content, items_per_file);
+  parallel::Progress progress("output", static_cast<std::int64_t>(plan.turns), "files");
   for (std::size_t turn = 0; turn < plan.turns; ++turn) {
     const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, turn);
     const std::vector<PartPiece> pieces = pieces_of_turn(communicator, mine, plan, turn, brought);
     parallel::agree(communicator, [&] {
       if (!pieces.empty()) write(pieces, files.part_path(plan.file_of[pieces[0].part.id]));
     });
+    progress.advance(1, pieces.empty() ? 0 : 1);
   }
   return plan.files.size();
 }

@@ -1,7 +1,12 @@
 #include "parallel/log.hpp"
 
+#include "parallel/progress.hpp"
+
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +68,29 @@ TEST_F(LogTest, QuickProgressIsNotWorthALine) {
     for (int i = 0; i < 1000; ++i) progress.advance();
   });
   EXPECT_EQ(printed.out, "");
+}
+
+TEST_F(LogTest, LongProgressGetsPlainLinesAndALastOne) {
+  const auto work = [&](LogLevel level) {
+    return printed_by([&] {
+      configure_log(world, level);
+      Progress progress("surface", 2, "triangles");
+      std::this_thread::sleep_for(std::chrono::milliseconds(level == LogLevel::quiet ? 0 : 5100));
+      progress.advance(1, 20);
+      progress.advance(1, 30);
+    });
+  };
+  const Printed printed = work(LogLevel::normal);
+  EXPECT_EQ(printed.err, "");
+  if (world.is_root()) {
+    EXPECT_NE(printed.out.find("surface     50 %  20 triangles  "), std::string::npos) << printed.out;
+    EXPECT_NE(printed.out.find("surface    100 %  50 triangles  "), std::string::npos) << printed.out;
+    EXPECT_EQ(printed.out.find('\r'), std::string::npos);
+    EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 2);
+  } else {
+    EXPECT_EQ(printed.out, "");
+  }
+  EXPECT_EQ(work(LogLevel::quiet).out, "");
 }
 
 }  // namespace

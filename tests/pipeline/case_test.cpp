@@ -163,7 +163,7 @@ TEST_F(CaseTest, UnknownKeysOfAnotherSectionNameIt) {
 TEST_F(CaseTest, UnknownKeysWithNothingNearListTheValidOnes) {
   EXPECT_EQ(error_of(transport + "output: {quux: 1}\n"),
             "case.yaml:2:10: unknown key 'quux' in 'output'; valid keys: directory, formats, parts, tasks, "
-            "compression, log");
+            "compression, checkpoints, pictures, log");
 }
 
 TEST_F(CaseTest, RetiredKeysSayWhyTheyAre) {
@@ -219,7 +219,7 @@ TEST_F(CaseTest, ValuesOutOfRangeNameTheRange) {
             "case.yaml:2:20: 'farfield.extent' is -1, but must be above 0 reference lengths");
   EXPECT_EQ(
       error_of(transport + "volume: {piece_tets: 1e300}\n"),
-      "case.yaml:2:22: 'volume.piece_tets' is 1e+300, but must be at least 100 and at most 1e+09 elements");
+      "case.yaml:2:22: 'volume.piece_tets' is 1e300, but must be at least 100 and at most 1e9 elements");
   EXPECT_EQ(
       error_of(transport + "volume: {perturbation: 0.1}\n"),
       "case.yaml:2:24: 'volume.perturbation' is 0.1, but must be at least 0 and at most 0.05 mean edges of "
@@ -264,6 +264,14 @@ TEST_F(CaseTest, AFluidHasNoFarField) {
             "case.yaml:2:1: 'farfield' surrounds bodies, but 'geometry.domain' is fluid");
   EXPECT_EQ(error_of("geometry: {builtin: transport, domain: fluid}\n"),
             "case.yaml:1:32: the built-in geometry is a body, 'geometry.domain' cannot be fluid");
+}
+
+TEST_F(CaseTest, EmptySectionsAreAsIfTheyWereNotThere) {
+  const std::string file = "geometry:\n  file: a.step\n  dimensions:\n    wing:\n  domain: fluid\n";
+  EXPECT_EQ(error_of(file + "farfield:\npatches:\nsizing:\nimprove:\n  gate:\n"), "no error");
+  EXPECT_EQ(resolved_yaml(read(file + "farfield:\n")), resolved_yaml(read(file)));
+  EXPECT_NE(error_of(file + "farfield: {}\n"), "no error");
+  EXPECT_TRUE(read("geometry: {file: a.step}\nfarfield: {}\n").domain.far_field);
 }
 
 TEST_F(CaseTest, SyntaxErrorsHaveTheirPlace) {

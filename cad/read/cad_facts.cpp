@@ -1,0 +1,68 @@
+#include "cad/read/cad_facts.hpp"
+
+#include "cad/model/model_data.hpp"
+#include "cad/model/occ_guard.hpp"
+#include "cad/read/cad_reader.hpp"
+
+#include <map>
+
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+
+namespace aeroloom::cad {
+namespace {
+
+std::int32_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map.Extent();
+}
+
+using Counts = std::map<std::string, std::int32_t>;
+
+std::vector<NamedFaces> listed(const Counts& counts) {
+  std::vector<NamedFaces> list;
+  for (const auto& [name, faces] : counts) {
+    if (!name.empty()) list.push_back({name, faces});
+  }
+  return list;
+}
+
+void list_labels(const NamedShape& named, CadFacts& facts) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  Counts parts, names, layers, colours;
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const FaceLabel* label = named.labels.Seek(faces(i));
+    if (label == nullptr) continue;
+    ++parts[label->solid];
+    ++names[label->name];
+    ++layers[label->layer];
+    ++colours[label->colour];
+  }
+  facts.parts = listed(parts);
+  facts.face_names = listed(names);
+  facts.layers = listed(layers);
+  facts.colours = listed(colours);
+}
+
+}  // namespace
+
+CadFacts look_at_cad_file(const std::string& file) {
+  CadFacts facts;
+  facts.format = format_of_cad_file(file);
+  guarded("looking at the geometry", [&] {
+    const NamedShape named = read_cad_file(file);
+    facts.unit_name = named.unit_name;
+    facts.unit_in_metres = named.unit_in_metres;
+    facts.bounds = tight_box(named.shape);
+    facts.solids = count(named.shape, TopAbs_SOLID);
+    facts.shells = count(named.shape, TopAbs_SHELL);
+    facts.faces = count(named.shape, TopAbs_FACE);
+    facts.edges = count(named.shape, TopAbs_EDGE);
+    list_labels(named, facts);
+  });
+  return facts;
+}
+
+}  // namespace aeroloom::cad

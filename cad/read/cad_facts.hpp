@@ -1,0 +1,33 @@
+/// What a CAD file holds, as it stands there: for a look, without any repair.
+#pragma once
+
+#include "geometry/vec.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// A name, and how many faces carry it.
+struct NamedFaces {
+  std::string name;
+  std::int32_t faces = 0;
+};
+
+struct CadFacts {
+  std::string format;         ///< "STEP", "IGES" or "BREP"
+  std::string unit_name;      ///< of length; empty where the file declares none
+  double unit_in_metres = 1;  ///< where it declares one
+  geometry::Box bounds;       ///< in the file's unit
+  std::int32_t solids = 0, shells = 0, faces = 0, edges = 0;
+  /// By name, each once: of solids (parts, products), of faces, of layers, and colours ("#rrggbb").
+  std::vector<NamedFaces> parts, face_names, layers, colours;
+};
+
+/// Reads the file, in this process: what crashes in the CAD library ends it. Not collective. Throws CadError
+/// for files that are neither STEP, IGES nor BREP, damaged or empty, std::ios_base::failure where it cannot
+/// be opened.
+CadFacts look_at_cad_file(const std::string& file);
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,127 @@
+#include "pipeline/case_keys.hpp"
+
+#include "sizing/size_field.hpp"
+
+#include <string>
+
+namespace aeroloom::pipeline {
+
+namespace {
+
+void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
+  keys.number("minimum", sizing.minimum, Range::above(0, length_unit),
+              common({"Smallest size where surfaces are curved. At most `maximum` and `surface_maximum`.",
+                      "from the model", "0.01"}));
+  keys.number("feature_minimum", sizing.feature_minimum, Range::above(0, length_unit),
+              {"Smallest size at short CAD edges, in narrow faces (blunt trailing edges) and behind sharp "
+               "corners. From the model: as small as they are, within `feature_budget`, a thousandth of the "
+               "minimum at least in narrow faces, a twentieth elsewhere.",
+               "from the model; a twentieth of `minimum` where that is given", "0.001"});
+  keys.number("maximum", sizing.maximum, Range::above(0, length_unit),
+              common({"Largest size, reached in the far field.", "from the model", "10"}));
+  keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length_unit),
+              common({"Largest size on faces that are not far field.", "none", "0.5"}));
+}
+
+void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
+  const sizing::SizingOptions preset;
+  declare_bounds(keys, sizing);
+  keys.number(
+      "curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
+      common({"How far an element may turn on curved faces and edges: less makes leading edges finer.",
+              shortest(preset.curvature_angle), shortest(preset.curvature_angle)}));
+  keys.number(
+      "chordal_deviation", sizing.chordal_deviation, Range::above(0, length_unit),
+      {"Distance of triangles from curved faces, at most. Sizes may fall to `feature_minimum` for it.", "any",
+       "0.0001"});
+  keys.number(
+      "growth", sizing.growth, Range::above(1, 3),
+      common({"Ratio of the sizes of neighbouring elements, at most. Nearer to 1 makes the mesh smoother "
+              "and larger.",
+              shortest(preset.growth), shortest(preset.growth)}));
+  keys.number(
+      "proximity", sizing.proximity, Range::between(0, 20, "elements"),
+      {"How many elements lie across a thin part of the body and across a gap, at least; 0: any number.",
+       shortest(preset.proximity), shortest(preset.proximity)});
+  keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
+              common("How many tetrahedra the sizes chosen from the model aim at, features finer than the "
+                     "minimum left out. The first key to touch for a finer or coarser mesh. Sizes that are "
+                     "given stay as they are."));
+  keys.number(
+      "feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
+      "Features finer than the minimum, and after them gaps between walls, come on top of the target, "
+      "up to this many times it in all. Beyond it strips get triangles longer than wide, and the log, "
+      "the report and `check` name them with what they would take.");
+}
+
+void declare_surface(KeyTable& keys, Case& result) {
+  using surface::SurfaceDecomposition;
+  keys.integer("piece_triangles", result.surface.piece_triangles, Range::between(100, 1e9, "elements"),
+               "Wanted triangles of a piece of the surface; CAD faces heavier than one and a half pieces are "
+               "cut. Less helps many ranks on small meshes.");
+  keys.choice<SurfaceDecomposition>(
+      "decomposition", result.surface.decomposition,
+      {{"faces", SurfaceDecomposition::faces}, {"pieces", SurfaceDecomposition::pieces}},
+      "`pieces` cuts heavy CAD faces, `faces` keeps one piece per CAD face.");
+  keys.number(
+      "cut_angle", result.surface.cut_angle, Range::between(0, 60, "degrees"),
+      "Angle that cuts make with each other and with feature curves at least; 0: cuts as METIS leaves "
+      "them.");
+}
+
+void declare_volume(KeyTable& keys, Case& result) {
+  keys.integer("piece_tets", result.volume.piece_tets, Range::between(100, 1e9, "elements"),
+               {"Wanted tetrahedra of a piece of the volume; a volume of more than one and a half pieces is "
+                "filled in [zones](volume_decomposition.md).",
+                "a sixteenth of all, 40,000 to 500,000", "200000"});
+  keys.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"),
+              "Distance of lattice points from the boundary. The default suits nearly every mesh.");
+  keys.number("perturbation", result.volume.perturbation,
+              Range::between(0, 0.05, "mean edges of the lattice"),
+              "Perturbation of lattice points, which keeps them from lying on common spheres.");
+  keys.number("halo", result.volume.halo, Range::between(0.5, 5, "largest sizes nearby"),
+              "Width of what a zone knows around it. Zones with narrower ones may disagree, wider ones cost "
+              "time.");
+  declare_sabotage(keys, result.volume.sabotage,
+                   "A failure to provoke in the contained run of TetGen; for tests.");
+  keys.integer("inject_zone", result.volume.sabotaged_zone, Range::between(-1, 1e9),
+               "The zone that `inject` strikes until it is merged with another; -1: all.");
+  const std::string no_interfaces = "volume pieces have no interfaces";
+  keys.retired("erase_interfaces", no_interfaces);
+  keys.retired("interface_angle", no_interfaces);
+}
+
+}  // namespace
+
+void declare_sabotage(KeyTable& keys, parallel::Sabotage& sabotage, const KeyDoc& doc) {
+  using parallel::Sabotage;
+  keys.choice<Sabotage>("inject", sabotage,
+                        {{"none", Sabotage::none},
+                         {"throws", Sabotage::throws},
+                         {"aborts", Sabotage::aborts},
+                         {"hangs", Sabotage::hangs},
+                         {"exhausts_memory", Sabotage::exhausts_memory}},
+                        doc);
+}
+
+void declare_case_keys(KeyTable& root, CaseDraft& draft) {
+  declare_geometry_keys(root, draft);
+  declare_sizing(
+      root.section("sizing", common("How large elements are. What is left out is chosen from the model; the "
+                                    "smallest of all sizes that are asked for somewhere wins there.")),
+      draft.result.sizing);
+  declare_surface(root.section("surface", "How the surface is cut into pieces of work."), draft.result);
+  declare_volume(root.section("volume", "How the volume is cut into pieces of work and filled."),
+                 draft.result);
+  declare_result_keys(root, draft.result);
+}
+
+std::vector<KeyInfo> case_keys() {
+  CaseDraft draft;
+  KeyTable keys;
+  declare_case_keys(keys, draft);
+  keys.add_named("patches", made_up_name);
+  return keys.infos();
+}
+
+}  // namespace aeroloom::pipeline

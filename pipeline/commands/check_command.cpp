@@ -1,0 +1,29 @@
+#include "pipeline/check.hpp"
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace aeroloom::pipeline {
+
+Command add_check(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(
+      "check", "diagnose the geometry of a case and predict its mesh, without meshing");
+  const auto arguments = std::make_shared<CaseArguments>();
+  add_case_file(*app, *arguments);
+  add_overrides(*app, *arguments);
+  add_help_footer(
+      *app,
+      {{"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
+       {"aeroloom check case.yaml --set sizing.target_tetrahedra=200000", "of another size"}},
+      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
+            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+              return guarded(communicator, ExitCode::cad, [&] { return check_case(communicator, input); });
+            });
+          }};
+}
+
+}  // namespace aeroloom::pipeline

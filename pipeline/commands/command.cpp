@@ -1,0 +1,84 @@
+#include "pipeline/commands/command.hpp"
+
+#include "parallel/memory_limit.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/stage.hpp"
+
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+using parallel::Communicator;
+
+parallel::LogLevel Loudness::level(parallel::LogLevel otherwise) const {
+  if (quiet) return parallel::LogLevel::quiet;
+  return verbose ? parallel::LogLevel::verbose : otherwise;
+}
+
+void add_case_file(CLI::App& command, CaseArguments& arguments) {
+  command.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
+      ->required()
+      ->type_name(file_kind::of_case);
+}
+
+void add_mesh_file(CLI::App& command, const std::string& name, std::string& file) {
+  command.add_option(name, file, "the mesh, in any format that is read (docs/formats.md)")
+      ->required()
+      ->type_name(file_kind::mesh);
+}
+
+void add_overrides(CLI::App& command, CaseArguments& arguments) {
+  command
+      .add_option("--set", arguments.overrides,
+                  "override a key of the case, as section.key=value; repeatable")
+      ->allow_extra_args(false)
+      ->type_name(assignment)
+      ->group(option_group::of_case);
+}
+
+int with_case(const Communicator& communicator, const CaseArguments& arguments, const Loudness& loudness,
+              const std::function<int(const Case&)>& work) {
+  parallel::configure_log(communicator, loudness.level());
+  Case input;
+  try {
+    // Every rank reads the case: it is small, and all learn of an error together.
+    parallel::agree(communicator, [&] {
+      input = arguments.file.empty() ? case_of_overrides(arguments.overrides)
+                                     : read_case(arguments.file, arguments.overrides);
+    });
+  } catch (const parallel::CollectiveError& error) {
+    return fail(communicator, ExitCode::usage, error.what());
+  }
+  parallel::configure_log(communicator, loudness.level(input.output.log));
+  return work(input);
+}
+
+void print(const Communicator& communicator, const std::string& text) {
+  if (communicator.is_root()) fmt::print("{}", text), std::fflush(stdout);
+}
+
+int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
+  if (communicator.is_root()) parallel::log_error(message);
+  communicator.barrier();
+  return static_cast<int>(code);
+}
+
+int guarded(const Communicator& communicator, ExitCode otherwise, const std::function<ExitCode()>& work) {
+  try {
+    const ExitCode code = work();
+    communicator.barrier();
+    return static_cast<int>(code);
+  } catch (const std::invalid_argument& error) {
+    return fail(communicator, ExitCode::usage, error.what());
+  } catch (const parallel::CollectiveError& error) {
+    return fail(communicator, code_of(error, otherwise), error.what());
+  } catch (const std::bad_alloc&) {
+    parallel::give_up_without_memory();
+    return fail(communicator, ExitCode::resources, parallel::out_of_memory_text());
+  }
+}
+
+}  // namespace aeroloom::pipeline

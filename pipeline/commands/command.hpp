@@ -1,0 +1,59 @@
+/// What the commands of the program share: how one is added to the command line, and how it ends.
+#pragma once
+
+#include "parallel/collective_error.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/log.hpp"
+#include "pipeline/case.hpp"
+#include "pipeline/exit_code.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace aeroloom::pipeline {
+
+/// How much is printed, as given before or after the name of the command.
+struct Loudness {
+  bool verbose = false, quiet = false;
+  parallel::LogLevel level(parallel::LogLevel otherwise = parallel::LogLevel::normal) const;
+};
+
+/// A command in the command line. `run` is collective, called after the line was read; it returns the exit
+/// code of the program, the same on every rank, and throws nothing.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<int(const parallel::Communicator&, const Loudness&)> run;
+};
+
+/// The case as it is given in the command line.
+struct CaseArguments {
+  std::string file;  ///< empty for commands that need no geometry
+  std::vector<std::string> overrides;
+};
+void add_case_file(CLI::App& command, CaseArguments& arguments);
+/// A file with a mesh that is read.
+void add_mesh_file(CLI::App& command, const std::string& name, std::string& file);
+/// `--set`.
+void add_overrides(CLI::App& command, CaseArguments& arguments);
+
+/// Reads the case, on every rank, lets the log speak as the line or else the case asks for, and does the
+/// work, which returns the exit code; a case that cannot be read is a usage error. Collective.
+int with_case(const parallel::Communicator& communicator, const CaseArguments& arguments,
+              const Loudness& loudness, const std::function<int(const Case&)>& work);
+
+/// Printed by rank 0 at once.
+void print(const parallel::Communicator& communicator, const std::string& text);
+/// Prints the message on rank 0; the exit code. Collective.
+int fail(const parallel::Communicator& communicator, ExitCode code, const std::string& message);
+
+/// Does the work of a command that has no stages: the exit code for what it throws is `otherwise`, unless the
+/// kind of failure demands another. Collective.
+int guarded(const parallel::Communicator& communicator, ExitCode otherwise,
+            const std::function<ExitCode()>& work);
+
+}  // namespace aeroloom::pipeline

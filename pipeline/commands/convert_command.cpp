@@ -1,0 +1,76 @@
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/commands/memory_option.hpp"
+#include "pipeline/convert_file.hpp"
+#include "pipeline/nearest_name.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+/// "{cgns,meshb,...}": what completion and help show.
+std::string format_choices() {
+  std::string names;
+  for (const io::FormatName& format : io::format_names)
+    names += (names.empty() ? "" : ",") + std::string(format.name);
+  return "{" + names + "}";
+}
+
+/// Throws CLI::ValidationError.
+io::FileFormat format_called(const std::string& name) {
+  std::vector<std::string> known;
+  for (const io::FormatName& format : io::format_names) {
+    if (format.name == name) return format.format;
+    known.emplace_back(format.name);
+  }
+  const std::optional<std::string> nearest = nearest_name(name, known);
+  throw CLI::ValidationError("--format", fmt::format("no format is called '{}'; {}", name,
+                                                     nearest ? "did you mean '" + *nearest + "'?"
+                                                             : "known are " + format_choices()));
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("convert", "write a mesh in another format");
+  struct Arguments : Conversion {
+    std::int64_t memory = 0;  // bytes; 0: no limit
+  };
+  const auto conversion = std::make_shared<Arguments>();
+  add_mesh_file(*app, "from", conversion->from);
+  app->add_option("to", conversion->to, "the file to write; its extension says the format")
+      ->required()
+      ->type_name(file_kind::mesh);
+  app->add_option_function<std::string>(
+         "--format", [to = conversion.get()](const std::string& name) { to->format = format_called(name); },
+         "the format, where the extension does not say it")
+      ->type_name(format_choices())
+      ->group(option_group::output);
+  app->add_option("--parts", conversion->options.parts, "parts of a format that comes in parts")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N")
+      ->group(option_group::output);
+  add_memory_option(*app, conversion->memory);
+  add_help_footer(*app,
+                  {{"aeroloom convert out/mesh.pvtu mesh.cgns", "for a solver (docs/formats.md)"},
+                   {"mpirun -n 2 aeroloom convert out/mesh.pvtu mesh.hdf --format vtkhdf", "by two ranks"},
+                   {"aeroloom convert out/mesh.pvtu wing.foam --parts 4", "OpenFOAM, for four processors"}},
+                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  return {app, [conversion](const parallel::Communicator& communicator, const Loudness& loudness) {
+            parallel::configure_log(communicator, loudness.level());
+            return within_memory(communicator, conversion->memory, [&] {
+              return guarded(communicator, ExitCode::files, [&] {
+                convert_file(communicator, *conversion);
+                return ExitCode::ok;
+              });
+            });
+          }};
+}
+
+}  // namespace aeroloom::pipeline

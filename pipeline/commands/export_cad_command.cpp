@@ -1,0 +1,36 @@
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+Command add_export_cad(CLI::App& program) {
+  struct Arguments : CaseArguments {
+    std::string step;
+  };
+  CLI::App* app = program.add_subcommand("export-cad", "write the geometry of a case as STEP");
+  const auto arguments = std::make_shared<Arguments>();
+  add_case_file(*app, *arguments);
+  app->add_option("file", arguments->step, "the STEP file to write")->required()->type_name(file_kind::step);
+  add_overrides(*app, *arguments);
+  add_help_footer(
+      *app, {{"aeroloom export-cad case.yaml wing.step", "the built-in aircraft, or any case's file"}},
+      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
+            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+              return guarded(communicator, ExitCode::cad, [&] {
+                parallel::agree(communicator, [&] {
+                  if (communicator.is_root()) cad::export_step(input.domain, arguments->step);
+                });
+                print(communicator, fmt::format("wrote {}\n", arguments->step));
+                return ExitCode::ok;
+              });
+            });
+          }};
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,36 @@
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/info_file.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace aeroloom::pipeline {
+
+Command add_info(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("info", "tell what a file holds: a mesh, CAD, or a case");
+  const auto request = std::make_shared<InfoRequest>();
+  app->add_option("file", request->file,
+                  "a mesh in any format that is read (docs/formats.md), STEP, IGES, BREP, or a case")
+      ->required()
+      ->type_name(file_kind::any);
+  app->add_flag("--json", request->print_json, "print JSON (docs/usage.md)")->group(option_group::output);
+  add_help_footer(
+      *app,
+      {{"aeroloom info out/mesh.pvtu", "cells, patches, regions, box of a mesh"},
+       {"aeroloom info wing.step", "unit, box, solids, names, layers and colours of CAD"},
+       {"aeroloom info case.yaml", "a case with every value spelled out"},
+       {"aeroloom info out/mesh.pvtu --json", "for programs"}},
+      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  return {app, [request](const parallel::Communicator& communicator, const Loudness& loudness) {
+            parallel::configure_log(communicator, loudness.level());
+            const bool is_case = request->file.ends_with(".yaml") || request->file.ends_with(".yml");
+            return guarded(communicator, is_case ? ExitCode::usage : ExitCode::cad, [&] {
+              show_info(communicator, *request);
+              return ExitCode::ok;
+            });
+          }};
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,54 @@
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/quality_file.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+Command add_quality(CLI::App& program) {
+  struct Arguments : CaseArguments {
+    QualityRequest request;
+  };
+  CLI::App* app =
+      program.add_subcommand("quality", "measure a mesh: angles, ratios, volumes, worst cells, defects");
+  const auto arguments = std::make_shared<Arguments>();
+  add_mesh_file(*app, "mesh", arguments->request.file);
+  app->add_flag("--json", arguments->request.print_json, "print JSON (docs/quality.md)")
+      ->group(option_group::output);
+  app->add_option("--output", arguments->request.json_file, "write the JSON to this file")
+      ->type_name(file_kind::json)
+      ->group(option_group::output);
+  for (const std::string_view key : gate_keys) {
+    app->add_option_function<std::string>(
+           fmt::format("--gate.{}", key),
+           [gate = arguments.get(), key](const std::string& value) {
+             gate->overrides.push_back(fmt::format("improve.gate.{}={}", key, value));
+           },
+           fmt::format("as improve.gate.{} (docs/configuration.md)", key))
+        ->type_name("LIMIT")
+        ->group(option_group::limits);
+  }
+  add_help_footer(
+      *app,
+      {{"aeroloom quality out/mesh.pvtu", "angles, shapes, ratios, worst cells (docs/quality.md)"},
+       {"aeroloom quality out/mesh.pvtu --gate.largest_edge_ratio=1000", "exit code 6 where one is larger"},
+       {"aeroloom quality mesh.meshb --json --output quality.json", "the same for programs"}},
+      {ExitCode::ok, ExitCode::usage, ExitCode::quality_gate, ExitCode::files, ExitCode::resources,
+       ExitCode::bug});
+  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
+            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+              std::string missed;
+              const int code = guarded(communicator, ExitCode::files, [&] {
+                missed = show_quality(communicator, arguments->request, input.gate);
+                return ExitCode::ok;
+              });
+              return missed.empty() ? code : fail(communicator, ExitCode::quality_gate, missed);
+            });
+          }};
+}
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,65 @@
+#include "pipeline/case_reference.hpp"
+#include "pipeline/case_schema.hpp"
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/text_file.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+struct Arguments {
+  std::string output;
+  bool markdown = false;
+};
+
+/// What is to be written: the schema, or the page of the reference with its tables renewed.
+std::string schema_text(const Arguments& arguments) {
+  if (!arguments.markdown) return case_schema(case_keys());
+  std::string reference = case_reference(case_keys());
+  if (arguments.output.empty() || !std::filesystem::exists(arguments.output)) return reference;
+  try {
+    return with_reference(read_text(arguments.output), reference);
+  } catch (const std::invalid_argument& error) {
+    throw CaseError(arguments.output + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+Command add_schema(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("schema", "print the keys of a case as a JSON Schema, for editors of YAML");
+  const auto arguments = std::make_shared<Arguments>();
+  app->add_option("--output", arguments->output, "write to this file instead")
+      ->type_name(file_kind::any)
+      ->group(option_group::output);
+  app->add_flag("--markdown", arguments->markdown,
+                "the reference in Markdown; in a file that has the marks of its place, that alone is renewed")
+      ->group(option_group::output);
+  add_help_footer(*app,
+                  {{"aeroloom schema --output aeroloom.schema.json", "for editors (docs/usage.md)"},
+                   {"aeroloom schema --markdown", "the keys with their texts, ranges and defaults"}},
+                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::bug});
+  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
+            parallel::configure_log(communicator, loudness.level());
+            return guarded(communicator, ExitCode::usage, [&] {
+              parallel::agree(communicator, [&] {
+                if (!communicator.is_root()) return;
+                const std::string text = schema_text(*arguments);
+                if (!arguments->output.empty()) write_text(arguments->output, text);
+                if (arguments->output.empty()) print(communicator, text);
+              });
+              if (!arguments->output.empty()) parallel::log_info("wrote " + arguments->output);
+              return ExitCode::ok;
+            });
+          }};
+}
+
+}  // namespace aeroloom::pipeline

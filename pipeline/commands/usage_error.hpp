@@ -1,0 +1,17 @@
+/// Command lines that cannot be read.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace aeroloom::pipeline {
+
+/// What is wrong with the line that `program` has tried to read, the command or option that was probably
+/// meant, and where to read on.
+std::string explain_usage_error(const CLI::App& program, const CLI::ParseError& error);
+
+}  // namespace aeroloom::pipeline

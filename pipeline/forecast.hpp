@@ -1,0 +1,22 @@
+/// What a run will cost, from predicted counts and constants that runs have shown (docs/usage.md).
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "pipeline/size_domain.hpp"
+#include "sizing/size_field.hpp"
+
+#include <cstdint>
+
+namespace aeroloom::pipeline {
+
+/// Seconds of one core.
+double predicted_seconds(const sizing::PredictedCounts& counts);
+/// Bytes of memory of all ranks together.
+double predicted_bytes(const sizing::PredictedCounts& counts, int ranks);
+
+/// Ends a run that is predicted to take more than `bytes_of_node` on its fullest node, and says what would
+/// fit: CollectiveError (resources). Nothing where the limit is 0. Collective.
+void require_memory(const parallel::Communicator& communicator, const SizedDomain& sized,
+                    std::int64_t bytes_of_node, parallel::StageClock& clock);
+
+}  // namespace aeroloom::pipeline

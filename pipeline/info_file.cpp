@@ -1,0 +1,146 @@
+#include "pipeline/info_file.hpp"
+
+#include "io/read_mesh.hpp"
+#include "parallel/collective_error.hpp"
+#include "pipeline/case.hpp"
+#include "pipeline/info_text.hpp"
+#include "pipeline/load_domain.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using parallel::Communicator;
+
+constexpr int schema_version = 1;
+
+bool ends_like(const std::string& file, const std::vector<std::string>& ends) {
+  return std::any_of(ends.begin(), ends.end(), [&](const std::string& end) { return file.ends_with(end); });
+}
+
+/// In words, by the end of the name.
+std::string format_in_words(const std::string& file) {
+  constexpr std::pair<std::string_view, std::string_view> formats[] = {{".pvtu", "VTK XML in parts (.pvtu)"},
+                                                                       {".vtu", "VTK XML (.vtu)"},
+                                                                       {".vtk", "VTK legacy (.vtk)"},
+                                                                       {".vtkhdf", "VTKHDF"},
+                                                                       {".ugrid", "UGRID"},
+                                                                       {".ugrid64", "UGRID, 64-bit"},
+                                                                       {".su2", "SU2, text"},
+                                                                       {".su2b", "SU2, binary"},
+                                                                       {".msh", "Gmsh MSH"},
+                                                                       {".mesh", "Medit (GMF), text"},
+                                                                       {".meshb", "Medit (GMF), binary"}};
+  for (const auto& [end, words] : formats) {
+    if (file.ends_with(end)) return std::string(words);
+  }
+  return file.substr(file.find_last_of('.'));
+}
+
+/// Of a .pvtu, which names its parts; 0 for others.
+int parts_named_in(const std::string& file) {
+  if (!file.ends_with(".pvtu")) return 0;
+  std::ifstream stream(file);
+  int parts = 0;
+  for (std::string line; std::getline(stream, line);) {
+    for (std::size_t at = line.find("<Piece"); at != std::string::npos; at = line.find("<Piece", at + 1))
+      ++parts;
+  }
+  return parts;
+}
+
+geometry::Box bounds_of(const Communicator& communicator, const io::FileMesh& mesh) {
+  geometry::Box box;
+  for (const io::FilePart& part : mesh.parts) {
+    for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
+  }
+  box.low = {communicator.minimum(box.low.x), communicator.minimum(box.low.y),
+             communicator.minimum(box.low.z)};
+  box.high = {communicator.maximum(box.high.x), communicator.maximum(box.high.y),
+              communicator.maximum(box.high.z)};
+  return box;
+}
+
+/// Rank 0 prints what it knows; what is no UTF-8 in names of a file is replaced.
+void show(const Communicator& communicator, const InfoRequest& request, const Json& facts,
+          const std::string& text) {
+  if (!communicator.is_root()) return;
+  std::error_code ignored;  // the size is told where there is one
+  const std::uintmax_t bytes = std::filesystem::file_size(request.file, ignored);
+  if (request.print_json) {
+    Json json = {{"schema_version", schema_version}, {"file", request.file}};
+    json["bytes"] = ignored ? Json() : Json(bytes);
+    json.update(facts);
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    fmt::print("'{}'{}: {}", request.file, ignored ? "" : fmt::format(", {} bytes", bytes), text);
+  }
+  std::fflush(stdout);
+}
+
+void show_mesh(const Communicator& communicator, const InfoRequest& request) {
+  const io::Assembled file = io::read_mesh(communicator, request.file, 0);
+  MeshFacts facts{format_in_words(request.file), 0, bounds_of(communicator, file.mesh)};
+  if (communicator.is_root()) facts.parts = parts_named_in(request.file);
+  parallel::agree(communicator,
+                  [&] { show(communicator, request, info_json(file, facts), info_text(file, facts)); });
+}
+
+void show_case(const Communicator& communicator, const InfoRequest& request) {
+  parallel::agree(communicator, [&] {
+    const std::string resolved = resolved_yaml(read_case(request.file, {}));
+    show(communicator, request, {{"kind", "case"}, {"configuration", resolved}},
+         "a case; with every value spelled out:\n" + resolved + "\n");
+  });
+}
+
+void show_cad(const Communicator& communicator, const InfoRequest& request) {
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    const cad::CadFacts facts = look_contained(request.file);
+    show(communicator, request, info_json(facts), info_text(facts));
+  });
+}
+
+/// Refuses early, with one message, what is not a file.
+void require_file(const Communicator& communicator, const std::string& file) {
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root() || file.find('*') != std::string::npos) return;
+    std::error_code code;
+    const auto status = std::filesystem::status(file, code);
+    if (!std::filesystem::exists(status))
+      throw std::filesystem::filesystem_error("cannot read", file,
+                                              std::make_error_code(std::errc::no_such_file_or_directory));
+    if (std::filesystem::is_directory(status))
+      throw std::runtime_error(
+          fmt::format("'{}' is a folder; give a file: a mesh ({}), CAD (STEP, IGES, BREP) or a case (.yaml)",
+                      file, fmt::join(io::readable_extensions(), ", ")));
+  });
+}
+
+}  // namespace
+
+void show_info(const Communicator& communicator, const InfoRequest& request) {
+  require_file(communicator, request.file);
+  if (ends_like(request.file, io::readable_extensions())) return show_mesh(communicator, request);
+  if (ends_like(request.file, {".yaml", ".yml"})) return show_case(communicator, request);
+  const std::optional<io::FileFormat> written = io::format_of_path(request.file);
+  if (written) {
+    throw parallel::CollectiveError(
+        parallel::FailureKind::files,
+        fmt::format("'{}': {} is written here, but not read; meshes that are read end like {}", request.file,
+                    io::name_of(*written), fmt::join(io::readable_extensions(), ", ")));
+  }
+  show_cad(communicator, request);
+}
+
+}  // namespace aeroloom::pipeline

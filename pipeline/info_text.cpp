@@ -1,0 +1,138 @@
+#include "pipeline/info_text.hpp"
+
+#include "io/read_mesh.hpp"
+#include "pipeline/change_json.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Names shown of a kind; `--json` has all.
+constexpr std::size_t shown_names = 20;
+
+Json box_json(const geometry::Box& box) {
+  return {to_json(box.low), to_json(box.high)};
+}
+
+std::string place(geometry::Vec3 p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
+
+std::string box_text(const geometry::Box& box) {
+  const geometry::Vec3 size = box.size();
+  return fmt::format("{} to {}, {:.6g} x {:.6g} x {:.6g}", place(box.low), place(box.high), size.x, size.y,
+                     size.z);
+}
+
+geometry::Box scaled(const geometry::Box& box, double factor) {
+  geometry::Box result = box;
+  result.low = factor * box.low;
+  result.high = factor * box.high;
+  return result;
+}
+
+Json names_json(const std::vector<cad::NamedFaces>& list) {
+  Json json = Json::array();
+  for (const cad::NamedFaces& named : list) json.push_back({{"name", named.name}, {"faces", named.faces}});
+  return json;
+}
+
+std::string names_text(const char* what, const std::vector<cad::NamedFaces>& list) {
+  if (list.empty()) return "";
+  std::string text = fmt::format("{} ({}):", what, list.size());
+  for (std::size_t i = 0; i < std::min(list.size(), shown_names); ++i)
+    text += fmt::format("{} {} ({})", i == 0 ? "" : ",", list[i].name, list[i].faces);
+  if (list.size() > shown_names) text += fmt::format(", and {} more", list.size() - shown_names);
+  return text + "\n";
+}
+
+}  // namespace
+
+Json info_json(const io::Assembled& file, const MeshFacts& facts) {
+  const io::FileMesh& mesh = file.mesh;
+  Json json = {{"kind", "mesh"},
+               {"format", facts.format},
+               {"parts", facts.parts > 0 ? Json(facts.parts) : Json()},
+               {"points", mesh.vertex_count},
+               {"cells", mesh.cell_count()},
+               {"tetrahedra", mesh.cell_count(io::CellShape::tetrahedron)},
+               {"pyramids", mesh.cell_count(io::CellShape::pyramid)},
+               {"prisms", mesh.cell_count(io::CellShape::prism)},
+               {"bounds", box_json(facts.bounds)}};
+  json["regions"] = Json::array();
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    const auto& cells = mesh.region_cells[r];
+    json["regions"].push_back({{"name", mesh.regions[r]}, {"cells", cells[0] + cells[1] + cells[2]}});
+  }
+  json["patches"] = Json::array();
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    json["patches"].push_back({{"name", mesh.patches[p].name},
+                               {"type", name_of(mesh.patches[p].type)},
+                               {"triangles", mesh.patch_faces[p][0]},
+                               {"quadrilaterals", mesh.patch_faces[p][1]}});
+  }
+  json["reading"] = {{"turned_cells", file.turned_cells},
+                     {"dropped_points", file.dropped_points},
+                     {"unnamed_faces", file.unnamed_faces},
+                     {"left_out_faces", file.left_out_faces}};
+  return json;
+}
+
+std::string info_text(const io::Assembled& file, const MeshFacts& facts) {
+  const io::FileMesh& mesh = file.mesh;
+  std::string text = fmt::format("a mesh, {}{}\n", facts.format,
+                                 facts.parts > 0 ? fmt::format(", {} part(s)", facts.parts) : "");
+  text += fmt::format("points {}, tetrahedra {}, pyramids {}, prisms {}\n", mesh.vertex_count,
+                      mesh.cell_count(io::CellShape::tetrahedron), mesh.cell_count(io::CellShape::pyramid),
+                      mesh.cell_count(io::CellShape::prism));
+  text += "box " + box_text(facts.bounds) + "\n";
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    const auto& cells = mesh.region_cells[r];
+    text += fmt::format("region {:<30} {:>12} cells\n", mesh.regions[r], cells[0] + cells[1] + cells[2]);
+  }
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const auto& faces = mesh.patch_faces[p];
+    text += fmt::format("patch {:<31} {:>12} faces, {}\n", mesh.patches[p].name, faces[0] + faces[1],
+                        name_of(mesh.patches[p].type));
+  }
+  return text + "reading it: " + io::describe(file) + "\n";
+}
+
+Json info_json(const cad::CadFacts& facts) {
+  const bool declared = !facts.unit_name.empty();
+  return {{"kind", "cad"},
+          {"format", facts.format},
+          {"unit", declared ? Json(facts.unit_name) : Json()},
+          {"unit_in_metres", declared ? Json(facts.unit_in_metres) : Json()},
+          {"bounds", box_json(facts.bounds)},
+          {"bounds_in_metres", declared ? box_json(scaled(facts.bounds, facts.unit_in_metres)) : Json()},
+          {"solids", facts.solids},
+          {"shells", facts.shells},
+          {"faces", facts.faces},
+          {"edges", facts.edges},
+          {"parts", names_json(facts.parts)},
+          {"face_names", names_json(facts.face_names)},
+          {"layers", names_json(facts.layers)},
+          {"colours", names_json(facts.colours)}};
+}
+
+std::string info_text(const cad::CadFacts& facts) {
+  const bool declared = !facts.unit_name.empty();
+  std::string text = fmt::format("CAD, {}, unit {}\n", facts.format,
+                                 declared ? facts.unit_name : std::string("not declared: lengths as stored"));
+  text += "box " + box_text(facts.bounds) + (declared ? " " + facts.unit_name : "") + "\n";
+  if (declared && facts.unit_in_metres != 1)
+    text += "    " + box_text(scaled(facts.bounds, facts.unit_in_metres)) + " m\n";
+  text += fmt::format("solids {}, shells {}, faces {}, edges {}\n", facts.solids, facts.shells, facts.faces,
+                      facts.edges);
+  return text + names_text("parts", facts.parts) + names_text("names of faces", facts.face_names) +
+         names_text("layers", facts.layers) + names_text("colours", facts.colours);
+}
+
+}  // namespace aeroloom::pipeline

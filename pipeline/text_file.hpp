@@ -1,0 +1,13 @@
+/// Text files, read and written whole.
+#pragma once
+
+#include <string>
+
+namespace aeroloom::pipeline {
+
+/// Throws std::ios_base::failure, naming the file.
+std::string read_text(const std::string& file);
+/// Makes the folders above the file where they are not there. Throws as read_text.
+void write_text(const std::string& file, const std::string& text);
+
+}  // namespace aeroloom::pipeline

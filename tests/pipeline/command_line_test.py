@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""The command line as a user meets it: help, its examples, mistakes, versions, info. usage: command_line_test.py PROGRAM"""
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+from program import COARSE_TRANSPORT, SOURCE
+
+LAUNCHER = str(SOURCE / "scripts" / "mpirun_local.sh")
+
+
+class Shell:
+    """A folder to work in, with the program called `aeroloom`."""
+
+    def __init__(self, program):
+        self.program = str(pathlib.Path(program).resolve())
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_line_"))
+
+    def run(self, line, ranks=0):
+        """Exit code, standard output and standard error of `aeroloom LINE`."""
+        command = ([LAUNCHER, str(ranks)] if ranks else []) + [self.program] + shlex.split(line)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=self.folder)
+        return done.returncode, done.stdout, done.stderr
+
+    def type(self, line):
+        """As a shell would run the line."""
+        bin_folder = self.folder / "bin"
+        bin_folder.mkdir(exist_ok=True)
+        for name, body in (("aeroloom", f'exec "{self.program}" "$@"'), ("mpirun", f'shift; exec "{LAUNCHER}" "$@"')):
+            (bin_folder / name).write_text(f"#!/bin/sh\n{body}\n")
+            (bin_folder / name).chmod(0o755)
+        # mpirun_local.sh must not find the name above.
+        real = os.environ["PATH"]
+        (bin_folder / "mpirun").write_text(f'#!/bin/sh\nshift; PATH="{real}"; export PATH\n'
+                                           f'ranks=$1; shift 2; exec "{LAUNCHER}" "$ranks" "{self.program}" "$@"\n')
+        return subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=300, cwd=self.folder,
+                              env={**os.environ, "PATH": f"{bin_folder}:{real}"})
+
+
+def commands_of(shell):
+    code, text, _ = shell.run("--help")
+    assert code == 0
+    return re.findall(r"^  ([a-z-]+) {2,}\S", text.split("Subcommands:")[1].split("Examples:")[0], re.M)
+
+
+def check_examples(shell):
+    """Every example in every help runs as it stands."""
+    (shell.folder / "case.yaml").write_text(COARSE_TRANSPORT.replace("0.12", "0.4").replace("1.2", "3"))
+    commands = commands_of(shell)
+    assert {"run", "check", "info", "improve", "quality", "convert", "export-cad", "completion", "init", "schema"} <= set(commands)
+    ran = set()
+    for command in ["", "run", "export-cad", "convert", *commands]:
+        code, text, _ = shell.run(f"{command} --help")
+        assert code == 0 and "Exit codes:" in text, text
+        examples = re.findall(r"^  ((?:mpirun -n \d+ )?aeroloom .*)$", text, re.M)
+        assert examples, f"{command}: no examples"
+        # The case first, for what others use; mesh.meshb is another program's mesh.
+        for example in sorted(examples, key=lambda line: "case.yaml" not in line):
+            assert len(example) <= 100, example
+            if example in ran:
+                continue
+            ran.add(example)
+            for wanted, source in (("mesh.meshb", "out/mesh.pvtu"), ("out/mesh.pvtu", None), ("wing.step", None)):
+                if wanted in example and not (shell.folder / wanted).exists():
+                    make = {"mesh.meshb": "aeroloom convert out/mesh.pvtu mesh.meshb",
+                            "out/mesh.pvtu": "aeroloom run case.yaml",
+                            "wing.step": "aeroloom export-cad case.yaml wing.step"}[wanted]
+                    if make != example and not example.startswith("aeroloom export-cad"):
+                        assert shell.type(make).returncode == 0, make
+            # What writes a case must not find one.
+            done = shell.type(f"mkdir new && cd new && {example}" if " init case" in example else example)
+            assert done.returncode == (6 if "--gate" in example and done.returncode == 6 else 0), \
+                f"{example}: exit {done.returncode}\n{done.stdout}{done.stderr}"
+    assert len(ran) >= 15, ran
+
+
+def check_mistakes(shell):
+    for line, *words in (("", "a command is missing", "improve", "aeroloom --help"),
+                         ("rnu case.yaml", "unknown command 'rnu'", "did you mean 'run'?"),
+                         ("run case.yaml --sett a=b", "unknown option '--sett'", "'--set'"),
+                         ("quality m.vtu --gate.smalest_angle=3", "'--gate.smallest_angle'"),
+                         ("convert a.vtu", "to is required", "aeroloom convert --help"),
+                         ("convert a.vtu b --format cgn", "no format is called 'cgn'", "'cgns'"),
+                         ("run case.yaml again.yaml", "unexpected argument 'again.yaml'"),
+                         ("--bogus", "unknown option '--bogus'"),
+                         ("run case.yaml --resume --checkpoints", "excludes"),
+                         ("-v run case.yaml -q", "--verbose and --quiet exclude each other"),
+                         ("info case.yaml -q -v", "--verbose and --quiet exclude each other"),
+                         ("run case.yaml --set sizng.minimum=1", "sizing.minimum")):
+        for ranks in (0, 2) if line.startswith("rnu") else (0,):
+            code, out, err = shell.run(line, ranks)
+            assert code == 2 and out == "", f"{line!r}: exit {code}\n{out}{err}"
+            assert all(word in err for word in words), f"{line!r}: {err}"
+            assert err.count("error") == 1 or ranks, err
+
+
+def check_loudness(shell):
+    """-q leaves warnings and errors, wherever it stands; -v says more."""
+    assert shell.run("-q convert out/mesh.pvtu a.cgns")[1:] == ("", "")
+    assert shell.run("convert out/mesh.pvtu a.cgns --quiet")[1:] == ("", "")
+    assert "wrote" in shell.run("convert out/mesh.pvtu a.cgns")[1]
+    normal = len(shell.run("run case.yaml")[1])
+    assert len(shell.run("-v run case.yaml")[1]) > normal
+
+
+def check_version(shell):
+    code, text, _ = shell.run("--version")
+    assert code == 0 and text.startswith("aeroloom "), text
+    for library in ("OpenCASCADE", "TetGen", "VTK", "HDF5", "METIS", "CGAL", "Eigen", "MPI", "yaml-cpp",
+                    "nlohmann_json", "CLI11", "fmt", "spdlog"):
+        assert re.search(rf"^  {library} +\S*.*\d+\.\d+", text, re.M), f"{library}: {text}"
+    assert "AGPL" in text
+
+
+def check_info(shell):
+    def facts(file, ranks=0):
+        code, text, err = shell.run(f"info --json {file}", ranks)
+        assert code == 0, err
+        return json.loads(text)
+
+    mesh = facts("out/mesh.pvtu")
+    assert mesh == facts("out/mesh.pvtu", 2)
+    report = json.loads((shell.folder / "out" / "report.json").read_text())["mesh"]
+    assert mesh["kind"] == "mesh" and mesh["parts"] >= 1
+    assert (mesh["tetrahedra"], mesh["points"]) == (report["tetrahedra"], report["points"])
+    patches = {patch["name"]: patch for patch in mesh["patches"]}
+    assert patches["fuselage"]["type"] == "wall" and patches["farfield"]["type"] == "farfield"
+    assert sum(patch["triangles"] for patch in mesh["patches"]) == report["boundary_triangles"]
+    assert mesh["regions"] == [{"name": "fluid", "cells": mesh["cells"]}]
+    low, high = mesh["bounds"]
+    assert all(a < -50 and b > 50 for a, b in zip(low, high)), mesh["bounds"]
+    text = shell.run("info out/mesh.pvtu")[1]
+    assert f"tetrahedra {mesh['tetrahedra']}" in text and "patch fuselage" in text, text
+
+    cad = facts("wing.step")
+    assert (cad["kind"], cad["format"], cad["unit"], cad["solids"], cad["shells"]) == ("cad", "STEP", "m", 1, 1)
+    assert cad["bounds"] == cad["bounds_in_metres"] and abs(cad["bounds"][1][0] - 37.6) < 1e-6
+    assert {"name": "fuselage", "faces": 12} in cad["face_names"] and cad["parts"][0]["name"] == "transport"
+    millimetres = (shell.folder / "wing.step").read_text().replace("SI_UNIT($,.METRE.)", "SI_UNIT(.MILLI.,.METRE.)")
+    (shell.folder / "small.step").write_text(millimetres)
+    small = facts("small.step")
+    assert small["unit"] == "mm" and abs(small["bounds"][1][0] / small["bounds_in_metres"][1][0] - 1000) < 1e-9
+
+    case = facts("case.yaml")
+    assert case["kind"] == "case" and "growth: 1.5" in case["configuration"]
+    (shell.folder / "wrong.yaml").write_text("geometry: {fil: a.step}\n")
+    (shell.folder / "broken.vtu").write_text("<VTKFile")
+    for file, code, word in (("nowhere.step", 7, "nowhere.step"), ("out", 3, "is a folder"),
+                             ("out/report.json", 3, "neither STEP"), ("mesh.cgns", 7, "not read"),
+                             ("wrong.yaml", 2, "geometry.file"), ("broken.vtu", 3, "broken.vtu")):
+        for ranks in (0, 2):
+            found, out, err = shell.run(f"info {file}", ranks)
+            assert found == code and word in err and out == "", f"{file}: {found} {out} {err}"
+
+
+def main():
+    shell = Shell(sys.argv[1])
+    check_version(shell)
+    check_examples(shell)
+    check_mistakes(shell)
+    check_info(shell)
+    check_loudness(shell)
+
+
+if __name__ == "__main__":
+    main()
