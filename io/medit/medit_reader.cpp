@@ -30,6 +30,7 @@ template <class Shapes>
 std::vector<std::int64_t> all_references(const parallel::Communicator& communicator, const std::string& path,
                                          const Shapes& shapes) {
   std::vector<std::span<const std::int64_t>> lists;
+  lists.reserve(shapes.size());
   for (const MeditItems& items : shapes) lists.emplace_back(items.references);
   return distinct_numbers(
       communicator, lists, most_references,

@@ -94,6 +94,7 @@ constexpr std::size_t most_names = std::size_t{1} << 20;
 
 std::vector<std::span<const std::int32_t>> spans_of(const std::vector<std::vector<std::int32_t>*>& lists) {
   std::vector<std::span<const std::int32_t>> spans;
+  spans.reserve(lists.size());
   for (const auto* list : lists) spans.emplace_back(*list);
   return spans;
 }
