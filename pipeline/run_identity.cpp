@@ -27,7 +27,7 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const Case&
   RunIdentity identity;
   identity.version = "aeroloom " + program_version();
   for (const auto& [library, version] : library_versions())
-    identity.version += ", " + library + " " + version;
+    identity.version.append(", ").append(library).append(" ").append(version);
   std::vector<parallel::Digest> digests(2);
   if (communicator.is_root()) {
     digests[0] = digest_of_file("/proc/self/exe");

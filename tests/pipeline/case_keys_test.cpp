@@ -3,8 +3,8 @@
 #include "pipeline/key_info.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 
@@ -90,13 +90,31 @@ TEST(CaseKeys, SectionsStandBeforeTheirKeys) {
   }
 }
 
-TEST(CaseKeys, LinksLeadToPagesThatAreThere) {
-  const std::regex link(R"(\]\(([^)#]+)(#[^)]*)?\))");
+/// The page has a heading that a link with this anchor leads to.
+bool has_heading(const std::string& page, const std::string& anchor) {
+  std::ifstream stream(page);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with("#")) continue;
+    std::string slug;
+    for (const char letter : line.substr(line.find_first_not_of("# "))) {
+      if (letter == ' ' || letter == '-') slug += '-';
+      if (std::isalnum(static_cast<unsigned char>(letter)) != 0)
+        slug += static_cast<char>(std::tolower(letter));
+    }
+    if (slug == anchor) return true;
+  }
+  return false;
+}
+
+TEST(CaseKeys, LinksLeadToPagesAndHeadingsThatAreThere) {
+  const std::regex link(R"(\]\(([^)#]+)(#([^)]*))?\))");
   for (const KeyInfo& key : case_keys()) {
     const std::string& text = key.doc.text;
     for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
       const std::string page = std::string(AEROLOOM_SOURCE_DIR) + "/docs/" + (*found)[1].str();
       EXPECT_TRUE(std::ifstream(page).good()) << key.path << ": " << page;
+      const std::string anchor = (*found)[3].str();
+      EXPECT_TRUE(anchor.empty() || has_heading(page, anchor)) << key.path << ": " << page << "#" << anchor;
     }
   }
 }
