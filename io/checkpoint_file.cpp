@@ -153,7 +153,7 @@ void write_checkpoint(const Communicator& communicator, const std::string& path,
   header.place_behind(static_cast<std::int64_t>(sizeof(Preamble) + packed.size()));
   // What stood there stays until all of the new one does.
   const std::string fresh = path + ".new";
-  parallel::write_shared_file(communicator, fresh, [&](parallel::SharedFile& file) {
+  const auto work = [&](parallel::SharedFile& file) {
     if (communicator.is_root()) {
       Preamble preamble{magic, version, static_cast<std::int64_t>(packed.size()), header.offsets.back(), {}};
       preamble.digest = preamble.right_digest(packed);
@@ -166,7 +166,8 @@ void write_checkpoint(const Communicator& communicator, const std::string& path,
                                         [](const Row& a, std::int64_t number) { return a.number < number; });
       file.write(header.offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
     }
-  });
+  };
+  parallel::write_shared_file(communicator, fresh, work, parallel::Named::when_written);
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) std::filesystem::rename(fresh, path);
   });

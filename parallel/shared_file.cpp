@@ -48,7 +48,7 @@ void prepare(const std::string& path, const std::string& unfinished) {
 
 /// Closes the file whatever happens. Collective.
 void work_and_close(const Communicator& communicator, SharedFile::Handle& handle,
-                    const std::function<void(SharedFile&)>& work) {
+                    const std::function<void(SharedFile&)>& work, Named named) {
   try {
     agree(communicator, [&] {
       SharedFile file(handle);
@@ -59,7 +59,7 @@ void work_and_close(const Communicator& communicator, SharedFile::Handle& handle
     throw;
   }
   // What a file system puts off, it may fail at later: closing through MPI would not tell.
-  const int synchronized = MPI_File_sync(handle.file);
+  const int synchronized = named == Named::when_on_disk ? MPI_File_sync(handle.file) : MPI_SUCCESS;
   const int closed = MPI_File_close(&handle.file);
   agree(communicator, [&] {
     require_success(synchronized, "cannot write", handle.path);
@@ -86,7 +86,7 @@ void SharedFile::write(std::int64_t offset, std::span<const std::byte> bytes) {
 }
 
 void write_shared_file(const Communicator& communicator, const std::string& path,
-                       const std::function<void(SharedFile&)>& work) {
+                       const std::function<void(SharedFile&)>& work, Named named) {
   SharedFile::Handle handle{path + ".unfinished", MPI_FILE_NULL};
   agree(communicator, [&] {
     if (communicator.is_root()) prepare(path, handle.path);
@@ -96,7 +96,7 @@ void write_shared_file(const Communicator& communicator, const std::string& path
   try {
     // Closing is collective: where some ranks have not opened the file, the others cannot close it.
     agree(communicator, [&] { require_success(opened, "cannot create", handle.path); });
-    work_and_close(communicator, handle, work);
+    work_and_close(communicator, handle, work, named);
     agree(communicator, [&] {
       if (communicator.is_root()) fs::rename(handle.path, path);
     });

@@ -29,12 +29,16 @@ private:
   Handle& _handle;
 };
 
+/// When a file has its name: once its bytes are on the disk (MPI_File_sync), so that a full one or a lost
+/// server is an error, not a file that looks finished; or once the system has them, for files whose readers
+/// can tell whether they are whole.
+enum class Named : bool { when_on_disk, when_written };
+
 /// Creates PATH.unfinished, and its folder where there is none, has every rank write what it has by `work`,
-/// and gives the file its name when all have succeeded and its bytes are on the disk (MPI_File_sync), so that
-/// a full one or a lost server is an error, not a file that looks finished. `work` calls no collectives.
+/// and gives the file its name when all have succeeded. `work` calls no collectives.
 /// Whatever stood at PATH goes at the beginning, so that nothing is ever half old. Collective; throws
 /// CollectiveError (files) on all ranks and removes the unfinished file where anything fails.
 void write_shared_file(const Communicator& communicator, const std::string& path,
-                       const std::function<void(SharedFile&)>& work);
+                       const std::function<void(SharedFile&)>& work, Named named = Named::when_on_disk);
 
 }  // namespace aeroloom::parallel
