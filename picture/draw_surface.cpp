@@ -18,8 +18,8 @@ constexpr double raised = 2;
 /// Brightness of a wall that is turned to the viewer: light from the viewer and from the upper left.
 double brightness(const Viewpoint& view, Vec3 flow_normal) {
   const Vec3 light = normalized(view.towards + 0.9 * view.up - 0.6 * view.right);
-  return 0.46 + 0.34 * std::max(0.0, dot(flow_normal, view.towards)) +
-         0.25 * std::max(0.0, dot(flow_normal, light));
+  return 0.5 + 0.34 * std::max(0.0, dot(flow_normal, view.towards)) +
+         0.22 * std::max(0.0, dot(flow_normal, light));
 }
 
 /// What of the surface a camera sees.

@@ -185,6 +185,7 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
 std::optional<Place> find_leading_edge(const Communicator& communicator, const DistributedMesh& surface,
                                        const mesh::Numbering& numbering, const Folds& folds,
                                        const Scene& scene) {
+  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, folds, scene);
   std::vector<Line> lines = gather_lines(communicator, leading_items(surface, numbering, folds, scene));
   // Less than a few elements are no edge but a bump.
   std::erase_if(lines, [](const Line& line) { return line.extent() < 8 * line.items.front().size; });
@@ -192,7 +193,7 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
   if (!lines.empty()) {
     double longest = 0;
     for (const Line& line : lines) longest = std::max(longest, line.extent());
-    std::erase_if(lines, [longest](const Line& line) { return line.extent() < 0.8 * longest; });
+    std::erase_if(lines, [longest](const Line& line) { return line.extent() < 0.98 * longest; });
     for (const Line& line : lines) {
       const LineItem& middle = middle_of(line);
       if (!found || middle.point.y < found->point.y) found = place_at(line, middle, true);

@@ -152,7 +152,7 @@ bool enclose_the_rest(const std::vector<PieceSums>& rows, const std::vector<std:
     }
     area += row.area, volume += row.volume, vector += row.area_vector;
   }
-  return is_rest && area > 0 && norm(vector) <= 0.05 * area && volume >= 0.9 * whole;
+  return is_rest && area > 0 && norm(vector) <= 0.15 * area && volume >= 0.9 * whole;
 }
 
 std::size_t face_count(const Communicator& communicator, const DistributedMesh& surface) {

@@ -30,7 +30,8 @@ struct Scene {
 /// Far field, planes of symmetry and faces between regions are never shown. Where no patch is a far field,
 /// the faces on the convex hull of the domain are left out if they enclose the rest: the hull is known by its
 /// farthest points in 200 directions, a face lies on it if five of its triangles do, to 2 % of the
-/// domain's diagonal; the faces enclose the rest if their areas cancel to 5 % and hold nine tenths of the
+/// domain's diagonal; the faces enclose the rest if their area vectors cancel to 15 % (half a
+/// body leaves a hole in the plane of symmetry, a bend half of its walls) and hold nine tenths of the
 /// volume. In a duct they do not. `types` by patch; those left out are walls. Collective.
 Scene find_scene(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                  const std::vector<mesh::PatchType>& types);

@@ -159,10 +159,14 @@ Picture views_picture(const Subject& subject) {
   for (int i = 0; i < 4; ++i) seen[i] = seen_from(subject, views[i]);
   constexpr double gap = 12;
   constexpr int most = 680;
-  const double wide = seen[2].size().x + seen[3].size().x, tall = seen[0].size().y + seen[2].size().y;
+  // Beside a slender body there is room for the view from behind all the same.
+  const double right = std::max(seen[3].size().x, 0.5 * seen[2].size().x);
+  const double wide = seen[2].size().x + right, tall = seen[0].size().y + seen[2].size().y;
   const double scale = std::min((width - 4 * gap) / wide, (most - 4 * gap) / tall);
   const int left = static_cast<int>(width * seen[2].size().x / wide);
-  const int upper = static_cast<int>(std::lround(scale * seen[0].size().y + 2 * gap));
+  const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, 1e-300);
+  const int upper = static_cast<int>(
+      std::lround(std::max(scale * seen[0].size().y, std::min(behind, 0.3 * width)) + 2 * gap));
   const int lower = static_cast<int>(std::lround(scale * seen[2].size().y + 2 * gap));
   const std::array<Window, 4> windows = {{{0, 0, left, upper},
                                           {left, 0, width - left, upper},
@@ -202,10 +206,13 @@ Vec3 towards_viewer(const Subject& subject, Vec3 along) {
   return dot(along, main_direction(subject.scene)) < 0 ? -along : along;
 }
 
+/// The place lies a little off the middle, so that more of the body is seen and less of what is behind it.
 Picture close_up_picture(const Subject& subject, const Place& place, Vec3 from, std::string name,
                          const std::string& what) {
   const double across = width_around(subject, place, 40);
-  const Camera camera = picture::close_up(picture::look_from(from, up), place.point, across,
+  const Viewpoint view = picture::look_from(from, up);
+  const Vec3 inwards = dot(place.normal, view.towards) * view.towards - place.normal;
+  const Camera camera = picture::close_up(view, place.point + 0.25 * across * inwards, across,
                                           {0, 0, detail_width, detail_height});
   return painted(subject.communicator,
                  {.name = std::move(name),
