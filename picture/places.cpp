@@ -17,6 +17,8 @@ using mesh::LocalIndex;
 using parallel::Communicator;
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr double sharp = 40 * degree;   ///< edges count on their own from here on
+constexpr double corner = 75 * degree;  ///< coarse triangles on a rounding turn by less
 constexpr Vec3 upstream{-1, 0, 0};
 
 /// How a triangle is curved; positive where it is convex for the flow.
@@ -61,6 +63,7 @@ Curvature curvature_of(const Element& e) {
   const Vec3 u = normalized(e.edge(0)), w = cross(e.normal, u);
   double uu = 0, uw = 0, ww = 0;
   for (int i = 0; i < 3; ++i) {
+    if (std::abs(e.turns[i]) >= corner) continue;
     const Vec3 across = cross(e.normal, normalized(e.edge(i)));
     const double a = dot(across, u), b = dot(across, w), weight = e.turns[i] * norm(e.edge(i)) / (2 * e.area);
     uu += weight * a * a, uw += weight * a * b, ww += weight * b * b;
@@ -114,7 +117,7 @@ std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::
   const double diagonal = scene.box.diagonal();
   for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] < 40 * degree) continue;
+      if (e.turns[i] < sharp) continue;
       if (flow_divides(e.bisectors[i], normalized(e.edge(i)), 0.45 * e.turns[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
@@ -167,11 +170,11 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
       if (const Sharpest here{angle, item}; beats(here, mine)) mine = here;
     };
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] > 40 * degree) take(e.turns[i], item_of_edge(e, i, vertices));
+      if (e.turns[i] >= sharp) take(e.turns[i], item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
     if (curvature.largest * scene.box.diagonal() > 8)
-      take(std::min(curvature.largest * e.size, 40 * degree), item_of_triangle(e, curvature, vertices));
+      take(std::min(curvature.largest * e.size, sharp), item_of_triangle(e, curvature, vertices));
   });
   std::vector<Sharpest> all = communicator.all_gather_items<Sharpest>(std::span<const Sharpest>(&mine, 1));
   const Sharpest& best = *std::min_element(all.begin(), all.end(), beats);

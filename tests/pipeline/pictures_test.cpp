@@ -1,8 +1,9 @@
 // The pictures of a run: which there are, that they are the same for any number of ranks, and what remains of
 // them when the volume fails.
+#include "pipeline/pictures.hpp"
+
 #include "parallel/collective_error.hpp"
 #include "pipeline/load_domain.hpp"
-#include "pipeline/pictures.hpp"
 #include "pipeline/run.hpp"
 #include "volume/volume_mesher.hpp"
 
@@ -96,19 +97,15 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
   }
 }
 
-TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFails) {
+TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   const Communicator world = Communicator::world();
   Case input = coarse_aircraft("c");
   input.volume.sabotage = parallel::Sabotage::throws;
-  const RunRecord record = record_of(world, input);
   const std::vector<std::string> expected{"body", "views", "leading_edge", "junction"};
-  EXPECT_EQ(names_of(record.pictures), world.is_root() ? expected : std::vector<std::string>{});
-}
-
-TEST(Pictures, AreLeftOutWhereNobodyWantsThem) {
-  Case input = coarse_aircraft("d");
+  EXPECT_EQ(names_of(record_of(world, input).pictures),
+            world.is_root() ? expected : std::vector<std::string>{});
   input.output.pictures = false;
-  EXPECT_TRUE(record_of(Communicator::world(), input).pictures.empty());
+  EXPECT_TRUE(record_of(world, input).pictures.empty());
 }
 
 }  // namespace
