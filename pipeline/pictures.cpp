@@ -81,6 +81,7 @@ Subject find_subject(const Communicator& communicator, const PictureSource& sour
 /// What the legend of cuts says.
 std::vector<LegendItem> angle_legend() {
   std::vector<LegendItem> legend;
+  legend.reserve(picture::angle_classes.size());
   for (const picture::AngleClass& each : picture::angle_classes) {
     legend.push_back({fmt::format("smallest dihedral angle {}", each.name), html_name(each.colour)});
   }

@@ -10,7 +10,6 @@
 namespace aeroloom::picture {
 namespace {
 
-using geometry::Vec3;
 using parallel::Communicator;
 
 constexpr Window window{0, 0, 60, 40};
