@@ -40,8 +40,7 @@ struct Element {
   Vec3 middle() const { return (corners[0] + corners[1] + corners[2]) / 3; }
 };
 
-Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fold>& folds,
-                   const Scene& scene) {
+Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fold>& folds) {
   Element e;
   const LocalIndex* v = piece.cell(t);
   for (int i = 0; i < 3; ++i) e.corners[i] = piece.point(v[i]);
@@ -51,7 +50,7 @@ Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fol
   for (int i = 0; i < 3; ++i) {
     const Fold& fold = folds[3 * static_cast<std::size_t>(t) + i];
     e.size += norm(e.edge(i)) / 3;
-    e.inside[i] = !fold.is_open() && !fold.several && scene.shows(fold.face);
+    e.inside[i] = !fold.several && fold.shown;
     if (!e.inside[i]) continue;
     e.turns[i] = turn(-e.normal, e.edge(i), fold);
     e.bisectors[i] = normalized(e.normal - fold.normal);
@@ -82,10 +81,10 @@ void for_each_element(const DistributedMesh& surface, const mesh::Numbering& num
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      if (!scene.shows(piece.triangle_face[t])) continue;
+      if (!scene.shown[p][t]) continue;
       const LocalIndex* v = piece.cell(t);
       const auto& numbers = numbering.vertices[p];
-      const Element e = element_of(piece, t, folds[p], scene);
+      const Element e = element_of(piece, t, folds[p]);
       if (e.area > 0) visit(e, std::array<mesh::GlobalIndex, 3>{numbers[v[0]], numbers[v[1]], numbers[v[2]]});
     }
   }

@@ -40,8 +40,8 @@ constexpr double half = 0.02;
 struct Subject {
   const Communicator& communicator;
   const PictureSource& source;
-  picture::Folds folds;
   Scene scene;
+  picture::Folds folds;
   std::vector<Colour> colours;  ///< by patch
   std::vector<LegendItem> patches;
 };
@@ -68,12 +68,9 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 }
 
 Subject find_subject(const Communicator& communicator, const PictureSource& source) {
-  Subject subject{communicator,
-                  source,
-                  picture::find_folds(communicator, source.surface, source.numbering),
-                  picture::find_scene(communicator, source.surface, source.types),
-                  {},
-                  {}};
+  Subject subject{communicator, source, picture::find_scene(communicator, source.surface, source.types),
+                  {},           {},     {}};
+  subject.folds = picture::find_folds(communicator, source.surface, source.numbering, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
@@ -102,9 +99,12 @@ Picture painted(const Communicator& communicator, Picture picture, const std::fu
 /// The box of what is shown in coordinates of the view. Collective.
 Box seen_from(const Subject& subject, const Viewpoint& view) {
   Box mine;
-  for (const mesh::Piece& piece : subject.source.surface.pieces) {
-    if (!subject.scene.shows(piece.common_face())) continue;
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) mine.add(in_view(view, piece.point(v)));
+  const std::vector<mesh::Piece>& pieces = subject.source.surface.pieces;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (mesh::LocalIndex t = 0; t < pieces[p].cell_count(); ++t) {
+      if (!subject.scene.shown[p][t]) continue;
+      for (int k = 0; k < 3; ++k) mine.add(in_view(view, pieces[p].point(pieces[p].cell(t)[k])));
+    }
   }
   for (int axis = 0; axis < 3; ++axis) {
     mine.low[axis] = subject.communicator.minimum(mine.low[axis]);
@@ -166,9 +166,9 @@ Picture views_picture(const Subject& subject) {
   const double scale = std::min((width - 4 * gap) / wide, (most - 4 * gap) / tall);
   const int left = static_cast<int>(width * seen[2].size().x / wide);
   const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, 1e-300);
-  const int upper = static_cast<int>(
-      std::lround(std::max(scale * seen[0].size().y, std::min(behind, 0.3 * width)) + 2 * gap));
   const int lower = static_cast<int>(std::lround(scale * seen[2].size().y + 2 * gap));
+  const int upper = static_cast<int>(std::lround(std::max(
+      scale * seen[0].size().y + 2 * gap, std::min(behind + 2 * gap, static_cast<double>(most - lower)))));
   const std::array<Window, 4> windows = {{{0, 0, left, upper},
                                           {left, 0, width - left, upper},
                                           {0, upper, left, lower},

@@ -13,12 +13,18 @@ using parallel::Communicator;
 
 constexpr double right_angle = std::numbers::pi / 2;
 
+Shown all_shown(const mesh::DistributedMesh& surface) {
+  Shown shown;
+  for (const mesh::Piece& piece : surface.pieces) shown.emplace_back(piece.cell_count(), 1);
+  return shown;
+}
+
 class FoldsOfCube : public testing::TestWithParam<int> {};
 
 TEST_P(FoldsOfCube, KnowEveryNeighbourWhateverThePieces) {
   const Communicator world = Communicator::world();
   const mesh::DistributedMesh cube = mesh::examples::cube_surface(world, 4, GetParam());
-  const Folds folds = find_folds(world, cube, mesh::number_mesh(world, cube));
+  const Folds folds = find_folds(world, cube, mesh::number_mesh(world, cube), all_shown(cube));
   std::int64_t open = 0, flat = 0, creases = 0;
   for (std::size_t p = 0; p < cube.pieces.size(); ++p) {
     const mesh::Piece& piece = cube.pieces[p];
@@ -29,7 +35,7 @@ TEST_P(FoldsOfCube, KnowEveryNeighbourWhateverThePieces) {
         const Fold& fold = folds[p][3 * t + i];
         const geometry::Vec3 edge = piece.point(piece.cell(t)[(i + 1) % 3]) - piece.point(piece.cell(t)[i]);
         const double angle = turn(normal, edge, fold);
-        open += fold.is_open();
+        open += fold.is_open() || !fold.shown;
         flat += std::abs(angle) < 1e-12 && fold.face == piece.triangle_face[t];
         // The flow is inside: edges of the cube are creases for it.
         creases += std::abs(angle + right_angle) < 1e-12 && fold.face != piece.triangle_face[t];
@@ -58,7 +64,8 @@ TEST(Folds, OpenEdgesAndThoseOfSeveralTrianglesAreKnown) {
   }
   const mesh::DistributedMesh sheets = builder.distribute(world, {"sheets"});
   std::int64_t open = 0, several = 0;
-  for (const auto& of_piece : find_folds(world, sheets, mesh::number_mesh(world, sheets))) {
+  for (const auto& of_piece :
+       find_folds(world, sheets, mesh::number_mesh(world, sheets), all_shown(sheets))) {
     for (const Fold& fold : of_piece) open += fold.is_open(), several += fold.several;
   }
   EXPECT_EQ(world.sum(several), 3 * 3);
