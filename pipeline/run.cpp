@@ -7,6 +7,7 @@
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/pictures.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
@@ -56,11 +57,17 @@ public:
     });
     FinishedSurface surface =
         stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
-    mesh::DistributedMesh volume = find_or_build_volume(sized, surface);
+    const PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
+    mesh::DistributedMesh volume =
+        with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
+                                 [&] { return find_or_build_volume(sized, surface); });
     const mesh::Numbering numbering =
         stage("inspect", ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
     volume.patch_types = _record.patch_types;
-    stage("output", ExitCode::files, [&] { write(volume, numbering, surface); });
+    stage("output", ExitCode::files, [&] {
+      write(volume, numbering, surface);
+      if (_input.output.pictures) _record.pictures = pictures_or_warning(_communicator, &volume, pictured);
+    });
     require_quality(_input.gate, _record);
   }
 

@@ -10,7 +10,7 @@ packages=(
   libmetis-dev libtet1.5-dev libcgal-dev libeigen3-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
-  libvtk9-dev libhdf5-openmpi-dev
+  libvtk9-dev libhdf5-openmpi-dev libpng-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
   # the build is configured with its tests
   libgtest-dev libbenchmark-dev python3
