@@ -120,10 +120,12 @@ Bytes share_header(const Communicator& communicator, const std::string& path) {
 /// Rows and places of the whole file, the same on every rank.
 Header plan(const Communicator& communicator, const CheckpointLabel& label, const CheckpointDraft& draft) {
   std::vector<Row> mine;
-  for (const CheckpointDraft::Item& item : draft.items) {
-    const Bytes bytes = item.bytes();
-    mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
-  }
+  parallel::agree(communicator, [&] {
+    for (const CheckpointDraft::Item& item : draft.items) {
+      const Bytes bytes = item.bytes();
+      mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
+    }
+  });
   Header header{label, communicator.all_gather_items<Row>(mine), {}};
   std::sort(header.rows.begin(), header.rows.end(),
             [](const Row& a, const Row& b) { return a.number < b.number; });

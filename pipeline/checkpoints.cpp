@@ -207,7 +207,13 @@ parallel::TaskStore* Checkpoints::tasks(SavedStage stage) {
 /// case no longer is.
 void Checkpoints::remove_needless(SavedStage kept) {
   std::unique_ptr<parallel::TaskStore>& store = _tasks.at(static_cast<std::size_t>(kept));
-  if (store) store->remove();
+  if (store) {
+    if (const std::int64_t found = _communicator.sum(store->found()); found > 0) {
+      parallel::log_info(fmt::format("checkpoint: stage {}: {} task(s) had been finished before",
+                                     name_of(kept), found));
+    }
+    store->remove();
+  }
   store.reset();
   for (auto s = static_cast<std::size_t>(kept) + 1; s < saved_stages; ++s) {
     const auto later = static_cast<SavedStage>(s);

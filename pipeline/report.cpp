@@ -307,6 +307,7 @@ void add_finished_mesh(Json& json, const RunRecord& record,
   json["unresolved_features"] = unresolved_json(record);
   json["patches"] = patches_json(record);
   json["regions"] = regions_json(record);
+  json["resumed"] = record.resumed;
   json["wall_seconds"] = record.wall_seconds;
   json["stages"] = stages_json(stages);
 }

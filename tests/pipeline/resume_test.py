@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""Checkpoints: killed runs resumed on another number of ranks, damaged and foreign ones, full disks.
+usage: resume_test.py PROGRAM"""
+import json
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from killed_run import command, run_and_kill
+from program import COARSE_TRANSPORT
+
+CASE = COARSE_TRANSPORT + "volume: {piece_tets: 10000}\nsurface: {piece_triangles: 2000}\n"
+STAGES = ["geometry", "sizing", "surface", "improve"]
+
+
+class Runs:
+    def __init__(self, program, folder):
+        self.program, self.folder, self.output = program, folder, folder / "out"
+        self.case = folder / "case.yaml"
+        self.case.write_text(CASE)
+
+    def run(self, ranks, *overrides):
+        """Exit code, all that was printed, report."""
+        done = subprocess.run(command(self.program, self.case, self.output, ranks, *overrides), capture_output=True,
+                              text=True, timeout=200)
+        report = self.output / "report.json"
+        return done.returncode, done.stdout + done.stderr, json.loads(report.read_text()) if report.exists() else None
+
+    def kill(self, ranks, is_time):
+        shutil.rmtree(self.output, ignore_errors=True)
+        return run_and_kill(self.program, self.case, self.output, ranks, is_time, "output.checkpoints=write")
+
+
+def size_of(path):
+    return path.stat().st_size if path.exists() else 0
+
+
+def check_killed(runs, wanted):
+    """Killed as soon as tasks of a stage are on disk: they are found again."""
+    folder = runs.output / "checkpoint"
+    for stage, ranks, again in (("surface", 1, 3), ("volume", 2, 1), ("improve", 3, 2)):
+        tasks = [folder / f"{stage}.0.{rank}.tasks" for rank in range(ranks)]
+        if runs.kill(ranks, lambda _: sum(size_of(t) for t in tasks) > 200000) is None:
+            continue  # it was quicker than the eye
+        code, text, report = runs.run(again, "output.checkpoints=resume")
+        assert code == 0 and report["mesh"]["hash"] == wanted, f"{stage}: {text}"
+        found_whole = "stage {} from".format(stage) in text
+        assert found_whole or f"stage {stage}: " in text and "had been finished before" in text, text
+        assert not list(folder.glob("*.tasks")) and not list(folder.glob("*.unfinished")), list(folder.iterdir())
+
+
+def check_damaged(runs, wanted):
+    """Any bit of any file: that stage is done anew, the mesh is the same."""
+    chance = random.Random(5)
+    folder = runs.output / "checkpoint"
+    for stage in STAGES:
+        path = folder / f"{stage}.checkpoint"
+        content = bytearray(path.read_bytes())
+        bit = chance.randrange(8 * len(content))
+        content[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(content)
+        code, text, report = runs.run(2, "output.checkpoints=resume")
+        assert code == 0 and report["mesh"]["hash"] == wanted, f"{stage}, bit {bit}: {text}"
+        assert "is damaged" in text and f"stage {stage} is done anew" in text, text
+        assert stage not in report["resumed"], report["resumed"]
+    path = folder / "improve.checkpoint"
+    path.write_bytes(path.read_bytes()[:-1])
+    code, text, _ = runs.run(1, "output.checkpoints=resume")
+    assert code == 0 and "is damaged" in text, text
+
+
+def check_other_cases(runs):
+    code, text, report = runs.run(2, "output.checkpoints=resume", "improve.target_angle=20")
+    assert code == 0 and report["resumed"] == STAGES[:3], text
+    assert "'target_angle: 28' where the case has 'target_angle: 20'" in text, text
+    code, text, _ = runs.run(2, "output.checkpoints=resume", "geometry.dimensions.wing.half_span=16")
+    assert code == 2 and "of another geometry" in text and "Remedy" in text, text
+    code, text, report = runs.run(2, "output.checkpoints=write", "geometry.dimensions.wing.half_span=16")
+    assert code == 0 and report["resumed"] == [], text
+    left = sorted(p.name for p in (runs.output / "checkpoint").iterdir())
+    assert left == sorted(f"{stage}.checkpoint" for stage in STAGES), left
+
+
+def check_unwritable(runs, wanted):
+    """The run goes on without checkpoints, and says so."""
+    shutil.rmtree(runs.output)
+    runs.output.mkdir()
+    (runs.output / "checkpoint").write_text("in the way")
+    code, text, report = runs.run(2, "output.checkpoints=write")
+    assert code == 0 and report["mesh"]["hash"] == wanted, text
+    assert "nothing is kept for another run" in text, text
+
+
+def check_full_disk(runs, wanted):
+    """A message, nothing that looks finished, exit code 7 where the mesh itself does not fit; afterwards the run goes on
+    from what did fit. Left out where file systems cannot be mounted."""
+    shutil.rmtree(runs.output)
+    runs.output.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=3M", "tmpfs", str(runs.output)]
+    if subprocess.run(mount, capture_output=True).returncode != 0:
+        print("not tested: a full disk (mount is not permitted)")
+        return
+    try:
+        code, text, _ = runs.run(2, "output.checkpoints=write")
+        assert code == 7 and "No space left" in text and "nothing is kept" in text, f"{code}: {text}"
+        for path in runs.output.rglob("*"):
+            assert path.suffix not in {".pvtu", ".vtu", ".unfinished", ".new"}, path
+        subprocess.run(["mount", "-o", "remount,size=100M", str(runs.output)], check=True)
+        code, text, report = runs.run(1, "output.checkpoints=resume")
+        assert code == 0 and report["mesh"]["hash"] == wanted and "geometry" in report["resumed"], text
+    finally:
+        subprocess.run(["umount", str(runs.output)], check=True)
+
+
+def main():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
+    runs = Runs(sys.argv[1], folder)
+    code, text, report = runs.run(2)
+    assert code == 0, text
+    assert not (runs.output / "checkpoint").exists() and report["resumed"] == [], report["resumed"]
+    wanted = report["mesh"]["hash"]
+    code, text, report = runs.run(1, "output.checkpoints=resume")  # nothing there yet
+    assert code == 0 and report["mesh"]["hash"] == wanted and report["resumed"] == [], text
+    code, text, report = runs.run(3, "output.checkpoints=resume")
+    assert code == 0 and report["mesh"]["hash"] == wanted and report["resumed"] == STAGES, text
+    check_damaged(runs, wanted)
+    check_other_cases(runs)
+    check_killed(runs, wanted)
+    check_unwritable(runs, wanted)
+    check_full_disk(runs, wanted)
+    shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    main()
