@@ -203,9 +203,10 @@ ContainedResult run_contained(const std::string& name, std::span<const std::byte
   request.limits.address_space_bytes = allowed_for_child(limits.address_space_bytes);
   send_request(server().socket.number(), request, input_memory, output_memory);
   const ContainedReply reply = await_reply(server().socket.number());
-  const bool was_short = request.limits.address_space_bytes < limits.address_space_bytes;
-  if (reply.status == ContainedStatus::out_of_memory && was_short) throw std::bad_alloc();
+  const std::int64_t allowed = request.limits.address_space_bytes;
   ContainedResult result;
+  result.short_of_memory = allowed < limits.address_space_bytes && reply.peak_resident_bytes > allowed / 2;
+  if (reply.status != ContainedStatus::ok && result.short_of_memory) throw std::bad_alloc();
   result.status = reply.status;
   result.cpu_seconds = reply.cpu_seconds;
   result.peak_resident_bytes = reply.peak_resident_bytes;

@@ -53,13 +53,16 @@ struct ContainedResult {
   std::string message;  ///< exception text, or signal name, with the tail of what the child wrote to stderr
   double cpu_seconds = 0;
   std::int64_t peak_resident_bytes = 0;
+  /// The user's limit (memory_limit.hpp) kept memory from it, and it came near what it had: what the task
+  /// says went wrong may be for want of memory.
+  bool short_of_memory = false;
 };
 
 /// Runs the task in a child of this rank's server and waits for it. Without a server the task runs here: what
 /// it throws is caught, but limits do not hold, and what aborts ends the program; the first such run warns.
 /// Not collective. Throws std::logic_error when the name is unknown and std::runtime_error when the server
-/// itself is gone; std::bad_alloc where it ran out of memory that the user's limit (memory_limit.hpp) kept
-/// from it: a result must not depend on that one.
+/// itself is gone; std::bad_alloc where it failed and was short of memory that the user's limit
+/// (memory_limit.hpp) kept from it: a result must not depend on that one.
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
                               const ContainedLimits& limits);
 

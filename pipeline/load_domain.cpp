@@ -231,6 +231,8 @@ auto run_task(const char* task, const DomainOptions& options, parallel::StageClo
   if (result.status != parallel::ContainedStatus::ok) throw_crash(options, result, limits);
   Unpacker unpacker(result.output);
   const auto outcome = unpacker.value<Outcome>();
+  // The CAD library takes memory that it does not get for faults of the geometry.
+  if (outcome == Outcome::cad_error && result.short_of_memory) throw std::bad_alloc();
   if (outcome == Outcome::cad_error) throw cad::CadError(unpacker.text());
   if (outcome == Outcome::file_error) {
     std::string text = unpacker.text();

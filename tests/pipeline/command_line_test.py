@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import pty
 import re
 import shlex
 import subprocess
@@ -91,7 +92,7 @@ def check_mistakes(shell):
                          ("run case.yaml --resume --checkpoints", "excludes"),
                          ("-v run case.yaml -q", "--verbose and --quiet exclude each other"),
                          ("info case.yaml -q -v", "--verbose and --quiet exclude each other"),
-                         ("run case.yaml --set sizng.minimum=1", "sizing.minimum")):
+                         ("run case.yaml --set sizng.minimum=1", "did you mean 'sizing'?")):
         for ranks in (0, 2) if line.startswith("rnu") else (0,):
             code, out, err = shell.run(line, ranks)
             assert code == 2 and out == "", f"{line!r}: exit {code}\n{out}{err}"
@@ -106,6 +107,42 @@ def check_loudness(shell):
     assert "wrote" in shell.run("convert out/mesh.pvtu a.cgns")[1]
     normal = len(shell.run("run case.yaml")[1])
     assert len(shell.run("-v run case.yaml")[1]) > normal
+
+
+def on_terminal(shell, line, **environment):
+    """What the program writes to a terminal."""
+    written = b""
+
+    def read(descriptor):
+        nonlocal written
+        data = os.read(descriptor, 65536)
+        written += data
+        return data
+
+    command = ["env", "-u", "NO_COLOR", "TERM=xterm", *(f"{name}={value}" for name, value in environment.items()),
+               "sh", "-c", f'cd "{shell.folder}" && exec "{shell.program}" {line}']
+    silent = os.open(os.devnull, os.O_WRONLY)
+    screen = os.dup(1)
+    os.dup2(silent, 1)
+    try:
+        pty.spawn(command, read)
+    finally:
+        os.dup2(screen, 1)
+    return written.decode().replace("\r\n", "\n")
+
+
+def check_progress(shell):
+    """On a terminal one line that leaves nothing behind; plain lines, here too few to show, where that is asked for."""
+    erase = "\r\x1b[K"
+    text = on_terminal(shell, "run case.yaml")
+    assert re.search(re.escape(erase) + r"(sizing|surface|volume|improve) +\d+ %  \d+ [a-z ]+  \d+ MB  \d+\.\d s", text), text
+    left = [line.split(erase)[-1] for line in text.split("\n")]
+    assert not any(re.search(r" \d+ MB  ", line) for line in left), left
+    facts = [line for line in shell.run("run case.yaml")[1].split("\n") if re.match("(geometry|sizing|surface|hash)", line)]
+    assert [line for line in facts if "MB" not in line and line not in left] == [], left
+    for how in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+        assert "\x1b" not in on_terminal(shell, "run case.yaml", **how)
+    assert erase not in on_terminal(shell, "-q run case.yaml")
 
 
 def check_version(shell):
@@ -165,6 +202,7 @@ def main():
     check_mistakes(shell)
     check_info(shell)
     check_loudness(shell)
+    check_progress(shell)
 
 
 if __name__ == "__main__":
