@@ -1,6 +1,7 @@
 #include "parallel/log.hpp"
 
 #include "parallel/timers.hpp"
+#include "parallel/warnings.hpp"
 
 #include <cstdio>
 
@@ -74,6 +75,7 @@ void log_verbose(const std::string& message) {
 }
 
 void log_warning(const std::string& message) {
+  keep_warning(message);
   log().trouble(spdlog::level::warn, "warning", message);
 }
 

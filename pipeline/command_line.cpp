@@ -9,11 +9,9 @@
 #include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
 #include "pipeline/stage.hpp"
-#include "pipeline/task_table.hpp"
 #include "pipeline/write_outputs.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include <CLI/CLI.hpp>
@@ -62,50 +60,26 @@ int fail(const Communicator& communicator, ExitCode code, const std::string& mes
   return static_cast<int>(code);
 }
 
-void write_text(const std::string& file, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-  std::ofstream stream(file);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
-}
-
-/// Writes report.json for a run that ended well or not. Collective; what goes wrong here replaces a good
-/// outcome.
-void report(const Communicator& communicator, const Case& input, const std::string& improved_file,
-            const RunRecord& record, const RunOutcome& outcome) {
-  const auto stages = record.clock.summarise(communicator);
-  const std::string tasks = input.output.tasks ? task_table(communicator, record.clock) : "";
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    if (input.output.tasks) write_text(input.output.directory + "/tasks.csv", tasks);
-    write_text(input.output.directory + "/report.json",
-               improved_file.empty()
-                   ? report_json(input, record, stages, outcome, communicator.size())
-                   : improve_report_json(improved_file, input, record, stages, outcome, communicator.size()));
-  });
-  if (outcome.code == ExitCode::ok) print(communicator, report_table(record, stages, communicator.size()));
-}
-
 /// Runs a case, or improves a file where one is named, and reports; a failure is reported too, as far as the
 /// output directory can be written.
-int run(const Communicator& communicator, const Case& input, const std::string& improved_file) {
+int run(const Communicator& communicator, const Case& input, const ReportSubject& subject) {
   RunRecord record;
   RunOutcome outcome;
   const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
   record.clock.note("start", age);
   try {
-    if (improved_file.empty()) {
+    if (subject.improved_file.empty()) {
       run_case(communicator, input, record);
     } else {
-      improve_file(communicator, improved_file, input, record);
+      improve_file(communicator, subject.improved_file, input, record);
     }
   } catch (const StageFailure& failure) {
     outcome = {failure.code(), failure.stage(), failure.what()};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
   try {
-    report(communicator, input, improved_file, record, outcome);
+    const std::string table = write_report(communicator, input, record, outcome, subject);
+    if (outcome.code == ExitCode::ok) print(communicator, table);
   } catch (const parallel::CollectiveError& error) {
     if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
   }
@@ -118,6 +92,9 @@ int run(const Communicator& communicator, const Case& input, const std::string& 
     print(communicator,
           fmt::format("{}: {}\n", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
   }
+  print(communicator,
+        fmt::format("report: {}\n",
+                    std::filesystem::absolute(input.output.directory + "/report.html").string()));
   return 0;
 }
 
@@ -263,7 +240,7 @@ int run_command_line(const Communicator& communicator, int argc, char** argv) {
                                         : arguments.verbose ? parallel::LogLevel::verbose
                                                             : input.output.log);
   if (run_command->parsed() || improve_command->parsed())
-    return run(communicator, input, arguments.mesh_file);
+    return run(communicator, input, {arguments.case_file, arguments.mesh_file});
   if (convert_command->parsed()) return convert(communicator, arguments);
   if (quality_command->parsed()) return quality(communicator, arguments, input.gate);
   if (check_command->parsed()) return check(communicator, input);

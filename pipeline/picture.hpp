@@ -7,11 +7,17 @@
 
 namespace aeroloom::pipeline {
 
+struct LegendItem {
+  std::string name;
+  std::string colour;  ///< "#rrggbb"
+};
+
 struct Picture {
   std::string name;     ///< of a file without its extension: letters, digits, underscores
   std::string caption;  ///< what is to be seen, a sentence
   int width = 0, height = 0;
   std::vector<std::uint8_t> png;
+  std::vector<LegendItem> legend;
 };
 
 }  // namespace aeroloom::pipeline

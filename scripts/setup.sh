@@ -12,7 +12,7 @@ packages=(
   libvtk9-dev libhdf5-openmpi-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev clang-format clang-tidy
-  python3 python3-numpy python3-vtk9
+  python3 python3-numpy python3-vtk9 python3-jsonschema
   # readers of our files that others wrote: tests compare with them
   cgns-convert gmsh openfoam python3-h5py python3-meshio
 )

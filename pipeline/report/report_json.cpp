@@ -1,0 +1,106 @@
+#include "pipeline/report/report_json.hpp"
+
+#include "pipeline/report/parts_json.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+namespace aeroloom::pipeline {
+namespace {
+
+constexpr int schema_version = 3;
+
+/// From "OpenCASCADE 7.6.3, TetGen 1.5, ..." as the build has them.
+Json versions_json() {
+  Json versions = {{"aeroloom", AEROLOOM_VERSION}};
+  std::string_view rest = AEROLOOM_LIBRARIES;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find(", ");
+    const std::string_view library = rest.substr(0, end);
+    const std::size_t space = library.rfind(' ');
+    versions[std::string(library.substr(0, space))] =
+        space == std::string_view::npos ? "" : std::string(library.substr(space + 1));
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 2);
+  }
+  return versions;
+}
+
+/// The geometry or the mesh that the run began with.
+Json input_json(const Case& input, const RunRecord& record, const ReportSubject& subject) {
+  const bool is_mesh = !subject.improved_file.empty();
+  const std::string& file = is_mesh ? subject.improved_file : input.domain.file;
+  std::error_code error;
+  const auto bytes = file.empty() ? 0 : std::filesystem::file_size(file, error);
+  Json json;
+  json["kind"] = is_mesh ? "mesh" : file.empty() ? "builtin" : "cad";
+  json["file"] = file.empty() ? Json() : Json(file);
+  json["bytes"] = file.empty() || error ? Json() : Json(bytes);
+  json["hash"] = record.input_hash.empty() ? Json() : Json(record.input_hash);
+  return json;
+}
+
+Json warnings_json(const parallel::Warnings& warnings) {
+  Json json = Json::array();
+  for (const parallel::Warning& warning : warnings.kept)
+    json.push_back({{"message", warning.message}, {"rank", warning.rank}, {"times", warning.times}});
+  return json;
+}
+
+Json pictures_json(const std::vector<Picture>& pictures) {
+  Json json = Json::array();
+  for (const Picture& picture : pictures)
+    json.push_back({{"name", picture.name}, {"caption", picture.caption}});
+  return json;
+}
+
+/// What every report begins with.
+Json outcome_json(const Case& input, const RunRecord& record, const ReportFacts& facts) {
+  const RunOutcome& outcome = facts.outcome;
+  Json json;
+  json["schema_version"] = schema_version;
+  json["program"] = {{"name", "aeroloom"}, {"version", AEROLOOM_VERSION}};
+  json["versions"] = versions_json();
+  json["status"] = outcome.code == ExitCode::ok ? "ok" : "failed";
+  json["exit_code"] = static_cast<int>(outcome.code);
+  if (outcome.code != ExitCode::ok)
+    json["failure"] = {{"stage", outcome.stage}, {"message", outcome.message}};
+  json["date"] = facts.date;
+  json["ranks"] = facts.ranks;
+  json["case"] = facts.subject.case_file.empty() ? Json() : Json(facts.subject.case_file);
+  json["input"] = input_json(input, record, facts.subject);
+  json["configuration"] = resolved_yaml(input);
+  json["resumed"] = record.resumed;
+  json["warnings"] = warnings_json(facts.warnings);
+  json["warnings_left_out"] = facts.warnings.left_out;
+  return json;
+}
+
+/// What every report says of the finished mesh.
+void add_finished_mesh(Json& json, const Case& input, const RunRecord& record, const ReportFacts& facts) {
+  json["mesh"] = mesh_json(record);
+  if (record.quality) json["quality"] = quality_json(input, record);
+  json["improve"] = improve_json(input, record);
+  json["pinned"] = pinned_json(record);
+  json["unresolved_features"] = unresolved_json(record);
+  json["patches"] = patches_json(record);
+  json["regions"] = regions_json(record);
+  json["pictures"] = pictures_json(record.pictures);
+  json["wall_seconds"] = record.wall_seconds;
+  json["stages"] = stages_json(facts.stages);
+}
+
+}  // namespace
+
+std::string report_json(const Case& input, const RunRecord& record, const ReportFacts& facts) {
+  Json json = outcome_json(input, record, facts);
+  if (facts.subject.improved_file.empty()) {
+    json["geometry"] = geometry_json(record);
+    json["sizing"] = sizing_json(record);
+    json["surface"] = surface_json(record);
+    json["volume"] = volume_json(record);
+  }
+  add_finished_mesh(json, input, record, facts);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace aeroloom::pipeline
