@@ -34,10 +34,21 @@ std::string judgement_of(const Json& report) {
   const Json& smallest = find(report, "/quality/min_dihedral_deg");
   for (const Judgement& j : judgements) {
     if (number(smallest) < j.from) continue;
-    return fmt::format("<li>{} Smallest dihedral angle {}: {}.</li>\n",
-                       badge(j.kind, escaped(std::string(j.kind))), degrees(smallest), j.words);
+    return fmt::format("<li>{} Smallest dihedral angle {}: {}.</li>\n", badge(j.kind, j.kind),
+                       degrees(smallest), j.words);
   }
   return {};
+}
+
+/// Long thin elements have good angles and a small mean ratio.
+std::string judgement_of_shape(const Json& report) {
+  const Json& least = find(report, "/quality/min_mean_ratio");
+  const Json& mean = find(report, "/quality/mean_mean_ratio");
+  const char* kind = number(least) >= 0.3 ? "good" : number(least) >= 0.02 ? "fair" : "poor";
+  const std::string worst = number(least) >= 0.3 ? "" : ": the worst are stretched or flat";
+  return fmt::format(
+      "<li>{} Mean ratio {} on average and {} at least{}. Of a regular tetrahedron it is 1.</li>\n",
+      badge(kind, kind), ratio(mean), ratio(least), worst);
 }
 
 std::string below_target(const Json& report) {
@@ -82,8 +93,8 @@ std::string gate_sentence(const Json& gate) {
   std::size_t missed = 0;
   for (const Json& row : gate) missed += find(row, "/met") == Json(true) ? 0 : 1;
   if (missed == 0)
-    return fmt::format("<li>{} All {} met.</li>\n", badge("good", "gate passed"),
-                       gate.size() == 1 ? "limits (one) are" : fmt::format("{} limits are", gate.size()));
+    return fmt::format("<li>{} {} met.</li>\n", badge("good", "gate passed"),
+                       gate.size() == 1 ? "The one limit is" : fmt::format("All {} limits are", gate.size()));
   return fmt::format("<li>{} {} of {} missed; the mesh was written nevertheless.</li>\n",
                      badge("poor", "gate failed"), missed, counted(gate.size(), "limit"));
 }
@@ -174,8 +185,8 @@ std::string verdict_section(const Json& report) {
                             "boundary, and the volume that it encloses.</li>\n";
   return section(
       "verdict", "Is this mesh good?",
-      "<ul class=\"verdict\">\n" + gate_sentence(gate) + valid + judgement_of(report) + below_target(report) +
-          "</ul>\n" + gate_table(gate) +
+      "<ul class=\"verdict\">\n" + gate_sentence(gate) + valid + judgement_of(report) +
+          judgement_of_shape(report) + below_target(report) + "</ul>\n" + gate_table(gate) +
           paragraph(
               "<span class=\"quiet\">Isotropic tetrahedra without boundary layers: for inviscid flow, "
               "wall functions, or as the mesh outside of layers. The words on angles are rules of thumb."

@@ -80,14 +80,13 @@ std::string load_histograms(const Json& report) {
   return table.html();
 }
 
-/// The configuration and the versions, as they are.
-std::string versions_table(const Json& versions) {
-  Table table({{"program or library"}, {"version"}});
-  if (versions.is_object()) {
-    for (const auto& [library, version] : versions.items())
-      table.add({escaped(library), escaped(text(version))});
+std::string versions(const Json& list) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (list.is_object()) {
+    for (const auto& [library, version] : list.items())
+      rows.emplace_back(escaped(library), escaped(text(version)));
   }
-  return part("Versions", table.html());
+  return part("Versions", facts(rows));
 }
 
 }  // namespace
@@ -117,7 +116,7 @@ std::string origin_section(const Json& report) {
     rows.emplace_back("hash of the input", "<code>" + escaped(hash) + "</code>");
   const std::string configuration = passage(find(report, "/configuration"), 200'000);
   return section("origin", "Where it comes from",
-                 facts(rows) + versions_table(find(report, "/versions")) +
+                 facts(rows) + versions(find(report, "/versions")) +
                      (configuration.empty()
                           ? ""
                           : "<details>\n<summary>The whole configuration, defaults included</summary>\n"

@@ -1,5 +1,6 @@
 #include "pipeline/report/html_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -141,17 +142,20 @@ std::string memory(const Json& value) {
 
 std::string percent(double part) {
   const double v = 100 * part;
-  if (v == 0) return "0 %";
-  if (std::abs(v) < 0.005) return fmt::format("{} %", quantity(v));
-  return fmt::format("{:.{}f} %", v, std::abs(v) < 9.995 ? 2 : 1);
+  if (std::abs(v) < 0.0005) return "0 %";
+  return fmt::format("{:.{}f} %", v, std::abs(v) < 0.0995 ? 3 : std::abs(v) < 9.995 ? 2 : 1);
 }
 
 std::string place(const Json& point) {
   if (!point.is_array() || point.size() != 3) return dash;
+  double largest = 0;
+  for (const Json& c : point) largest = std::max(largest, std::abs(number(c)));
   std::string coordinates;
-  for (const Json& c : point)
-    coordinates += (coordinates.empty() ? "" : ", ") + fmt::format("{:.6g}", number(c));
-  return "(" + coordinates + ")";
+  for (const Json& c : point) {
+    const double value = std::abs(number(c)) < 1e-9 * largest ? 0 : number(c);
+    coordinates += fmt::format("{}{:.6g}", coordinates.empty() ? "" : ", ", value);
+  }
+  return fmt::format("<span class=\"place\">({})</span>", coordinates);
 }
 
 std::string counted(const Json& value, const std::string& noun, const std::string& plural) {

@@ -33,8 +33,8 @@ std::string degrees(const Json& value);   ///< 28.0°
 std::string ratio(const Json& value);     ///< 0.862
 std::string seconds(const Json& value);   ///< 0.42 s, 7.4 s, 12 min 3 s
 std::string memory(const Json& value);    ///< 466 MiB
-std::string percent(double part);         ///< 0.15 %
-std::string place(const Json& point);     ///< (36.21, -0.02782, 6.727)
+std::string percent(double part);         ///< 0.15 %; rounding is 0 %
+std::string place(const Json& point);     ///< (36.21, -0.02782, 6.727), HTML
 
 /// "1 limit", "2 limits"; `plural` where an s does not make it.
 std::string counted(const Json& value, const std::string& noun, const std::string& plural = "");

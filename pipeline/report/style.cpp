@@ -50,6 +50,7 @@ table { border-collapse: collapse; font-size: 14px; min-width: 40%; }
 th, td { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--quiet); font-weight: 600; border-bottom-width: 2px; }
 td { overflow-wrap: anywhere; min-width: 3em; }
+.place { white-space: nowrap; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 dl { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); gap: 4px 20px; margin: 8px 0; }
 dl div { display: flex; gap: 8px; }
@@ -58,6 +59,7 @@ dd { margin: 0; overflow-wrap: anywhere; }
 .charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 10px 20px; margin: 10px 0; }
 svg { forced-color-adjust: none; }
 svg text { fill: var(--ink); font-size: 11px; }
+svg text { paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; }
 svg .title { font-size: 13px; font-weight: 600; }
 svg .grid { stroke: var(--line); stroke-width: 1; }
 svg .axis { stroke: var(--ink); stroke-width: 1; }
@@ -85,6 +87,7 @@ summary { cursor: pointer; }
   .tiles { grid-template-columns: repeat(2, 1fr); }
   .tile b { font-size: 17px; }
   h1 { font-size: 21px; }
+  td:not(.number) { min-width: 8em; }
 }
 @media print {
   @page { size: A4; margin: 14mm; }
@@ -93,8 +96,9 @@ summary { cursor: pointer; }
   main, footer { max-width: none; padding: 0; }
   nav { display: none; }
   .wide { overflow: visible; }
-  table { width: 100%; font-size: 8pt; }
+  table { max-width: 100%; font-size: 8pt; }
   th, td { padding-right: 6px; min-width: 0; }
+  .place, .number { white-space: normal; }
   thead { display: table-header-group; }
   tr, figure, .tile, .chart, .part > h3, li { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
