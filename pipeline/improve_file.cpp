@@ -3,6 +3,7 @@
 #include "foreign/foreign_mesh.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "pipeline/finished_volume.hpp"
+#include "pipeline/pictures.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
 
@@ -26,9 +27,13 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   });
   run_stage(record, "output", ExitCode::files, [&] {
     write_outputs(communicator, volume, numbering, input.output);
-    if (!wants_vtk(input.output)) return;
+    if (!wants_vtk(input.output) && !input.output.pictures) return;
     const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
-    write_surfaces(communicator, surface, mesh::number_mesh(communicator, surface), input.output);
+    const mesh::Numbering surface_numbers = mesh::number_mesh(communicator, surface);
+    if (wants_vtk(input.output)) write_surfaces(communicator, surface, surface_numbers, input.output);
+    if (!input.output.pictures) return;
+    record.pictures =
+        pictures_or_warning(communicator, &volume, {surface, surface_numbers, volume.patch_types, ""});
   });
   require_quality(input.gate, record);
 }

@@ -7,17 +7,18 @@
 
 namespace aeroloom::pipeline {
 
+/// What a colour of a picture stands for.
 struct LegendItem {
   std::string name;
-  std::string colour;  ///< "#rrggbb"
+  std::string colour;  ///< as HTML writes it: "#rrggbb"
 };
 
 struct Picture {
   std::string name;     ///< of a file without its extension: letters, digits, underscores
   std::string caption;  ///< what is to be seen, a sentence
   int width = 0, height = 0;
-  std::vector<std::uint8_t> png;
-  std::vector<LegendItem> legend;
+  std::vector<std::uint8_t> png{};
+  std::vector<LegendItem> legend{};
 };
 
 }  // namespace aeroloom::pipeline

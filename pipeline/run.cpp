@@ -7,6 +7,7 @@
 #include "parallel/collective_error.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/pictures.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
@@ -207,6 +208,13 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
   return filled;
 }
 
+/// `volume` may be null. Collective.
+void picture_mesh(const Communicator& communicator, const mesh::DistributedMesh* volume,
+                  const NumberedMesh& surface, RunRecord& record) {
+  record.pictures = pictures_or_warning(communicator, volume,
+                                        {surface.mesh, surface.numbering, record.patch_types, record.unit});
+}
+
 }  // namespace
 
 void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
@@ -246,6 +254,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   run_stage(record, "output", ExitCode::files, [&] {
     write_outputs(communicator, volume, numbering, input.output);
     if (wants_vtk(input.output)) write_surfaces(communicator, surface.mesh, surface.numbering, input.output);
+    if (input.output.pictures) picture_mesh(communicator, &volume, surface, record);
   });
   require_quality(input.gate, record);
 }

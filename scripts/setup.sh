@@ -9,7 +9,7 @@ packages=(
   libmetis-dev libtet1.5-dev libcgal-dev libeigen3-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
-  libvtk9-dev libhdf5-openmpi-dev
+  libvtk9-dev libhdf5-openmpi-dev libpng-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev clang-format clang-tidy
   python3 python3-numpy python3-vtk9 python3-jsonschema

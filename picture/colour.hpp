@@ -1,0 +1,61 @@
+/// Colours: what patches and angles look like.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace aeroloom::picture {
+
+/// A colour as a screen shows it (sRGB).
+struct Colour {
+  std::uint8_t red = 0, green = 0, blue = 0;
+  friend bool operator==(Colour, Colour) = default;
+};
+
+inline constexpr Colour white{255, 255, 255};
+inline constexpr Colour ink{28, 32, 38};            ///< outlines
+inline constexpr Colour solid_grey{208, 212, 217};  ///< a body that was cut
+
+/// `share` of b in a; share from 0 to 1.
+Colour mix(Colour a, Colour b, double share);
+/// Darker or lighter by a factor.
+Colour lit(Colour colour, double brightness);
+/// As HTML writes it: "#rrggbb".
+std::string html_name(Colour colour);
+
+/// Colours for things that have names, light enough for lines to be seen on them. They differ in lightness
+/// too, neighbours most, for eyes that see few hues.
+inline constexpr std::array<Colour, 12> name_colours = {{{112, 164, 210},
+                                                         {236, 170, 72},
+                                                         {86, 176, 148},
+                                                         {222, 150, 188},
+                                                         {240, 222, 118},
+                                                         {138, 122, 188},
+                                                         {166, 216, 236},
+                                                         {204, 104, 82},
+                                                         {176, 190, 92},
+                                                         {178, 136, 98},
+                                                         {84, 128, 146},
+                                                         {196, 196, 200}}};
+
+/// A class of smallest dihedral angles, degrees.
+struct AngleClass {
+  double below;  ///< and not below the class before
+  Colour colour;
+  std::string_view name;
+};
+/// From flat tetrahedra, red, to those near the regular one (70.5 degrees), blue; yellow between, for eyes
+/// that tell red from green badly.
+inline constexpr std::array<AngleClass, 7> angle_classes = {{{5, {165, 15, 40}, "under 5°"},
+                                                             {10, {222, 72, 50}, "5° to 10°"},
+                                                             {20, {250, 150, 90}, "10° to 20°"},
+                                                             {30, {254, 218, 140}, "20° to 30°"},
+                                                             {40, {235, 243, 205}, "30° to 40°"},
+                                                             {50, {176, 213, 232}, "40° to 50°"},
+                                                             {400, {104, 158, 204}, "50° and more"}}};
+std::size_t angle_class(double degrees);
+
+}  // namespace aeroloom::picture

@@ -1,0 +1,129 @@
+#include "mesh/quality.hpp"
+#include "picture/drawing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace aeroloom::picture {
+namespace {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+
+/// Where the plane cuts an edge whose ends lie `high` above it and `low` below it. The same bits for all
+/// tetrahedra at the edge.
+Vec3 crossing(Vec3 above, double high, Vec3 below, double low) {
+  return above + high / (high - low) * (below - above);
+}
+
+/// A cut tetrahedron: three corners or four, one after another.
+struct CutPolygon {
+  std::array<Vec3, 4> corners;
+  int count = 0;
+};
+
+CutPolygon cut(const std::array<Vec3, 4>& corners, const std::array<double, 4>& heights) {
+  std::array<int, 4> above{}, below{};
+  int above_count = 0, below_count = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (heights[i] > 0) {
+      above[above_count++] = i;
+    } else {
+      below[below_count++] = i;
+    }
+  }
+  CutPolygon polygon;
+  const auto add = [&](int a, int b) {
+    polygon.corners[polygon.count++] = crossing(corners[a], heights[a], corners[b], heights[b]);
+  };
+  if (above_count == 2 && below_count == 2) {
+    add(above[0], below[0]), add(above[0], below[1]), add(above[1], below[1]), add(above[1], below[0]);
+  } else {
+    for (int i = 0; i < above_count; ++i) {
+      for (int j = 0; j < below_count; ++j) add(above[i], below[j]);
+    }
+  }
+  return polygon;
+}
+
+void draw_polygon(Canvas& canvas, const Camera& camera, const CutPolygon& polygon, Colour colour,
+                  double edge_opacity, double size) {
+  std::array<ScreenPoint, 4> p;
+  for (int i = 0; i < polygon.count; ++i) {
+    p[i] = camera.project(polygon.corners[i]);
+    p[i].depth = 0;
+  }
+  // By the size of the tetrahedron, so that slender cuts have lines as their neighbours have.
+  const double opacity = edge_opacity * std::clamp((size - 2) / 5, 0.0, 1.0);
+  TriangleStyle style{colour, mix(colour, ink, 0.75), 1.0, {opacity, opacity, opacity}};
+  if (polygon.count == 3) return canvas.draw_triangle({p[0], p[1], p[2]}, style);
+  style.line_opacity = {opacity, opacity, 0};
+  canvas.draw_triangle({p[0], p[1], p[2]}, style);
+  style.line_opacity = {0, opacity, opacity};
+  canvas.draw_triangle({p[0], p[2], p[3]}, style);
+}
+
+}  // namespace
+
+void draw_cut(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& volume, Plane plane,
+              double edge_opacity) {
+  canvas.set_window(camera.window);
+  for (const mesh::Piece& piece : volume.pieces) {
+    std::vector<double> heights(piece.vertex_count());
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      heights[v] = dot(plane.normal, piece.point(v)) - plane.offset;
+    }
+    for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const LocalIndex* v = piece.cell(c);
+      const std::array<double, 4> h = {heights[v[0]], heights[v[1]], heights[v[2]], heights[v[3]]};
+      const auto [low, high] = std::minmax_element(h.begin(), h.end());
+      if (!(*high > 0) || *low > 0) continue;
+      std::array<Vec3, 4> corners;
+      for (int i = 0; i < 4; ++i) corners[i] = piece.point(v[i]);
+      const CutPolygon polygon = cut(corners, h);
+      const double angle = mesh::dihedral_range(corners[0], corners[1], corners[2], corners[3]).smallest;
+      const double volume6 = geometry::volume6(corners[0], corners[1], corners[2], corners[3]);
+      draw_polygon(canvas, camera, polygon, angle_classes[angle_class(angle)].colour, edge_opacity,
+                   camera.scale * std::cbrt(std::abs(volume6)));
+    }
+  }
+}
+
+void draw_section(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& surface,
+                  const Scene& scene, Plane plane, double width) {
+  canvas.set_window(camera.window);
+  for (const mesh::Piece& piece : surface.pieces) {
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      if (!scene.shows(piece.triangle_face[t])) continue;
+      std::array<ScreenPoint, 3> crossings;
+      int count = 0;
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 a = piece.point(piece.cell(t)[i]), b = piece.point(piece.cell(t)[(i + 1) % 3]);
+        const double at_a = dot(plane.normal, a) - plane.offset, at_b = dot(plane.normal, b) - plane.offset;
+        if ((at_a > 0) == (at_b > 0)) continue;
+        crossings[count] = camera.project(at_a > 0 ? crossing(a, at_a, b, at_b) : crossing(b, at_b, a, at_a));
+        crossings[count++].depth = 0;
+      }
+      if (count == 2) canvas.draw_line(crossings[0], crossings[1], width, ink, 1);
+    }
+  }
+}
+
+void draw_backdrop(Canvas& canvas, const Camera& camera, const geometry::Box& box, Colour colour) {
+  canvas.set_window(camera.window);
+  geometry::Box seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                 corner & 4 ? box.high.z : box.low.z};
+    const ScreenPoint s = camera.project(p);
+    seen.add(Vec3{s.x, s.y, 0});
+  }
+  constexpr double behind = 1e6;
+  const ScreenPoint a{seen.low.x, seen.low.y, behind}, b{seen.high.x, seen.low.y, behind},
+      c{seen.high.x, seen.high.y, behind}, d{seen.low.x, seen.high.y, behind};
+  canvas.draw_triangle({a, b, c}, {colour, colour});
+  canvas.draw_triangle({a, c, d}, {colour, colour});
+}
+
+}  // namespace aeroloom::picture

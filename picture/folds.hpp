@@ -1,0 +1,40 @@
+/// What lies beyond the edges of the triangles of a surface mesh.
+#pragma once
+
+#include "geometry/vec.hpp"
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::picture {
+
+/// The triangle beyond an edge.
+struct Fold {
+  geometry::Vec3 normal;   ///< unit, as its own; zero where there is no triangle
+  std::int32_t face = -1;  ///< CAD face
+  std::int32_t patch = -1;
+  bool several = false;  ///< more than two triangles meet: this is one of them
+
+  bool is_open() const { return face < 0; }
+};
+
+/// Per local piece, three for each triangle: beyond the edge from its corner i to corner i + 1.
+using Folds = std::vector<std::vector<Fold>>;
+
+/// Edges within a piece are matched there; those with one triangle in it travel. Where several triangles
+/// meet, each gets the next one in the order of pieces and triangles. Collective.
+Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
+                 const mesh::Numbering& numbering);
+
+/// Twice the area times the unit normal of a triangle: out of the region in front of it, that is away from
+/// who looks at a wall from the flow.
+geometry::Vec3 area_normal(const mesh::Piece& piece, mesh::LocalIndex triangle);
+
+/// The angle in radians by which the surface turns at the edge with this direction, counter-clockwise around
+/// a triangle with this normal: positive where the wall is convex for who stands in the flow, as at a leading
+/// edge; negative in a crease, as between wing and fuselage.
+double turn(geometry::Vec3 normal, geometry::Vec3 edge, const Fold& beyond);
+
+}  // namespace aeroloom::picture

@@ -1,0 +1,35 @@
+/// Bits of lines on a surface, and the lines that they make.
+#pragma once
+
+#include "geometry/vec.hpp"
+#include "mesh/piece.hpp"
+#include "parallel/communicator.hpp"
+
+#include <array>
+#include <vector>
+
+namespace aeroloom::picture {
+
+/// A triangle or edge that lies on a line.
+struct LineItem {
+  std::array<mesh::GlobalIndex, 3> vertices;  ///< ascending; of an edge the last is there twice
+  geometry::Vec3 point, normal, along;        ///< as in Place
+  double length = 0, size = 0;
+};
+
+/// Those that are connected by vertices.
+struct Line {
+  std::vector<LineItem> items;  ///< by their vertices
+  geometry::Box box;            ///< of the points of its items
+
+  double extent() const { return box.diagonal(); }
+};
+
+/// All lines of the items of all ranks on rank 0, by their lowest vertices; nothing elsewhere. A function of
+/// the set of all items. Collective.
+std::vector<Line> gather_lines(const parallel::Communicator& communicator, const std::vector<LineItem>& mine);
+
+/// The mean of what is near an item: its direction, normal and size, over four sizes.
+LineItem smoothed(const Line& line, const LineItem& item);
+
+}  // namespace aeroloom::picture

@@ -1,0 +1,47 @@
+/// The pictures of a report.
+///
+/// `body`: what is shown, by patch; `views`: from above, from the side, from the front, and from behind and
+/// below; `leading_edge` and `junction`: single triangles at two places that picture/places.hpp finds, left
+/// out where it finds none; `cut`: the tetrahedra that a plane cuts; `leading_edge_cut`: those across the
+/// leading edge. What is shown is the body in the flow, or else the walls of the flow, seen from inside
+/// (picture/scene.hpp). The flow comes along x, and z is up. The plane of the cut is that of symmetry for
+/// half a body, the middle of a whole one across y, and the middle of a duct across its shortest extent.
+///
+/// All ranks draw what they hold; nothing is gathered but pictures and lines on the surface. A rank needs 32
+/// bytes for each of at most 0.7 million pixels and 200 for each triangle of the surface. All pictures
+/// together have less than 1.5 MB, as good as always: there is a limit for each, which more than 16 colours
+/// never break.
+#pragma once
+
+#include "mesh/distributed_mesh.hpp"
+#include "parallel/communicator.hpp"
+#include "pipeline/picture.hpp"
+
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// What pictures are made of.
+struct PictureSource {
+  const mesh::DistributedMesh& surface;  ///< the boundary of the domain
+  const mesh::Numbering& numbering;      ///< of the surface
+  const std::vector<mesh::PatchType>& types;
+  std::string unit;  ///< of lengths, may be empty
+};
+
+/// The pictures on rank 0, the same bytes for any number of ranks; nothing elsewhere. Collective. Throws
+/// CollectiveError.
+std::vector<Picture> make_pictures(const parallel::Communicator& communicator,
+                                   const mesh::DistributedMesh& volume, const PictureSource& source);
+
+/// Those of the surface alone, where there is no volume.
+std::vector<Picture> make_surface_pictures(const parallel::Communicator& communicator,
+                                           const PictureSource& source);
+
+/// Those of the volume, or of the surface alone where `volume` is null; a failure is a warning, and there are
+/// no pictures. Collective.
+std::vector<Picture> pictures_or_warning(const parallel::Communicator& communicator,
+                                         const mesh::DistributedMesh* volume, const PictureSource& source);
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,67 @@
+// picture_files CASE.yaml|MESH FOLDER [section.key=value ...]: the pictures of a run, or of a mesh as it is,
+// as files in a folder, for who wants to look at them.
+#include "foreign/foreign_mesh.hpp"
+#include "mesh/boundary_mesh.hpp"
+#include "parallel/contained.hpp"
+#include "parallel/environment.hpp"
+#include "pipeline/load_domain.hpp"
+#include "pipeline/pictures.hpp"
+#include "pipeline/run.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+namespace {
+
+std::vector<Picture> pictures_of_mesh(const parallel::Communicator& world, const std::string& file) {
+  const mesh::DistributedMesh volume = foreign::load_foreign_mesh(world, file, 100'000);
+  const mesh::DistributedMesh surface = mesh::boundary_mesh(world, volume, mesh::number_mesh(world, volume));
+  const mesh::Numbering numbering = mesh::number_mesh(world, surface);
+  const double begin = parallel::wall_seconds();
+  std::vector<Picture> pictures = make_pictures(world, volume, {surface, numbering, volume.patch_types, ""});
+  if (world.is_root()) std::printf("pictures: %.2f s\n", parallel::wall_seconds() - begin);
+  return pictures;
+}
+
+void write_pictures(const std::vector<std::string>& arguments) {
+  const auto world = parallel::Communicator::world();
+  std::vector<Picture> pictures;
+  if (arguments.at(1).ends_with(".yaml")) {
+    RunRecord record;
+    run_case(world, read_case(arguments[1], {arguments.begin() + 3, arguments.end()}), record);
+    pictures = record.pictures;
+  } else {
+    pictures = pictures_of_mesh(world, arguments[1]);
+  }
+  std::filesystem::create_directories(arguments.at(2));
+  for (const Picture& picture : pictures) {
+    std::ofstream(arguments[2] + "/" + picture.name + ".png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(picture.png.data()),
+               static_cast<std::streamsize>(picture.png.size()));
+    std::printf("%s: %dx%d, %zu bytes: %s\n", picture.name.c_str(), picture.width, picture.height,
+                picture.png.size(), picture.caption.c_str());
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::pipeline
+
+int main(int argc, char** argv) {
+  using namespace aeroloom;
+  volume::register_volume_tasks();
+  pipeline::register_geometry_tasks();
+  const parallel::Environment environment(argc, argv);
+  try {
+    pipeline::write_pictures({argv, argv + argc});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
