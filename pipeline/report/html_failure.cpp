@@ -94,8 +94,8 @@ std::string tiles(const Json& report) {
            tile("smallest dihedral angle", degrees(find(report, "/quality/min_dihedral_deg"))) +
            tile("largest dihedral angle", degrees(find(report, "/quality/max_dihedral_deg"))) +
            tile("mean ratio on average", ratio(find(report, "/quality/mean_mean_ratio"))) +
-           tile("volume",
-                quantity(find(report, "/mesh/volume")) + (unit.empty() ? "" : " " + escaped(unit) + "³"));
+           tile("volume", fmt::format("{}{}{}", quantity(find(report, "/mesh/volume")),
+                                      unit.empty() ? "" : " ", unit.empty() ? "" : escaped(unit) + "³"));
   } else if (number(find(report, "/surface/triangles")) > 0) {
     all += tile("surface triangles", count(find(report, "/surface/triangles")));
   }

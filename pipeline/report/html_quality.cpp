@@ -70,8 +70,8 @@ std::string below_target(const Json& report) {
                   counted(pinned + features + rest, "tetrahedron is", "tetrahedra are"), target);
   if (pinned > 0) text += fmt::format(" {} forced by sharp angles of the CAD;", count(pinned));
   if (features > 0) text += fmt::format(" {} at strips or gaps finer than the elements;", count(features));
-  text +=
-      rest > 0 ? fmt::format(" {} that neither explains.", count(rest)) : " nothing that neither explains.";
+  text += rest > 0 ? fmt::format(" {} that no sharp angle, strip or gap of the CAD explains.", count(rest))
+                   : " all that are left are explained by the CAD.";
   return text + "</li>\n";
 }
 

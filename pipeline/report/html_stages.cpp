@@ -53,7 +53,8 @@ std::string stage_table(const Json& report) {
 /// Bars of the ranks where report.json lists them all.
 std::string loads_of_ranks(const Json& report) {
   std::vector<std::string> stages;
-  std::vector<std::vector<double>> seconds_of(static_cast<std::size_t>(number(find(report, "/ranks"))));
+  const Json& first = find(report, "/stages/0/cpu_seconds_by_rank");
+  std::vector<std::vector<double>> seconds_of(first.is_array() ? first.size() : 0);
   for (const Json& stage : find(report, "/stages")) {
     const Json& of_ranks = find(stage, "/cpu_seconds_by_rank");
     if (of_ranks.size() != seconds_of.size()) return {};

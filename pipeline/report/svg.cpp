@@ -46,7 +46,7 @@ Axes axes_of(const Bins& bins, const HistogramChart& chart) {
     if (bins.counts[b] <= 0) continue;
     axes.from = std::min(axes.from, bins.edge(b));
     axes.to = std::max(axes.to, bins.edge(b + 1));
-    while (axes.most < bins.counts[b] * 1.1) axes.most *= 10;
+    while (axes.most < bins.counts[b] * 1.1 && axes.most < 1e15) axes.most *= 10;
   }
   return axes;
 }
@@ -70,10 +70,13 @@ std::string grid(const Axes& axes, const HistogramChart& chart) {
     text += label(left - 5, axes.y(count) + 4, "end", words);
   }
   line("axis", left, height - bottom, width - right, height - bottom);
-  for (auto n = static_cast<int>(std::ceil(axes.from / chart.tick - 1e-9)); n * chart.tick <= axes.to + 1e-9;
-       ++n)
-    text += label(axes.x(n * chart.tick), height - bottom + 16, "middle",
-                  fmt::format("{:.3g}{}", n * chart.tick, chart.unit));
+  // As many numbers as there is room for, whatever the range.
+  const double tick = std::max(chart.tick, (axes.to - axes.from) / 12);
+  const double begin = std::ceil(axes.from / tick - 1e-9);
+  for (int n = 0; n <= 12 && (begin + n) * tick <= axes.to + 1e-9 * tick; ++n) {
+    const double at = (begin + n) * tick;
+    text += label(axes.x(at), height - bottom + 16, "middle", fmt::format("{:.3g}{}", at, chart.unit));
+  }
   return text;
 }
 
