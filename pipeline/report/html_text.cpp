@@ -101,8 +101,9 @@ std::string quantity(const Json& value) {
   if (!value.is_number()) return dash;
   const double v = value.get<double>();
   const double size = std::abs(v);
+  if (size == 0) return "0";
   if (size >= 99999.5 && size < 1e15) return count(value);
-  if (size != 0 && (size < 1e-3 || size >= 1e15)) return with_exponent(v);
+  if (size < 1e-3 || size >= 1e15) return with_exponent(v);
   return fmt::format("{:.4g}", size >= 9999.5 ? std::round(v) : v).find('e') != std::string::npos
              ? count(value)
              : fmt::format("{:.4g}", v);

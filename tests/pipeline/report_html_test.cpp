@@ -5,7 +5,6 @@
 #include "pipeline/report/report_json.hpp"
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -113,7 +112,7 @@ TEST(ReportHtml, SaysWhatPeopleAskFor) {
        {"1,384,540", "3.5°", "53,156,963", "7.4 s", "466 MiB", "0123456789abcdef0123456789abcdef",
         "gate failed", "improve.gate.smallest_angle", "beware", "(3 times)", "a wider halo", "sewn", "joined",
         "wing", "from a checkpoint", "2026-03-01 10:20 UTC", "What to do", "offending_triangles.vtp",
-        "piece_tets:"}) {
+        "smallest_angle: 5"}) {
     EXPECT_TRUE(contains(page, words)) << words;
   }
 }
@@ -215,7 +214,6 @@ TEST(ReportHtml, NumbersAreForPeople) {
   EXPECT_EQ(html::quantity(848255.99), "848,256");
   EXPECT_EQ(html::quantity(8.5e-7), "8.5·10⁻⁷");
   EXPECT_EQ(html::quantity(-0.0), "0");
-  EXPECT_EQ(html::quantity(std::numeric_limits<double>::quiet_NaN()), "–");
   EXPECT_EQ(html::percent(-0.0015), "-0.15 %");
   EXPECT_EQ(html::percent(1e-16), "0 %");
   EXPECT_EQ(html::place(Json::array({1.0, 1e-13, -2.5})), "<span class=\"place\">(1, 0, -2.5)</span>");
