@@ -4,7 +4,7 @@
 usage: report_pictures.py PAGE.html OUT_STEM [VIEW ...]
 
 Views: screen (default), dark, narrow (400 px), print (the style for paper), pdf. Writes OUT_STEM_VIEW.png or .pdf. A view may
-have a section and a largest height: screen:stages, screen::900, dark:verdict:700.
+have a section, a largest height and a scale: screen:stages, screen::900, dark:verdict:700:0.5.
 """
 import base64
 import json
@@ -95,12 +95,12 @@ class Chromium:
         self.call("Emulation.setEmulatedMedia", media="print" if paper else "screen", features=scheme)
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 500)
 
-    def picture(self, file, section="", most=6000):
+    def picture(self, file, section="", most=6000, scale=1.0):
         box = self.evaluate(
             f"(() => {{ const e = {'document.getElementById(%r)' % section if section else 'document.documentElement'};"
             "const r = e.getBoundingClientRect(); return [r.x + scrollX, r.y + scrollY, r.width, r.height]; })()")
         clip = {"x": max(0, box[0] - 12), "y": max(0, box[1] - 8), "width": box[2] + 24 if section else box[2],
-                "height": min(most, box[3] + (16 if section else 0)), "scale": 1}
+                "height": min(most, box[3] + (16 if section else 0)), "scale": scale}
         shot = self.call("Page.captureScreenshot", format="png", clip=clip, captureBeyondViewport=True)
         pathlib.Path(file).write_bytes(base64.b64decode(shot["data"]))
 
@@ -115,13 +115,13 @@ def main():
     try:
         browser.load(page.as_uri())
         for view in sys.argv[3:] or ["screen"]:
-            kind, section, most = (view.split(":") + ["", ""])[:3]
+            kind, section, most, scale = (view.split(":") + [""] * 3)[:4]
             browser.show(dark=kind == "dark", paper=kind == "print", width={"narrow": 400, "print": 794}.get(kind, 1200))
             name = f"{stem}_{kind}{'_' + section if section else ''}"
             if kind == "pdf":
                 browser.pdf(name + ".pdf")
             else:
-                browser.picture(name + ".png", section, int(most or 6000))
+                browser.picture(name + ".png", section, int(most or 6000), float(scale or 1))
             wider = browser.evaluate("document.documentElement.scrollWidth - innerWidth")
             print(f"{name}: {wider} px wider than the window" if wider > 0 else name)
         stray = [url for url in browser.requests() if url != page.as_uri()]

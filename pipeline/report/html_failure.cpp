@@ -131,10 +131,12 @@ std::string failure_section(const Json& report) {
   if (!report.contains("failure")) return {};
   const auto code = static_cast<int>(number(find(report, "/exit_code")));
   return fmt::format(
-      "<section id=\"failure\" class=\"failure\">\n<h2>Stage {} failed (exit code {})</h2>\n<pre>{}</pre>\n"
+      "<section id=\"failure\" class=\"failure\">\n<h2>{} (exit code {})</h2>\n<pre>{}</pre>\n"
       "<h3>What to do</h3>\n<p>{}</p>\n<h3>How far it came</h3>\n{}</section>\n",
-      escaped(text(find(report, "/failure/stage"))), code, passage(find(report, "/failure/message")),
-      remedy(code), progress(report));
+      static_cast<ExitCode>(code) == ExitCode::quality_gate
+          ? "The mesh misses a limit of the case"
+          : "Stage " + escaped(text(find(report, "/failure/stage"))) + " failed",
+      code, passage(find(report, "/failure/message")), remedy(code), progress(report));
 }
 
 std::string warnings_section(const Json& report) {
