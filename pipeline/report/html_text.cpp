@@ -125,7 +125,7 @@ std::string seconds(const Json& value) {
   if (!value.is_number()) return dash;
   const double v = value.get<double>();
   if (v < 0.005) return "0 s";
-  if (v < 1) return fmt::format("{:.2f} s", v);
+  if (v < 0.995) return fmt::format("{:.2f} s", v);
   if (v < 99.95) return fmt::format("{:.1f} s", v);
   const auto whole = static_cast<long long>(std::llround(v));
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
