@@ -127,7 +127,7 @@ void Canvas::draw_line(ScreenPoint a, ScreenPoint b, double width, Colour colour
       const double px = x + sample_places[s][0] - a.x, py = y + sample_places[s][1] - a.y;
       const double along = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0.0;
       const double ox = px - along * dx, oy = py - along * dy;
-      if (ox * ox + oy * oy > half * half) continue;
+      if (!(ox * ox + oy * oy <= half * half)) continue;
       put(pixel[s], a.depth + along * (b.depth - a.depth) - raised, colour);
     }
   });

@@ -93,9 +93,10 @@ void draw_cut(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh&
 void draw_section(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& surface,
                   const Scene& scene, Plane plane, double width) {
   canvas.set_window(camera.window);
-  for (const mesh::Piece& piece : surface.pieces) {
+  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+    const mesh::Piece& piece = surface.pieces[p];
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      if (!scene.shows(piece.triangle_face[t])) continue;
+      if (!scene.shown[p][t]) continue;
       std::array<ScreenPoint, 3> crossings;
       int count = 0;
       for (int i = 0; i < 3; ++i) {

@@ -18,19 +18,20 @@ constexpr double raised = 2;
 /// Brightness of a wall that is turned to the viewer: light from the viewer and from the upper left.
 double brightness(const Viewpoint& view, Vec3 flow_normal) {
   const Vec3 light = normalized(view.towards + 0.9 * view.up - 0.6 * view.right);
-  return 0.46 + 0.34 * std::max(0.0, dot(flow_normal, view.towards)) +
-         0.25 * std::max(0.0, dot(flow_normal, light));
+  return 0.5 + 0.34 * std::max(0.0, dot(flow_normal, view.towards)) +
+         0.22 * std::max(0.0, dot(flow_normal, light));
 }
 
 /// What of the surface a camera sees.
 class SurfaceDrawing {
 public:
-  SurfaceDrawing(Canvas& canvas, const Camera& camera, const Scene& scene, const SurfaceLook& look)
-      : _canvas(canvas), _camera(camera), _scene(scene), _look(look) {}
+  SurfaceDrawing(Canvas& canvas, const Camera& camera, const SurfaceLook& look)
+      : _canvas(canvas), _camera(camera), _look(look) {}
 
-  void draw(const mesh::Piece& piece, const std::vector<Fold>& folds) {
+  void draw(const mesh::Piece& piece, const std::vector<std::uint8_t>& shown,
+            const std::vector<Fold>& folds) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      if (!_scene.shows(piece.triangle_face[t])) continue;
+      if (!shown[t]) continue;
       const Vec3 normal = -normalized(area_normal(piece, t));
       if (!is_seen(normal)) continue;
       const LocalIndex* v = piece.cell(t);
@@ -82,7 +83,7 @@ private:
 
   void draw_border(const ScreenPoint& a, const ScreenPoint& b, Vec3 normal, std::int32_t patch,
                    const Fold& fold) {
-    const bool is_outline = fold.is_open() || !_scene.shows(fold.face) || !is_seen(-fold.normal);
+    const bool is_outline = fold.is_open() || !fold.shown || !is_seen(-fold.normal);
     const bool is_sharp = fold.several || dot(normal, -fold.normal) < std::cos(sharp);
     if (is_outline) {
       _canvas.draw_line(a, b, _look.outline_width, ink, raised);
@@ -93,7 +94,6 @@ private:
 
   Canvas& _canvas;
   const Camera& _camera;
-  const Scene& _scene;
   const SurfaceLook& _look;
 };
 
@@ -102,8 +102,10 @@ private:
 void draw_surface(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& surface,
                   const Folds& folds, const Scene& scene, const SurfaceLook& look) {
   canvas.set_window(camera.window);
-  SurfaceDrawing drawing(canvas, camera, scene, look);
-  for (std::size_t p = 0; p < surface.pieces.size(); ++p) drawing.draw(surface.pieces[p], folds[p]);
+  SurfaceDrawing drawing(canvas, camera, look);
+  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+    drawing.draw(surface.pieces[p], scene.shown[p], folds[p]);
+  }
 }
 
 }  // namespace aeroloom::picture

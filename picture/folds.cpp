@@ -26,6 +26,7 @@ struct Side {
   std::int32_t face, patch;
   parallel::Rank rank;
   std::int32_t place;  // of the piece on its rank
+  std::int64_t shown;
 };
 
 bool precedes(const Side& a, const Side& b) {
@@ -40,7 +41,7 @@ struct Answer {
 };
 
 std::vector<Side> sides_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                           std::size_t place, parallel::Rank rank) {
+                           const Shown& shown, std::size_t place, parallel::Rank rank) {
   const mesh::Piece& piece = surface.pieces[place];
   const std::vector<GlobalIndex>& numbers = numbering.vertices[place];
   std::vector<Side> sides;
@@ -52,7 +53,7 @@ std::vector<Side> sides_of(const mesh::DistributedMesh& surface, const mesh::Num
       std::array<GlobalIndex, 2> ends = {numbers[v[i]], numbers[v[(i + 1) % 3]]};
       if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
       sides.push_back({ends, piece.id, 3 * t + i, normal, piece.triangle_face[t], piece.triangle_patch[t],
-                       rank, static_cast<std::int32_t>(place)});
+                       rank, static_cast<std::int32_t>(place), shown[place][t]});
     }
   }
   return sides;
@@ -64,7 +65,7 @@ void tell_each(std::span<const Side> run, const Tell& tell) {
   if (run.size() < 2) return;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const Side& next = run[(i + 1) % run.size()];
-    tell(run[i], Fold{next.normal, next.face, next.patch, run.size() > 2});
+    tell(run[i], Fold{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
   }
 }
 
@@ -79,19 +80,13 @@ void for_each_edge(std::vector<Side>& sides, const Visit& visit) {
 
 }  // namespace
 
-Vec3 area_normal(const mesh::Piece& piece, LocalIndex triangle) {
-  const LocalIndex* v = piece.boundary_triangle(triangle);
-  const Vec3 a = piece.point(v[0]);
-  return cross(piece.point(v[1]) - a, piece.point(v[2]) - a);
-}
-
 double turn(Vec3 normal, Vec3 edge, const Fold& beyond) {
   // Normals point into the wall: what is convex for the flow is concave from there.
   return -std::atan2(dot(cross(normal, beyond.normal), normalized(edge)), dot(normal, beyond.normal));
 }
 
 Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                 const mesh::Numbering& numbering) {
+                 const mesh::Numbering& numbering, const Shown& shown) {
   Folds folds(surface.pieces.size());
   std::vector<Side> travelling;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
@@ -99,7 +94,7 @@ Folds find_folds(const parallel::Communicator& communicator, const mesh::Distrib
     folds[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
-    std::vector<Side> sides = sides_of(surface, numbering, p, communicator.rank());
+    std::vector<Side> sides = sides_of(surface, numbering, shown, p, communicator.rank());
     for_each_edge(sides, [&](std::span<const Side> run) {
       const std::int32_t item = run.front().item;
       const LocalIndex* v = piece.cell(item / 3);

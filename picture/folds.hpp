@@ -4,6 +4,7 @@
 #include "geometry/vec.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
+#include "picture/scene.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,7 @@ struct Fold {
   std::int32_t face = -1;  ///< CAD face
   std::int32_t patch = -1;
   bool several = false;  ///< more than two triangles meet: this is one of them
+  bool shown = false;    ///< whether the scene shows it
 
   bool is_open() const { return face < 0; }
 };
@@ -26,11 +28,7 @@ using Folds = std::vector<std::vector<Fold>>;
 /// Edges within a piece are matched there; those with one triangle in it travel. Where several triangles
 /// meet, each gets the next one in the order of pieces and triangles. Collective.
 Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                 const mesh::Numbering& numbering);
-
-/// Twice the area times the unit normal of a triangle: out of the region in front of it, that is away from
-/// who looks at a wall from the flow.
-geometry::Vec3 area_normal(const mesh::Piece& piece, mesh::LocalIndex triangle);
+                 const mesh::Numbering& numbering, const Shown& shown);
 
 /// The angle in radians by which the surface turns at the edge with this direction, counter-clockwise around
 /// a triangle with this normal: positive where the wall is convex for who stands in the flow, as at a leading

@@ -7,7 +7,6 @@
 
 namespace aeroloom::picture {
 
-using geometry::Vec3;
 using mesh::GlobalIndex;
 
 std::vector<Line> gather_lines(const parallel::Communicator& communicator,
@@ -41,6 +40,7 @@ std::vector<Line> gather_lines(const parallel::Communicator& communicator,
     line.box.add(item.point);
   }
   std::vector<Line> result;
+  result.reserve(lines.size());
   for (auto& [root, line] : lines) result.push_back(std::move(line));
   return result;
 }

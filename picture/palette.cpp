@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -90,7 +91,7 @@ PalettedImage quantise(const Image& image, int most) {
   std::vector<std::uint8_t> colour_of_cell(std::size_t{1} << (3 * bits));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto rounded = [&](int channel) {
-      return static_cast<std::uint8_t>(groups[g].mean[channel] + 0.5);
+      return static_cast<std::uint8_t>(std::lround(groups[g].mean[channel]));
     };
     result.palette.push_back({rounded(0), rounded(1), rounded(2)});
     for (std::size_t i = groups[g].begin; i < groups[g].end; ++i) {

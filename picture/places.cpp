@@ -17,6 +17,8 @@ using mesh::LocalIndex;
 using parallel::Communicator;
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr double sharp = 40 * degree;   ///< edges count on their own from here on
+constexpr double corner = 75 * degree;  ///< coarse triangles on a rounding turn by less
 constexpr Vec3 upstream{-1, 0, 0};
 
 /// How a triangle is curved; positive where it is convex for the flow.
@@ -38,8 +40,7 @@ struct Element {
   Vec3 middle() const { return (corners[0] + corners[1] + corners[2]) / 3; }
 };
 
-Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fold>& folds,
-                   const Scene& scene) {
+Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fold>& folds) {
   Element e;
   const LocalIndex* v = piece.cell(t);
   for (int i = 0; i < 3; ++i) e.corners[i] = piece.point(v[i]);
@@ -49,7 +50,7 @@ Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fol
   for (int i = 0; i < 3; ++i) {
     const Fold& fold = folds[3 * static_cast<std::size_t>(t) + i];
     e.size += norm(e.edge(i)) / 3;
-    e.inside[i] = !fold.is_open() && !fold.several && scene.shows(fold.face);
+    e.inside[i] = !fold.several && fold.shown;
     if (!e.inside[i]) continue;
     e.turns[i] = turn(-e.normal, e.edge(i), fold);
     e.bisectors[i] = normalized(e.normal - fold.normal);
@@ -61,6 +62,7 @@ Curvature curvature_of(const Element& e) {
   const Vec3 u = normalized(e.edge(0)), w = cross(e.normal, u);
   double uu = 0, uw = 0, ww = 0;
   for (int i = 0; i < 3; ++i) {
+    if (std::abs(e.turns[i]) >= corner) continue;
     const Vec3 across = cross(e.normal, normalized(e.edge(i)));
     const double a = dot(across, u), b = dot(across, w), weight = e.turns[i] * norm(e.edge(i)) / (2 * e.area);
     uu += weight * a * a, uw += weight * a * b, ww += weight * b * b;
@@ -79,10 +81,10 @@ void for_each_element(const DistributedMesh& surface, const mesh::Numbering& num
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      if (!scene.shows(piece.triangle_face[t])) continue;
+      if (!scene.shown[p][t]) continue;
       const LocalIndex* v = piece.cell(t);
       const auto& numbers = numbering.vertices[p];
-      const Element e = element_of(piece, t, folds[p], scene);
+      const Element e = element_of(piece, t, folds[p]);
       if (e.area > 0) visit(e, std::array<mesh::GlobalIndex, 3>{numbers[v[0]], numbers[v[1]], numbers[v[2]]});
     }
   }
@@ -114,7 +116,7 @@ std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::
   const double diagonal = scene.box.diagonal();
   for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] < 40 * degree) continue;
+      if (e.turns[i] < sharp) continue;
       if (flow_divides(e.bisectors[i], normalized(e.edge(i)), 0.45 * e.turns[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
@@ -167,11 +169,11 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
       if (const Sharpest here{angle, item}; beats(here, mine)) mine = here;
     };
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] > 40 * degree) take(e.turns[i], item_of_edge(e, i, vertices));
+      if (e.turns[i] >= sharp) take(e.turns[i], item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
     if (curvature.largest * scene.box.diagonal() > 8)
-      take(std::min(curvature.largest * e.size, 40 * degree), item_of_triangle(e, curvature, vertices));
+      take(std::min(curvature.largest * e.size, sharp), item_of_triangle(e, curvature, vertices));
   });
   std::vector<Sharpest> all = communicator.all_gather_items<Sharpest>(std::span<const Sharpest>(&mine, 1));
   const Sharpest& best = *std::min_element(all.begin(), all.end(), beats);
@@ -185,6 +187,7 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
 std::optional<Place> find_leading_edge(const Communicator& communicator, const DistributedMesh& surface,
                                        const mesh::Numbering& numbering, const Folds& folds,
                                        const Scene& scene) {
+  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, folds, scene);
   std::vector<Line> lines = gather_lines(communicator, leading_items(surface, numbering, folds, scene));
   // Less than a few elements are no edge but a bump.
   std::erase_if(lines, [](const Line& line) { return line.extent() < 8 * line.items.front().size; });
@@ -192,7 +195,7 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
   if (!lines.empty()) {
     double longest = 0;
     for (const Line& line : lines) longest = std::max(longest, line.extent());
-    std::erase_if(lines, [longest](const Line& line) { return line.extent() < 0.8 * longest; });
+    std::erase_if(lines, [longest](const Line& line) { return line.extent() < 0.98 * longest; });
     for (const Line& line : lines) {
       const LineItem& middle = middle_of(line);
       if (!found || middle.point.y < found->point.y) found = place_at(line, middle, true);

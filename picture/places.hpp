@@ -18,12 +18,12 @@ struct Place {
   bool upstream = false;  ///< of an edge: the flow meets it, else it is only the sharpest there is
 };
 
-/// The middle of the longest leading edge. The flow comes along x from below. A triangle lies on a leading
-/// edge where the normal of the wall points upstream, by 0.3 at least; where the flow divides, so that the
-/// normal of the cross-section points upstream inside of the triangle or at its edge; and where the wall is
-/// curved by more than 15 to the diagonal of what is shown, and less than 0.4 times as much along the edge as
-/// across. Triangles that share a vertex belong to one leading edge; of those of about the longest extent
-/// (0.8), the lowest in y. Where there is none, the edge or curved triangle that turns most over its size, by
+/// The middle of the longest leading edge of a body. The flow comes along x from below. A triangle lies on a
+/// leading edge where the normal of the wall points upstream, by 0.3 at least; where the flow divides, so
+/// that the normal of the cross-section points upstream inside of the triangle or at its edge; and where the
+/// wall is curved by more than 15 to the diagonal of what is shown, and less than 0.4 times as much along the
+/// edge as across. Triangles that share a vertex belong to one leading edge; of those of the longest extent,
+/// to 2 %, the lowest in y. Where there is none, or no body, the edge or curved triangle that turns most, by
 /// 40 degrees at an edge or with a curvature of 8 to the diagonal; where there is none either, nothing. The
 /// tensor of curvature is that of Cohen-Steiner and Morvan (SoCG 2003, doi:10.1145/777792.777839) over a
 /// triangle. Collective.

@@ -1,7 +1,6 @@
 #include "picture/scene.hpp"
 
 #include "mesh/delivery.hpp"
-#include "picture/folds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,142 +30,112 @@ std::array<Vec3, direction_count> even_directions() {
   return directions;
 }
 
-/// The item with the largest value, ties by place.
-struct Extreme {
-  std::int32_t slot = 0, face = 0;
+/// The point that is farthest in a direction, ties by place.
+struct Farthest {
   double value = 0;
-  Vec3 point, normal;
+  Vec3 point;
+  std::int64_t direction = 0;
 };
-bool beats(const Extreme& a, const Extreme& b) {
+bool beats(const Farthest& a, const Farthest& b) {
   return std::tie(a.value, a.point.x, a.point.y, a.point.z) >
          std::tie(b.value, b.point.x, b.point.y, b.point.z);
 }
 
-/// The best of all ranks for each (face, slot), by face, then slot.
-std::vector<Extreme> best_of_all(const Communicator& communicator, const std::vector<Extreme>& mine) {
-  std::vector<Extreme> all = communicator.all_gather_items<Extreme>(mine);
-  std::sort(all.begin(), all.end(), [](const Extreme& a, const Extreme& b) {
-    return std::tie(a.face, a.slot) != std::tie(b.face, b.slot)
-               ? std::tie(a.face, a.slot) < std::tie(b.face, b.slot)
-               : beats(a, b);
-  });
-  const auto same = [](const Extreme& a, const Extreme& b) { return a.face == b.face && a.slot == b.slot; };
-  all.erase(std::unique(all.begin(), all.end(), same), all.end());
-  return all;
-}
-
 /// The farthest points of the mesh in the even directions.
-std::vector<Extreme> hull_points(const Communicator& communicator, const DistributedMesh& surface) {
+std::vector<Farthest> hull_points(const Communicator& communicator, const DistributedMesh& surface) {
   const auto directions = even_directions();
-  std::vector<Extreme> farthest;
+  std::vector<Farthest> mine;
   for (const mesh::Piece& piece : surface.pieces) {
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const Vec3 p = piece.point(v);
-      if (farthest.empty()) {
-        for (int d = 0; d < direction_count; ++d) farthest.push_back({d, 0, dot(directions[d], p), p, {}});
+      if (mine.empty()) {
+        for (int d = 0; d < direction_count; ++d) mine.push_back({dot(directions[d], p), p, d});
       }
       for (int d = 0; d < direction_count; ++d) {
-        const Extreme here{d, 0, dot(directions[d], p), p, {}};
-        if (here.value >= farthest[d].value && beats(here, farthest[d])) farthest[d] = here;
+        const Farthest here{dot(directions[d], p), p, d};
+        if (here.value >= mine[d].value && beats(here, mine[d])) mine[d] = here;
       }
     }
   }
-  return best_of_all(communicator, farthest);
+  std::vector<Farthest> best;
+  for (const Farthest& each : communicator.all_gather_items<Farthest>(mine)) {
+    if (best.size() < direction_count) {
+      best.push_back(each);
+    } else if (beats(each, best[each.direction])) {
+      best[each.direction] = each;
+    }
+  }
+  return best;
 }
 
-/// The largest triangle of each face and its outermost ones in four directions.
-std::vector<Extreme> samples_of_faces(const Communicator& communicator, const DistributedMesh& surface,
-                                      std::size_t faces) {
-  constexpr int slots = 5;
-  const std::array<Vec3, 4> directions = {{{1, 0.3, 0.2}, {-1, -0.3, -0.2}, {0.1, 1, -0.9}, {-0.1, -1, 0.9}}};
-  std::vector<Extreme> best(slots * faces, Extreme{-1, 0, 0, {}, {}});
+/// Marks the triangles on the convex hull. Chords of a round far field leave it by a share of their length;
+/// half a fin at a plane of symmetry may be as close, but not for its own small triangles.
+Shown triangles_on_hull(const Communicator& communicator, const DistributedMesh& surface) {
+  constexpr double share = 0.15;
+  const std::vector<Farthest> hull = hull_points(communicator, surface);
+  Shown marks;
   for (const mesh::Piece& piece : surface.pieces) {
+    std::vector<std::uint8_t>& of_piece = marks.emplace_back(piece.cell_count(), 0);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const std::int32_t face = piece.triangle_face[t];
       const LocalIndex* v = piece.cell(t);
-      const Vec3 middle = (piece.point(v[0]) + piece.point(v[1]) + piece.point(v[2])) / 3;
-      const Vec3 normal = area_normal(piece, t);
-      for (int slot = 0; slot < slots; ++slot) {
-        const double value = slot == 0 ? norm(normal) : dot(directions[slot - 1], middle);
-        Extreme& kept = best[static_cast<std::size_t>(slots) * face + slot];
-        const Extreme here{slot, face, value, middle, normalized(normal)};
-        if (kept.slot < 0 || beats(here, kept)) kept = here;
-      }
+      const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), c = piece.point(v[2]);
+      const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+      const Vec3 normal = normalized(area_normal(piece, t));
+      of_piece[t] = std::all_of(hull.begin(), hull.end(), [&](const Farthest& far) {
+        return dot(normal, far.point - a) <= share * longest;
+      });
     }
   }
-  std::erase_if(best, [](const Extreme& each) { return each.slot < 0; });
-  return best_of_all(communicator, best);
+  return marks;
 }
 
-/// By face: whether all its samples lie on the hull.
-std::vector<std::uint8_t> faces_on_hull(const Communicator& communicator, const DistributedMesh& surface,
-                                        std::size_t faces, double diagonal) {
-  const std::vector<Extreme> hull = hull_points(communicator, surface);
-  std::vector<std::uint8_t> on_hull(faces, 1);
-  for (const Extreme& sample : samples_of_faces(communicator, surface, faces)) {
-    for (const Extreme& far : hull) {
-      if (dot(sample.normal, far.point - sample.point) > 0.02 * diagonal) on_hull[sample.face] = 0;
-    }
-  }
-  return on_hull;
-}
-
-/// Sums over the triangles of a piece.
+/// Sums over the marked triangles of a piece, and the volume of all of them.
 struct PieceSums {
-  std::int32_t face = -1, patch = -1;
-  double area = 0, volume = 0;
+  std::int32_t patch = -1, marked = 0, unmarked = 0;
+  std::int32_t unused = 0;  // no padding travels
+  double area = 0, volume = 0, whole_volume = 0;
   Vec3 area_vector;
   Box box;
 };
 
 /// By piece, of the whole mesh; volumes are those of the cones from `origin`.
 std::vector<PieceSums> sums_of_pieces(const Communicator& communicator, const DistributedMesh& surface,
-                                      Vec3 origin) {
+                                      const Shown& marks, Vec3 origin) {
   std::vector<PieceSums> rows;
-  for (const mesh::Piece& piece : surface.pieces) {
+  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+    const mesh::Piece& piece = surface.pieces[p];
     PieceSums& row = rows.emplace_back();
-    row.face = piece.common_face();
     if (!piece.triangle_patch.empty()) row.patch = piece.triangle_patch.front();
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const Vec3 vector = 0.5 * area_normal(piece, t);
-      row.area += norm(vector);
-      row.area_vector += vector;
-      row.volume += dot(vector, piece.point(piece.cell(t)[0]) - origin) / 3;
+      const double volume = dot(vector, piece.point(piece.cell(t)[0]) - origin) / 3;
+      row.whole_volume += volume;
+      ++(marks[p][t] ? row.marked : row.unmarked);
+      if (!marks[p][t]) continue;
+      row.area += norm(vector), row.area_vector += vector, row.volume += volume;
+      for (int k = 0; k < 3; ++k) row.box.add(piece.point(piece.cell(t)[k]));
     }
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) row.box.add(piece.point(v));
   }
   return mesh::gather_by_piece(communicator, surface, rows);
 }
 
-/// Whether these faces are the outer walls of a domain with something in it.
-bool enclose_the_rest(const std::vector<PieceSums>& rows, const std::vector<std::uint8_t>& faces) {
+/// Whether the marked triangles are the outer walls of a domain with something in it.
+bool enclose_the_rest(const std::vector<PieceSums>& rows) {
   double area = 0, volume = 0, whole = 0;
   Vec3 vector;
-  bool is_rest = false;
+  std::int64_t rest = 0;
   for (const PieceSums& row : rows) {
-    whole += row.volume;
-    if (row.face < 0) continue;
-    if (!faces[row.face]) {
-      is_rest = true;
-      continue;
-    }
     area += row.area, volume += row.volume, vector += row.area_vector;
+    whole += row.whole_volume;
+    rest += row.unmarked;
   }
-  return is_rest && area > 0 && norm(vector) <= 0.05 * area && volume >= 0.9 * whole;
-}
-
-std::size_t face_count(const Communicator& communicator, const DistributedMesh& surface) {
-  std::int64_t count = static_cast<std::int64_t>(surface.faces.size());
-  for (const mesh::Piece& piece : surface.pieces) {
-    for (const std::int32_t face : piece.triangle_face) count = std::max<std::int64_t>(count, face + 1);
-  }
-  return static_cast<std::size_t>(communicator.maximum(count));
+  return rest > 0 && area > 0 && norm(vector) <= 0.15 * area && volume >= 0.9 * whole;
 }
 
 void add_up(const std::vector<PieceSums>& rows, Scene& scene) {
   double area = 0;
   for (const PieceSums& row : rows) {
-    if (!scene.shows(row.face)) continue;
+    if (row.marked == 0) continue;
     scene.box.add(row.box);
     scene.open_towards += -1 * row.area_vector;
     area += row.area;
@@ -177,44 +146,71 @@ void add_up(const std::vector<PieceSums>& rows, Scene& scene) {
   if (area > 0) scene.open_towards *= 1 / area;
 }
 
+Box box_of_all(const Communicator& communicator, const DistributedMesh& surface) {
+  Box box;
+  for (const mesh::Piece& piece : surface.pieces) {
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = communicator.minimum(box.low[axis]);
+    box.high[axis] = communicator.maximum(box.high[axis]);
+  }
+  return box;
+}
+
+/// Marks the walls that are not outer ones; openings too where there is no body.
+Shown marked_walls(const DistributedMesh& surface, const std::vector<PatchType>& types, const Shown& outer,
+                   bool has_body) {
+  Shown shown;
+  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+    const mesh::Piece& piece = surface.pieces[p];
+    std::vector<std::uint8_t>& of_piece = shown.emplace_back(piece.cell_count(), 0);
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const std::int32_t patch = piece.triangle_patch[t];
+      const PatchType type =
+          patch >= 0 && static_cast<std::size_t>(patch) < types.size() ? types[patch] : PatchType::wall;
+      const bool is_wall = type == PatchType::wall || type == PatchType::slip;
+      const bool is_opening = type == PatchType::inlet || type == PatchType::outlet;
+      of_piece[t] = !surface.sides_of(piece.triangle_face[t]).is_inner() && (!has_body || !outer[p][t]) &&
+                    (is_wall || (is_opening && !has_body));
+    }
+  }
+  return shown;
+}
+
+Shown all_of(const DistributedMesh& surface, std::uint8_t mark) {
+  Shown marks;
+  for (const mesh::Piece& piece : surface.pieces) marks.emplace_back(piece.cell_count(), mark);
+  return marks;
+}
+
 }  // namespace
+
+Vec3 area_normal(const mesh::Piece& piece, LocalIndex triangle) {
+  const LocalIndex* v = piece.boundary_triangle(triangle);
+  const Vec3 a = piece.point(v[0]);
+  return cross(piece.point(v[1]) - a, piece.point(v[2]) - a);
+}
 
 Scene find_scene(const Communicator& communicator, const DistributedMesh& surface,
                  const std::vector<PatchType>& types) {
   Scene scene;
-  Box mine;
-  for (const mesh::Piece& piece : surface.pieces) {
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) mine.add(piece.point(v));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    scene.domain.low[axis] = communicator.minimum(mine.low[axis]);
-    scene.domain.high[axis] = communicator.maximum(mine.high[axis]);
-  }
-  const std::size_t faces = face_count(communicator, surface);
-  const std::vector<PieceSums> rows = sums_of_pieces(communicator, surface, scene.domain.center());
-  const auto type_of = [&](std::int32_t patch) {
-    return patch >= 0 && static_cast<std::size_t>(patch) < types.size() ? types[patch] : PatchType::wall;
-  };
+  scene.domain = box_of_all(communicator, surface);
+  const Vec3 origin = scene.domain.center();
+  Shown outer = all_of(surface, 0);
   scene.has_body = std::find(types.begin(), types.end(), PatchType::farfield) != types.end();
-  std::vector<std::uint8_t> outer(faces, 0);
   if (!scene.has_body) {
-    outer = faces_on_hull(communicator, surface, faces, scene.domain.diagonal());
-    scene.has_body = enclose_the_rest(rows, outer);
+    outer = triangles_on_hull(communicator, surface);
+    scene.has_body = enclose_the_rest(sums_of_pieces(communicator, surface, outer, origin));
   }
-  if (!scene.has_body) outer.assign(faces, 0);
-  scene.shown.assign(faces, 0);
   scene.patches.assign(surface.patches.size(), 0);
   scene.patch_areas.assign(surface.patches.size(), 0);
-  for (const PieceSums& row : rows) {
-    if (row.face < 0 || surface.sides_of(row.face).is_inner()) continue;
-    const PatchType type = type_of(row.patch);
-    const bool is_wall = type == PatchType::wall || type == PatchType::slip;
-    const bool is_opening = type == PatchType::inlet || type == PatchType::outlet;
-    scene.shown[row.face] = !outer[row.face] && (is_wall || (is_opening && !scene.has_body));
-  }
-  if (std::find(scene.shown.begin(), scene.shown.end(), 1) == scene.shown.end()) {
+  scene.shown = marked_walls(surface, types, outer, scene.has_body);
+  std::vector<PieceSums> rows = sums_of_pieces(communicator, surface, scene.shown, origin);
+  if (std::all_of(rows.begin(), rows.end(), [](const PieceSums& row) { return row.marked == 0; })) {
     scene.has_body = false;
-    scene.shown.assign(faces, 1);
+    scene.shown = all_of(surface, 1);
+    rows = sums_of_pieces(communicator, surface, scene.shown, origin);
   }
   add_up(rows, scene);
   return scene;

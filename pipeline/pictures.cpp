@@ -40,8 +40,8 @@ constexpr double half = 0.02;
 struct Subject {
   const Communicator& communicator;
   const PictureSource& source;
-  picture::Folds folds;
   Scene scene;
+  picture::Folds folds;
   std::vector<Colour> colours;  ///< by patch
   std::vector<LegendItem> patches;
 };
@@ -68,12 +68,9 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 }
 
 Subject find_subject(const Communicator& communicator, const PictureSource& source) {
-  Subject subject{communicator,
-                  source,
-                  picture::find_folds(communicator, source.surface, source.numbering),
-                  picture::find_scene(communicator, source.surface, source.types),
-                  {},
-                  {}};
+  Subject subject{communicator, source, picture::find_scene(communicator, source.surface, source.types),
+                  {},           {},     {}};
+  subject.folds = picture::find_folds(communicator, source.surface, source.numbering, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
@@ -81,6 +78,7 @@ Subject find_subject(const Communicator& communicator, const PictureSource& sour
 /// What the legend of cuts says.
 std::vector<LegendItem> angle_legend() {
   std::vector<LegendItem> legend;
+  legend.reserve(picture::angle_classes.size());
   for (const picture::AngleClass& each : picture::angle_classes) {
     legend.push_back({fmt::format("smallest dihedral angle {}", each.name), html_name(each.colour)});
   }
@@ -101,9 +99,12 @@ Picture painted(const Communicator& communicator, Picture picture, const std::fu
 /// The box of what is shown in coordinates of the view. Collective.
 Box seen_from(const Subject& subject, const Viewpoint& view) {
   Box mine;
-  for (const mesh::Piece& piece : subject.source.surface.pieces) {
-    if (!subject.scene.shows(piece.common_face())) continue;
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) mine.add(in_view(view, piece.point(v)));
+  const std::vector<mesh::Piece>& pieces = subject.source.surface.pieces;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (mesh::LocalIndex t = 0; t < pieces[p].cell_count(); ++t) {
+      if (!subject.scene.shown[p][t]) continue;
+      for (int k = 0; k < 3; ++k) mine.add(in_view(view, pieces[p].point(pieces[p].cell(t)[k])));
+    }
   }
   for (int axis = 0; axis < 3; ++axis) {
     mine.low[axis] = subject.communicator.minimum(mine.low[axis]);
@@ -159,11 +160,15 @@ Picture views_picture(const Subject& subject) {
   for (int i = 0; i < 4; ++i) seen[i] = seen_from(subject, views[i]);
   constexpr double gap = 12;
   constexpr int most = 680;
-  const double wide = seen[2].size().x + seen[3].size().x, tall = seen[0].size().y + seen[2].size().y;
+  // Beside a slender body there is room for the view from behind all the same.
+  const double right = std::max(seen[3].size().x, 0.5 * seen[2].size().x);
+  const double wide = seen[2].size().x + right, tall = seen[0].size().y + seen[2].size().y;
   const double scale = std::min((width - 4 * gap) / wide, (most - 4 * gap) / tall);
   const int left = static_cast<int>(width * seen[2].size().x / wide);
-  const int upper = static_cast<int>(std::lround(scale * seen[0].size().y + 2 * gap));
+  const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, 1e-300);
   const int lower = static_cast<int>(std::lround(scale * seen[2].size().y + 2 * gap));
+  const int upper = static_cast<int>(std::lround(std::max(
+      scale * seen[0].size().y + 2 * gap, std::min(behind + 2 * gap, static_cast<double>(most - lower)))));
   const std::array<Window, 4> windows = {{{0, 0, left, upper},
                                           {left, 0, width - left, upper},
                                           {0, upper, left, lower},
@@ -202,10 +207,13 @@ Vec3 towards_viewer(const Subject& subject, Vec3 along) {
   return dot(along, main_direction(subject.scene)) < 0 ? -along : along;
 }
 
+/// The place lies a little off the middle, so that more of the body is seen and less of what is behind it.
 Picture close_up_picture(const Subject& subject, const Place& place, Vec3 from, std::string name,
                          const std::string& what) {
   const double across = width_around(subject, place, 40);
-  const Camera camera = picture::close_up(picture::look_from(from, up), place.point, across,
+  const Viewpoint view = picture::look_from(from, up);
+  const Vec3 inwards = dot(place.normal, view.towards) * view.towards - place.normal;
+  const Camera camera = picture::close_up(view, place.point + 0.25 * across * inwards, across,
                                           {0, 0, detail_width, detail_height});
   return painted(subject.communicator,
                  {.name = std::move(name),

@@ -15,6 +15,8 @@
 
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
+#include "pipeline/case.hpp"
+#include "pipeline/exit_code.hpp"
 #include "pipeline/picture.hpp"
 
 #include <string>
@@ -43,5 +45,19 @@ std::vector<Picture> make_surface_pictures(const parallel::Communicator& communi
 /// no pictures. Collective.
 std::vector<Picture> pictures_or_warning(const parallel::Communicator& communicator,
                                          const mesh::DistributedMesh* volume, const PictureSource& source);
+
+/// What `work` gives. Should the volume fail there, the surface alone is pictured before the failure goes on,
+/// if the output is to have pictures. Collective.
+template <class Work>
+auto with_pictures_of_failure(const parallel::Communicator& communicator, const PictureSource& source,
+                              const OutputOptions& output, std::vector<Picture>& pictures, Work work) {
+  try {
+    return work();
+  } catch (const StageFailure& failure) {
+    if (output.pictures && failure.code() == ExitCode::volume)
+      pictures = pictures_or_warning(communicator, nullptr, source);
+    throw;
+  }
+}
 
 }  // namespace aeroloom::pipeline

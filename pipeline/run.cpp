@@ -208,11 +208,19 @@ mesh::DistributedMesh build_volume(const Communicator& communicator, const Finis
   return filled;
 }
 
-/// `volume` may be null. Collective.
-void picture_mesh(const Communicator& communicator, const mesh::DistributedMesh* volume,
-                  const NumberedMesh& surface, RunRecord& record) {
-  record.pictures = pictures_or_warning(communicator, volume,
-                                        {surface.mesh, surface.numbering, record.patch_types, record.unit});
+/// The stages from the surface to the improved volume.
+mesh::DistributedMesh mesh_volume(const Communicator& communicator, const SizedDomain& sized,
+                                  const FinishedSurface& surface, const Case& input, RunRecord& record) {
+  volume::Decomposition decomposition = run_stage(
+      record, "decompose", ExitCode::volume, [&] { return decompose(communicator, surface, input, record); });
+  mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
+    return build_volume(communicator, surface, std::move(decomposition), input, record);
+  });
+  run_stage(record, "improve", ExitCode::volume, [&] {
+    cad::PointLocator locator(sized.model);
+    improve_volume(communicator, input, {&locator, &surface.field}, volume, record);
+  });
+  return volume;
 }
 
 }  // namespace
@@ -232,15 +240,10 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   FinishedSurface surface = run_stage(record, "surface", ExitCode::surface, [&] {
     return build_surface_or_advise(communicator, loaded, input, sized, record);
   });
-  volume::Decomposition decomposition = run_stage(
-      record, "decompose", ExitCode::volume, [&] { return decompose(communicator, surface, input, record); });
-  mesh::DistributedMesh volume = run_stage(record, "volume", ExitCode::volume, [&] {
-    return build_volume(communicator, surface, std::move(decomposition), input, record);
-  });
-  run_stage(record, "improve", ExitCode::volume, [&] {
-    cad::PointLocator locator(sized.model);
-    improve_volume(communicator, input, {&locator, &surface.field}, volume, record);
-  });
+  const PictureSource pictured{surface.mesh, surface.numbering, record.patch_types, record.unit};
+  mesh::DistributedMesh volume =
+      with_pictures_of_failure(communicator, pictured, input.output, record.pictures,
+                               [&] { return mesh_volume(communicator, sized, surface, input, record); });
   const mesh::Numbering numbering = run_stage(record, "inspect", ExitCode::volume, [&] {
     mesh::Numbering finished = mesh::number_mesh(communicator, volume);
     if (record.improve.changed_triangles > 0)
@@ -254,7 +257,7 @@ void run_case(const Communicator& communicator, const Case& input, RunRecord& re
   run_stage(record, "output", ExitCode::files, [&] {
     write_outputs(communicator, volume, numbering, input.output);
     if (wants_vtk(input.output)) write_surfaces(communicator, surface.mesh, surface.numbering, input.output);
-    if (input.output.pictures) picture_mesh(communicator, &volume, surface, record);
+    if (input.output.pictures) record.pictures = pictures_or_warning(communicator, &volume, pictured);
   });
   require_quality(input.gate, record);
 }

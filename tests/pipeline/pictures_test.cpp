@@ -1,0 +1,112 @@
+// The pictures of a run: which there are, that they are the same for any number of ranks, and what remains of
+// them when the volume fails.
+#include "pipeline/pictures.hpp"
+
+#include "parallel/collective_error.hpp"
+#include "pipeline/load_domain.hpp"
+#include "pipeline/run.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using parallel::Communicator;
+
+/// Contained tasks must be known before the environment starts.
+[[maybe_unused]] const bool registered = [] {
+  volume::register_volume_tasks();
+  register_geometry_tasks();
+  return true;
+}();
+
+/// A coarse mesh of the built-in aircraft, in a folder of its own.
+Case coarse_aircraft(const std::string& name) {
+  Case input;
+  input.domain.transport.emplace();
+  input.domain.far_field.emplace();
+  input.domain.far_field->extent = 3;
+  input.sizing.target_tetrahedra = 40'000;
+  input.sizing.feature_budget = 1.5;
+  input.output.directory =
+      std::filesystem::temp_directory_path() / ("aeroloom_pictures_" + name + std::to_string(::getpid()));
+  input.output.formats = {io::FileFormat::vtu};
+  return input;
+}
+
+std::vector<std::string> names_of(const std::vector<Picture>& pictures) {
+  std::vector<std::string> names;
+  for (const Picture& picture : pictures) names.push_back(picture.name);
+  return names;
+}
+
+/// Runs the case in a folder that goes afterwards.
+RunRecord record_of(const Communicator& communicator, Case input) {
+  parallel::Bytes name = parallel::to_bytes(std::span<const char>(input.output.directory));
+  communicator.broadcast(name);
+  const std::vector<char> letters = parallel::from_bytes<char>(name);
+  input.output.directory.assign(letters.begin(), letters.end());
+  RunRecord record;
+  try {
+    run_case(communicator, input, record);
+  } catch (const StageFailure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::volume) << failure.what();
+  }
+  communicator.barrier();
+  if (communicator.is_root()) std::filesystem::remove_all(input.output.directory);
+  return record;
+}
+
+TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
+  const Communicator world = Communicator::world();
+  const std::vector<Picture> pictures = record_of(world, coarse_aircraft("a")).pictures;
+  if (!world.is_root()) {
+    EXPECT_TRUE(pictures.empty());
+    return;
+  }
+  EXPECT_EQ(names_of(pictures), (std::vector<std::string>{"body", "views", "leading_edge", "junction", "cut",
+                                                          "leading_edge_cut"}));
+  std::size_t bytes = 0;
+  for (const Picture& picture : pictures) {
+    bytes += picture.png.size();
+    EXPECT_FALSE(picture.caption.empty());
+    EXPECT_FALSE(picture.legend.empty());
+    EXPECT_GT(picture.width * picture.height, 100'000);
+  }
+  EXPECT_LT(bytes, 1'500'000U);
+  std::set<std::string> colours, patches;
+  for (const LegendItem& item : pictures[0].legend) {
+    colours.insert(item.colour), patches.insert(item.name);
+    EXPECT_EQ(item.colour.size(), 7U);
+  }
+  EXPECT_EQ(colours.size(), pictures[0].legend.size()) << "each patch has a colour of its own";
+  EXPECT_TRUE(patches.count("fuselage") && !patches.count("farfield"));
+  if (world.size() == 1) return;
+  const std::vector<Picture> alone = record_of(Communicator::self(), coarse_aircraft("b")).pictures;
+  ASSERT_EQ(names_of(alone), names_of(pictures));
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(alone[i].caption, pictures[i].caption);
+    EXPECT_EQ(alone[i].png, pictures[i].png) << alone[i].name;
+  }
+}
+
+TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
+  const Communicator world = Communicator::world();
+  Case input = coarse_aircraft("c");
+  input.volume.sabotage = parallel::Sabotage::throws;
+  const std::vector<std::string> expected{"body", "views", "leading_edge", "junction"};
+  EXPECT_EQ(names_of(record_of(world, input).pictures),
+            world.is_root() ? expected : std::vector<std::string>{});
+  input.output.pictures = false;
+  EXPECT_TRUE(record_of(world, input).pictures.empty());
+}
+
+}  // namespace
+}  // namespace aeroloom::pipeline
