@@ -81,7 +81,7 @@ std::string swatch(const std::string& colour) {
 std::string title_of(const Json& report) {
   for (const char* path : {"/case", "/input/file"}) {
     const std::string file = text(find(report, path));
-    const std::string stem = std::filesystem::path(file).stem().string();
+    std::string stem = std::filesystem::path(file).stem().string();
     if (!stem.empty()) return stem;
   }
   return "built-in aircraft";

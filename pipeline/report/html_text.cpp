@@ -35,7 +35,7 @@ std::string in_groups(const std::string& digits) {
 
 std::string with_exponent(double value) {
   constexpr std::array<const char*, 10> raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  const std::string plain = fmt::format("{:.3g}", value);
+  std::string plain = fmt::format("{:.3g}", value);
   const std::size_t e = plain.find('e');
   if (e == std::string::npos) return plain;
   const int exponent = std::stoi(plain.substr(e + 1));
