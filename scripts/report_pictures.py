@@ -3,7 +3,7 @@
 
 usage: report_pictures.py PAGE.html OUT_STEM [VIEW ...]
 
-Views: screen (default), dark, narrow (400 px), print (the style for paper), pdf. Writes OUT_STEM_VIEW.png or .pdf. A view may
+Views: screen (default), dark, narrow (400 px), print (the style for paper, as wide as A4 leaves room for), pdf. Writes OUT_STEM_VIEW.png or .pdf. A view may
 have a section, a largest height and a scale: screen:stages, screen::900, dark:verdict:700:0.5.
 """
 import base64
@@ -116,7 +116,7 @@ def main():
         browser.load(page.as_uri())
         for view in sys.argv[3:] or ["screen"]:
             kind, section, most, scale = (view.split(":") + [""] * 3)[:4]
-            browser.show(dark=kind == "dark", paper=kind == "print", width={"narrow": 400, "print": 794}.get(kind, 1200))
+            browser.show(dark=kind == "dark", paper=kind == "print", width={"narrow": 400, "print": 688}.get(kind, 1200))
             name = f"{stem}_{kind}{'_' + section if section else ''}"
             if kind == "pdf":
                 browser.pdf(name + ".pdf")

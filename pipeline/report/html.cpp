@@ -7,6 +7,7 @@
 
 #include <cctype>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -27,12 +28,17 @@ std::string legend_of(const Picture& picture) {
   return items.empty() ? items : "<ul class=\"legend\">" + items + "</ul>\n";
 }
 
-std::string figure(const Picture& picture) {
+/// A legend that an earlier picture has had is not repeated.
+std::string figure(const Picture& picture, std::set<std::string>& legends) {
+  const std::string legend = legend_of(picture);
+  const bool repeated = !legend.empty() && !legends.insert(legend).second;
   return fmt::format(
       "<figure{}>\n<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">\n"
       "<figcaption>{}</figcaption>\n{}</figure>\n",
       picture.width >= 1200 ? " class=\"broad\"" : "", escaped(picture.caption), picture.width,
-      picture.height, base64(picture.png), escaped(picture.caption), legend_of(picture));
+      picture.height, base64(picture.png),
+      escaped(picture.caption) + (repeated ? " <span class=\"quiet\">Colours as above.</span>" : ""),
+      repeated ? "" : legend);
 }
 
 std::string navigation(const std::string& page) {
@@ -52,6 +58,7 @@ std::string navigation(const std::string& page) {
 
 std::string pictures_section(const std::vector<Picture>& pictures) {
   std::string figures, left_out;
+  std::set<std::string> legends;
   std::size_t room = room_for_pictures;
   for (const Picture& picture : pictures) {
     const std::size_t size = picture.png.size() / 3 * 4 + 4;
@@ -60,7 +67,7 @@ std::string pictures_section(const std::vector<Picture>& pictures) {
       continue;
     }
     room -= size;
-    figures += figure(picture);
+    figures += figure(picture, legends);
   }
   if (!figures.empty()) figures = "<div class=\"figures\">\n" + figures + "</div>\n";
   if (!left_out.empty()) left_out = "<ul>" + left_out + "</ul>\n";

@@ -78,7 +78,7 @@ def check_in_browser(folders):
         for folder in folders:
             url = (folder / "report.html").resolve().as_uri()
             browser.load(url)
-            for width, paper in ((1200, False), (400, False), (794, True)):
+            for width, paper in ((1200, False), (400, False), (688, True)):
                 browser.show(width=width, paper=paper)
                 assert browser.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{url} at {width}"
             assert browser.requests() == [url], browser.requests()
