@@ -1,6 +1,7 @@
 #include "parallel/log.hpp"
 
 #include "parallel/log_line.hpp"
+#include "parallel/warnings.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -93,6 +94,7 @@ void log_verbose(const std::string& message) {
 }
 
 void log_warning(const std::string& message) {
+  keep_warning(message);
   log().trouble(spdlog::level::warn, "warning", message);
 }
 

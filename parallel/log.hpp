@@ -17,7 +17,8 @@ void configure_log(const Communicator& communicator, LogLevel level);
 /// Printed by rank 0 only.
 void log_info(const std::string& message);
 void log_verbose(const std::string& message);
-/// Printed by the calling rank, with its number when there are several.
+/// Printed by the calling rank, with its number when there are several; a warning is also kept
+/// (warnings.hpp).
 void log_warning(const std::string& message);
 void log_error(const std::string& message);
 

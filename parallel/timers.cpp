@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -209,6 +210,8 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.other_seconds = communicator.maximum(cost.other_cpu_seconds);
     summary.waiting_seconds_mean = communicator.sum(cost.waiting_seconds) / ranks;
     summary.waiting_seconds_max = communicator.maximum(cost.waiting_seconds);
+    summary.cpu_seconds_of_ranks =
+        communicator.all_gather_items<double>(std::span<const double>(&cost.task_cpu_seconds, 1));
     summary.pieces = communicator.sum(cost.pieces);
     summary.peak_resident_bytes_max = communicator.maximum(cost.peak_resident_bytes);
     summary.peak_resident_bytes_sum = communicator.sum(cost.peak_resident_bytes);

@@ -63,6 +63,7 @@ struct StageSummary {
   std::int64_t pieces = 0;                                   ///< sum over ranks
   std::int64_t peak_resident_bytes_max = 0, peak_resident_bytes_sum = 0;
   std::int64_t peak_own_bytes_max = 0, peak_own_bytes_sum = 0;
+  std::vector<double> cpu_seconds_of_ranks;  ///< of tasks, as min, mean and max are
 };
 
 /// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.

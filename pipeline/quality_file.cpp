@@ -5,10 +5,9 @@
 #include "parallel/collective_error.hpp"
 #include "pipeline/mixed_quality_json.hpp"
 #include "pipeline/mixed_quality_text.hpp"
+#include "pipeline/text_file.hpp"
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,19 +79,6 @@ Json report_json(const std::string& path, const io::Assembled& file, const io::M
 /// What a program prints of a name in a file that is no UTF-8 is replaced.
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code code;
-  if (!folder.empty()) std::filesystem::create_directories(folder, code);
-  if (code) throw std::filesystem::filesystem_error("cannot write", path, code);
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) {
-    throw std::filesystem::filesystem_error("cannot write", path, std::make_error_code(std::errc::io_error));
-  }
 }
 
 }  // namespace

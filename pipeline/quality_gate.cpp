@@ -43,28 +43,45 @@ std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gat
   return targets;
 }
 
+std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
+                                         const improve::PinnedReport& pinned, const io::MixedQuality* cells) {
+  std::vector<GateLimit> limits;
+  const auto compare = [&](const char* key, const std::optional<double>& limit, double value,
+                           bool at_most = false) {
+    if (limit) limits.push_back({fmt::format("improve.gate.{}", key), *limit, value, at_most});
+  };
+  const auto compare_cells = [&](const char* key, const std::optional<double>& limit, Measure measure) {
+    if (cells == nullptr || cells->worst[static_cast<std::size_t>(measure)].empty()) return;
+    compare(key, limit, cells->worst[static_cast<std::size_t>(measure)].front().value,
+            io::larger_is_worse(measure));
+  };
+  const bool some_pinned = pinned.tetrahedra > 0;
+  compare("smallest_angle", gate.smallest_angle,
+          some_pinned ? std::max(pinned.smallest_angle, quality.min_dihedral.minimum)
+                      : quality.min_dihedral.minimum);
+  compare("largest_angle", gate.largest_angle,
+          some_pinned ? std::min(pinned.largest_angle, quality.max_dihedral.maximum)
+                      : quality.max_dihedral.maximum,
+          true);
+  compare("percentile_01", gate.percentile_01, quality.min_dihedral.percentile_01);
+  compare("percentile_1", gate.percentile_1, quality.min_dihedral.percentile_1);
+  compare("percentile_5", gate.percentile_5, quality.min_dihedral.percentile_5);
+  compare("min_mean_ratio", gate.min_mean_ratio, quality.mean_ratio.minimum);
+  compare("mean_mean_ratio", gate.mean_mean_ratio, quality.mean_ratio.mean);
+  compare_cells("largest_volume_ratio", gate.largest_volume_ratio, Measure::volume_ratio);
+  compare_cells("largest_edge_ratio", gate.largest_edge_ratio, Measure::edge_ratio);
+  compare_cells("min_scaled_jacobian", gate.min_scaled_jacobian, Measure::scaled_jacobian);
+  return limits;
+}
+
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
                           const improve::PinnedReport& pinned, const io::MixedQuality* cells) {
   std::string text = cells != nullptr ? missed_ratios(gate, *cells) : "";
-  const auto at_least = [&](const std::optional<double>& limit, double value, const char* key) {
-    if (limit && value < *limit)
-      text += fmt::format("\n  {} is {:.4g}, not {:g} at least", key, value, *limit);
-  };
-  const bool some_pinned = pinned.tetrahedra > 0;
-  const double smallest = some_pinned ? std::max(pinned.smallest_angle, quality.min_dihedral.minimum)
-                                      : quality.min_dihedral.minimum;
-  const double largest = some_pinned ? std::min(pinned.largest_angle, quality.max_dihedral.maximum)
-                                     : quality.max_dihedral.maximum;
-  at_least(gate.smallest_angle, smallest, "improve.gate.smallest_angle");
-  if (gate.largest_angle && largest > *gate.largest_angle) {
-    text += fmt::format("\n  improve.gate.largest_angle is {:.4g}, not {:g} at most", largest,
-                        *gate.largest_angle);
+  for (const GateLimit& limit : compare_with_gate(gate, quality, pinned, nullptr)) {
+    if (!limit.met())
+      text += fmt::format("\n  {} is {:.4g}, not {:g} {}", limit.key, limit.value, limit.limit,
+                          limit.at_most ? "at most" : "at least");
   }
-  at_least(gate.percentile_01, quality.min_dihedral.percentile_01, "improve.gate.percentile_01");
-  at_least(gate.percentile_1, quality.min_dihedral.percentile_1, "improve.gate.percentile_1");
-  at_least(gate.percentile_5, quality.min_dihedral.percentile_5, "improve.gate.percentile_5");
-  at_least(gate.min_mean_ratio, quality.mean_ratio.minimum, "improve.gate.min_mean_ratio");
-  at_least(gate.mean_mean_ratio, quality.mean_ratio.mean, "improve.gate.mean_mean_ratio");
   if (text.empty()) return text;
   std::string place;
   if (!quality.worst.empty()) {

@@ -35,6 +35,19 @@ inline constexpr std::array<std::string_view, 10> gate_keys = {
 /// What improvement is to work on beside its target.
 std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate);
 
+/// A limit of the gate and what the mesh has.
+struct GateLimit {
+  std::string key;  ///< of the case
+  double limit = 0, value = 0;
+  bool at_most = false;
+  bool met() const { return at_most ? value <= limit : value >= limit; }
+};
+
+/// All limits that are asked for, in the order of their keys. `cells` may be null where the gate does not ask
+/// for them.
+std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
+                                         const improve::PinnedReport& pinned, const io::MixedQuality* cells);
+
 /// The limits that the mesh misses, with what it has and where the worst tetrahedron is; empty: none. `cells`
 /// may be null where the gate does not ask for them.
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,

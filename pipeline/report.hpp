@@ -1,32 +1,19 @@
-/// The run's report: report.json for machines, a table for people. Keys are documented in docs/report.md.
+/// The report of a run: report.json for machines, report.html for people, both from one record. Keys:
+/// docs/report.md; how to read it: docs/reading_the_report.md.
 #pragma once
 
+#include "pipeline/report/report_json.hpp"
+#include "pipeline/report/text_table.hpp"
 #include "pipeline/run.hpp"
 
 #include <string>
-#include <vector>
 
 namespace aeroloom::pipeline {
 
-/// How a run ended, for the report.
-struct RunOutcome {
-  ExitCode code = ExitCode::ok;
-  std::string stage;    ///< that failed; empty when none did
-  std::string message;  ///< of the failure
-};
-
-/// The report as JSON text. `stages` are the summaries over all ranks. Rank 0 calls it.
-std::string report_json(const Case& input, const RunRecord& record,
-                        const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
-                        int ranks);
-
-/// The report of an improved file.
-std::string improve_report_json(const std::string& file, const Case& input, const RunRecord& record,
-                                const std::vector<parallel::StageSummary>& stages, const RunOutcome& outcome,
-                                int ranks);
-
-/// The table of stage times and the quality of the mesh, for the terminal.
-std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
-                         int ranks);
+/// Writes report.json and report.html to the output directory, and tasks.csv where the case asks for it, each
+/// in one piece or not at all. `subject` is what was run and how it ended. Returns the table for the terminal
+/// on rank 0. Collective; throws CollectiveError when a file cannot be written.
+std::string write_report(const parallel::Communicator& communicator, const Case& input,
+                         const RunRecord& record, const RunOutcome& outcome, const ReportSubject& subject);
 
 }  // namespace aeroloom::pipeline

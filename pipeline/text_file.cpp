@@ -4,6 +4,7 @@
 #include <fstream>
 #include <ios>
 #include <iterator>
+#include <system_error>
 
 namespace aeroloom::pipeline {
 
@@ -17,10 +18,15 @@ std::string read_text(const std::string& file) {
 void write_text(const std::string& file, const std::string& text) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
-  std::ofstream stream(file, std::ios::binary);
+  const std::string unfinished = file + ".unfinished";
+  std::ofstream stream(unfinished, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
+  std::error_code error;
+  if (stream) std::filesystem::rename(unfinished, file, error);
+  if (stream && !error) return;
+  std::filesystem::remove(unfinished, error);
+  throw std::ios_base::failure("cannot write '" + file + "'");
 }
 
 }  // namespace aeroloom::pipeline

@@ -7,7 +7,8 @@ namespace aeroloom::pipeline {
 
 /// Throws std::ios_base::failure, naming the file.
 std::string read_text(const std::string& file);
-/// Makes the folders above the file where they are not there. Throws as read_text.
+/// Makes the folders above the file where they are not there; what was there before goes only when all of the
+/// new text is written. Throws as read_text.
 void write_text(const std::string& file, const std::string& text);
 
 }  // namespace aeroloom::pipeline

@@ -30,7 +30,7 @@ Command add_improve(CLI::App& program) {
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return with_case(communicator, *arguments, loudness, [&](const Case& input) {
               return within_memory(communicator, arguments->memory, [&] {
-                return run_stages(communicator, input, arguments->mesh, [&](RunRecord& record) {
+                return run_stages(communicator, input, {"", arguments->mesh}, [&](RunRecord& record) {
                   improve_file(communicator, arguments->mesh, input, record);
                 });
               });

@@ -51,7 +51,7 @@ Command add_run(CLI::App& program) {
               Case input = read;
               input.memory_limit = arguments->memory;
               return within_memory(communicator, arguments->memory, [&] {
-                return run_stages(communicator, input, "",
+                return run_stages(communicator, input, {given.file, ""},
                                   [&](RunRecord& record) { run_case(communicator, input, record); });
               });
             });

@@ -2,47 +2,17 @@
 
 #include "pipeline/report.hpp"
 #include "pipeline/stage.hpp"
-#include "pipeline/task_table.hpp"
 #include "pipeline/write_outputs.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
 namespace aeroloom::pipeline {
-namespace {
 
 using parallel::Communicator;
 
-void write_text(const std::string& file, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-  std::ofstream stream(file);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
-}
-
-/// Writes report.json for a run that ended well or not. Collective; what goes wrong here replaces a good
-/// outcome.
-void report(const Communicator& communicator, const Case& input, const std::string& improved_file,
-            const RunRecord& record, const RunOutcome& outcome) {
-  const auto stages = record.clock.summarise(communicator);
-  const std::string tasks = input.output.tasks ? task_table(communicator, record.clock) : "";
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    if (input.output.tasks) write_text(input.output.directory + "/tasks.csv", tasks);
-    write_text(input.output.directory + "/report.json",
-               improved_file.empty()
-                   ? report_json(input, record, stages, outcome, communicator.size())
-                   : improve_report_json(improved_file, input, record, stages, outcome, communicator.size()));
-  });
-  if (outcome.code == ExitCode::ok) print(communicator, report_table(record, stages, communicator.size()));
-}
-
-}  // namespace
-
-int run_stages(const Communicator& communicator, const Case& input, const std::string& improved_file,
+int run_stages(const Communicator& communicator, const Case& input, const ReportSubject& subject,
                const std::function<void(RunRecord&)>& stages) {
   RunRecord record;
   RunOutcome outcome;
@@ -55,7 +25,8 @@ int run_stages(const Communicator& communicator, const Case& input, const std::s
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
   try {
-    report(communicator, input, improved_file, record, outcome);
+    const std::string table = write_report(communicator, input, record, outcome, subject);
+    if (outcome.code == ExitCode::ok) print(communicator, table);
   } catch (const parallel::CollectiveError& error) {
     if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
   }
@@ -68,6 +39,8 @@ int run_stages(const Communicator& communicator, const Case& input, const std::s
     print(communicator,
           fmt::format("{}: {}\n", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
   }
+  const std::string report = std::filesystem::absolute(input.output.directory + "/report.html").string();
+  print(communicator, fmt::format("report: {}\n", report));
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "parallel/log.hpp"
 
 #include "parallel/progress.hpp"
+#include "parallel/warnings.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -59,6 +60,44 @@ TEST_F(LogTest, BracesAreNothingSpecial) {
     log_warning("a {} in '%v' {0}");
   });
   EXPECT_NE(printed.err.find("a {} in '%v' {0}"), std::string::npos) << printed.err;
+}
+
+TEST_F(LogTest, WarningsAreKeptOnceForTheReport) {
+  take_warnings(world);
+  printed_by([&] {
+    log_warning("everybody");
+    log_warning("everybody");
+    log_warning("of rank " + std::to_string(world.rank()));
+  });
+  const Warnings warnings = take_warnings(world);
+  EXPECT_TRUE(take_warnings(world).kept.empty()) << "they are taken once";
+  if (!world.is_root()) {
+    EXPECT_TRUE(warnings.kept.empty());
+    return;
+  }
+  ASSERT_EQ(warnings.kept.size(), 1U + static_cast<std::size_t>(world.size()));
+  EXPECT_EQ(warnings.kept[0].message, "everybody");
+  EXPECT_EQ(warnings.kept[0].times, 2 * world.size());
+  EXPECT_EQ(warnings.kept[0].rank, 0);
+  EXPECT_EQ(warnings.kept.back().rank, world.size() - 1);
+  EXPECT_EQ(warnings.left_out, 0);
+}
+
+TEST_F(LogTest, TooManyWarningsAreCounted) {
+  take_warnings(world);
+  const std::string long_text = std::string(3999, 'x') + "\u00e9\u00e9";
+  for (int i = 0; i < 1000; ++i) keep_warning("number " + std::to_string(i));
+  for (int i = 0; i < 7; ++i) keep_warning(long_text);
+  const Warnings many = take_warnings(world);
+  keep_warning(long_text);
+  const Warnings one = take_warnings(world);
+  if (!world.is_root()) return;
+  EXPECT_EQ(many.kept.size(), 100U);
+  std::int64_t said = many.left_out;
+  for (const Warning& warning : many.kept) said += warning.times;
+  EXPECT_EQ(said, 1007 * world.size());
+  ASSERT_EQ(one.kept.size(), 1U);
+  EXPECT_EQ(one.kept[0].message, std::string(3999, 'x') + " ...");
 }
 
 TEST_F(LogTest, QuickProgressIsNotWorthALine) {

@@ -1,0 +1,29 @@
+/// The parts of report.json, each from the record alone. Keys: docs/report.md and docs/report.schema.json.
+#pragma once
+
+#include "pipeline/run.hpp"
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+
+using Json = nlohmann::ordered_json;
+
+Json geometry_json(const RunRecord& record);
+Json sizing_json(const RunRecord& record);
+Json surface_json(const RunRecord& record);
+Json volume_json(const RunRecord& record);
+Json mesh_json(const RunRecord& record);
+/// Needs `record.quality`; `quality.gate` has the limits of the case.
+Json quality_json(const Case& input, const RunRecord& record);
+Json improve_json(const Case& input, const RunRecord& record);
+Json pinned_json(const RunRecord& record);
+Json unresolved_json(const RunRecord& record);
+Json patches_json(const RunRecord& record);
+Json regions_json(const RunRecord& record);
+Json stages_json(const std::vector<parallel::StageSummary>& stages);
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,38 @@
+/// report.json. Keys: docs/report.md, docs/report.schema.json.
+#pragma once
+
+#include "parallel/warnings.hpp"
+#include "pipeline/run.hpp"
+
+#include <string>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// How a run ended, for the report.
+struct RunOutcome {
+  ExitCode code = ExitCode::ok;
+  std::string stage;    ///< that failed; empty when none did
+  std::string message;  ///< of the failure
+};
+
+/// What was run.
+struct ReportSubject {
+  std::string case_file;      ///< as it was named; empty: none
+  std::string improved_file;  ///< a mesh, of the command improve; else empty
+};
+
+/// What a report tells besides the case and the record.
+struct ReportFacts {
+  RunOutcome outcome;
+  ReportSubject subject;
+  int ranks = 1;
+  std::vector<parallel::StageSummary> stages;  ///< over all ranks
+  parallel::Warnings warnings;                 ///< of all ranks
+  std::string date;                            ///< ISO 8601
+};
+
+/// The report as JSON text, UTF-8 whatever bytes names are made of. Rank 0 calls it.
+std::string report_json(const Case& input, const RunRecord& record, const ReportFacts& facts);
+
+}  // namespace aeroloom::pipeline
