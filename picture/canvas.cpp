@@ -55,13 +55,23 @@ void for_each_pixel(std::span<const ScreenPoint> polygon, double margin, const W
   }
 }
 
-/// Twice the area left of the way from a to b, up to p: the same number with the other sign on the way back.
-double side(const ScreenPoint& a, const ScreenPoint& b, double x, double y) {
-  const bool ascending = a.x < b.x || (a.x == b.x && a.y < b.y);
-  const ScreenPoint &p = ascending ? a : b, &q = ascending ? b : a;
-  const double area = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
-  return ascending ? area : -area;
-}
+/// An edge, by the area beside it: the same number with the other sign on the way back.
+class EdgeSide {
+public:
+  EdgeSide() = default;
+  EdgeSide(const ScreenPoint& a, const ScreenPoint& b) {
+    const bool ascending = a.x < b.x || (a.x == b.x && a.y < b.y);
+    const ScreenPoint &p = ascending ? a : b, &q = ascending ? b : a;
+    _x = p.x, _y = p.y, _dx = q.x - p.x, _dy = q.y - p.y;
+    _sign = ascending ? 1 : -1;
+  }
+  /// Twice the area left of the way from a to b, up to a point.
+  double area(double x, double y) const { return _sign * (_dx * (y - _y) - _dy * (x - _x)); }
+  void turn_round() { _sign = -_sign; }
+
+private:
+  double _x = 0, _y = 0, _dx = 0, _dy = 0, _sign = 1;
+};
 
 /// A number that ascends with the value.
 std::uint32_t ascending_bits(float value) {
@@ -91,17 +101,23 @@ void Canvas::put(std::uint64_t& sample, double depth, Colour colour) const {
 }
 
 void Canvas::draw_triangle(const std::array<ScreenPoint, 3>& corners, const TriangleStyle& style) {
+  std::array<EdgeSide, 3> edges;
   std::array<double, 3> lengths;
-  for (int i = 0; i < 3; ++i) lengths[i] = distance_of(corners[i], corners[(i + 1) % 3]);
-  const double area = side(corners[0], corners[1], corners[2].x, corners[2].y);
-  const double sign = area < 0 ? -1 : 1;
+  for (int i = 0; i < 3; ++i) {
+    edges[i] = {corners[i], corners[(i + 1) % 3]};
+    lengths[i] = distance_of(corners[i], corners[(i + 1) % 3]);
+  }
+  const double area = edges[0].area(corners[2].x, corners[2].y);
   if (!(std::abs(area) > 0)) return;
+  if (area < 0) {
+    for (EdgeSide& edge : edges) edge.turn_round();
+  }
   for_each_pixel(corners, 0, _window, [&](int x, int y) {
     std::uint64_t* pixel = row(y) + static_cast<std::size_t>(x) * samples;
     for (int s = 0; s < samples; ++s) {
       const double px = x + sample_places[s][0], py = y + sample_places[s][1];
       std::array<double, 3> sides;  // of the edge from corner i
-      for (int i = 0; i < 3; ++i) sides[i] = sign * side(corners[i], corners[(i + 1) % 3], px, py);
+      for (int i = 0; i < 3; ++i) sides[i] = edges[i].area(px, py);
       if (sides[0] < 0 || sides[1] < 0 || sides[2] < 0) continue;
       const double sum = sides[0] + sides[1] + sides[2];
       if (!(sum > 0)) continue;

@@ -15,7 +15,10 @@ std::uint8_t component(double value) {
 }  // namespace
 
 Colour mix(Colour a, Colour b, double share) {
-  const auto between = [share](std::uint8_t x, std::uint8_t y) { return component(x + share * (y - x)); };
+  const int of_b = static_cast<int>(256 * std::clamp(share, 0.0, 1.0));
+  const auto between = [of_b](int x, int y) {
+    return static_cast<std::uint8_t>((x * (256 - of_b) + y * of_b + 128) >> 8);
+  };
   return {between(a.red, b.red), between(a.green, b.green), between(a.blue, b.blue)};
 }
 

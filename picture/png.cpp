@@ -32,7 +32,7 @@ std::vector<std::uint8_t> encode(const PalettedImage& image, int width, int heig
   png_set_write_fn(writer.file, &bytes, append, [](png_structp) {});
   // Noise of small triangles goes best as it is.
   png_set_filter(writer.file, 0, PNG_FILTER_NONE);
-  png_set_compression_level(writer.file, 8);
+  png_set_compression_level(writer.file, 6);
   png_set_IHDR(writer.file, writer.head, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
                PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);

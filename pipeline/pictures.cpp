@@ -176,7 +176,8 @@ Picture views_picture(const Subject& subject) {
   return painted(
       subject.communicator,
       {.name = "views",
-       .caption = "From above, from the side and from the front to one scale; upper right: from behind.",
+       .caption =
+           "From above, from the side and from the front to one scale; upper right: from behind and below.",
        .width = width,
        .height = upper + lower,
        .legend = subject.patches},

@@ -8,9 +8,8 @@
 /// half a body, the middle of a whole one across y, and the middle of a duct across its shortest extent.
 ///
 /// All ranks draw what they hold; nothing is gathered but pictures and lines on the surface. A rank needs 32
-/// bytes for each of at most 0.7 million pixels and 200 for each triangle of the surface. All pictures
-/// together have less than 1.5 MB, as good as always: there is a limit for each, which more than 16 colours
-/// never break.
+/// bytes for each of at most 0.7 million pixels and 200 for each triangle of the surface. A picture has as
+/// many colours, at most 256, as keep it below 240 kB.
 #pragma once
 
 #include "mesh/distributed_mesh.hpp"
