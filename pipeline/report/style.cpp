@@ -68,6 +68,7 @@ svg .count, svg .filled { fill: var(--bar); }
 svg .beyond { fill: var(--beyond); stroke: var(--ink); stroke-width: 0.8; }
 svg .trough { fill: var(--line); }
 .chart, .loads { width: 100%; height: auto; }
+.loads { min-width: 520px; }
 .bar { width: 90px; height: 10px; vertical-align: middle; }
 .small { width: 150px; height: 20px; vertical-align: middle; }
 .stage0 { fill: #555f69; } .stage1 { fill: #9fc6e8; } .stage2 { fill: #7a4f9a; } .stage3 { fill: #e3b04b; }
@@ -96,6 +97,8 @@ summary { cursor: pointer; }
   main, footer { max-width: none; padding: 0; }
   nav { display: none; }
   .wide { overflow: visible; }
+  .loads { min-width: 0; }
+  dl { grid-template-columns: 1fr 1fr; }
   table { max-width: 100%; font-size: 8pt; }
   th, td { padding-right: 6px; min-width: 0; }
   .place, .number { white-space: normal; }

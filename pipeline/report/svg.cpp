@@ -183,8 +183,9 @@ std::string load_chart(const std::vector<std::string>& stages,
           s % 10, escaped(stages[s]));
   }
   return fmt::format(
-      "<svg class=\"loads\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"CPU seconds by rank and "
-      "stage\">\n{}</svg>\n"
+      "<div class=\"wide\"><svg class=\"loads\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"CPU seconds "
+      "by rank and "
+      "stage\">\n{}</svg></div>\n"
       "<ul class=\"legend\">{}</ul>\n",
       wide, row * static_cast<double>(seconds.size()), text, legend);
 }

@@ -197,6 +197,8 @@ TEST(StageClockTest, SummarisesOverRanks) {
     EXPECT_DOUBLE_EQ(summary.cpu_seconds_min, 1.0);
     EXPECT_DOUBLE_EQ(summary.cpu_seconds_max, n);
     EXPECT_DOUBLE_EQ(summary.cpu_seconds_mean, (n + 1) / 2.0);
+    ASSERT_EQ(summary.cpu_seconds_of_ranks.size(), static_cast<std::size_t>(world.size()));
+    EXPECT_DOUBLE_EQ(summary.cpu_seconds_of_ranks.back(), n);
     EXPECT_DOUBLE_EQ(summary.serial_seconds, 0.5 * (n - 1));
     EXPECT_EQ(summary.pieces, n * (n + 1) / 2);
     EXPECT_GE(summary.peak_resident_bytes_sum, summary.peak_resident_bytes_max);

@@ -3,7 +3,6 @@ import html.parser
 import re
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
-# With an end of their own in SVG: "<rect .../>".
 MOST_BYTES = 5_000_000
 
 
