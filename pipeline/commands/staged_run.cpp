@@ -23,6 +23,12 @@ void write_text(const std::string& file, const std::string& text) {
   if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
 }
 
+/// By rank 0, unless facts are not wanted.
+void tell(std::string text) {
+  while (text.ends_with("\n")) text.pop_back();
+  parallel::log_info(text);
+}
+
 /// Writes report.json for a run that ended well or not. Collective; what goes wrong here replaces a good
 /// outcome.
 void report(const Communicator& communicator, const Case& input, const std::string& improved_file,
@@ -37,7 +43,7 @@ void report(const Communicator& communicator, const Case& input, const std::stri
                    ? report_json(input, record, stages, outcome, communicator.size())
                    : improve_report_json(improved_file, input, record, stages, outcome, communicator.size()));
   });
-  if (outcome.code == ExitCode::ok) print(communicator, report_table(record, stages, communicator.size()));
+  if (outcome.code == ExitCode::ok) tell(report_table(record, stages, communicator.size()));
 }
 
 }  // namespace
@@ -65,8 +71,7 @@ int run_stages(const Communicator& communicator, const Case& input, const std::s
   }
   for (const io::FileFormat format : input.output.formats) {
     const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
-    print(communicator,
-          fmt::format("{}: {}\n", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
+    tell(fmt::format("{}: {}", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
   }
   return 0;
 }
