@@ -12,6 +12,17 @@ namespace aeroloom::pipeline {
 
 using parallel::Communicator;
 
+namespace {
+
+/// By rank 0, unless facts are not wanted.
+void tell(std::string text) {
+  while (text.ends_with("
+")) text.pop_back();
+  parallel::log_info(text);
+}
+
+}  // namespace
+
 int run_stages(const Communicator& communicator, const Case& input, const ReportSubject& subject,
                const std::function<void(RunRecord&)>& stages) {
   RunRecord record;
@@ -26,7 +37,7 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
   record.wall_seconds = age + parallel::wall_seconds() - begin;
   try {
     const std::string table = write_report(communicator, input, record, outcome, subject);
-    if (outcome.code == ExitCode::ok) print(communicator, table);
+    if (outcome.code == ExitCode::ok) tell(table);
   } catch (const parallel::CollectiveError& error) {
     if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
   }
@@ -36,11 +47,10 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
   }
   for (const io::FileFormat format : input.output.formats) {
     const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
-    print(communicator,
-          fmt::format("{}: {}\n", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
+    tell(fmt::format("{}: {}", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
   }
   const std::string report = std::filesystem::absolute(input.output.directory + "/report.html").string();
-  print(communicator, fmt::format("report: {}\n", report));
+  tell("report: " + report);
   return 0;
 }
 

@@ -105,6 +105,7 @@ def check_loudness(shell):
     assert shell.run("-q convert out/mesh.pvtu a.cgns")[1:] == ("", "")
     assert shell.run("convert out/mesh.pvtu a.cgns --quiet")[1:] == ("", "")
     assert "wrote" in shell.run("convert out/mesh.pvtu a.cgns")[1]
+    assert shell.run("run case.yaml -q")[1] == ""
     normal = len(shell.run("run case.yaml")[1])
     assert len(shell.run("-v run case.yaml")[1]) > normal
 
@@ -138,7 +139,7 @@ def check_progress(shell):
     assert re.search(re.escape(erase) + r"(sizing|surface|volume|improve) +\d+ %  \d+ [a-z ]+  \d+ MB  \d+\.\d s", text), text
     left = [line.split(erase)[-1] for line in text.split("\n")]
     assert not any(re.search(r" \d+ MB  ", line) for line in left), left
-    facts = [line for line in shell.run("run case.yaml")[1].split("\n") if re.match("(geometry|sizing|surface|hash)", line)]
+    facts = [line for line in shell.run("run case.yaml")[1].split("\n") if re.match("(geometry|sizing|surface|hash):", line)]
     assert [line for line in facts if "MB" not in line and line not in left] == [], left
     for how in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
         assert "\x1b" not in on_terminal(shell, "run case.yaml", **how)
@@ -189,7 +190,7 @@ def check_info(shell):
     (shell.folder / "broken.vtu").write_text("<VTKFile")
     for file, code, word in (("nowhere.step", 7, "nowhere.step"), ("out", 3, "is a folder"),
                              ("out/report.json", 3, "neither STEP"), ("mesh.cgns", 7, "not read"),
-                             ("wrong.yaml", 2, "geometry.file"), ("broken.vtu", 3, "broken.vtu")):
+                             ("wrong.yaml", 2, "'file'"), ("broken.vtu", 3, "broken.vtu")):
         for ranks in (0, 2):
             found, out, err = shell.run(f"info {file}", ranks)
             assert found == code and word in err and out == "", f"{file}: {found} {out} {err}"
