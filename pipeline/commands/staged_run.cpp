@@ -1,5 +1,6 @@
 #include "pipeline/commands/staged_run.hpp"
 
+#include "parallel/log.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
@@ -16,8 +17,7 @@ namespace {
 
 /// By rank 0, unless facts are not wanted.
 void tell(std::string text) {
-  while (text.ends_with("
-")) text.pop_back();
+  while (text.ends_with('\n')) text.pop_back();
   parallel::log_info(text);
 }
 
