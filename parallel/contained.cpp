@@ -205,7 +205,10 @@ ContainedResult run_contained(const std::string& name, std::span<const std::byte
   const ContainedReply reply = await_reply(server().socket.number());
   const std::int64_t allowed = request.limits.address_space_bytes;
   ContainedResult result;
-  result.short_of_memory = allowed < limits.address_space_bytes && reply.peak_resident_bytes > allowed / 2;
+  // What asks for much at once has little of it in use.
+  result.short_of_memory =
+      allowed < limits.address_space_bytes &&
+      (reply.status == ContainedStatus::out_of_memory || reply.peak_resident_bytes > allowed / 2);
   if (reply.status != ContainedStatus::ok && result.short_of_memory) throw std::bad_alloc();
   result.status = reply.status;
   result.cpu_seconds = reply.cpu_seconds;

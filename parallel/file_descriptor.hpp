@@ -1,4 +1,4 @@
-/// File descriptors of contained runs. Internal to parallel/.
+/// File descriptors. Internal to parallel/.
 #pragma once
 
 #include <cerrno>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -63,6 +64,19 @@ double gibibytes(std::int64_t bytes) {
   return static_cast<double>(bytes) / (1LL << 30);
 }
 
+/// The least limit of a control group and of those above it, as far as they can be seen.
+std::int64_t least_limit(const std::string& root, std::string group, const char* name, std::int64_t bytes) {
+  while (true) {
+    if (group == "/") group.clear();
+    std::ifstream file(root + group + "/" + name);
+    std::int64_t allowed = 0;
+    if (file >> allowed && allowed > 0) bytes = std::min(bytes, allowed);
+    const std::size_t last = group.find_last_of('/');
+    if (last == std::string::npos) return bytes;
+    group.erase(last);
+  }
+}
+
 }  // namespace
 
 NodeShape find_node_shape(const Communicator& communicator) {
@@ -81,13 +95,15 @@ NodeShape find_node_shape(const Communicator& communicator) {
 
 std::int64_t node_memory_bytes() {
   std::int64_t bytes = static_cast<std::int64_t>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
-  for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    std::FILE* file = std::fopen(path, "r");
-    if (!file) continue;
-    long long allowed = 0;
-    if (std::fscanf(file, "%lld", &allowed) == 1 && allowed > 0)
-      bytes = std::min<std::int64_t>(bytes, allowed);
-    std::fclose(file);
+  std::ifstream groups("/proc/self/cgroup");  // "0::/job" (version 2), "4:memory:/job" (version 1)
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string kinds = "," + line.substr(first + 1, second - first - 1) + ",";
+    const std::string group = line.substr(second + 1);
+    if (kinds == ",,") bytes = least_limit("/sys/fs/cgroup", group, "memory.max", bytes);
+    if (kinds.find(",memory,") != std::string::npos)
+      bytes = least_limit("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes", bytes);
   }
   return bytes;
 }
@@ -127,8 +143,12 @@ std::string out_of_memory_text() {
 }
 
 void give_up_without_memory() {
-  if (!session::is_library_running() || session::world()->size == 1) return;
-  std::fprintf(stderr, "error (rank %d): %s\n", session::world()->rank, out_of_memory_text().c_str());
+  if (!session::is_library_running()) return;
+  int rank = 0, size = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (size == 1) return;
+  std::fprintf(stderr, "error (rank %d): %s\n", rank, out_of_memory_text().c_str());
   abort_all_ranks(exit_out_of_memory);
 }
 

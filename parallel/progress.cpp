@@ -123,11 +123,12 @@ void Progress::show(double now) {
 }
 
 void Progress::reach(std::int64_t done, std::int64_t elements) {
+  const bool ends = _done != _total && done == _total;
   _done = done;
   _made = elements;
   if (!log_line::is_wanted()) return;
   const double now = wall_seconds();
-  if (is_due(now) || (_printed && _done == _total)) show(now);
+  if (is_due(now) || (_printed && ends)) show(now);
 }
 
 void stage_begins(const std::string& name) {

@@ -42,6 +42,10 @@ void require_success(int code, const char* what, const std::string& path) {
 void prepare(const std::string& path, const std::string& unfinished) {
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty()) fs::create_directories(folder);
+  if (fs::exists(path) && !fs::is_regular_file(path)) {
+    throw fs::filesystem_error("this is no file that could be replaced", path,
+                               std::make_error_code(std::errc::invalid_argument));
+  }
   fs::remove(path);
   fs::remove(unfinished);
 }

@@ -226,13 +226,14 @@ ScopedCpu::ScopedCpu(StageClock& clock, As as)
     : _clock(clock),
       _as(as),
       _start(cpu_seconds() - session::message_time().cpu_seconds),
-      _scoped_before(clock._scoped_cpu) {}
+      _scoped_before(clock._scoped_cpu) {
+  beat();  // not at the end: what allocates has no place in a destructor
+}
 
 ScopedCpu::~ScopedCpu() {
   const double all = cpu_seconds() - session::message_time().cpu_seconds - _start;
   const double used = all - (_clock._scoped_cpu - _scoped_before);
   _clock._scoped_cpu += used;
-  beat();
   if (!_clock._open) return;
   StageCost& cost = _clock.current();
   (_as == As::check ? cost.check_cpu_seconds : cost.task_cpu_seconds) += used;

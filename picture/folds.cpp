@@ -1,5 +1,6 @@
 #include "picture/folds.hpp"
 
+#include "parallel/collective_error.hpp"
 #include "geometry/runs.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/mixing.hpp"
@@ -89,7 +90,7 @@ Folds find_folds(const parallel::Communicator& communicator, const mesh::Distrib
                  const mesh::Numbering& numbering, const Shown& shown) {
   Folds folds(surface.pieces.size());
   std::vector<Side> travelling;
-  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+  const auto match_within = [&](std::size_t p) {
     const mesh::Piece& piece = surface.pieces[p];
     folds[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
@@ -104,16 +105,21 @@ Folds find_folds(const parallel::Communicator& communicator, const mesh::Distrib
         tell_each(run, [&](const Side& side, const Fold& fold) { folds[p][side.item] = fold; });
       }
     });
-  }
+  };
+  parallel::agree(communicator, [&] {
+    for (std::size_t p = 0; p < surface.pieces.size(); ++p) match_within(p);
+  });
   std::vector<Side> met = mesh::deliver(communicator, std::move(travelling), [&](const Side& side) {
     const std::uint64_t mixed =
         mesh::mix_in(static_cast<std::uint64_t>(side.ends[0]), static_cast<std::uint64_t>(side.ends[1]));
     return mesh::meeting_rank(mixed, communicator.size());
   });
   std::vector<Answer> answers;
-  for_each_edge(met, [&](std::span<const Side> run) {
-    tell_each(run, [&](const Side& side, const Fold& fold) {
-      answers.push_back({side.rank, side.place, side.item, fold});
+  parallel::agree(communicator, [&] {
+    for_each_edge(met, [&](std::span<const Side> run) {
+      tell_each(run, [&](const Side& side, const Fold& fold) {
+        answers.push_back({side.rank, side.place, side.item, fold});
+      });
     });
   });
   for (const Answer& answer :

@@ -26,7 +26,8 @@ struct Fold {
 using Folds = std::vector<std::vector<Fold>>;
 
 /// Edges within a piece are matched there; those with one triangle in it travel. Where several triangles
-/// meet, each gets the next one in the order of pieces and triangles. Collective.
+/// of a piece, or several pieces with one each, meet, each gets the next one in the order of pieces and
+/// triangles. Collective.
 Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                  const mesh::Numbering& numbering, const Shown& shown);
 

@@ -17,8 +17,7 @@ std::vector<Line> gather_lines(const parallel::Communicator& communicator,
     const std::vector<LineItem> arrived = parallel::from_bytes<LineItem>(bytes);
     items.insert(items.end(), arrived.begin(), arrived.end());
   }
-  std::sort(items.begin(), items.end(),
-            [](const LineItem& a, const LineItem& b) { return a.vertices < b.vertices; });
+  std::sort(items.begin(), items.end(), precedes);
   std::vector<GlobalIndex> numbers;
   for (const LineItem& item : items)
     numbers.insert(numbers.end(), item.vertices.begin(), item.vertices.end());

@@ -6,6 +6,7 @@
 #include "parallel/communicator.hpp"
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::picture {
@@ -16,6 +17,12 @@ struct LineItem {
   geometry::Vec3 point, normal, along;        ///< as in Place
   double length = 0, size = 0;
 };
+
+/// By vertices; the two items of a sharp edge, one from each of its triangles, by what differs in them.
+inline bool precedes(const LineItem& a, const LineItem& b) {
+  return std::tie(a.vertices, a.size, a.along.x, a.along.y, a.along.z) <
+         std::tie(b.vertices, b.size, b.along.x, b.along.y, b.along.z);
+}
 
 /// Those that are connected by vertices.
 struct Line {

@@ -1,5 +1,6 @@
 #include "picture/places.hpp"
 
+#include "parallel/collective_error.hpp"
 #include "picture/line_items.hpp"
 
 #include <algorithm>
@@ -158,7 +159,7 @@ struct Sharpest {
   LineItem item{};
 };
 bool beats(const Sharpest& a, const Sharpest& b) {
-  return std::tie(a.angle, b.item.vertices) > std::tie(b.angle, a.item.vertices);
+  return a.angle != b.angle ? a.angle > b.angle : precedes(a.item, b.item);
 }
 
 std::optional<Place> find_sharpest(const Communicator& communicator, const DistributedMesh& surface,
@@ -188,7 +189,9 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
                                        const mesh::Numbering& numbering, const Folds& folds,
                                        const Scene& scene) {
   if (!scene.has_body) return find_sharpest(communicator, surface, numbering, folds, scene);
-  std::vector<Line> lines = gather_lines(communicator, leading_items(surface, numbering, folds, scene));
+  std::vector<LineItem> items;
+  parallel::agree(communicator, [&] { items = leading_items(surface, numbering, folds, scene); });
+  std::vector<Line> lines = gather_lines(communicator, items);
   // Less than a few elements are no edge but a bump.
   std::erase_if(lines, [](const Line& line) { return line.extent() < 8 * line.items.front().size; });
   std::optional<Place> found;
@@ -209,11 +212,13 @@ std::optional<Place> find_junction(const Communicator& communicator, const Distr
                                    const mesh::Numbering& numbering, const Folds& folds, const Scene& scene) {
   if (!scene.has_body) return std::nullopt;
   std::vector<LineItem> items;
-  for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
-    for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] < -20 * degree && vertices[i] < vertices[(i + 1) % 3])
-        items.push_back(item_of_edge(e, i, vertices));
-    }
+  parallel::agree(communicator, [&] {
+    for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+      for (int i = 0; i < 3; ++i) {
+        if (e.turns[i] < -20 * degree && vertices[i] < vertices[(i + 1) % 3])
+          items.push_back(item_of_edge(e, i, vertices));
+      }
+    });
   });
   const std::vector<Line> lines = gather_lines(communicator, items);
   const auto longest = std::max_element(lines.begin(), lines.end(),

@@ -4,12 +4,13 @@
 #include "pipeline/change_json.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/option_keys.hpp"
 #include "pipeline/size_domain.hpp"
+#include "pipeline/text_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -187,12 +188,8 @@ Json record_json(const Case& input, const CheckRecord& record) {
 }
 
 void write_record(const Case& input, const CheckRecord& record) {
-  std::filesystem::create_directories(input.output.directory);
-  const std::string file = input.output.directory + "/check.json";
-  std::ofstream stream(file);
-  stream << record_json(input, record).dump(2) << "\n";
-  stream.close();
-  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
+  write_text(input.output.directory + "/check.json",
+             record_json(input, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void print_record(const Case& input, const CheckRecord& record, int ranks) {
@@ -216,6 +213,7 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     record.diagnosis = diagnose_contained(input.domain, clock, input.geometry_sabotage);
+    record.diagnosis.failure = with_keys(std::move(record.diagnosis.failure));
     if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;

@@ -36,11 +36,7 @@ Case relevant_part(const Case& input, SavedStage stage) {
     part.sizing.minimum = input.domain.smallest_size > 0 ? input.sizing.minimum : std::nullopt;
   }
   if (stage >= SavedStage::surface) part.surface = input.surface;
-  if (stage >= SavedStage::volume) {
-    part.volume = input.volume;
-    part.volume.sabotage = parallel::Sabotage::none;
-    part.volume.sabotaged_zone = -1;
-  }
+  if (stage >= SavedStage::volume) part.volume = input.volume;
   if (stage >= SavedStage::improve) {
     part.improve = input.improve;
     part.gate.percentile_01 = input.gate.percentile_01;
@@ -78,7 +74,7 @@ Checkpoints::Checkpoints(const parallel::Communicator& communicator, const Case&
       _folder(input.output.directory + "/checkpoint"),
       _writes(input.output.checkpoints != CheckpointUse::none),
       _resumes(input.output.checkpoints == CheckpointUse::resume) {
-  if (_resumes) refuse_foreign();
+  if (_resumes && identity.is_known) refuse_foreign();
 }
 
 std::string Checkpoints::path_of(SavedStage stage) const {
@@ -125,7 +121,11 @@ bool Checkpoints::is_of_this_case(SavedStage stage) const {
 void Checkpoints::refuse_foreign() const {
   for (std::size_t s = 0; s < saved_stages; ++s) {
     const auto stage = static_cast<SavedStage>(s);
-    const std::optional<io::CheckpointLabel> found = read_label(stage);
+    std::optional<io::CheckpointLabel> found;
+    try {
+      found = io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
+    } catch (const parallel::CollectiveError&) {  // find() tells, where it is needed
+    }
     if (!found) continue;
     const io::CheckpointLabel own = label_of(stage);
     const auto differs = [&](About text) { return found->about[text] != own.about[text]; };
@@ -159,6 +159,7 @@ std::optional<io::CheckpointContent> Checkpoints::find(SavedStage stage) {
   try {
     io::CheckpointContent content = io::read_checkpoint(_communicator, path_of(stage));
     parallel::log_info(fmt::format("checkpoint: stage {} from '{}'", name_of(stage), path_of(stage)));
+    remove_left_over(stage);
     return content;
   } catch (const parallel::CollectiveError& error) {
     if (_communicator.is_root())
@@ -222,6 +223,19 @@ void Checkpoints::remove_needless(SavedStage kept) {
       if (_communicator.is_root()) std::filesystem::remove(path_of(later));
     });
   }
+  remove_volume_of(kept);
+}
+
+/// What a run has left that was killed once the stage was kept.
+void Checkpoints::remove_left_over(SavedStage found) {
+  attempt([&] {
+    parallel::TaskStore(_communicator, _folder, name_of(found), {}, parallel::TaskStore::Earlier::forget);
+    remove_volume_of(found);
+  });
+}
+
+/// That of a volume which has been improved.
+void Checkpoints::remove_volume_of(SavedStage kept) {
   if (kept != SavedStage::improve) return;
   parallel::agree(_communicator, [&] {
     if (_communicator.is_root()) std::filesystem::remove(path_of(SavedStage::volume));

@@ -45,6 +45,8 @@ private:
   bool is_of_this_case(SavedStage stage) const;
   void refuse_foreign() const;
   void remove_needless(SavedStage kept);
+  void remove_left_over(SavedStage found);
+  void remove_volume_of(SavedStage kept);
   bool attempt(const std::function<void()>& work);
 
   const parallel::Communicator& _communicator;

@@ -20,9 +20,11 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
         fmt::format("'{}': no format that is written here ends like this; known are {}", conversion.to,
                     io::known_extensions()));
   }
-  std::error_code ignored;
-  if (std::filesystem::equivalent(conversion.from, conversion.to, ignored))
-    throw std::invalid_argument(fmt::format("'{}' cannot be converted onto itself", conversion.from));
+  for (const std::string& target : {conversion.to, io::written_path(*format, conversion.to)}) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(conversion.from, target, ignored))
+      throw std::invalid_argument(fmt::format("'{}' cannot be converted onto itself", conversion.from));
+  }
   const double begin = parallel::wall_seconds();
   const io::Assembled file = io::read_mesh(communicator, conversion.from, 0);
   const io::FileMesh& mesh = file.mesh;

@@ -5,6 +5,7 @@
 #include "pipeline/case.hpp"
 #include "pipeline/info_text.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/text_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -80,11 +81,11 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
     Json json = {{"schema_version", schema_version}, {"file", request.file}};
     json["bytes"] = ignored ? Json() : Json(bytes);
     json.update(facts);
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
-    fmt::print("'{}'{}: {}", request.file, ignored ? "" : fmt::format(", {} bytes", bytes), text);
+    print_text(
+        fmt::format("'{}'{}: {}", request.file, ignored ? "" : fmt::format(", {} bytes", bytes), text));
   }
-  std::fflush(stdout);
 }
 
 void show_mesh(const Communicator& communicator, const InfoRequest& request) {

@@ -2,6 +2,7 @@
 
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "parallel/memory_limit.hpp"
 #include "picture/drawing.hpp"
 #include "picture/image.hpp"
 #include "picture/places.hpp"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -367,6 +369,9 @@ std::vector<Picture> pictures_or_warning(const Communicator& communicator,
   std::string problem;
   try {
     return make_all(communicator, source, volume);
+  } catch (const std::bad_alloc&) {
+    parallel::give_up_without_memory();  // not agreed on: the others wait for this rank
+    problem = parallel::out_of_memory_text();
   } catch (const std::exception& error) {
     problem = error.what();
   }

@@ -7,6 +7,7 @@
 #include "pipeline/text_file.hpp"
 
 #include <chrono>
+#include <filesystem>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -43,7 +44,11 @@ std::string write_report(const parallel::Communicator& communicator, const Case&
     const std::string json = report_json(input, record, facts);
     write_text(folder + "/report.json", json);
     const std::string page = page_of(json, record);
-    if (!page.empty()) write_text(folder + "/report.html", page);
+    std::error_code ignored;  // a page of an earlier run that cannot go stays
+    if (page.empty())
+      std::filesystem::remove(folder + "/report.html", ignored);
+    else
+      write_text(folder + "/report.html", page);
   });
   return communicator.is_root() ? report_table(record, facts.stages, communicator.size()) : "";
 }

@@ -2,6 +2,7 @@
 
 #include "io/vtk/vtk_writer.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
@@ -87,7 +88,7 @@ private:
 
   cad::Model load_geometry() {
     const RunIdentity identity = identify_run(_communicator, _input);
-    _record.input_hash = identity.digest.text();
+    if (identity.is_known) _record.input_hash = identity.digest.text();
     _checkpoints.emplace(_communicator, _input, identity);
     TypedPatches patches = apply_patch_rules(find_or_load_domain(), _input.patches);
     _record.patch_types = std::move(patches.types);
@@ -157,14 +158,24 @@ private:
 
   FinishedSurface find_or_build_surface(const cad::Model& domain, SizedDomain& sized) {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::surface, "surface")) {
-      if (std::optional<surface::SurfaceMesh> known = unpack_surface(_communicator, std::move(*found), sized))
+      const cad::Changes joined_before = sized.joined.changes;
+      if (std::optional<surface::SurfaceMesh> known =
+              unpack_surface(_communicator, std::move(*found), domain, sized)) {
+        if (sized.joined.changes.size() != joined_before.size()) note_sizes(sized);
+        _record.clock.add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
         return finish_surface(sized.model, std::move(*known));
+      }
       _record.resumed.pop_back();
+      parallel::log_info("checkpoint: that surface is of other sizes: done anew");
     }
+    const std::size_t joined_before = sized.joined.groups.size();
     surface::SurfaceMesh made = build_surface_or_advise(domain, sized);
+    const bool sizes_are_other = sized.joined.groups.size() != joined_before;
     FinishedSurface finished = finish_surface(sized.model, std::move(made));
-    _checkpoints->keep(SavedStage::surface,
-                       [&] { return pack_surface(finished.mesh, finished.field, _record.surface, sized); });
+    _checkpoints->keep(SavedStage::surface, [&] {
+      return pack_surface(_communicator,
+                          {finished.mesh, finished.field, _record.surface, sized, sizes_are_other});
+    });
     return finished;
   }
 
@@ -230,7 +241,12 @@ private:
     });
     if (improved) {
       stage("volume", ExitCode::volume, [] {});
-      return stage("improve", ExitCode::volume, [&] { return adopt(std::move(*improved)); });
+      _record.resumed.insert(_record.resumed.end() - 1, "volume");
+      return stage("improve", ExitCode::volume, [&] {
+        mesh::DistributedMesh volume = adopt(std::move(*improved));
+        log_improve(_record);
+        return volume;
+      });
     }
     mesh::DistributedMesh volume =
         filled ? stage("volume", ExitCode::volume, [&] { return adopt(std::move(*filled)); })
@@ -255,6 +271,8 @@ private:
     _record.decomposition = product.decomposition;
     _record.volume = std::move(product.volume);
     _record.improve = product.improve;
+    _record.clock.add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
+    log_decompose(_record);
     log_volume(_record);
     return std::move(product.mesh);
   }

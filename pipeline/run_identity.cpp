@@ -21,6 +21,11 @@ parallel::Digest digest_of_file(const std::string& path) {
   return digester.result();
 }
 
+bool is_readable(const std::string& path) {
+  std::error_code ignored;  // what cannot be looked at cannot be read
+  return std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).is_open();
+}
+
 }  // namespace
 
 RunIdentity identify_run(const parallel::Communicator& communicator, const Case& input) {
@@ -29,11 +34,17 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const Case&
   for (const auto& [library, version] : library_versions())
     identity.version.append(", ").append(library).append(" ").append(version);
   std::vector<parallel::Digest> digests(2);
+  std::vector<std::uint8_t> known{1};
   if (communicator.is_root()) {
     digests[0] = digest_of_file("/proc/self/exe");
-    if (!input.domain.file.empty()) digests[1] = digest_of_file(input.domain.file);
+    if (!input.domain.file.empty()) {
+      known[0] = is_readable(input.domain.file) ? 1 : 0;
+      digests[1] = digest_of_file(input.domain.file);
+    }
   }
   communicator.broadcast_items(digests);
+  communicator.broadcast_items(known);
+  identity.is_known = known[0] != 0;
   identity.build = digests[0];
   if (input.domain.file.empty()) {
     Case dimensions;

@@ -13,11 +13,11 @@ struct RunIdentity {
   std::string version;      ///< of the program and its libraries
   parallel::Digest build;   ///< of the program's file
   std::string input;        ///< name of the geometry file, or of what is built in
+  bool is_known = true;     ///< whether the geometry file can be read
   parallel::Digest digest;  ///< of the bytes of that file, or of the dimensions
 };
 
-/// Rank 0 reads the files. A geometry file that cannot be read has the digest of nothing: who reads it tells.
-/// Collective.
+/// Rank 0 reads the files. That a geometry file cannot be read is for the reader to tell. Collective.
 RunIdentity identify_run(const parallel::Communicator& communicator, const Case& input);
 
 }  // namespace aeroloom::pipeline

@@ -1,6 +1,7 @@
 #include "pipeline/stage_log.hpp"
 
 #include "parallel/log.hpp"
+#include "pipeline/option_keys.hpp"
 
 #include <algorithm>
 
@@ -89,7 +90,7 @@ void log_needles(const RunRecord& record) {
 }
 
 void log_surface_again(const std::string& reason) {
-  log_info(fmt::format("surface: with joined faces: {}; again without", reason));
+  log_info(fmt::format("surface: with joined faces: {}; again without", with_keys(reason)));
 }
 
 void log_decompose(const RunRecord& record) {

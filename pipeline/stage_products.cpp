@@ -204,23 +204,29 @@ SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointC
   return sized;
 }
 
-CheckpointDraft pack_surface(const mesh::DistributedMesh& mesh, const sizing::SizeField& field,
-                             const surface::SurfaceReport& report, const SizedDomain& sized) {
+// The common part of rank 0 counts: others pack none of what each node holds once.
+CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product) {
   CheckpointDraft draft;
   Packer packer;
-  packer.value(digest_of(sized));
-  pack_report(report, packer);
-  const bool refined = field.digest() != sized.field.digest();
-  packer.array(refined ? field.pack() : parallel::Bytes());
-  pack_mesh(mesh, packer, draft);
+  packer.value(digest_of(product.sized));
+  const bool root = communicator.is_root();
+  packer.array(root && product.sizes_are_other ? pack_sizes(product.sized).common : parallel::Bytes());
+  pack_report(product.report, packer);
+  const bool refined = product.field.digest() != product.sized.field.digest();
+  packer.array(root && refined ? product.field.pack() : parallel::Bytes());
+  pack_mesh(product.mesh, packer, draft);
   draft.common = packer.take();
   return draft;
 }
 
 std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
-                                                   CheckpointContent content, const SizedDomain& sized) {
+                                                   CheckpointContent content, const cad::Model& domain,
+                                                   SizedDomain& sized) {
   Unpacker unpacker(content.common);
-  if (unpacker.value<parallel::Digest>() != digest_of(sized)) return std::nullopt;
+  const auto wanted = unpacker.value<parallel::Digest>();
+  if (parallel::Bytes sizes = unpacker.array<std::byte>(); !sizes.empty())
+    sized = unpack_sizes(communicator, {std::move(sizes), {}}, domain);
+  if (wanted != digest_of(sized)) return std::nullopt;
   surface::SurfaceReport report = unpack_surface_report(unpacker);
   const parallel::Bytes refined = unpacker.array<std::byte>();
   mesh::DistributedMesh mesh = unpack_mesh(unpacker, std::move(content.items));

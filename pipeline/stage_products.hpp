@@ -24,12 +24,20 @@ io::CheckpointDraft pack_sizes(const SizedDomain& sized);
 SizedDomain unpack_sizes(const parallel::Communicator& communicator, io::CheckpointContent content,
                          const cad::Model& domain);
 
-/// The field is left out where it is the one of the sized domain.
-io::CheckpointDraft pack_surface(const mesh::DistributedMesh& mesh, const sizing::SizeField& field,
-                                 const surface::SurfaceReport& report, const SizedDomain& sized);
-/// Nothing where it is the surface of a domain with other faces joined or of other sizes.
+/// What a surface was made of, and its sizes.
+struct SurfaceProduct {
+  const mesh::DistributedMesh& mesh;
+  const sizing::SizeField& field;  ///< left out where it is the one of the sized domain
+  const surface::SurfaceReport& report;
+  const SizedDomain& sized;
+  bool sizes_are_other;  ///< than those of the stage before: they come along
+};
+io::CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product);
+/// `sized` becomes what the surface is of, where that came along. Nothing where it is the surface of other
+/// sizes or of other joined faces.
 std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
-                                                   io::CheckpointContent content, const SizedDomain& sized);
+                                                   io::CheckpointContent content, const cad::Model& domain,
+                                                   SizedDomain& sized);
 
 /// A volume with what its stages tell.
 struct VolumeProduct {

@@ -1,5 +1,6 @@
 #include "pipeline/text_file.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <ios>
@@ -9,6 +10,8 @@
 namespace aeroloom::pipeline {
 
 std::string read_text(const std::string& file) {
+  if (std::filesystem::is_directory(file))
+    throw std::ios_base::failure("cannot read '" + file + "': it is a folder");
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream) throw std::ios_base::failure("cannot read '" + file + "'");
@@ -16,17 +19,28 @@ std::string read_text(const std::string& file) {
 }
 
 void write_text(const std::string& file, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder);
-  const std::string unfinished = file + ".unfinished";
-  std::ofstream stream(unfinished, std::ios::binary);
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty()) fs::create_directories(folder);
+  std::error_code error;
+  // A link stays one; what is no file (a device, a pipe) is written as it stands.
+  const bool linked = fs::is_symlink(fs::symlink_status(file, error));
+  const fs::path target = linked ? fs::weakly_canonical(file, error) : fs::path(file);
+  const bool replaced = !fs::exists(target, error) || fs::is_regular_file(target, error);
+  const fs::path place = replaced ? fs::path(target.string() + ".unfinished") : target;
+  std::ofstream stream(place, std::ios::binary);
   stream << text;
   stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(unfinished, file, error);
+  error.clear();
+  if (stream && replaced) fs::rename(place, target, error);
   if (stream && !error) return;
-  std::filesystem::remove(unfinished, error);
+  if (replaced) fs::remove(place, error);
   throw std::ios_base::failure("cannot write '" + file + "'");
+}
+
+void print_text(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw std::ios_base::failure("cannot write to standard output");
 }
 
 }  // namespace aeroloom::pipeline

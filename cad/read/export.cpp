@@ -4,7 +4,9 @@
 #include "cad/read/length_unit.hpp"
 #include "cad/repair/heal.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include <STEPConstruct.hxx>
 #include <STEPControl_Controller.hxx>
@@ -64,6 +66,9 @@ void write_step(const NamedShape& named, const std::string& file) {
   if (writer.Write(file.c_str()) != IFSelect_RetDone) {
     throw std::ios_base::failure(fmt::format("cannot write '{}'", file));
   }
+  std::error_code unknown;  // a name that the library does not understand becomes another
+  if (std::filesystem::file_size(file, unknown) == 0 || unknown)
+    throw std::ios_base::failure(fmt::format("cannot write '{}'", file));
 }
 
 }  // namespace aeroloom::cad

@@ -105,7 +105,9 @@ std::map<std::string, mesh::PatchType> read_markers(const std::string& path) {
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
     const MarkerOption* const option = find_option(trimmed(line.substr(0, equals)));
-    if (option != nullptr) add_markers(line.substr(equals + 1), *option, types);
+    if (option == nullptr) continue;
+    const std::string_view list = line.substr(equals + 1);
+    add_markers(list.substr(0, list.find('%')), *option, types);
   }
   return types;
 }

@@ -22,7 +22,7 @@ _aeroloom_files() {  # folders, and files that end like one of the arguments; al
   local file ending
   compopt -o filenames 2>/dev/null
   while IFS= read -r file; do
-    if [[ -d $file || $# -eq 0 ]]; then
+    if [[ $# -eq 0 || -d ${file/#\~\//$HOME/} ]]; then
       COMPREPLY+=("$file")
       continue
     fi

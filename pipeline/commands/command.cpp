@@ -1,10 +1,13 @@
 #include "pipeline/commands/command.hpp"
 
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "parallel/memory_limit.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/option_keys.hpp"
 #include "pipeline/stage.hpp"
+#include "pipeline/text_file.hpp"
 
-#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,15 +21,26 @@ parallel::LogLevel Loudness::level(parallel::LogLevel otherwise) const {
   return verbose ? parallel::LogLevel::verbose : otherwise;
 }
 
+namespace {
+
+/// As an unset variable of a script gives it.
+std::function<std::string(const std::string&)> is_no_empty_name() {
+  return [](const std::string& name) { return name.empty() ? std::string("is empty") : std::string(); };
+}
+
+}  // namespace
+
 void add_case_file(CLI::App& command, CaseArguments& arguments) {
   command.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
       ->required()
+      ->check(is_no_empty_name())
       ->type_name(file_kind::of_case);
 }
 
 void add_mesh_file(CLI::App& command, const std::string& name, std::string& file) {
   command.add_option(name, file, "the mesh, in any format that is read (docs/formats.md)")
       ->required()
+      ->check(is_no_empty_name())
       ->type_name(file_kind::mesh);
 }
 
@@ -57,11 +71,13 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
 }
 
 void print(const Communicator& communicator, const std::string& text) {
-  if (communicator.is_root()) fmt::print("{}", text), std::fflush(stdout);
+  parallel::agree(communicator, [&] {
+    if (communicator.is_root()) print_text(text);
+  });
 }
 
 int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
-  if (communicator.is_root()) parallel::log_error(message);
+  if (communicator.is_root()) parallel::log_error(with_keys(message));
   communicator.barrier();
   return static_cast<int>(code);
 }

@@ -46,7 +46,7 @@ void add_overrides(CLI::App& command, CaseArguments& arguments);
 int with_case(const parallel::Communicator& communicator, const CaseArguments& arguments,
               const Loudness& loudness, const std::function<int(const Case&)>& work);
 
-/// Printed by rank 0 at once.
+/// Printed by rank 0 at once. Collective; throws CollectiveError where it cannot be.
 void print(const parallel::Communicator& communicator, const std::string& text);
 /// Prints the message on rank 0; the exit code. Collective.
 int fail(const parallel::Communicator& communicator, ExitCode code, const std::string& message);

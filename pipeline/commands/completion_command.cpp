@@ -19,10 +19,12 @@ Command add_completion(CLI::App& program) {
                   {{"aeroloom completion bash > aeroloom.bash",
                     "then `source aeroloom.bash`, or put it where "
                     "bash looks (docs/usage.md)"}},
-                  {ExitCode::ok, ExitCode::usage});
+                  {ExitCode::ok, ExitCode::usage, ExitCode::files});
   return {app, [&program](const parallel::Communicator& communicator, const Loudness&) {
-            print(communicator, bash_completion(program, case_keys()));
-            return 0;
+            return guarded(communicator, ExitCode::files, [&] {
+              print(communicator, bash_completion(program, case_keys()));
+              return ExitCode::ok;
+            });
           }};
 }
 

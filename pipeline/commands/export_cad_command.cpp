@@ -1,3 +1,4 @@
+#include "parallel/log.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 
@@ -26,7 +27,7 @@ Command add_export_cad(CLI::App& program) {
                 parallel::agree(communicator, [&] {
                   if (communicator.is_root()) cad::export_step(input.domain, arguments->step);
                 });
-                print(communicator, fmt::format("wrote {}\n", arguments->step));
+                parallel::log_info(fmt::format("wrote {}", arguments->step));
                 return ExitCode::ok;
               });
             });

@@ -29,6 +29,7 @@ Command add_quality(CLI::App& program) {
              gate->overrides.push_back(fmt::format("improve.gate.{}={}", key, value));
            },
            fmt::format("as improve.gate.{} (docs/configuration.md)", key))
+        ->check(CLI::Number)
         ->type_name("LIMIT")
         ->group(option_group::limits);
   }

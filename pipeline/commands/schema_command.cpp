@@ -54,7 +54,7 @@ Command add_schema(CLI::App& program) {
                 if (!communicator.is_root()) return;
                 const std::string text = schema_text(*arguments);
                 if (!arguments->output.empty()) write_text(arguments->output, text);
-                if (arguments->output.empty()) print(communicator, text);
+                if (arguments->output.empty()) print_text(text);
               });
               if (!arguments->output.empty()) parallel::log_info("wrote " + arguments->output);
               return ExitCode::ok;

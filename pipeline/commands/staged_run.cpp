@@ -1,6 +1,7 @@
 #include "pipeline/commands/staged_run.hpp"
 
 #include "parallel/log.hpp"
+#include "parallel/memory_limit.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
@@ -39,7 +40,14 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
     const std::string table = write_report(communicator, input, record, outcome, subject);
     if (outcome.code == ExitCode::ok) tell(table);
   } catch (const parallel::CollectiveError& error) {
-    if (outcome.code == ExitCode::ok) outcome = {ExitCode::files, "output", error.what()};
+    if (outcome.code == ExitCode::ok)
+      outcome = {code_of(error, ExitCode::files), "output", error.what()};
+    else
+      outcome.message += fmt::format("\n  the report cannot be written: {}", error.what());
+  } catch (const std::bad_alloc&) {
+    parallel::give_up_without_memory();
+    if (outcome.code == ExitCode::ok)
+      outcome = {ExitCode::resources, "output", parallel::out_of_memory_text()};
   }
   if (outcome.code != ExitCode::ok) {
     return fail(communicator, outcome.code,
@@ -49,8 +57,9 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
     const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
     tell(fmt::format("{}: {}", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
   }
-  const std::string report = std::filesystem::absolute(input.output.directory + "/report.html").string();
-  tell("report: " + report);
+  const std::filesystem::path page = std::filesystem::absolute(input.output.directory) / "report.html";
+  std::error_code ignored;  // what cannot be looked at is not there
+  if (std::filesystem::exists(page, ignored)) tell("report: " + page.string());
   return 0;
 }
 

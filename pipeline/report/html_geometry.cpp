@@ -65,7 +65,7 @@ std::string unresolved_table(const Json& features) {
 std::map<std::string, std::string> colours_of(const std::vector<Picture>& pictures) {
   std::map<std::string, std::string> colours;
   for (const Picture& picture : pictures) {
-    for (const LegendItem& item : picture.legend) colours.emplace(item.name, item.colour);
+    for (const LegendItem& item : picture.legend) colours.emplace(as_utf8(item.name), item.colour);
   }
   return colours;
 }

@@ -1,3 +1,4 @@
+#include "pipeline/exit_code.hpp"
 #include "pipeline/report/html_sections.hpp"
 #include "pipeline/report/html_table.hpp"
 #include "pipeline/report/svg.hpp"
@@ -86,7 +87,7 @@ std::string gate_table(const Json& gate) {
   return table.html();
 }
 
-std::string gate_sentence(const Json& gate) {
+std::string gate_sentence(const Json& gate, bool written) {
   if (!gate.is_array() || gate.empty())
     return "<li>" + badge("plain", "gate") +
            " The case sets no limits (<code>improve.gate</code>), so none is missed.</li>\n";
@@ -95,8 +96,8 @@ std::string gate_sentence(const Json& gate) {
   if (missed == 0)
     return fmt::format("<li>{} {} met.</li>\n", badge("good", "gate passed"),
                        gate.size() == 1 ? "The one limit is" : fmt::format("All {} limits are", gate.size()));
-  return fmt::format("<li>{} {} of {} missed; the mesh was written nevertheless.</li>\n",
-                     badge("poor", "gate failed"), missed, counted(gate.size(), "limit"));
+  return fmt::format("<li>{} {} of {} missed{}.</li>\n", badge("poor", "gate failed"), missed,
+                     counted(gate.size(), "limit"), written ? "; the mesh was written nevertheless" : "");
 }
 
 /// Limits and targets that belong into the chart of a measure.
@@ -185,7 +186,7 @@ std::string verdict_section(const Json& report) {
                             "boundary, and the volume that it encloses.</li>\n";
   return section(
       "verdict", "Is this mesh good?",
-      "<ul class=\"verdict\">\n" + gate_sentence(gate) + valid + judgement_of(report) +
+      "<ul class=\"verdict\">\n" + gate_sentence(gate, number(find(report, "/exit_code")) == static_cast<int>(ExitCode::quality_gate)) + valid + judgement_of(report) +
           judgement_of_shape(report) + below_target(report) + "</ul>\n" + gate_table(gate) +
           paragraph(
               "<span class=\"quiet\">Isotropic tetrahedra without boundary layers: for inviscid flow, "

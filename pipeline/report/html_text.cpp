@@ -61,6 +61,10 @@ std::string text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : std::string();
 }
 
+std::string as_utf8(const std::string& bytes) {
+  return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
 std::string escaped(std::string_view text) {
   std::string safe;
   safe.reserve(text.size() + text.size() / 8);

@@ -18,6 +18,9 @@ double number(const Json& value, double otherwise = 0);
 /// The text there; empty where there is none.
 std::string text(const Json& value);
 
+/// As report.json has it: bytes that are no UTF-8 are replaced.
+std::string as_utf8(const std::string& bytes);
+
 /// For the text of an element or a quoted attribute, whatever the letters are; `text` is UTF-8. Controls but
 /// tab and line feed, which no page may have, become U+FFFD.
 std::string escaped(std::string_view text);

@@ -38,7 +38,7 @@ def main():
     everything = "".join(said.values())
     report = json.loads((folder / "out" / "report.json").read_text())
     assert report["status"] == "ok" and report["quality"]["min_dihedral_deg"] > 10, report["quality"]
-    assert report["resumed"] == ["geometry", "sizing", "surface", "improve"], report["resumed"]
+    assert report["resumed"] == ["geometry", "sizing", "surface", "volume", "improve"], report["resumed"]
     assert {p["name"] for p in report["patches"]} == {"fuselage", "wings", "farfield"}, report["patches"]
     for name in ("report.html", "mesh.pvtu", "mesh.cgns", "mesh.su2", "openfoam/mesh.foam"):
         assert (folder / "out" / name).exists(), name
