@@ -46,7 +46,7 @@ class Shell:
 def commands_of(shell):
     code, text, _ = shell.run("--help")
     assert code == 0
-    return re.findall(r"^  ([a-z-]+) {2,}\S", text.split("Subcommands:")[1].split("Examples:")[0], re.M)
+    return re.findall(r"^  ([a-z-]+) {2,}\S", text.split("\nCommands:")[1].split("Examples:")[0], re.M)
 
 
 def check_examples(shell):
