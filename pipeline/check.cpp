@@ -4,12 +4,12 @@
 #include "pipeline/change_json.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
+#include "pipeline/shown_changes.hpp"
 #include "pipeline/size_domain.hpp"
+#include "pipeline/text_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -50,7 +50,7 @@ std::string describe_reading(const Case& input, const cad::Diagnosis& found) {
   return fmt::format(
       "read: {}, {}, unit {}\n"
       "      box {} to {}, {:.6g} x {:.6g} x {:.6g}\n"
-      "      {} solids, {} shells, {} faces, {} edges\n",
+      "      solids {}, shells {}, faces {}, edges {}\n",
       input.domain.file.empty() ? "the built-in aircraft" : input.domain.file, found.format,
       found.unit_name.empty() ? "not declared" : found.unit_name, place(found.bounds.low),
       place(found.bounds.high), size.x, size.y, size.z, found.counts.solids, found.counts.shells,
@@ -95,9 +95,11 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
     text += "healed: " + cad::describe(change) + "\n";
   }
   text += fmt::format("domain: {}; {} region(s)\n", domain.report.reason, domain.model.region_count());
+  std::size_t width = 0;
+  for (const std::string& name : domain.model.patches()) width = std::max(width, name.size());
   const std::vector<PatchSum> sums = sum_patches(domain.model);
   for (std::size_t p = 0; p < sums.size(); ++p) {
-    text += fmt::format("patch {:<28} {:<9} {:>6} faces, area {:.6g}\n", domain.model.patches()[p],
+    text += fmt::format("patch {:<{}}  {:<8}  {:>6} faces, area {:.6g}\n", domain.model.patches()[p], width,
                         mesh::name_of(types.at(p)), sums[p].faces, sums[p].area);
   }
   return text;
@@ -105,9 +107,8 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
 
 std::string describe_forecast(const Forecast& forecast, int ranks) {
   std::string text;
-  for (const cad::Change& change : forecast.joined) {
-    text += "would be joined: " + cad::describe(change) + "\n";
-  }
+  for (const std::string& line : shown_changes(forecast.joined, "check.json: forecast.joined_faces"))
+    text += "a run joins: " + line + "\n";
   const std::string features = forecast.features ? describe(*forecast.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
   return text + fmt::format(
@@ -187,12 +188,7 @@ Json record_json(const Case& input, const CheckRecord& record) {
 }
 
 void write_record(const Case& input, const CheckRecord& record) {
-  std::filesystem::create_directories(input.output.directory);
-  const std::string file = input.output.directory + "/check.json";
-  std::ofstream stream(file);
-  stream << record_json(input, record).dump(2) << "\n";
-  stream.close();
-  if (!stream) throw std::ios_base::failure("cannot write '" + file + "'");
+  write_text(input.output.directory + "/check.json", record_json(input, record).dump(2) + "\n");
 }
 
 void print_record(const Case& input, const CheckRecord& record, int ranks) {

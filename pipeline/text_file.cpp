@@ -1,5 +1,6 @@
 #include "pipeline/text_file.hpp"
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <ios>
@@ -8,10 +9,20 @@
 
 namespace aeroloom::pipeline {
 
+namespace {
+
+/// Why a stream has failed, as far as the system has told.
+std::error_code last_reason() {
+  return {errno != 0 ? errno : EIO, std::generic_category()};
+}
+
+}  // namespace
+
 std::string read_text(const std::string& file) {
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw std::ios_base::failure("cannot read '" + file + "'");
+  if (!stream) throw std::ios_base::failure("cannot read '" + file + "'", last_reason());
   return text;
 }
 
@@ -19,14 +30,16 @@ void write_text(const std::string& file, const std::string& text) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
   const std::string unfinished = file + ".unfinished";
+  errno = 0;
   std::ofstream stream(unfinished, std::ios::binary);
   stream << text;
   stream.close();
-  std::error_code error;
+  std::error_code error, reason = last_reason();
   if (stream) std::filesystem::rename(unfinished, file, error);
   if (stream && !error) return;
+  if (error) reason = error;
   std::filesystem::remove(unfinished, error);
-  throw std::ios_base::failure("cannot write '" + file + "'");
+  throw std::ios_base::failure("cannot write '" + file + "'", reason);
 }
 
 }  // namespace aeroloom::pipeline

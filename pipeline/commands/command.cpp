@@ -2,6 +2,7 @@
 
 #include "parallel/memory_limit.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/plain_words.hpp"
 #include "pipeline/stage.hpp"
 
 #include <cstdio>
@@ -61,7 +62,7 @@ void print(const Communicator& communicator, const std::string& text) {
 }
 
 int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
-  if (communicator.is_root()) parallel::log_error(message);
+  if (communicator.is_root()) parallel::log_error(plain_words(message));
   communicator.barrier();
   return static_cast<int>(code);
 }
