@@ -1,9 +1,9 @@
 #include "picture/folds.hpp"
 
-#include "parallel/collective_error.hpp"
 #include "geometry/runs.hpp"
 #include "mesh/delivery.hpp"
 #include "mesh/mixing.hpp"
+#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -20,7 +20,8 @@ void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
   keys.number("maximum", sizing.maximum, Range::above(0, length_unit),
               common({"Largest size, reached in the far field.", "from the model", "10"}));
   keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length_unit),
-              common({"Largest size on faces that are not far field.", "none", "0.5"}));
+              common({"Largest size on faces that are not far field.",
+                      "from the model; none where `minimum` and `maximum` are given", "0.5"}));
 }
 
 void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
@@ -29,7 +30,9 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   keys.number(
       "curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
       common({"How far an element may turn on curved faces and edges: less makes leading edges finer.",
-              shortest(preset.curvature_angle), shortest(preset.curvature_angle)}));
+              "15 where sizes are chosen from the model, " + shortest(preset.curvature_angle) +
+                  " where `minimum` and `maximum` are given",
+              shortest(preset.curvature_angle)}));
   keys.number(
       "chordal_deviation", sizing.chordal_deviation, Range::above(0, length_unit),
       {"Distance of triangles from curved faces, at most. Sizes may fall to `feature_minimum` for it.", "any",

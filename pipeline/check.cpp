@@ -5,6 +5,7 @@
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/option_keys.hpp"
+#include "pipeline/shown_changes.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/text_file.hpp"
 
@@ -51,7 +52,7 @@ std::string describe_reading(const Case& input, const cad::Diagnosis& found) {
   return fmt::format(
       "read: {}, {}, unit {}\n"
       "      box {} to {}, {:.6g} x {:.6g} x {:.6g}\n"
-      "      {} solids, {} shells, {} faces, {} edges\n",
+      "      solids {}, shells {}, faces {}, edges {}\n",
       input.domain.file.empty() ? "the built-in aircraft" : input.domain.file, found.format,
       found.unit_name.empty() ? "not declared" : found.unit_name, place(found.bounds.low),
       place(found.bounds.high), size.x, size.y, size.z, found.counts.solids, found.counts.shells,
@@ -96,9 +97,11 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
     text += "healed: " + cad::describe(change) + "\n";
   }
   text += fmt::format("domain: {}; {} region(s)\n", domain.report.reason, domain.model.region_count());
+  std::size_t width = 0;
+  for (const std::string& name : domain.model.patches()) width = std::max(width, name.size());
   const std::vector<PatchSum> sums = sum_patches(domain.model);
   for (std::size_t p = 0; p < sums.size(); ++p) {
-    text += fmt::format("patch {:<28} {:<9} {:>6} faces, area {:.6g}\n", domain.model.patches()[p],
+    text += fmt::format("patch {:<{}}  {:<8}  {:>6} faces, area {:.6g}\n", domain.model.patches()[p], width,
                         mesh::name_of(types.at(p)), sums[p].faces, sums[p].area);
   }
   return text;
@@ -106,9 +109,8 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
 
 std::string describe_forecast(const Forecast& forecast, int ranks) {
   std::string text;
-  for (const cad::Change& change : forecast.joined) {
-    text += "would be joined: " + cad::describe(change) + "\n";
-  }
+  for (const std::string& line : shown_changes(forecast.joined, "check.json: forecast.joined_faces"))
+    text += "a run joins: " + line + "\n";
   const std::string features = forecast.features ? describe(*forecast.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
   return text + fmt::format(

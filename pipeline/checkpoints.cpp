@@ -210,8 +210,8 @@ void Checkpoints::remove_needless(SavedStage kept) {
   std::unique_ptr<parallel::TaskStore>& store = _tasks.at(static_cast<std::size_t>(kept));
   if (store) {
     if (const std::int64_t found = _communicator.sum(store->found()); found > 0) {
-      parallel::log_info(fmt::format("checkpoint: stage {}: {} task(s) had been finished before",
-                                     name_of(kept), found));
+      parallel::log_info(
+          fmt::format("checkpoint: stage {}: {} task(s) had been finished before", name_of(kept), found));
     }
     store->remove();
   }

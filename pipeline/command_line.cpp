@@ -3,9 +3,11 @@
 #include "parallel/progress.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/help_formatter.hpp"
 #include "pipeline/commands/usage_error.hpp"
 #include "pipeline/library_versions.hpp"
 
+#include <memory>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -27,7 +29,7 @@ void describe_program(CLI::App& program) {
   program.set_help_flag("-h,--help", "print this help and exit");
   program.set_version_flag("--version", version_text, "print the versions of the program and its libraries");
   program.require_subcommand(1);
-  program.get_formatter()->column_width(34);
+  program.formatter(std::make_shared<HelpFormatter>());  // commands have it from here
   add_help_footer(program,
                   {{"aeroloom init case.yaml --geometry wing.step", "a commented case to start from"},
                    {"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
@@ -51,6 +53,7 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   for (const auto add : {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad,
                          add_completion, add_init, add_schema}) {
     commands.push_back(add(program));
+    commands.back().app->group("Commands");
     add_loudness(*commands.back().app, loudness);
   }
   parallel::configure_log(communicator, parallel::LogLevel::normal);

@@ -46,9 +46,11 @@ Json names_json(const std::vector<cad::NamedFaces>& list) {
 std::string names_text(const char* what, const std::vector<cad::NamedFaces>& list) {
   if (list.empty()) return "";
   std::string text = fmt::format("{} ({}):", what, list.size());
-  for (std::size_t i = 0; i < std::min(list.size(), shown_names); ++i)
+  // "and 1 more" would be no shorter than the one.
+  const std::size_t shown = list.size() <= shown_names + 1 ? list.size() : shown_names;
+  for (std::size_t i = 0; i < shown; ++i)
     text += fmt::format("{} {} ({})", i == 0 ? "" : ",", list[i].name, list[i].faces);
-  if (list.size() > shown_names) text += fmt::format(", and {} more", list.size() - shown_names);
+  if (list.size() > shown) text += fmt::format(", and {} more", list.size() - shown);
   return text + "\n";
 }
 

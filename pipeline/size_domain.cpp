@@ -2,6 +2,7 @@
 
 #include "cad/model/joined_faces.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "sizing/choose_sizes.hpp"
 #include "sizing/narrow_faces.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Of the smallest size: how far the mesh may leave the surface where a narrow face vanishes.
 constexpr double join_tolerance = 0.05;
+/// Tetrahedra predicted over those aimed at, or the other way round, from which on a warning says so.
+constexpr double missed_target = 1.5;
 
 /// The model without faces narrower than `width`, where neighbours can take them in.
 std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
@@ -68,9 +71,23 @@ sizing::SizingOptions overrule(const sizing::SizingOptions& chosen, const Sizing
   return sizes;
 }
 
+/// Warns where no sizes come near what was aimed at.
+void tell_missed_target(const parallel::Communicator& communicator, const sizing::ChosenSizes& chosen,
+                        double target) {
+  const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
+  if (!communicator.is_root() || (ratio < missed_target && ratio > 1 / missed_target)) return;
+  parallel::log_warning(
+      fmt::format("sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted: {}",
+                  target, chosen.counts.tetrahedra,
+                  ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
+                              "sizes that are given make it fewer"
+                            : "sizes that are given (sizing.surface_maximum, sizing.maximum) make it more"));
+}
+
 /// The sized domain of the sampler's model, which stays as it is.
-SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& request,
-                   const std::optional<sizing::SizingOptions>& near, JoinedFaces joined) {
+SizedDomain finish(const parallel::Communicator& communicator, const sizing::ModelSampler& sampler,
+                   const SizingRequest& request, const std::optional<sizing::SizingOptions>& near,
+                   JoinedFaces joined) {
   if (!leaves_a_choice(request)) {
     const sizing::SizingOptions sizes = overrule({}, request);
     return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
@@ -80,6 +97,7 @@ SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& req
   const sizing::SizingOptions sizes = overrule(chosen.options, request);
   if (sizes != chosen.options)
     return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
+  tell_missed_target(communicator, chosen, request.target_tetrahedra);
   FeatureReport features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
   return {sampler.model(),   sizes,         std::move(chosen.field),
           std::move(joined), chosen.counts, std::move(features)};
@@ -92,16 +110,16 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const auto fields = leaves_a_choice(request) ? sizing::Fields::several : sizing::Fields::one;
   sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
-  if (narrow_faces == NarrowFaces::keep) return finish(sampler, request, {}, {});
+  if (narrow_faces == NarrowFaces::keep) return finish(communicator, sampler, request, {}, {});
   // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
   std::optional<sizing::SizingOptions> near;
   if (leaves_a_choice(request)) near = sizing::estimate_sizes(sampler, request.target_tetrahedra);
   const double width = overrule(near.value_or(sizing::SizingOptions{}), request).minimum;
   JoinedFaces what;
   const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, what);
-  if (!joined) return finish(sampler, request, near, {});
+  if (!joined) return finish(communicator, sampler, request, near, {});
   const sizing::ModelSampler of_joined(std::move(sampler), *joined);
-  return finish(of_joined, request, near, std::move(what));
+  return finish(communicator, of_joined, request, near, std::move(what));
 }
 
 }  // namespace aeroloom::pipeline

@@ -2,6 +2,7 @@
 
 #include "parallel/log.hpp"
 #include "pipeline/option_keys.hpp"
+#include "pipeline/shown_changes.hpp"
 
 #include <algorithm>
 
@@ -21,7 +22,8 @@ void log_geometry(const cad::Model& model, const RunRecord& record) {
 }
 
 void log_sizing(const RunRecord& record) {
-  for (const cad::Change& change : record.joined_faces) log_info("sizing: " + cad::describe(change));
+  for (const std::string& line : shown_changes(record.joined_faces, "report.json: sizing.joined_faces"))
+    log_info("sizing: " + line);
   log_info(
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,

@@ -1,5 +1,6 @@
 #include "pipeline/text_file.hpp"
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -9,12 +10,22 @@
 
 namespace aeroloom::pipeline {
 
+namespace {
+
+/// Why a stream has failed, as far as the system has told.
+std::error_code last_reason() {
+  return {errno != 0 ? errno : EIO, std::generic_category()};
+}
+
+}  // namespace
+
 std::string read_text(const std::string& file) {
   if (std::filesystem::is_directory(file))
     throw std::ios_base::failure("cannot read '" + file + "': it is a folder");
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw std::ios_base::failure("cannot read '" + file + "'");
+  if (!stream) throw std::ios_base::failure("cannot read '" + file + "'", last_reason());
   return text;
 }
 
@@ -28,14 +39,17 @@ void write_text(const std::string& file, const std::string& text) {
   const fs::path target = linked ? fs::weakly_canonical(file, error) : fs::path(file);
   const bool replaced = !fs::exists(target, error) || fs::is_regular_file(target, error);
   const fs::path place = replaced ? fs::path(target.string() + ".unfinished") : target;
+  errno = 0;
   std::ofstream stream(place, std::ios::binary);
   stream << text;
   stream.close();
+  std::error_code reason = last_reason();
   error.clear();
   if (stream && replaced) fs::rename(place, target, error);
   if (stream && !error) return;
+  if (error) reason = error;
   if (replaced) fs::remove(place, error);
-  throw std::ios_base::failure("cannot write '" + file + "'");
+  throw std::ios_base::failure("cannot write '" + file + "'", reason);
 }
 
 void print_text(const std::string& text) {

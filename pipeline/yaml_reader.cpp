@@ -3,6 +3,7 @@
 #include "pipeline/nearest_name.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -31,6 +32,19 @@ YAML::Node parse(const std::string& text, const std::string& name, bool position
   }
   if (documents.size() > 1) throw CaseError(name + ": several YAML documents, one is expected");
   return documents.empty() ? YAML::Node() : documents[0];
+}
+
+/// Whoever gives a CAD file where a case is expected is told how to get a case.
+void require_no_cad(const std::string& file) {
+  std::string end = std::filesystem::path(file).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* known : {".step", ".stp", ".iges", ".igs", ".brep"}) {
+    if (end != known) continue;
+    throw CaseError(fmt::format(
+        "{0}: a CAD file, but a case is expected. `aeroloom init case.yaml --geometry {0}` writes "
+        "one for it",
+        file));
+  }
 }
 
 }  // namespace
@@ -154,6 +168,7 @@ void KeyTable::read_file(const std::string& file) {
   if (!stream || std::filesystem::is_directory(file, ignored)) {
     throw CaseError(file + ": the case cannot be opened; it must be a YAML file");
   }
+  require_no_cad(file);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   read(parse(text, file, true), {file, true, *this});
 }
@@ -196,8 +211,8 @@ bool KeyTable::read(const YAML::Node& node, const Source& source) {
     if (!entry && _declare_named) entry = &make_named(name);
     if (!entry) {
       const std::string place = _path.empty() ? "" : " in '" + _path + "'";
-      throw CaseError(
-          fmt::format("{}: unknown key '{}'{}; {}", where, name, place, advice(name, source.root)));
+      throw CaseError(fmt::format("{}: unknown key '{}'{}; {}", where, shortened(name), place,
+                                  advice(name, source.root)));
     }
     if (entry->is_retired()) {
       throw CaseError(

@@ -3,6 +3,7 @@
 #include "pipeline/case_error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -25,10 +26,20 @@ std::optional<double> parse_number(const std::string& text) {
 
 }  // namespace
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  std::string shown = text.substr(0, longest);
+  while (shown.size() < text.size() && !shown.empty() && (text[shown.size()] & 0xC0) == 0x80)
+    shown.pop_back();
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return shown.size() < text.size() ? shown + "..." : shown;
+}
+
 std::string describe(const YAML::Node& node) {
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
-      return "'" + node.Scalar() + "'";
+      return "'" + shortened(node.Scalar()) + "'";
     case YAML::NodeType::Sequence:
       return "a list";
     case YAML::NodeType::Map:

@@ -56,6 +56,8 @@ private:
 
 /// What a node is, in the words of a message.
 std::string describe(const YAML::Node& node);
+/// A text for a message: its beginning, without control characters.
+std::string shortened(const std::string& text);
 /// A short text that reads back as the same number, such as 0.1, 1000000 or 1e9.
 std::string shortest(double value);
 /// Names with commas between them.

@@ -41,7 +41,9 @@ void ModelSampler::measure_gaps() {
     const double finest = finest_facet(extent, area);
     if (_layers > 0 && finest > 1.5 * extent / finest_gap) {
       parallel::log_info(
-          fmt::format("sizing: so much surface that gaps are looked for every {:.3g} only", finest));
+          fmt::format("sizing: gaps are looked for every {:.3g} of the surface; finer looking would take too "
+                      "many rays",
+                      finest));
     }
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (OwnFace& face : _faces) {

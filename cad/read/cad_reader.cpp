@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -26,6 +27,7 @@ Ends read_ends(const std::string& file) {
   constexpr std::streamoff window = 4096;
   std::ifstream stream;
   stream.exceptions(std::ios::failbit | std::ios::badbit);
+  errno = 0;
   try {
     stream.open(file, std::ios::binary | std::ios::ate);
     const std::streamoff size = stream.tellg();
@@ -38,7 +40,8 @@ Ends read_ends(const std::string& file) {
     stream.read(ends.tail.data(), static_cast<std::streamsize>(ends.tail.size()));
     return ends;
   } catch (const std::ios_base::failure& failure) {
-    throw std::ios_base::failure(fmt::format("cannot read '{}'", file), failure.code());
+    const std::error_code reason(errno, std::generic_category());
+    throw std::ios_base::failure(fmt::format("cannot read '{}'", file), reason ? reason : failure.code());
   }
 }
 
@@ -139,8 +142,10 @@ Format recognise(const Ends& ends) {
                     "stands before ISO-10303-21",
                     file, excerpt(ends.head)));
   }
-  throw CadError(
-      fmt::format("'{}' is neither STEP, IGES nor BREP: it begins with \"{}\"", file, excerpt(ends.head)));
+  throw CadError(fmt::format(
+      "'{}' is neither STEP, IGES nor BREP: it begins with \"{}\". Remedy: export the geometry as "
+      "STEP; triangles (STL, OBJ, OFF) are not read",
+      file, excerpt(ends.head)));
 }
 
 NamedShape read_by_content(const std::string& file, const Ends& ends) {

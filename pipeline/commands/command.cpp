@@ -4,10 +4,10 @@
 #include "parallel/log.hpp"
 #include "parallel/memory_limit.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/plain_words.hpp"
 #include "pipeline/option_keys.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/text_file.hpp"
-
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ void print(const Communicator& communicator, const std::string& text) {
 }
 
 int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
-  if (communicator.is_root()) parallel::log_error(with_keys(message));
+  if (communicator.is_root()) parallel::log_error(with_keys(plain_words(message)));
   communicator.barrier();
   return static_cast<int>(code);
 }

@@ -2,13 +2,17 @@
 
 #include "parallel/log.hpp"
 #include "parallel/memory_limit.hpp"
+#include "pipeline/commands/plain_words.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
 
+#include <cerrno>
 #include <filesystem>
+#include <system_error>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace aeroloom::pipeline {
 
@@ -22,10 +26,26 @@ void tell(std::string text) {
   parallel::log_info(text);
 }
 
+/// Hours of meshing are not lost on a folder that was mistyped.
+void require_writable_folder(const Communicator& communicator, const std::string& folder) {
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    std::filesystem::create_directories(folder);
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+      throw std::filesystem::filesystem_error("cannot write into", folder,
+                                              std::error_code(errno, std::generic_category()));
+  });
+}
+
 }  // namespace
 
 int run_stages(const Communicator& communicator, const Case& input, const ReportSubject& subject,
                const std::function<void(RunRecord&)>& stages) {
+  try {
+    require_writable_folder(communicator, input.output.directory);
+  } catch (const parallel::CollectiveError& error) {
+    return fail(communicator, ExitCode::files, fmt::format("output.directory: {}", error.what()));
+  }
   RunRecord record;
   RunOutcome outcome;
   const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
@@ -33,7 +53,7 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
   try {
     stages(record);
   } catch (const StageFailure& failure) {
-    outcome = {failure.code(), failure.stage(), failure.what()};
+    outcome = {failure.code(), failure.stage(), plain_words(failure.what())};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
   try {
@@ -41,7 +61,7 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
     if (outcome.code == ExitCode::ok) tell(table);
   } catch (const parallel::CollectiveError& error) {
     if (outcome.code == ExitCode::ok)
-      outcome = {code_of(error, ExitCode::files), "output", error.what()};
+      outcome = {code_of(error, ExitCode::files), "output", plain_words(error.what())};
     else
       outcome.message += fmt::format("\n  the report cannot be written: {}", error.what());
   } catch (const std::bad_alloc&) {

@@ -22,7 +22,8 @@ std::string legend_of(const Picture& picture) {
   constexpr std::size_t most = 40;
   std::string items;
   for (std::size_t i = 0; i < std::min(most, picture.legend.size()); ++i)
-    items += fmt::format("<li>{}{}</li>", swatch(picture.legend[i].colour), name(as_utf8(picture.legend[i].name)));
+    items +=
+        fmt::format("<li>{}{}</li>", swatch(picture.legend[i].colour), name(as_utf8(picture.legend[i].name)));
   if (picture.legend.size() > most)
     items += fmt::format("<li>and {} more</li>", picture.legend.size() - most);
   return items.empty() ? items : "<ul class=\"legend\">" + items + "</ul>\n";

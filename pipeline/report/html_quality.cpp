@@ -186,8 +186,11 @@ std::string verdict_section(const Json& report) {
                             "boundary, and the volume that it encloses.</li>\n";
   return section(
       "verdict", "Is this mesh good?",
-      "<ul class=\"verdict\">\n" + gate_sentence(gate, number(find(report, "/exit_code")) == static_cast<int>(ExitCode::quality_gate)) + valid + judgement_of(report) +
-          judgement_of_shape(report) + below_target(report) + "</ul>\n" + gate_table(gate) +
+      "<ul class=\"verdict\">\n" +
+          gate_sentence(gate,
+                        number(find(report, "/exit_code")) == static_cast<int>(ExitCode::quality_gate)) +
+          valid + judgement_of(report) + judgement_of_shape(report) + below_target(report) + "</ul>\n" +
+          gate_table(gate) +
           paragraph(
               "<span class=\"quiet\">Isotropic tetrahedra without boundary layers: for inviscid flow, "
               "wall functions, or as the mesh outside of layers. The words on angles are rules of thumb."

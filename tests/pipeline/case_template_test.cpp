@@ -36,8 +36,7 @@ std::size_t lines_with(const std::string& text, const std::string& beginning) {
 /// Keys of sizes whose default is the preset's: a case has them only where they are given.
 std::vector<std::string> preset_given() {
   const sizing::SizingOptions preset;
-  return {"sizing.curvature_angle=" + shortest(preset.curvature_angle),
-          "sizing.growth=" + shortest(preset.growth), "sizing.proximity=" + shortest(preset.proximity)};
+  return {"sizing.growth=" + shortest(preset.growth), "sizing.proximity=" + shortest(preset.proximity)};
 }
 
 TEST_F(CaseTest, TheTemplateIsACaseOnceTheGeometryIsSet) {

@@ -46,7 +46,7 @@ class Shell:
 def commands_of(shell):
     code, text, _ = shell.run("--help")
     assert code == 0
-    return re.findall(r"^  ([a-z-]+) {2,}\S", text.split("Subcommands:")[1].split("Examples:")[0], re.M)
+    return re.findall(r"^  ([a-z-]+) {2,}\S", text.split("\nCommands:")[1].split("Examples:")[0], re.M)
 
 
 def check_examples(shell):
@@ -98,6 +98,23 @@ def check_mistakes(shell):
             assert code == 2 and out == "", f"{line!r}: exit {code}\n{out}{err}"
             assert all(word in err for word in words), f"{line!r}: {err}"
             assert err.count("error") == 1 or ranks, err
+
+
+def check_files(shell):
+    """What cannot be read or written, and what is not what it should be, in one line each."""
+    (shell.folder / "cad.stp").write_text("ISO-10303-21;\n" + "#1=CARTESIAN_POINT('',(0.,0.,0.));\n" * 1000)
+    (shell.folder / "absent.yaml").write_text("geometry: {file: absent.stp}\n")
+    (shell.folder / "long.yaml").write_text("word " * 1000)
+    for line, expected, *words in (("run cad.stp", 2, "a CAD file", "aeroloom init case.yaml --geometry cad.stp"),
+                                   ("run long.yaml", 2, "expected keys, got 'word", "...'"),
+                                   ("info absent.vtu", 7, "cannot read 'absent.vtu': No such file or directory"),
+                                   ("check absent.yaml", 7, "cannot read 'absent.stp': No such file or directory"),
+                                   ("schema --output /proc/x", 7, "cannot write '/proc/x': No such file or directory"),
+                                   ("run case.yaml --set output.directory=/proc/x", 7, "output.directory:", "'/proc/x'")):
+        code, out, err = shell.run(line)
+        assert code == expected and out == "", f"{line!r}: exit {code}\n{out}{err}"
+        assert all(word in err for word in words) and len(err) < 300, f"{line!r}: {err}"
+        assert "iostream" not in err and "filesystem error" not in err, err
 
 
 def check_loudness(shell):
@@ -201,6 +218,7 @@ def main():
     check_version(shell)
     check_examples(shell)
     check_mistakes(shell)
+    check_files(shell)
     check_info(shell)
     check_loudness(shell)
     check_progress(shell)

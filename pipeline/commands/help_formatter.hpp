@@ -1,0 +1,19 @@
+/// How `--help` looks.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace aeroloom::pipeline {
+
+/// Lines of use as in docs/usage.md, one empty line between groups, what excludes what in words.
+class HelpFormatter : public CLI::Formatter {
+public:
+  HelpFormatter();
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
+  std::string make_option_usage(const CLI::Option* option) const override;
+};
+
+}  // namespace aeroloom::pipeline
