@@ -28,13 +28,15 @@ std::string read_text(const std::string& file) {
 
 void write_text(const std::string& file, const std::string& text) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw std::ios_base::failure("cannot write '" + file + "'", error);
   const std::string unfinished = file + ".unfinished";
   errno = 0;
   std::ofstream stream(unfinished, std::ios::binary);
   stream << text;
   stream.close();
-  std::error_code error, reason = last_reason();
+  std::error_code reason = last_reason();
   if (stream) std::filesystem::rename(unfinished, file, error);
   if (stream && !error) return;
   if (error) reason = error;
