@@ -99,7 +99,7 @@ std::int64_t node_memory_bytes() {
   for (std::string line; std::getline(groups, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
-    const std::string kinds = "," + line.substr(first + 1, second - first - 1) + ",";
+    const std::string kinds = fmt::format(",{},", line.substr(first + 1, second - first - 1));
     const std::string group = line.substr(second + 1);
     if (kinds == ",,") bytes = least_limit("/sys/fs/cgroup", group, "memory.max", bytes);
     if (kinds.find(",memory,") != std::string::npos)

@@ -32,8 +32,9 @@ std::string read_text(const std::string& file) {
 void write_text(const std::string& file, const std::string& text) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(file).parent_path();
-  if (!folder.empty()) fs::create_directories(folder);
   std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error) throw std::ios_base::failure("cannot write '" + file + "'", error);
   // A link stays one; what is no file (a device, a pipe) is written as it stands.
   const bool linked = fs::is_symlink(fs::symlink_status(file, error));
   const fs::path target = linked ? fs::weakly_canonical(file, error) : fs::path(file);

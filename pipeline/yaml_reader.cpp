@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -164,9 +166,13 @@ void KeyTable::retired(const std::string& name, const std::string& why) {
 
 void KeyTable::read_file(const std::string& file) {
   std::error_code ignored;
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
+  const std::error_code reason(stream ? EISDIR : errno, std::generic_category());
   if (!stream || std::filesystem::is_directory(file, ignored)) {
-    throw CaseError(file + ": the case cannot be opened; it must be a YAML file");
+    throw CaseError(
+        fmt::format("{}: the case cannot be opened: {}; it must be a YAML file (`aeroloom init` writes one)",
+                    file, reason.message()));
   }
   require_no_cad(file);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -47,7 +47,10 @@ Command add_quality(CLI::App& program) {
                 missed = show_quality(communicator, arguments->request, input.gate);
                 return ExitCode::ok;
               });
-              return missed.empty() ? code : fail(communicator, ExitCode::quality_gate, missed);
+              if (!missed.empty()) return fail(communicator, ExitCode::quality_gate, missed);
+              if (code == 0 && !arguments->overrides.empty() && !arguments->request.print_json)
+                print(communicator, "limits: every one is met\n");
+              return code;
             });
           }};
 }

@@ -106,6 +106,8 @@ def check_files(shell):
     (shell.folder / "absent.yaml").write_text("geometry: {file: absent.stp}\n")
     (shell.folder / "long.yaml").write_text("word " * 1000)
     for line, expected, *words in (("run cad.stp", 2, "a CAD file", "aeroloom init case.yaml --geometry cad.stp"),
+                                   ("run nowhere.yaml", 2, "cannot be opened: No such file or directory", "aeroloom init"),
+                                   ("run .", 2, "cannot be opened: Is a directory"),
                                    ("run long.yaml", 2, "expected keys, got 'word", "...'"),
                                    ("info absent.vtu", 7, "cannot read 'absent.vtu': No such file or directory"),
                                    ("check absent.yaml", 7, "cannot read 'absent.stp': No such file or directory"),
