@@ -229,7 +229,8 @@ void Checkpoints::remove_needless(SavedStage kept) {
 /// What a run has left that was killed once the stage was kept.
 void Checkpoints::remove_left_over(SavedStage found) {
   attempt([&] {
-    parallel::TaskStore(_communicator, _folder, name_of(found), {}, parallel::TaskStore::Earlier::forget);
+    const parallel::TaskStore emptied(_communicator, _folder, name_of(found), {},
+                                      parallel::TaskStore::Earlier::forget);
     remove_volume_of(found);
   });
 }

@@ -1,10 +1,12 @@
 #include "pipeline/size_domain.hpp"
 
+#include "pipeline/stage_products.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +87,44 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   EXPECT_LT(large.sizes.strip_minimum, 0.0005);
   EXPECT_NEAR(large.counts->tetrahedra, small.features->wanted_tetrahedra(),
               0.4 * small.features->wanted_tetrahedra());
+}
+
+io::CheckpointContent as_read(const io::CheckpointDraft& draft) {
+  parallel::Bytes common = draft.common;
+  parallel::Communicator::world().broadcast(common);
+  return {std::move(common), {}};
+}
+
+// What a checkpoint gives back is what was put in.
+TEST(SizeDomain, ComesBackFromACheckpoint) {
+  const auto world = parallel::Communicator::world();
+  const Model model = cad::shapes::split_cylinder(2, 1.5);
+  const SizedDomain sized = size(model, 0.1, NarrowFaces::join);
+  const SizedDomain found = unpack_sizes(world, as_read(pack_sizes(sized)), model);
+  EXPECT_EQ(found.field.digest(), sized.field.digest());
+  EXPECT_EQ(found.field.leaf_count(), sized.field.leaf_count());
+  EXPECT_EQ(found.field({1, 0, 0.75}), sized.field({1, 0, 0.75}));
+  EXPECT_EQ(found.sizes, sized.sizes);
+  EXPECT_EQ(found.model.face_count(), sized.model.face_count());
+  EXPECT_EQ(found.joined.groups, sized.joined.groups);
+  EXPECT_EQ(found.joined.changes.at(0).what, sized.joined.changes.at(0).what);
+}
+
+// Where joined faces could not be meshed, the surface is that of other sizes than the stage before has kept.
+TEST(SizeDomain, OtherSizesComeWithTheSurface) {
+  const auto world = parallel::Communicator::world();
+  const Model model = cad::shapes::split_cylinder(2, 1.5);
+  const SizedDomain joined = size(model, 0.1, NarrowFaces::join), kept = size(model, 0.1, NarrowFaces::keep);
+  const mesh::DistributedMesh empty;
+  SizedDomain sized = joined;
+  const auto with = pack_surface(world, {empty, kept.field, {}, kept, true});
+  EXPECT_TRUE(unpack_surface(world, as_read(with), model, sized));
+  EXPECT_TRUE(sized.joined.groups.empty());
+  EXPECT_EQ(sized.field.digest(), kept.field.digest());
+  sized = joined;
+  const auto without = pack_surface(world, {empty, kept.field, {}, kept, false});
+  EXPECT_FALSE(unpack_surface(world, as_read(without), model, sized));
+  EXPECT_EQ(sized.field.digest(), joined.field.digest());
 }
 
 }  // namespace
