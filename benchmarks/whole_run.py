@@ -36,7 +36,7 @@ def call(command, folder):
 
 def ours(options, case, ranks, folder):
     command = [ROOT / "scripts/mpirun_local.sh", ranks, options.program, "run", os.path.abspath(case)]
-    for setting in [f"output.directory={folder}", *options.settings]:
+    for setting in [f"output.directory={folder}", "output.pictures=false", *options.settings]:
         command += ["--set", setting]
     wall, _ = call(command, ROOT)
     report = json.loads((folder / "report.json").read_text())
