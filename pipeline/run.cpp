@@ -132,14 +132,15 @@ private:
       note_sizes(sized);
       return sized;
     }
-    return build_sizes(domain, _input.narrow_faces);
+    SizedDomain sized = build_sizes(domain, _input.narrow_faces);
+    _checkpoints->keep(SavedStage::sizing,
+                       [&] { return _communicator.is_root() ? pack_sizes(sized) : io::CheckpointDraft(); });
+    return sized;
   }
 
   SizedDomain build_sizes(const cad::Model& domain, NarrowFaces narrow_faces) {
     SizedDomain sized = size_domain(_communicator, domain, _input.sizing, narrow_faces, _record.clock);
     note_sizes(sized);
-    _checkpoints->keep(SavedStage::sizing,
-                       [&] { return _communicator.is_root() ? pack_sizes(sized) : io::CheckpointDraft(); });
     return sized;
   }
 
