@@ -1,6 +1,7 @@
 #include "parallel/communicator.hpp"
 
 #include "parallel/session.hpp"
+#include "parallel/transfers.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,52 +12,6 @@ namespace aeroloom::parallel {
 using session::check;
 
 namespace {
-
-/// Counts of the library are 32-bit: longer messages travel in parts of this many bytes. Joint messages of
-/// several ranks above it go one rank after the other.
-constexpr std::size_t largest_part = std::size_t{1} << 26;
-
-/// Tags of our own messages. Those of consensus alternate between the first and the one after it.
-constexpr int tag_content = 1;
-constexpr int tag_consensus = 2;
-
-/// Calls `transfer(offset, count)` for each part of a message.
-template <class Transfer>
-void for_each_part(std::size_t total, Transfer transfer) {
-  for (std::size_t offset = 0; offset < total; offset += largest_part) {
-    transfer(offset, static_cast<int>(std::min(largest_part, total - offset)));
-  }
-}
-
-/// Messages under way; parts between the same two ranks stay in order.
-class Transfers {
-public:
-  explicit Transfers(MPI_Comm communicator) : _communicator(communicator) {}
-
-  void send(const Bytes& bytes, Rank to) {
-    for_each_part(bytes.size(), [&](std::size_t offset, int count) {
-      check(MPI_Isend(bytes.data() + offset, count, MPI_BYTE, to, tag_content, _communicator, &add()),
-            "sending");
-    });
-  }
-  void receive(Bytes& bytes, Rank from) {
-    for_each_part(bytes.size(), [&](std::size_t offset, int count) {
-      check(MPI_Irecv(bytes.data() + offset, count, MPI_BYTE, from, tag_content, _communicator, &add()),
-            "receiving");
-    });
-  }
-  void wait() {
-    check(MPI_Waitall(static_cast<int>(_requests.size()), _requests.data(), MPI_STATUSES_IGNORE),
-          "waiting for messages");
-    _requests.clear();
-  }
-
-private:
-  MPI_Request& add() { return _requests.emplace_back(MPI_REQUEST_NULL); }
-
-  MPI_Comm _communicator;
-  std::vector<MPI_Request> _requests;
-};
 
 void broadcast_content(const CommunicatorHandle& handle, std::span<std::byte> bytes, Rank root) {
   for_each_part(bytes.size(), [&](std::size_t offset, int count) {
@@ -234,7 +189,7 @@ std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {
   std::vector<std::uint64_t> sizes(receives ? static_cast<std::size_t>(handle.size) : 0);
   check(MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, root, handle.communicator),
         "gathering sizes");
-  Transfers transfers(handle.communicator);
+  Transfers transfers(handle.communicator, tag_content);
   std::vector<Bytes> all(sizes.size());
   if (receives) {
     for (Rank r = 0; r < handle.size; ++r) {
@@ -261,7 +216,7 @@ std::vector<Parcel> Communicator::exchange(std::vector<Parcel> outgoing) const {
   // one, but nobody can be two ahead: two alternating tags keep them apart.
   const int tag = tag_consensus + static_cast<int>(_handle->exchanges++ % 2);
   std::vector<Parcel> incoming = announce(handle, tag, outgoing);
-  Transfers transfers(handle.communicator);
+  Transfers transfers(handle.communicator, tag_content);
   for (Parcel& parcel : incoming) {
     if (parcel.rank != handle.rank) transfers.receive(parcel.content, parcel.rank);
   }
