@@ -1,9 +1,9 @@
 #include "foreign/foreign_mesh.hpp"
 
 #include "io/face_links.hpp"
-#include "io/point_store.hpp"
 #include "io/read_mesh.hpp"
 #include "mesh/delivery.hpp"
+#include "mesh/distributed_table.hpp"
 #include "mesh/tokens.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
@@ -88,7 +88,7 @@ struct VertexNote {
 /// Notes of all vertices that several parts know, each with the largest face that any of them knows.
 std::vector<VertexNote> exchange_notes(const parallel::Communicator& communicator, const io::FileMesh& mesh,
                                        std::vector<VertexNote> notes) {
-  const io::KeyRanges ranges = io::even_ranges(communicator.size(), mesh.vertex_count);
+  const mesh::KeyRanges ranges = mesh::even_ranges(communicator.size(), mesh.vertex_count);
   std::vector<VertexNote> met = mesh::deliver(
       communicator, std::move(notes), [&](const VertexNote& note) { return ranges.rank_of(note.number); });
   std::sort(met.begin(), met.end(), [](const VertexNote& a, const VertexNote& b) {

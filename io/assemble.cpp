@@ -2,7 +2,6 @@
 #include "io/cell_measures.hpp"
 #include "io/id_table.hpp"
 #include "io/part_items.hpp"
-#include "io/point_store.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
 #include "parallel/collective_error.hpp"
@@ -219,13 +218,13 @@ PointStore store_points(const parallel::Communicator& communicator, RawMesh& raw
     for (const GlobalIndex id : cells) limit = std::max(limit, id + 1);
   }
   limit = communicator.maximum(limit);
-  std::vector<KeyedPoint> points(raw.point_ids.size());
+  std::vector<PointStore::Row> points(raw.point_ids.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double* p = raw.coordinates.data() + 3 * i;
     points[i] = {raw.point_ids[i], {p[0], p[1], p[2]}};
   }
   std::vector<double>().swap(raw.coordinates);
-  KeyRanges ranges = fair_ranges(communicator, std::move(raw.point_ids), limit);
+  mesh::KeyRanges ranges = mesh::fair_ranges(communicator, std::move(raw.point_ids), limit);
   PointStore store(communicator, std::move(ranges), std::move(points));
   if (store.clash() >= 0)
     refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));
@@ -272,7 +271,7 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
     share.numbers = std::move(numbers.used);
     share.shared = std::move(numbers.shared);
     result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
-    ShareBuilder builder(raw, ids, found.points);
+    ShareBuilder builder(raw, ids, found.values);
     agree_on(communicator, path, [&] { builder.add_cells(places, parts, share, items); });
     result.turned_cells = communicator.sum(builder.turned);
   }

@@ -81,7 +81,7 @@ void own_by_number(std::vector<Draft>& drafts, std::int32_t parts, GlobalIndex c
 class NumberMeeting {
 public:
   NumberMeeting(const parallel::Communicator& communicator, GlobalIndex limit)
-      : _communicator(communicator), _ranges(even_ranges(communicator.size(), limit)) {}
+      : _communicator(communicator), _ranges(mesh::even_ranges(communicator.size(), limit)) {}
 
   struct Note {
     GlobalIndex key;
@@ -107,7 +107,7 @@ public:
 
 private:
   const parallel::Communicator& _communicator;
-  KeyRanges _ranges;
+  mesh::KeyRanges _ranges;
 };
 
 /// Per vertex that a rank knows, the lowest part that knows it, anywhere.
@@ -234,7 +234,7 @@ FileMesh build_parts(const parallel::Communicator& communicator, PartItems items
   const PointStore::Found found = points.fetch(keys);
   std::vector<OwnedPart> mine;
   for (Draft& draft : drafts) {
-    finish(draft, items, keys, found.points);
+    finish(draft, items, keys, found.values);
     mine.push_back({draft.id, std::move(draft.arrays)});
     draft = {};
   }

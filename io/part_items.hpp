@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "io/point_store.hpp"
+#include "mesh/distributed_table.hpp"
 
 #include <array>
 #include <cstdint>
@@ -11,6 +11,14 @@
 #include <vector>
 
 namespace aeroloom::io {
+
+/// Points under the ids of a file, or under numbers.
+using PointStore = mesh::DistributedTable<std::array<double, 3>>;
+
+/// Which rank has part p of `parts`.
+inline parallel::Rank rank_of_part(std::int32_t part, std::int32_t parts, int ranks) {
+  return static_cast<parallel::Rank>(static_cast<std::int64_t>(part) * ranks / parts);
+}
 
 /// A cell or face: its corners by number, where it belongs, and its place among those of its region or patch.
 template <std::size_t N>

@@ -221,14 +221,14 @@ FileMesh repartition(const parallel::Communicator& communicator, const FileMesh&
       });
     }
   }
-  std::vector<KeyedPoint> points;
+  std::vector<PointStore::Row> points;
   for (const FilePart& part : mesh.parts) {
     for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
       if (part.owned[v])
         points.push_back({part.numbers[v], {part.point(v).x, part.point(v).y, part.point(v).z}});
     }
   }
-  const PointStore store(communicator, even_ranges(communicator.size(), mesh.vertex_count),
+  const PointStore store(communicator, mesh::even_ranges(communicator.size(), mesh.vertex_count),
                          std::move(points));
   return build_parts(communicator, std::move(items), store, part_count, Ownership::by_part, mesh.patches,
                      mesh.regions);

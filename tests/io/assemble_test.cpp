@@ -1,5 +1,4 @@
 #include "io/face_links.hpp"
-#include "io/point_store.hpp"
 #include "io/raw_mesh.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
@@ -57,31 +56,6 @@ RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
 void expect_sound(const Communicator& world, const FileMesh& mesh) {
   const LinkDefects defects = link_faces(world, mesh).defects;
   EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
-}
-
-TEST(PointStore, KeysFarFromOthersDoNotMoveAllToOneRank) {
-  const Communicator world = Communicator::world();
-  constexpr GlobalIndex count = 20'000, far = GlobalIndex{1} << 61;
-  std::vector<KeyedPoint> points;
-  std::vector<GlobalIndex> keys;
-  for (GlobalIndex i = world.rank(); i < count; i += world.size()) {
-    const GlobalIndex key = i < 10 ? far + i : 3 * i;
-    keys.push_back(key);
-    points.push_back({key, {static_cast<double>(i), 0, 0}});
-  }
-  PointStore store(world, fair_ranges(world, keys, far + 10), std::move(points));
-  EXPECT_EQ(store.count(), count);
-  EXPECT_LE(static_cast<GlobalIndex>(store.mine().size()), count / world.size() + count / 16);
-  std::sort(keys.begin(), keys.end());
-  const PointStore::Found found = store.fetch(keys);
-  EXPECT_EQ(found.missing, -1);
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    EXPECT_EQ(found.points[i][0], static_cast<double>(keys[i] >= far ? keys[i] - far : keys[i] / 3));
-  // Dense keys go by even ranges, as numbers of vertices do.
-  EXPECT_EQ(fair_ranges(world, keys, 0).first, even_ranges(world.size(), 0).first);
-  EXPECT_EQ(fair_ranges(world, std::vector<GlobalIndex>(1000, 1), 1000).first,
-            even_ranges(world.size(), 1000).first);
-  EXPECT_EQ(fair_ranges(world, {}, far).first, even_ranges(world.size(), far).first);
 }
 
 TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
