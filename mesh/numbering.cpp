@@ -1,13 +1,13 @@
 #include "mesh/delivery.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/shared_vertices.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,68 +17,37 @@ namespace aeroloom::mesh {
 namespace {
 
 /// A shared vertex as one of its pieces knows it.
-struct Sharer {
-  SharedToken token;
+struct Knower {
   double coordinates[3];
   PieceId piece;
   LocalIndex vertex;
-  std::int64_t rank;
+
+  static constexpr auto fields() { return std::tuple(&Knower::coordinates, &Knower::piece, &Knower::vertex); }
 };
 
-/// Tells a piece that another one knows its vertex too.
-struct Link {
-  PieceId piece;
-  LocalIndex vertex;
-  PieceId other_piece;
-  LocalIndex other_vertex;
-  parallel::Rank to, other_rank;
-};
-
-/// The global number of a vertex, for a piece that does not own it.
-struct Number {
-  GlobalIndex number;
-  PieceId piece;
-  LocalIndex vertex;
-};
-
-/// All sharers of a token meet on one rank; sorted by token, then piece.
-std::vector<Sharer> meet_by_token(const parallel::Communicator& communicator, const DistributedMesh& mesh) {
-  std::vector<Sharer> mine;
-  for (const Piece& piece : mesh.pieces) {
-    for (std::size_t i = 0; i < piece.shared_vertices.size(); ++i) {
-      const LocalIndex v = piece.shared_vertices[i];
-      const geometry::Vec3 p = piece.point(v);
-      mine.push_back({piece.shared_tokens[i], {p.x, p.y, p.z}, piece.id, v, communicator.rank()});
-    }
-  }
-  auto met = deliver(communicator, std::move(mine), [&](const Sharer& sharer) {
-    return meeting_rank(mix_bits(sharer.token), communicator.size());
-  });
-  std::sort(met.begin(), met.end(), [](const Sharer& a, const Sharer& b) {
-    return std::tie(a.token, a.piece, a.vertex) < std::tie(b.token, b.piece, b.vertex);
-  });
-  return met;
-}
-
-/// Throws on all ranks, with the lowest offending vertex, when a piece names a token twice or two pieces
-/// disagree on a coordinate bit.
-void require_agreement(const parallel::Communicator& communicator, const std::vector<Sharer>& met) {
+/// Throws on all ranks, with the lowest offending vertex, when two pieces disagree on a coordinate bit.
+void require_agreement(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                       const SharedVertices& shared) {
   struct Clash {
-    Sharer first, second;
+    Knower first, second;
   };
+  std::vector<Knower> mine(shared.size());
+  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) {
+    const geometry::Vec3 at = mesh.pieces[p].point(v);
+    mine[copy] = {{at.x, at.y, at.z}, mesh.pieces[p].id, v};
+  });
+  std::vector<Knower> owners = mine;
+  shared.scatter(owners);
   std::vector<Clash> clashes;
   std::int64_t count = 0;
   const auto lower = [](const Clash& a, const Clash& b) {
     return std::tie(a.first.piece, a.first.vertex, a.second.piece, a.second.vertex) <
            std::tie(b.first.piece, b.first.vertex, b.second.piece, b.second.vertex);
   };
-  for (std::size_t i = 0, first = 0; i < met.size(); ++i) {
-    if (met[i].token != met[first].token) first = i;
-    if (i == first) continue;
-    const bool equal = same_bits(met[i].coordinates, met[first].coordinates);
-    if (equal && met[i].piece != met[i - 1].piece) continue;
+  for (std::size_t copy = 0; copy < mine.size(); ++copy) {
+    if (same_bits(mine[copy].coordinates, owners[copy].coordinates)) continue;
     ++count;
-    const Clash clash{equal ? met[i - 1] : met[first], met[i]};
+    const Clash clash{owners[copy], mine[copy]};
     if (clashes.empty()) clashes.push_back(clash);
     if (lower(clash, clashes[0])) clashes[0] = clash;
   }
@@ -95,40 +64,15 @@ void require_agreement(const parallel::Communicator& communicator, const std::ve
           b.coordinates[0], b.coordinates[1], b.coordinates[2]));
 }
 
-/// The owner, the first of each group, hears of every other piece, and each of those of the owner.
-std::vector<Link> announce_sharers(const parallel::Communicator& communicator,
-                                   const std::vector<Sharer>& met) {
-  std::vector<Link> links;
-  for (std::size_t i = 1, first = 0; i < met.size(); ++i) {
-    if (met[i].token != met[first].token) {
-      first = i;
-      continue;
-    }
-    const Sharer &owner = met[first], &other = met[i];
-    const auto owner_rank = static_cast<parallel::Rank>(owner.rank);
-    const auto other_rank = static_cast<parallel::Rank>(other.rank);
-    links.push_back({owner.piece, owner.vertex, other.piece, other.vertex, owner_rank, other_rank});
-    links.push_back({other.piece, other.vertex, owner.piece, owner.vertex, other_rank, owner_rank});
-  }
-  return deliver(communicator, std::move(links), [](const Link& link) { return link.to; });
-}
-
-/// Position in mesh.pieces of a piece that lives here.
-std::size_t position_of(const DistributedMesh& mesh, PieceId id) {
-  const auto found = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
-                                      [](const Piece& piece, PieceId wanted) { return piece.id < wanted; });
-  return static_cast<std::size_t>(found - mesh.pieces.begin());
-}
-
-Numbering mark_owned(const DistributedMesh& mesh, const std::vector<Link>& links) {
+Numbering mark_owned(const DistributedMesh& mesh, const SharedVertices& shared) {
   Numbering numbering;
   for (const Piece& piece : mesh.pieces) {
     numbering.vertices.emplace_back(piece.vertex_count(), -1);
     numbering.owned.emplace_back(piece.vertex_count(), 1);
   }
-  for (const Link& link : links) {
-    if (link.other_piece < link.piece) numbering.owned[position_of(mesh, link.piece)][link.vertex] = 0;
-  }
+  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) {
+    if (!shared.is_owned(copy)) numbering.owned[p][v] = 0;
+  });
   return numbering;
 }
 
@@ -161,24 +105,14 @@ void number_owned(const parallel::Communicator& communicator, const DistributedM
   }
 }
 
-/// Owners send their numbers straight to the other pieces.
-void spread_numbers(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                    const std::vector<Link>& links, Numbering& numbering) {
-  struct Addressed {
-    Number number;
-    std::int64_t to;
-  };
-  std::vector<Addressed> outgoing;
-  for (const Link& link : links) {
-    if (link.other_piece < link.piece) continue;
-    const GlobalIndex number = numbering.vertices[position_of(mesh, link.piece)][link.vertex];
-    outgoing.push_back({{number, link.other_piece, link.other_vertex}, link.other_rank});
-  }
-  const auto arrived = deliver(communicator, std::move(outgoing),
-                               [](const Addressed& item) { return static_cast<parallel::Rank>(item.to); });
-  for (const auto& [number, to] : arrived) {
-    numbering.vertices[position_of(mesh, number.piece)][number.vertex] = number.number;
-  }
+/// All pieces learn the numbers of owners.
+void spread_numbers(const SharedVertices& shared, Numbering& numbering) {
+  std::vector<GlobalIndex> numbers(shared.size());
+  shared.for_each(
+      [&](std::size_t p, LocalIndex v, std::size_t copy) { numbers[copy] = numbering.vertices[p][v]; });
+  shared.scatter(numbers);
+  shared.for_each(
+      [&](std::size_t p, LocalIndex v, std::size_t copy) { numbering.vertices[p][v] = numbers[copy]; });
 }
 
 }  // namespace
@@ -187,15 +121,11 @@ Numbering number_mesh(const parallel::Communicator& communicator, const Distribu
   parallel::agree(communicator, [&] {
     for (const Piece& piece : mesh.pieces) require_consistent_arrays(piece);
   });
-  std::vector<Link> links;
-  {
-    const std::vector<Sharer> met = meet_by_token(communicator, mesh);
-    require_agreement(communicator, met);
-    links = announce_sharers(communicator, met);
-  }
-  Numbering numbering = mark_owned(mesh, links);
+  const SharedVertices shared(communicator, mesh);
+  require_agreement(communicator, mesh, shared);
+  Numbering numbering = mark_owned(mesh, shared);
   number_owned(communicator, mesh, numbering);
-  spread_numbers(communicator, mesh, links, numbering);
+  spread_numbers(shared, numbering);
   return numbering;
 }
 

@@ -40,6 +40,14 @@ public:
   bool is_owned(std::size_t copy) const { return _kinds[copy] != Kind::of_another; }  ///< by its own piece
   bool is_shared(std::size_t copy) const { return _kinds[copy] != Kind::alone; }  ///< another piece knows it
 
+  /// Calls visit(p, vertex, copy) for all copies of each piece p on this rank.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t p = 0, copy = 0; p + 1 < _first.size(); ++p) {
+      for (; copy < _first[p + 1]; ++copy) visit(p, _vertices[copy], copy);
+    }
+  }
+
   /// Replaces the value of each owner's copy by that of all pieces: ((v0 op v1) op v2) ..., `op(total,
   /// value)` in the order of piece ids, whatever the ranks. Other copies stay. Collective.
   template <parallel::Transferable T, class Op>
