@@ -346,14 +346,14 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 }  // namespace
 
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
-                            parallel::StageClock& clock) {
+                            const mesh::SharedVertices& shared, const CavityWishes& wishes, Reach reach,
+                            const RefillCavity& refill, parallel::StageClock& clock) {
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_token_rounds) throw std::logic_error("refill_cavities: too many rounds");
   CavityWishes settled = wishes;
-  spread_wishes(communicator, mesh, settled);
-  settle_wishes(communicator, mesh, settled);
+  spread_wishes(shared, settled);
+  settle_wishes(mesh, shared, settled);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (int ring = 0; ring < reach.rings; ++ring) widen(mesh.pieces[p], reach.along_surface, settled[p]);
   }

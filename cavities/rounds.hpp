@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mesh/distributed_mesh.hpp"
+#include "mesh/shared_vertices.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 
@@ -88,10 +89,10 @@ struct Reach {
 
 /// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
 /// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
-/// another round with other wishes. Deals cavities out by size. At most 255 rounds on one mesh.
-/// Collective. Throws CollectiveError.
+/// another round with other wishes. Deals cavities out by size. At most 255 rounds on one mesh. `shared` are
+/// those of the mesh as it comes in. Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
-                            parallel::StageClock& clock);
+                            const mesh::SharedVertices& shared, const CavityWishes& wishes, Reach reach,
+                            const RefillCavity& refill, parallel::StageClock& clock);
 
 }  // namespace aeroloom::cavities

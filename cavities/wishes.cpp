@@ -1,6 +1,5 @@
 #include "cavities/wishes.hpp"
 
-#include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
 
@@ -12,50 +11,6 @@ namespace aeroloom::cavities {
 namespace {
 
 using geometry::Vec3;
-
-/// A wish, or a refusal, for a shared vertex on its way to the other pieces.
-struct Voice {
-  mesh::SharedToken token;
-  CavityId wish;
-  parallel::Rank rank;
-  std::int32_t refused;
-};
-
-/// Brings together what the pieces say of each shared vertex: `mine` has a row per piece and vertex. The
-/// answers are for the vertices on this rank that anyone has a wish or a refusal for, by token: the highest
-/// wish, and whether anyone refused.
-std::vector<Voice> agree_on(const parallel::Communicator& communicator, std::vector<Voice> mine) {
-  std::vector<Voice> met = mesh::deliver(communicator, std::move(mine), [&](const Voice& v) {
-    return mesh::meeting_rank(mesh::mix_in(0, v.token), communicator.size());
-  });
-  std::sort(met.begin(), met.end(), [](const Voice& a, const Voice& b) {
-    return a.token != b.token ? a.token < b.token : a.rank < b.rank;
-  });
-  std::vector<Voice> answers;
-  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    Voice all{met[i].token, no_cavity, 0, 0};
-    for (; j < met.size() && met[j].token == met[i].token; ++j) {
-      all.wish = std::max(all.wish, met[j].wish);
-      all.refused = all.refused || met[j].refused;
-    }
-    if (all.wish == no_cavity && !all.refused) continue;
-    for (std::size_t k = i; k < j; ++k) {
-      if (k > i && met[k].rank == met[k - 1].rank) continue;
-      all.rank = met[k].rank;
-      answers.push_back(all);
-    }
-  }
-  std::vector<Voice> arrived =
-      mesh::deliver(communicator, std::move(answers), [](const Voice& v) { return v.rank; });
-  std::sort(arrived.begin(), arrived.end(), [](const Voice& a, const Voice& b) { return a.token < b.token; });
-  return arrived;
-}
-
-const Voice* find_answer(const std::vector<Voice>& answers, mesh::SharedToken token) {
-  const auto at = std::lower_bound(answers.begin(), answers.end(), token,
-                                   [](const Voice& v, mesh::SharedToken t) { return v.token < t; });
-  return at != answers.end() && at->token == token ? &*at : nullptr;
-}
 
 /// 1 for the vertices of tetrahedra that different cavities wish for.
 std::vector<char> find_contested(const mesh::Piece& piece, const std::vector<CavityId>& wishes) {
@@ -88,47 +43,31 @@ CavityId cavity_at(Vec3 p, double size, double width, int shift) {
   return id == no_cavity ? CavityId{1} : id;
 }
 
-void spread_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                   CavityWishes& wishes) {
-  std::vector<Voice> voices;
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const mesh::Piece& piece = mesh.pieces[p];
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-      voices.push_back({piece.shared_tokens[s], wishes[p][piece.shared_vertices[s]], communicator.rank(), 0});
-  }
-  const std::vector<Voice> answers = agree_on(communicator, std::move(voices));
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const mesh::Piece& piece = mesh.pieces[p];
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      if (const Voice* answer = find_answer(answers, piece.shared_tokens[s]))
-        wishes[p][piece.shared_vertices[s]] = answer->wish;
-    }
-  }
+void spread_wishes(const mesh::SharedVertices& shared, CavityWishes& wishes) {
+  std::vector<CavityId> of_copies(shared.size());
+  shared.for_each(
+      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { of_copies[copy] = wishes[p][v]; });
+  shared.reduce_and_scatter(of_copies, [](CavityId a, CavityId b) { return std::max(a, b); });
+  shared.for_each(
+      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { wishes[p][v] = of_copies[copy]; });
 }
 
-void settle_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+void settle_wishes(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                    CavityWishes& wishes) {
-  std::vector<Voice> voices;
+  std::vector<std::vector<char>> contested;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const mesh::Piece& piece = mesh.pieces[p];
-    const std::vector<char> contested = find_contested(piece, wishes[p]);
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      const mesh::LocalIndex v = piece.shared_vertices[s];
-      if (wishes[p][v] != no_cavity)
-        voices.push_back({piece.shared_tokens[s], wishes[p][v], communicator.rank(), contested[v]});
-    }
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (contested[v]) wishes[p][v] = no_cavity;
+    contested.push_back(find_contested(mesh.pieces[p], wishes[p]));
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      if (contested[p][v]) wishes[p][v] = no_cavity;
     }
   }
-  const std::vector<Voice> answers = agree_on(communicator, std::move(voices));
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    const mesh::Piece& piece = mesh.pieces[p];
-    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-      const Voice* answer = find_answer(answers, piece.shared_tokens[s]);
-      if (answer && answer->refused) wishes[p][piece.shared_vertices[s]] = no_cavity;
-    }
-  }
+  std::vector<char> refused(shared.size());
+  shared.for_each(
+      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { refused[copy] = contested[p][v]; });
+  shared.reduce_and_scatter(refused, [](char a, char b) { return static_cast<char>(a | b); });
+  shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
+    if (refused[copy]) wishes[p][v] = no_cavity;
+  });
 }
 
 void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& wishes) {

@@ -6,11 +6,10 @@
 namespace aeroloom::cavities {
 
 /// All pieces wish the same for shared vertices: the highest. Collective.
-void spread_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                   CavityWishes& wishes);
+void spread_wishes(const mesh::SharedVertices& shared, CavityWishes& wishes);
 
 /// Withdraws wishes of vertices with a neighbour in another cavity, in any piece. Collective.
-void settle_wishes(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+void settle_wishes(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                    CavityWishes& wishes);
 
 /// Adds the inner vertices next to each cavity, those on the surface too where asked for: to it, if they are

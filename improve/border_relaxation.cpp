@@ -2,7 +2,6 @@
 
 #include "improve/inverse_ratios.hpp"
 #include "improve/relaxation.hpp"
-#include "mesh/delivery.hpp"
 #include "mesh/mixing.hpp"
 #include "mesh/quality.hpp"
 
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::improve {
@@ -28,7 +28,7 @@ int group_of(SharedToken token) {
 
 /// What a piece, or all of them, know of a vertex where it stands.
 struct Standing {
-  mesh::PieceId first = 0;  ///< the lowest of those pieces
+  mesh::PieceId first = std::numeric_limits<mesh::PieceId>::max();  ///< the lowest of those pieces
   std::int32_t tets = 0;
   double ratios = 0;  ///< mean ratios, summed
   double sum = 0;     ///< InverseRatios
@@ -36,6 +36,10 @@ struct Standing {
   double worst = std::numeric_limits<double>::max();
   Vec3 gradient;
 
+  static constexpr auto fields() {
+    return std::tuple(&Standing::first, &Standing::tets, &Standing::ratios, &Standing::sum, &Standing::reach,
+                      &Standing::worst, &Standing::gradient);
+  }
   void add(const Standing& other) {
     tets += other.tets, ratios += other.ratios, sum += other.sum, reach += other.reach;
     first = std::min(first, other.first);
@@ -47,6 +51,8 @@ struct Standing {
 /// The sum somewhere else.
 struct Elsewhere {
   double sum = 0;
+
+  static constexpr auto fields() { return std::tuple(&Elsewhere::sum); }
   void add(const Elsewhere& other) { sum += other.sum; }
 };
 
@@ -55,6 +61,7 @@ struct Trials {
   double sum[trial_count] = {};
   double worst[trial_count];
 
+  static constexpr auto fields() { return std::tuple(&Trials::sum, &Trials::worst); }
   Trials() { std::fill_n(worst, trial_count, std::numeric_limits<double>::max()); }
   void add(const Trials& other) {
     for (int i = 0; i < trial_count; ++i) {
@@ -66,46 +73,11 @@ struct Trials {
 
 /// Whether a tetrahedron does not allow the move.
 struct Veto {
-  std::int32_t any = 0;
+  std::uint8_t any = 0;
+
+  static constexpr auto fields() { return std::tuple(&Veto::any); }
   void add(const Veto& other) { any |= other.any; }
 };
-
-/// What one piece has to say of one vertex.
-template <class What>
-struct Word {
-  SharedToken token;
-  mesh::PieceId piece;
-  parallel::Rank rank;
-  What what;
-};
-
-/// Adds up what pieces say of each vertex, and answers to all ranks that said something, once each: by token.
-/// Collective.
-template <class What>
-std::vector<Word<What>> add_up(const parallel::Communicator& communicator, std::vector<Word<What>> mine) {
-  std::vector<Word<What>> met = mesh::deliver(communicator, std::move(mine), [&](const Word<What>& word) {
-    return mesh::meeting_rank(mesh::mix_in(0, word.token), communicator.size());
-  });
-  std::sort(met.begin(), met.end(), [](const auto& a, const auto& b) {
-    return a.token != b.token ? a.token < b.token : a.piece < b.piece;
-  });
-  std::vector<Word<What>> answers;
-  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    Word<What> total = met[i];
-    for (j = i + 1; j < met.size() && met[j].token == met[i].token; ++j) total.what.add(met[j].what);
-    for (std::size_t k = i; k < j; ++k) {
-      const auto same_rank = [&](const Word<What>& word) { return word.rank == met[k].rank; };
-      if (std::any_of(met.begin() + static_cast<std::ptrdiff_t>(i),
-                      met.begin() + static_cast<std::ptrdiff_t>(k), same_rank))
-        continue;
-      total.rank = met[k].rank;
-      answers.push_back(total);
-    }
-  }
-  met = mesh::deliver(communicator, std::move(answers), [](const Word<What>& word) { return word.rank; });
-  std::sort(met.begin(), met.end(), [](const auto& a, const auto& b) { return a.token < b.token; });
-  return met;
-}
 
 /// The tetrahedra of a piece at the vertices it shares and that may move.
 class BorderStars {
@@ -117,7 +89,7 @@ public:
       if (piece.vertex_dimension[v] < 3) continue;
       slot[v] = static_cast<LocalIndex>(_vertices.size());
       _vertices.push_back(v);
-      _tokens.push_back(piece.shared_tokens[s]);
+      _places.push_back(s);
     }
     _first.assign(_vertices.size() + 1, 0);
     for (const LocalIndex v : piece.cells) {
@@ -134,21 +106,22 @@ public:
 
   std::size_t size() const { return _vertices.size(); }
   LocalIndex vertex(std::size_t s) const { return _vertices[s]; }
-  SharedToken token(std::size_t s) const { return _tokens[s]; }
+  /// Its place in the list of shared vertices.
+  std::size_t place(std::size_t s) const { return _places[s]; }
   std::span<const LocalIndex> cells(std::size_t s) const {
     return {_cells.data() + _first[s], static_cast<std::size_t>(_first[s + 1] - _first[s])};
   }
 
 private:
   std::vector<LocalIndex> _vertices;
-  std::vector<SharedToken> _tokens;
+  std::vector<std::size_t> _places;
   std::vector<std::int32_t> _first;
   std::vector<LocalIndex> _cells;
 };
 
 /// A vertex on its way, in one piece.
 struct Mover {
-  SharedToken token;
+  std::size_t copy;     ///< in SharedVertices
   std::uint32_t piece;  ///< in mesh.pieces
   std::uint32_t star;   ///< in the piece's BorderStars
   Standing all;
@@ -162,8 +135,8 @@ struct Mover {
 class BorderRelaxation {
 public:
   BorderRelaxation(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                   const TetQuality& measure)
-      : _communicator(communicator), _mesh(mesh), _measure(measure) {
+                   const mesh::SharedVertices& shared, const TetQuality& measure)
+      : _communicator(communicator), _mesh(mesh), _shared(shared), _measure(measure) {
     for (const Piece& piece : mesh.pieces) {
       _stars.emplace_back(piece);
       _moved.emplace_back(piece.vertex_count(), -1);
@@ -198,24 +171,22 @@ private:
   void withdraw();
   bool allows(const Piece& piece, const std::vector<std::int32_t>& moved, LocalIndex cell) const;
   double worst_at(const Piece& piece, LocalIndex v, std::span<const LocalIndex> cells, Vec3 p) const;
-  template <class What>
-  Word<What> word(const Mover& mover, const What& what) const {
-    return {mover.token, _mesh.pieces[mover.piece].id, _communicator.rank(), what};
-  }
-  /// Tells `keep` of each mover what all pieces say of it, and drops those for which it is false. There is a
-  /// word for each mover here. Collective.
+  /// Adds up what pieces say of each vertex, in their order, tells `keep` of each mover what all say of it,
+  /// and drops those for which it is false. `words` are those of the movers here. Collective.
   template <class What, class Keep>
-  void settle(std::vector<Word<What>> words, const Keep& keep) {
-    const std::vector<Word<What>> answers = add_up(_communicator, std::move(words));
-    std::erase_if(_movers, [&](Mover& mover) {
-      const auto at = std::lower_bound(answers.begin(), answers.end(), mover.token,
-                                       [](const auto& a, SharedToken token) { return a.token < token; });
-      return !keep(mover, at->what);
+  void settle(const std::vector<What>& words, const Keep& keep) {
+    std::vector<What> of_copies(_shared.size());
+    for (std::size_t m = 0; m < _movers.size(); ++m) of_copies[_movers[m].copy] = words[m];
+    _shared.reduce_and_scatter(of_copies, [](What total, const What& word) {
+      total.add(word);
+      return total;
     });
+    std::erase_if(_movers, [&](Mover& mover) { return !keep(mover, of_copies[mover.copy]); });
   }
 
   const parallel::Communicator& _communicator;
   mesh::DistributedMesh& _mesh;
+  const mesh::SharedVertices& _shared;
   const TetQuality& _measure;
   std::vector<BorderStars> _stars;
   std::vector<Mover> _movers;
@@ -251,16 +222,17 @@ Standing BorderRelaxation::stand(const Piece& piece, LocalIndex v, std::span<con
 
 void BorderRelaxation::choose(int group) {
   _movers.clear();
-  std::vector<Word<Standing>> words;
+  std::vector<Standing> words;
   for (std::uint32_t p = 0; p < _stars.size(); ++p) {
     const Piece& piece = _mesh.pieces[p];
     for (std::uint32_t s = 0; s < _stars[p].size(); ++s) {
-      if (group_of(_stars[p].token(s)) != group) continue;
-      _movers.push_back({_stars[p].token(s), p, s, {}, 0, {}});
-      words.push_back(word(_movers.back(), stand(piece, _stars[p].vertex(s), _stars[p].cells(s))));
+      const std::size_t place = _stars[p].place(s);
+      if (group_of(piece.shared_tokens[place]) != group) continue;
+      _movers.push_back({_shared.first(p) + place, p, s, {}, 0, {}});
+      words.push_back(stand(piece, _stars[p].vertex(s), _stars[p].cells(s)));
     }
   }
-  settle(std::move(words), [](Mover& mover, const Standing& all) {
+  settle(words, [](Mover& mover, const Standing& all) {
     mover.all = all;
     return all.tets > 0 && all.ratios < Relaxation::good_enough * all.tets && norm(all.gradient) > 0 &&
            all.sum > InverseRatios::invalid;
@@ -268,15 +240,14 @@ void BorderRelaxation::choose(int group) {
 }
 
 void BorderRelaxation::find_steps() {
-  std::vector<Word<Elsewhere>> words;
+  std::vector<Elsewhere> words;
   for (Mover& mover : _movers) {
     mover.step = Relaxation::first_step * mover.all.reach / mover.all.tets;
     const Piece& piece = _mesh.pieces[mover.piece];
     gather(piece, star_vertex(mover), cells_of(mover));
-    words.push_back(
-        word(mover, Elsewhere{_ratios(piece.point(star_vertex(mover)) + mover.step * mover.direction())}));
+    words.push_back({_ratios(piece.point(star_vertex(mover)) + mover.step * mover.direction())});
   }
-  settle(std::move(words), [](Mover& mover, const Elsewhere& there) {
+  settle(words, [](Mover& mover, const Elsewhere& there) {
     if (!(there.sum > InverseRatios::invalid)) return true;
     const Peak peak = peak_along(norm(mover.all.gradient), mover.step, there.sum - mover.all.sum);
     mover.step = peak.step;
@@ -297,7 +268,7 @@ double BorderRelaxation::worst_at(const Piece& piece, LocalIndex v, std::span<co
 }
 
 void BorderRelaxation::try_steps() {
-  std::vector<Word<Trials>> words;
+  std::vector<Trials> words;
   const auto place = [&](const Mover& mover, int trial) {
     return _mesh.pieces[mover.piece].point(star_vertex(mover)) +
            std::ldexp(mover.step, -trial) * mover.direction();
@@ -312,9 +283,9 @@ void BorderRelaxation::try_steps() {
                             ? worst_at(piece, star_vertex(mover), cells_of(mover), place(mover, i))
                             : -1;
     }
-    words.push_back(word(mover, trials));
+    words.push_back(trials);
   }
-  settle(std::move(words), [&](Mover& mover, const Trials& all) {
+  settle(words, [&](Mover& mover, const Trials& all) {
     for (int i = 0; i < trial_count; ++i) {
       if (all.sum[i] < mover.wanted() || all.worst[i] < mover.all.worst) continue;
       mover.to = place(mover, i);
@@ -341,7 +312,7 @@ bool BorderRelaxation::allows(const Piece& piece, const std::vector<std::int32_t
 // on.
 void BorderRelaxation::withdraw() {
   while (true) {
-    std::vector<Word<Veto>> words;
+    std::vector<Veto> words;
     std::int64_t vetoes = 0;
     for (std::size_t m = 0; m < _movers.size(); ++m)
       _moved[_movers[m].piece][star_vertex(_movers[m])] = static_cast<std::int32_t>(m);
@@ -351,20 +322,20 @@ void BorderRelaxation::withdraw() {
         return allows(_mesh.pieces[mover.piece], _moved[mover.piece], t);
       };
       const bool free = std::all_of(cells.begin(), cells.end(), allowed);
-      words.push_back(word(mover, Veto{free ? 0 : 1}));
+      words.push_back({static_cast<std::uint8_t>(free ? 0 : 1)});
       vetoes += !free;
     }
     for (const Mover& mover : _movers) _moved[mover.piece][star_vertex(mover)] = -1;
     if (_communicator.sum(vetoes) == 0) return;
-    settle(std::move(words), [](Mover&, const Veto& veto) { return veto.any == 0; });
+    settle(words, [](Mover&, const Veto& veto) { return veto.any == 0; });
   }
 }
 
 }  // namespace
 
 std::int64_t relax_borders(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const TetQuality& measure, int passes) {
-  BorderRelaxation relaxation(communicator, mesh, measure);
+                           const mesh::SharedVertices& shared, const TetQuality& measure, int passes) {
+  BorderRelaxation relaxation(communicator, mesh, shared, measure);
   std::int64_t moves = 0;
   for (int pass = 0; pass < passes; ++pass) {
     for (int group = 0; group < group_count; ++group) moves += relaxation.move(group);

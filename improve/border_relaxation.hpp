@@ -3,6 +3,7 @@
 
 #include "improve/tet_quality.hpp"
 #include "mesh/distributed_mesh.hpp"
+#include "mesh/shared_vertices.hpp"
 #include "parallel/communicator.hpp"
 
 #include <cstdint>
@@ -15,8 +16,9 @@ namespace aeroloom::improve {
 /// piece adds up what it knows of a vertex's tetrahedra, and the sums are added in the order of pieces, so
 /// the result does not depend on the ranks. Vertices move in two groups, chosen by their names, each at once
 /// (Jacobi); those of a tetrahedron that would fall below what each of them allows stay. `passes` is how
-/// often each group moves. Returns the number of moves in the whole mesh. Collective.
+/// often each group moves. `shared` are those of the mesh, and stay so. Returns the number of moves in the
+/// whole mesh. Collective.
 std::int64_t relax_borders(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const TetQuality& measure, int passes);
+                           const mesh::SharedVertices& shared, const TetQuality& measure, int passes);
 
 }  // namespace aeroloom::improve

@@ -9,7 +9,7 @@
 #include "improve/tet_mesh.hpp"
 #include "improve/tet_quality.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/sharing.hpp"
+#include "mesh/shared_vertices.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/progress.hpp"
 
@@ -103,7 +103,8 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   if (!options.enabled) return;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const TetQuality measure(options.target_angle);
-  const std::int64_t border_moves = relax_borders(communicator, mesh, measure, options.relaxation);
+  mesh::SharedVertices shared(communicator, mesh);
+  const std::int64_t border_moves = relax_borders(communicator, mesh, shared, measure, options.relaxation);
   if (communicator.rank() == 0) total.smoothed += border_moves;
   // Where borders stayed as they were, all is known already.
   if (border_moves == 0 && communicator.sum(total.bad_after) == 0) return;
@@ -121,8 +122,9 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                        static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
       return refilling;
     };
-    bad.update(mesh, cavities::refill_cavities(communicator, mesh, wishes, reach, improve, clock));
-    mesh::forget_unshared(communicator, mesh);  // cavities name more than borders
+    bad.update(mesh, cavities::refill_cavities(communicator, mesh, shared, wishes, reach, improve, clock));
+    shared = mesh::SharedVertices(communicator, mesh);
+    shared.drop_unshared(mesh);  // cavities name more than borders
   };
   int shift = 0;
   parallel::Progress progress("improve", options.shifted_rounds + last_rounds, "tetrahedra to improve");
@@ -178,7 +180,7 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
     const TetQuality measure(options.target_angle);
     for (const mesh::Piece& piece : mesh.pieces) work.push_back(expected_work(piece, measure));
   });
-  if (options.enabled) mesh::forget_unshared(communicator, mesh);
+  if (options.enabled) mesh::SharedVertices(communicator, mesh).drop_unshared(mesh);
   if (options.enabled && communicator.size() > 1) balance_pieces(communicator, mesh, work);
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);

@@ -6,11 +6,10 @@
 #pragma once
 
 #include "mesh/cell_stars.hpp"
-#include "mesh/delivery.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/findings.hpp"
-#include "mesh/mixing.hpp"
 #include "mesh/pair_table.hpp"
+#include "mesh/rendezvous.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -101,8 +101,10 @@ private:
     PieceId piece;
     std::uint32_t tag;
     std::int32_t label;
-    std::int32_t unused = 0;  ///< no padding travels
-    friend auto operator<=>(const Across&, const Across&) = default;
+
+    static constexpr auto fields() {
+      return std::tuple(&Across::vertices, &Across::piece, &Across::tag, &Across::label);
+    }
   };
 
   static std::uint32_t make_tag(bool odd, int role, std::uint32_t item) {
@@ -214,21 +216,16 @@ private:
   }
 
   void match_across(const parallel::Communicator& communicator) {
-    std::vector<Across> met = deliver(communicator, std::exchange(_across, {}), [&](const Across& item) {
-      std::uint64_t mixed = 0;
-      for (const GlobalIndex v : item.vertices) mixed = mix_in(mixed, static_cast<std::uint64_t>(v));
-      return meeting_rank(mixed, communicator.size());
-    });
-    std::sort(met.begin(), met.end());
-    for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
+    const std::vector<Across> met =
+        meet_by_key(communicator, std::exchange(_across, {}), &Across::vertices,
+                    [](const Across& item) { return std::tie(item.piece, item.tag, item.label); });
+    for_each_key(met, &Across::vertices, [&](std::span<const Across> group) {
       _members.clear();
-      for (; j < met.size() && met[j].vertices == met[i].vertices; ++j) {
-        _members.push_back({met[j].piece, met[j].tag, met[j].label});
-      }
+      for (const Across& item : group) _members.push_back({item.piece, item.tag, item.label});
       if (const std::optional<Violation> violation = _what.judge(std::span<const Member>(_members))) {
-        report(*violation, met[i].vertices);
+        report(*violation, group.front().vertices);
       }
-    }
+    });
   }
 
   /// The offender is the member of the lowest piece and item, whatever order they met in.

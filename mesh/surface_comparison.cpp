@@ -1,12 +1,12 @@
 #include "mesh/boundary_mesh.hpp"
-#include "mesh/delivery.hpp"
-#include "mesh/mixing.hpp"
+#include "mesh/rendezvous.hpp"
 #include "mesh/validity_checks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -30,7 +30,10 @@ struct BitTriangle {
   PieceId piece;
   LocalIndex triangle;
   Side side;
-  std::int32_t unused = 0;  ///< no padding travels
+
+  static constexpr auto fields() {
+    return std::tuple(&BitTriangle::corners, &BitTriangle::piece, &BitTriangle::triangle, &BitTriangle::side);
+  }
 };
 
 BitTriangle make_triangle(const Piece& piece, LocalIndex t, Side side) {
@@ -48,14 +51,6 @@ void add_triangles(const DistributedMesh& mesh, Side side, std::vector<BitTriang
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t)
       triangles.push_back(make_triangle(piece, t, side));
   }
-}
-
-std::uint64_t mixed_bits(const BitTriangle& triangle) {
-  std::uint64_t mixed = 0;
-  for (const PointBits& corner : triangle.corners) {
-    for (const std::uint64_t word : corner) mixed = mix_in(mixed, word);
-  }
-  return mixed;
 }
 
 Offender offender_of(const BitTriangle& triangle) {
@@ -92,26 +87,19 @@ void check_same_triangles(const parallel::Communicator& communicator, const Dist
   std::vector<BitTriangle> triangles;
   add_triangles(mesh, Side::mesh, triangles);
   add_triangles(surface, Side::surface, triangles);
-  std::vector<BitTriangle> met = deliver(
-      communicator, std::move(triangles),
-      [&](const BitTriangle& triangle) { return meeting_rank(mixed_bits(triangle), communicator.size()); });
-  const auto place = [](const BitTriangle& t) { return std::tuple(t.side, t.piece, t.triangle); };
-  std::sort(met.begin(), met.end(), [&](const BitTriangle& a, const BitTriangle& b) {
-    return a.corners != b.corners ? a.corners < b.corners : place(a) < place(b);
+  const std::vector<BitTriangle> met =
+      meet_by_key(communicator, std::move(triangles), &BitTriangle::corners,
+                  [](const BitTriangle& t) { return std::tie(t.side, t.piece, t.triangle); });
+  for_each_key(met, &BitTriangle::corners, [&](std::span<const BitTriangle> group) {
+    // Those of the mesh come first: what either side has beyond the other is left over.
+    const auto of_mesh = static_cast<std::size_t>(
+        std::count_if(group.begin(), group.end(), [](const BitTriangle& t) { return t.side == Side::mesh; }));
+    const std::size_t common = std::min(of_mesh, group.size() - of_mesh);
+    for (const BitTriangle& t : group.subspan(common, of_mesh - common))
+      in_mesh.add(Violation::triangle_not_in_surface, offender_of(t));
+    for (const BitTriangle& t : group.subspan(of_mesh + common))
+      in_surface.add(Violation::triangle_missing_from_mesh, offender_of(t));
   });
-  for (std::size_t i = 0, j = 0; i < met.size(); i = j) {
-    std::size_t of_mesh = 0;
-    for (; j < met.size() && met[j].corners == met[i].corners; ++j)
-      of_mesh += met[j].side == Side::mesh ? 1 : 0;
-    // Those of the mesh come first in the group: what either side has beyond the other is left over.
-    const std::size_t middle = i + of_mesh, common = std::min(of_mesh, j - middle);
-    for (std::size_t k = i + common; k < middle; ++k) {
-      in_mesh.add(Violation::triangle_not_in_surface, offender_of(met[k]));
-    }
-    for (std::size_t k = middle + common; k < j; ++k) {
-      in_surface.add(Violation::triangle_missing_from_mesh, offender_of(met[k]));
-    }
-  }
 }
 
 }  // namespace aeroloom::mesh

@@ -1,8 +1,8 @@
 #include "mesh/validity_checks.hpp"
 
-#include "mesh/delivery.hpp"
 #include "mesh/matching.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/rendezvous.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,18 @@ bool is_finite(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// A shared vertex as one piece has it.
+/// A shared vertex as one piece has it. They meet by number, not through SharedVertices: that is what made
+/// the numbers.
 struct SharedPoint {
   GlobalIndex number;
   double coordinates[3];
   PieceId piece;
   LocalIndex vertex;
+
+  static constexpr auto fields() {
+    return std::tuple(&SharedPoint::number, &SharedPoint::coordinates, &SharedPoint::piece,
+                      &SharedPoint::vertex);
+  }
 };
 
 /// An edge is fine when, around each region, as many triangles pass it one way as the other.
@@ -182,20 +188,16 @@ void check_shared_coordinates(const parallel::Communicator& communicator, const 
       mine.push_back({numbering.vertices[i][v], {p.x, p.y, p.z}, piece.id, v});
     }
   }
-  std::vector<SharedPoint> met = deliver(communicator, std::move(mine), [&](const SharedPoint& point) {
-    return meeting_rank(mix_bits(static_cast<std::uint64_t>(point.number)), communicator.size());
-  });
-  std::sort(met.begin(), met.end(), [](const SharedPoint& a, const SharedPoint& b) {
-    return std::tie(a.number, a.piece, a.vertex) < std::tie(b.number, b.piece, b.vertex);
-  });
-  for (std::size_t i = 1, owner = 0; i < met.size(); ++i) {
-    if (met[i].number != met[owner].number) {
-      owner = i;
-    } else if (!same_bits(met[i].coordinates, met[owner].coordinates)) {
+  const std::vector<SharedPoint> met =
+      meet_by_key(communicator, std::move(mine), &SharedPoint::number,
+                  [](const SharedPoint& point) { return std::tie(point.piece, point.vertex); });
+  for_each_key(met, &SharedPoint::number, [&](std::span<const SharedPoint> group) {
+    for (const SharedPoint& point : group.subspan(1)) {
+      if (same_bits(point.coordinates, group.front().coordinates)) continue;
       findings.add(Violation::shared_coordinates_differ,
-                   {{met[i].number}, met[i].piece, Entity::vertex, met[i].vertex});
+                   {{point.number}, point.piece, Entity::vertex, point.vertex});
     }
-  }
+  });
 }
 
 void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,

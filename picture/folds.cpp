@@ -1,8 +1,6 @@
 #include "picture/folds.hpp"
 
-#include "geometry/runs.hpp"
-#include "mesh/delivery.hpp"
-#include "mesh/mixing.hpp"
+#include "mesh/rendezvous.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -25,24 +23,30 @@ struct Side {
   std::int32_t item;  // 3 * triangle + edge
   Vec3 normal;
   std::int32_t face, patch;
-  parallel::Rank rank;
   std::int32_t place;  // of the piece on its rank
-  std::int64_t shown;
+  std::int32_t shown;
+
+  static constexpr auto fields() {
+    return std::tuple(&Side::ends, &Side::piece, &Side::item, &Side::normal, &Side::face, &Side::patch,
+                      &Side::place, &Side::shown);
+  }
 };
 
-bool precedes(const Side& a, const Side& b) {
-  return std::tie(a.ends, a.piece, a.item) < std::tie(b.ends, b.piece, b.item);
+/// Tells the sides of one edge apart.
+std::tuple<mesh::PieceId, std::int32_t> turn_of(const Side& side) {
+  return {side.piece, side.item};
 }
 
 /// What is told to the rank of a triangle.
 struct Answer {
-  parallel::Rank rank;
   std::int32_t place, item;
   Fold fold;
+
+  static constexpr auto fields() { return std::tuple(&Answer::place, &Answer::item, &Answer::fold); }
 };
 
 std::vector<Side> sides_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                           const Shown& shown, std::size_t place, parallel::Rank rank) {
+                           const Shown& shown, std::size_t place) {
   const mesh::Piece& piece = surface.pieces[place];
   const std::vector<GlobalIndex>& numbers = numbering.vertices[place];
   std::vector<Side> sides;
@@ -54,29 +58,27 @@ std::vector<Side> sides_of(const mesh::DistributedMesh& surface, const mesh::Num
       std::array<GlobalIndex, 2> ends = {numbers[v[i]], numbers[v[(i + 1) % 3]]};
       if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
       sides.push_back({ends, piece.id, 3 * t + i, normal, piece.triangle_face[t], piece.triangle_patch[t],
-                       rank, static_cast<std::int32_t>(place), shown[place][t]});
+                       static_cast<std::int32_t>(place), shown[place][t]});
     }
   }
   return sides;
 }
 
-/// Calls tell(side, fold) for each side of an edge that others have too.
-template <class Tell>
-void tell_each(std::span<const Side> run, const Tell& tell) {
-  if (run.size() < 2) return;
-  for (std::size_t i = 0; i < run.size(); ++i) {
-    const Side& next = run[(i + 1) % run.size()];
-    tell(run[i], Fold{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
-  }
+const Side& side_of(const Side& side) {
+  return side;
+}
+const Side& side_of(const mesh::Guest<Side>& guest) {
+  return guest.item;
 }
 
-template <class Visit>
-void for_each_edge(std::vector<Side>& sides, const Visit& visit) {
-  std::sort(sides.begin(), sides.end(), precedes);
-  const std::span<const Side> all(sides);
-  geometry::for_each_run(
-      all, [](const Side& a, const Side& b) { return a.ends == b.ends; },
-      [&](std::size_t begin, std::size_t end) { visit(all.subspan(begin, end - begin)); });
+/// Calls tell(member, fold) for each side of an edge that others have too.
+template <class Member, class Tell>
+void tell_each(std::span<const Member> run, const Tell& tell) {
+  if (run.size() < 2) return;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const Side& next = side_of(run[(i + 1) % run.size()]);
+    tell(run[i], Fold{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
+  }
 }
 
 }  // namespace
@@ -95,8 +97,11 @@ Folds find_folds(const parallel::Communicator& communicator, const mesh::Distrib
     folds[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
-    std::vector<Side> sides = sides_of(surface, numbering, shown, p, communicator.rank());
-    for_each_edge(sides, [&](std::span<const Side> run) {
+    std::vector<Side> sides = sides_of(surface, numbering, shown, p);
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+      return a.ends != b.ends ? a.ends < b.ends : turn_of(a) < turn_of(b);
+    });
+    mesh::for_each_key(sides, &Side::ends, [&](std::span<const Side> run) {
       const std::int32_t item = run.front().item;
       const LocalIndex* v = piece.cell(item / 3);
       if (run.size() == 1 && shared[v[item % 3]] && shared[v[(item % 3 + 1) % 3]]) {
@@ -109,23 +114,13 @@ Folds find_folds(const parallel::Communicator& communicator, const mesh::Distrib
   parallel::agree(communicator, [&] {
     for (std::size_t p = 0; p < surface.pieces.size(); ++p) match_within(p);
   });
-  std::vector<Side> met = mesh::deliver(communicator, std::move(travelling), [&](const Side& side) {
-    const std::uint64_t mixed =
-        mesh::mix_in(static_cast<std::uint64_t>(side.ends[0]), static_cast<std::uint64_t>(side.ends[1]));
-    return mesh::meeting_rank(mixed, communicator.size());
-  });
-  std::vector<Answer> answers;
-  parallel::agree(communicator, [&] {
-    for_each_edge(met, [&](std::span<const Side> run) {
-      tell_each(run, [&](const Side& side, const Fold& fold) {
-        answers.push_back({side.rank, side.place, side.item, fold});
-      });
+  const mesh::Rendezvous meeting(communicator, travelling, &Side::ends, turn_of);
+  const auto answers = meeting.answer<Answer>([](const auto& run, const auto& reply) {
+    tell_each(run, [&](const mesh::Guest<Side>& guest, const Fold& fold) {
+      reply(guest, {guest.item.place, guest.item.item, fold});
     });
   });
-  for (const Answer& answer :
-       mesh::deliver(communicator, std::move(answers), [](const Answer& each) { return each.rank; })) {
-    folds[answer.place][answer.item] = answer.fold;
-  }
+  for (const Answer& answer : answers) folds[answer.place][answer.item] = answer.fold;
   return folds;
 }
 

@@ -7,6 +7,7 @@
 #include "picture/scene.hpp"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::picture {
@@ -20,6 +21,9 @@ struct Fold {
   bool shown = false;    ///< whether the scene shows it
 
   bool is_open() const { return face < 0; }
+  static constexpr auto fields() {
+    return std::tuple(&Fold::normal, &Fold::face, &Fold::patch, &Fold::several, &Fold::shown);
+  }
 };
 
 /// Per local piece, three for each triangle: beyond the edge from its corner i to corner i + 1.

@@ -1,13 +1,10 @@
 #include "volume/agreement.hpp"
 
 #include "geometry/disjoint_sets.hpp"
-#include "geometry/runs.hpp"
-#include "mesh/delivery.hpp"
-#include "mesh/mixing.hpp"
+#include "mesh/rendezvous.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
+#include <tuple>
 
 namespace aeroloom::volume {
 
@@ -18,49 +15,43 @@ struct WireFace {
   std::array<mesh::SharedToken, 3> vertices;
   ZoneIndex zone;
   mesh::RegionId region;
-  parallel::Rank rank;  ///< where the face is
-  std::int32_t index;   ///< in that rank's list, times two, plus its turn
+  std::int32_t index;  ///< in its rank's list, times two, plus its turn
 
   bool odd() const { return index & 1; }
+  static constexpr auto fields() {
+    return std::tuple(&WireFace::vertices, &WireFace::zone, &WireFace::region, &WireFace::index);
+  }
 };
 
-bool before(const WireFace& a, const WireFace& b) {
-  return a.vertices != b.vertices ? a.vertices < b.vertices : a.zone < b.zone;
+bool are_partners(const WireFace& a, const WireFace& b) {
+  return a.zone != b.zone && a.region == b.region && a.odd() != b.odd();
+}
+
+/// Which of these faces have no partner on any rank. Collective.
+std::vector<std::int32_t> find_unmatched_here(const parallel::Communicator& communicator,
+                                              std::span<const ZoneFace> faces) {
+  std::vector<WireFace> mine;
+  mine.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const ZoneFace& face = faces[i];
+    mine.push_back({face.vertices, face.zone, face.region, static_cast<std::int32_t>(2 * i) + face.odd});
+  }
+  const mesh::Rendezvous meeting(communicator, mine, &WireFace::vertices, &WireFace::zone);
+  return meeting.answer<std::int32_t>([](const auto& group, const auto& reply) {
+    if (group.size() == 2 && are_partners(group[0].item, group[1].item)) return;
+    for (const auto& guest : group) reply(guest, guest.item.index / 2);
+  });
 }
 
 }  // namespace
 
 std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
                                      std::span<const ZoneFace> faces, parallel::StageClock& clock) {
-  std::vector<WireFace> outgoing;
-  outgoing.reserve(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const ZoneFace& face = faces[i];
-    outgoing.push_back({face.vertices, face.zone, face.region, communicator.rank(),
-                        static_cast<std::int32_t>(2 * i) + face.odd});
-  }
-  std::vector<WireFace> met = mesh::deliver(communicator, std::move(outgoing), [&](const WireFace& face) {
-    std::uint64_t mixed = 0;
-    for (const mesh::SharedToken v : face.vertices) mixed = mesh::mix_in(mixed, v);
-    return mesh::meeting_rank(mixed, communicator.size());
-  });
-  std::vector<WireFace> alone;
+  std::vector<ZoneFace> mine;
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    std::sort(met.begin(), met.end(), before);
-    const auto same = [](const WireFace& a, const WireFace& b) { return a.vertices == b.vertices; };
-    geometry::for_each_run(std::span<const WireFace>(met), same, [&](std::size_t i, std::size_t j) {
-      const bool fit = j - i == 2 && met[i].zone != met[i + 1].zone && met[i].region == met[i + 1].region &&
-                       met[i].odd() != met[i + 1].odd();
-      if (!fit)
-        alone.insert(alone.end(), met.begin() + static_cast<std::ptrdiff_t>(i),
-                     met.begin() + static_cast<std::ptrdiff_t>(j));
-    });
+    for (const std::int32_t face : find_unmatched_here(communicator, faces)) mine.push_back(faces[face]);
   }
-  std::vector<ZoneFace> mine;
-  for (const WireFace& face :
-       mesh::deliver(communicator, std::move(alone), [](const WireFace& f) { return f.rank; }))
-    mine.push_back(faces[face.index / 2]);
   std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);
   std::sort(all.begin(), all.end(), [](const ZoneFace& a, const ZoneFace& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices

@@ -95,13 +95,20 @@ std::string hash(const Communicator& communicator, const mesh::DistributedMesh& 
   return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
 }
 
+CavityRound one_round(const Communicator& communicator, mesh::DistributedMesh& mesh,
+                      const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
+                      parallel::StageClock& clock) {
+  const mesh::SharedVertices shared(communicator, mesh);
+  return refill_cavities(communicator, mesh, shared, wishes, reach, refill, clock);
+}
+
 TEST(Cavities, KeepTheMeshWhole) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
   const mesh::GlobalIndex cells = count_cells(world, mesh);
   parallel::StageClock clock;
   for (int shift = 0; shift < 4; ++shift) {
-    const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, shift), {}, same, clock);
+    const CavityRound round = one_round(world, mesh, wish_for_shared(mesh, shift), {}, same, clock);
     EXPECT_GT(round.cavities, 0);
     EXPECT_EQ(round.refilled, round.cavities);
     expect_valid(world, mesh);
@@ -120,7 +127,7 @@ TEST(Cavities, SayWhatTheyChanged) {
   };
   const std::vector<mesh::Piece> before = mesh.pieces;
   parallel::StageClock clock;
-  const CavityRound round = refill_cavities(world, mesh, wish_for_shared(mesh, 0), {}, divided, clock);
+  const CavityRound round = one_round(world, mesh, wish_for_shared(mesh, 0), {}, divided, clock);
   ASSERT_EQ(round.changes.size(), before.size());
   std::int64_t changed = 0, kept = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
@@ -163,7 +170,7 @@ TEST(Cavities, ReachAsFarAsTheyAreTold) {
       }
     }
     parallel::StageClock clock;
-    refill_cavities(world, mesh, wishes, reach, count, clock);
+    one_round(world, mesh, wishes, reach, count, clock);
     expect_valid(world, mesh);
     taken.push_back(world.sum(tets));
     triangles.push_back(world.sum(on_surface));
@@ -178,7 +185,7 @@ TEST(Cavities, TakeNewVertices) {
   const mesh::GlobalIndex cells = count_cells(world, mesh);
   parallel::StageClock clock;
   std::int64_t taken = 0;
-  refill_cavities(
+  one_round(
       world, mesh, wish_for_shared(mesh, 0), {},
       [&](const Cavity& cavity) {
         taken += static_cast<std::int64_t>(cavity.tets.size());
@@ -218,8 +225,8 @@ TEST(Cavities, MayChangeTheSurface) {
   const mesh::MeshCounts before = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(count_moved(world, together), 0);
   parallel::StageClock clock;
-  refill_cavities(world, together, wish_for_surface(together), {}, slid, clock);
-  refill_cavities(self, alone, wish_for_surface(alone), {}, slid, clock);
+  one_round(world, together, wish_for_surface(together), {}, slid, clock);
+  one_round(self, alone, wish_for_surface(alone), {}, slid, clock);
   expect_valid(world, together);
   const mesh::MeshCounts after = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(after.vertices, before.vertices);
@@ -238,7 +245,7 @@ TEST(Cavities, RefuseAnotherBoundary) {
     result.tets.pop_back();
     return std::optional(result);
   };
-  EXPECT_THROW(refill_cavities(self, mesh, wish_for_shared(mesh, 0), {}, without_one, clock),
+  EXPECT_THROW(one_round(self, mesh, wish_for_shared(mesh, 0), {}, without_one, clock),
                parallel::CollectiveError);
 }
 
@@ -250,8 +257,8 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   for (int shift = 0; shift < 3; ++shift) {
     const auto refill = shift == 1 ? divided : same;
     const Reach reach{shift, shift == 2};
-    refill_cavities(world, together, wish_for_shared(together, shift), reach, refill, clock);
-    refill_cavities(self, alone, wish_for_shared(alone, shift), reach, refill, clock);
+    one_round(world, together, wish_for_shared(together, shift), reach, refill, clock);
+    one_round(self, alone, wish_for_shared(alone, shift), reach, refill, clock);
   }
   EXPECT_EQ(hash(world, together), hash(self, alone));
 }
@@ -266,7 +273,7 @@ TEST(Cavities, AreDealtToTheRanksByTheirTetrahedra) {
     largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
     return same(cavity);
   };
-  refill_cavities(world, mesh, wish_for_shared(mesh, 0, 0.03), {}, count, clock);
+  one_round(world, mesh, wish_for_shared(mesh, 0, 0.03), {}, count, clock);
   // The heaviest rank is above the mean by no more than one cavity.
   EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
@@ -277,7 +284,7 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
   const std::string before = hash(world, mesh);
   parallel::StageClock clock;
-  const CavityRound round = refill_cavities(
+  const CavityRound round = one_round(
       world, mesh, wish_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; }, clock);
   EXPECT_GT(round.cavities, 0);
   EXPECT_EQ(round.refilled, 0);

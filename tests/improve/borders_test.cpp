@@ -25,6 +25,10 @@ std::string hash(const Communicator& communicator, const DistributedMesh& mesh) 
   return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
 }
 
+std::int64_t relax(const Communicator& communicator, DistributedMesh& mesh, int passes) {
+  return relax_borders(communicator, mesh, mesh::SharedVertices(communicator, mesh), measure, passes);
+}
+
 double inverse_ratios(const Communicator& communicator, const DistributedMesh& mesh) {
   double sum = 0;
   for (const Piece& piece : mesh.pieces) {
@@ -52,7 +56,7 @@ TEST(BorderRelaxation, LiftsTheAverageAndNeverTheWorst) {
     double sum = inverse_ratios(world, mesh), least = worst(world, mesh);
     std::int64_t moves = 0;
     for (int pass = 0; pass < 3; ++pass) {
-      moves += relax_borders(world, mesh, measure, 1);
+      moves += relax(world, mesh, 1);
       examples::expect_valid(world, mesh);
       const double sum_after = inverse_ratios(world, mesh), least_after = worst(world, mesh);
       EXPECT_LE(sum_after, sum);
@@ -67,7 +71,7 @@ TEST(BorderRelaxation, MovesVerticesThatPiecesShareAndNoOthers) {
   const auto world = Communicator::world();
   DistributedMesh mesh = shaken(world, 11);
   const std::vector<Piece> before = mesh.pieces;
-  const std::int64_t moves = relax_borders(world, mesh, measure, 1);
+  const std::int64_t moves = relax(world, mesh, 1);
   std::int64_t moved = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
     const Piece& piece = mesh.pieces[p];
@@ -88,8 +92,8 @@ TEST(BorderRelaxation, DoesNotDependOnRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   for (std::uint32_t seed = 20; seed < 25; ++seed) {
     DistributedMesh together = shaken(world, seed), alone = shaken(self, seed);
-    const std::int64_t moves = relax_borders(world, together, measure, 2);
-    EXPECT_EQ(relax_borders(self, alone, measure, 2), moves);
+    const std::int64_t moves = relax(world, together, 2);
+    EXPECT_EQ(relax(self, alone, 2), moves);
     EXPECT_EQ(hash(world, together), hash(self, alone));
   }
 }
@@ -97,7 +101,7 @@ TEST(BorderRelaxation, DoesNotDependOnRanks) {
 TEST(BorderRelaxation, LeavesASinglePieceAlone) {
   const auto self = Communicator::self();
   DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 0, 3), 1);
-  EXPECT_EQ(relax_borders(self, mesh, measure, 2), 0);
+  EXPECT_EQ(relax(self, mesh, 2), 0);
 }
 
 TEST(Scatter, MovesVerticesInsideALittleAndInvertsNothing) {
@@ -186,7 +190,8 @@ TEST(BadCells, FollowRounds) {
     parallel::StageClock clock;
     for (int shift = 0; shift < 4; ++shift) {
       if (world.sum(wish_for_bad(mesh, bad, measure, shift, Effort::sparing, wishes)) == 0) break;
-      bad.update(mesh, cavities::refill_cavities(world, mesh, wishes, {}, improve, clock));
+      bad.update(mesh, cavities::refill_cavities(world, mesh, mesh::SharedVertices(world, mesh), wishes, {},
+                                                 improve, clock));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
       BadState all;

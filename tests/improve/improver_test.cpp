@@ -1,6 +1,6 @@
 #include "improve/improver.hpp"
 
-#include "mesh/sharing.hpp"
+#include "mesh/shared_vertices.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,8 @@ TEST(ImproveMesh, DependsOnThePiecesAlone) {
     parallel::StageClock clock;
     report = improve_mesh(communicator, mesh, {}, clock);
     expect_valid(communicator, mesh);
-    EXPECT_EQ(mesh::forget_unshared(communicator, mesh), 0) << "vertices of one piece listed as shared";
+    EXPECT_EQ(mesh::SharedVertices(communicator, mesh).drop_unshared(mesh), 0)
+        << "vertices of one piece listed as shared";
     return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
   };
   ImproveReport spread, alone, again;
