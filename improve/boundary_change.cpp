@@ -10,7 +10,6 @@ namespace aeroloom::improve {
 namespace {
 
 const double least_cosine = std::cos(20 * std::numbers::pi / 180);
-constexpr double most_growth = 1.5;     // of edges
 constexpr double decent_quality = 0.5;  // of a triangle: below this it must not get worse
 
 struct Shape {

@@ -17,6 +17,9 @@ inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corn
   return {mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
 }
 
+/// Of edges of the boundary, over the longest one before.
+inline constexpr double most_growth = 1.5;
+
 /// Whether new triangles may take the place of old ones: no normal turns by more than 20 degrees against any
 /// old one, no edge is longer than 1.5 times the longest one before, and the worst shape is at least as good
 /// as before or 0.5 (of a mean ratio). All corners stay on the CAD face, so the chordal error stays that of

@@ -1,8 +1,10 @@
 #include "improve/curve_wedges.hpp"
 
+#include "geometry/angle.hpp"
+#include "improve/cad_dimension.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -14,9 +16,6 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-constexpr double degrees = 180 / std::numbers::pi;
-constexpr int on_curve = 1;
-
 /// What one piece knows of an edge.
 struct EdgeShare {
   std::int64_t edge, piece;
@@ -27,7 +26,7 @@ struct EdgeShare {
 double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 axis = b - a;
   const Vec3 left = cross(axis, c - a), right = cross(axis, d - a);
-  return degrees * std::atan2(norm(cross(left, right)), dot(left, right));
+  return geometry::degrees_per_radian * std::atan2(norm(cross(left, right)), dot(left, right));
 }
 
 void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {

@@ -1,13 +1,12 @@
 #include "improve/edge_contraction.hpp"
 
+#include "improve/cad_dimension.hpp"
+
 #include <algorithm>
 #include <limits>
 
 namespace aeroloom::improve {
 namespace {
-
-constexpr double most_growth = 1.5;  // of edges
-constexpr int on_face = 2, in_region = 3;
 
 bool has(const TriangleCorners& corners, LocalIndex v) {
   return corners[0] == v || corners[1] == v || corners[2] == v;

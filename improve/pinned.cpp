@@ -1,5 +1,7 @@
 #include "improve/pinned.hpp"
 
+#include "geometry/angle.hpp"
+#include "improve/cad_dimension.hpp"
 #include "improve/curve_wedges.hpp"
 #include "improve/sharp_curves.hpp"
 #include "improve/strip_edges.hpp"
@@ -10,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -22,8 +23,6 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-constexpr double degrees = 180 / std::numbers::pi;
-constexpr int on_curve = 1;
 /// What is said of wedges holds up to this factor: curves are no lines, faces no planes.
 constexpr double wedge_slack = 2;
 /// Degrees by which rounding may set the two measures of an angle apart, at most.
@@ -34,7 +33,7 @@ double largest_allowed(double target) {
 }
 
 double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {
-  return degrees * std::atan2(norm(cross(a - tip, b - tip)), dot(a - tip, b - tip));
+  return geometry::degrees_per_radian * std::atan2(norm(cross(a - tip, b - tip)), dot(a - tip, b - tip));
 }
 
 class PinnedSearch {
@@ -230,7 +229,8 @@ bool PinnedSearch::pinned_by_wedge(std::size_t i, const BadTet& bad, const WallP
   const auto curve =
       _sharp_curves.nearest(piece.region, walls.low, walls.high, 0.25 * (p[0] + p[1] + p[2] + p[3]));
   if (!curve || wedge_slack * bad.angles.smallest < curve->angle) return false;
-  if (wedge_slack * walls.gap < curve->distance * std::tan(curve->angle / degrees)) return false;
+  if (wedge_slack * walls.gap < curve->distance * std::tan(curve->angle / geometry::degrees_per_radian))
+    return false;
   _entities.push_back({.faces = {walls.low, walls.high},
                        .angle = curve->angle,
                        .smallest_dihedral = bad.angles.smallest,

@@ -1,5 +1,7 @@
 #include "improve/reach.hpp"
 
+#include "improve/cad_dimension.hpp"
+
 #include <cmath>
 
 namespace aeroloom::improve {
@@ -8,7 +10,6 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 
-constexpr int on_curve = 1;
 /// Of the target: less must be within reach where a strip counts as one. Triangles up to five times as long
 /// as wide are mended like others.
 constexpr double narrow = 0.9;

@@ -1,5 +1,7 @@
 #include "improve/sliding.hpp"
 
+#include "improve/cad_dimension.hpp"
+
 #include <algorithm>
 
 namespace aeroloom::improve {
@@ -7,10 +9,9 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr int on_edge = 1, on_face = 2;
 /// In mean distances to the neighbours: how far from the CAD a vertex may be found to count as lying on it.
 constexpr double nearness = 1e-4;
-constexpr double least_gain = 0.01;  // of quality
+constexpr double least_sliding_gain = 0.01;  // of quality
 
 /// Triangles at the free point that may change gently.
 class GentleTriangles {
@@ -111,7 +112,7 @@ double Sliding::mean_distance(const TetMesh& mesh, LocalIndex vertex) const {
 
 bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star) {
   const int dimension = mesh.dimension(vertex);
-  if (mesh.is_shared(vertex) || (dimension != on_face && dimension != on_edge)) return false;
+  if (mesh.is_shared(vertex) || (dimension != on_face && dimension != on_curve)) return false;
   mesh.collect_star(vertex, star);
   if (!collect_triangles(mesh, vertex, star)) return false;
   const cad::Model& model = _locator.model();
@@ -125,12 +126,12 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
     if (!_smoothing.promises(mesh, vertex, star, plane, Smoothing::least_gain)) return false;
     if (const auto uv = _locator.on_face(entity, mesh.point(vertex), tolerance)) {
       FaceLocus locus(model, entity, *uv, gentle);
-      moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_gain);
+      moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_sliding_gain);
     }
   } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand beyond
     if (const auto parameter = _locator.on_edge(entity, mesh.point(vertex), tolerance)) {
       EdgeLocus locus(model, entity, *parameter, gentle);
-      moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_gain);
+      moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_sliding_gain);
     }
   }
   if (moved) mesh.note_slid_triangles(_triangles.size());

@@ -7,7 +7,7 @@ namespace aeroloom::improve {
 namespace {
 
 constexpr int most_steps = 12;          // of the ascent
-constexpr int most_halvings = 6;        // of one step
+constexpr int halvings_of_step = 6;     // of one step
 constexpr double active_margin = 0.02;  // of quality: cones this close to the worst one shape the direction
 
 /// The point of the convex hull of the vectors that lies next to the origin, by conditional gradients: the
@@ -81,7 +81,7 @@ double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality, 
     const Vec3 direction = normalized(ascent_direction(measure, p, quality, 1e-6 * size, locus));
     const double start = quality;
     Vec3 best = p;
-    for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
+    for (int halving = 0; halving <= halvings_of_step; ++halving, length *= 0.5) {
       Vec3 candidate = p + length * direction;
       const double reached = worst_on(measure, candidate, quality, locus);
       if (reached <= quality) {

@@ -1,5 +1,7 @@
 #include "improve/strip_triangles.hpp"
 
+#include "improve/cad_dimension.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,7 +17,6 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-constexpr int cad_vertex = 0, on_curve = 1;
 /// Two curves run along each other where their segments enclose less than this.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
@@ -50,9 +51,9 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int i = 0; i < 3; ++i) {
       for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
-        if (piece.vertex_dimension[v[i]] != cad_vertex || piece.vertex_dimension[v[k]] > on_curve) continue;
+        if (piece.vertex_dimension[v[i]] != at_vertex || piece.vertex_dimension[v[k]] > on_curve) continue;
         const std::int32_t vertex = piece.vertex_entity[v[i]], entity = piece.vertex_entity[v[k]];
-        const bool between_vertices = piece.vertex_dimension[v[k]] == cad_vertex;
+        const bool between_vertices = piece.vertex_dimension[v[k]] == at_vertex;
         edges.push_back({vertex, piece.triangle_face[t],
                          between_vertices ? name_of_segment(vertex, entity) : entity, names[v[k]],
                          piece.point(v[k]) - piece.point(v[i])});
@@ -108,7 +109,7 @@ public:
     const Vec3 p = _piece.point(a), q = _piece.point(b), r = _piece.point(c);
     const Vec3 direction = distance(p, r) < distance(q, r) ? q - p : p - q;
     const auto is_apart = [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); };
-    if (_piece.vertex_dimension[c] != cad_vertex) return std::any_of(_at_c.begin(), _at_c.end(), is_apart);
+    if (_piece.vertex_dimension[c] != at_vertex) return std::any_of(_at_c.begin(), _at_c.end(), is_apart);
     // A short segment across the end of a curve makes no strip of the curves that it joins.
     const auto curves = curves_at(_piece.vertex_entity[c], face);
     return std::any_of(curves.begin(), curves.end(), [&](const CurveAtVertex& curve) {
@@ -121,7 +122,7 @@ private:
   void list(LocalIndex v, std::int32_t face, std::vector<CurveName>& names) const {
     names.clear();
     const std::int32_t entity = _piece.vertex_entity[v];
-    if (_piece.vertex_dimension[v] != cad_vertex) {
+    if (_piece.vertex_dimension[v] != at_vertex) {
       names.push_back(entity);
       return;
     }

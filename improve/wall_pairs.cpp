@@ -1,5 +1,7 @@
 #include "improve/wall_pairs.hpp"
 
+#include "improve/cad_dimension.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,8 +13,6 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::Piece;
-
-constexpr int on_curve = 1, on_face = 2;
 
 /// The distance between the plane or line through the corners in the set and that through the others;
 /// infinite where they are no plane or line.

@@ -77,14 +77,14 @@ Header unpack_header(std::span<const std::byte> bytes) {
   return header;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+[[noreturn]] void refuse_checkpoint(const std::string& path, const std::string& why) {
   throw std::ios_base::failure(fmt::format("'{}' is damaged: {}", path, why));
 }
 
 void read_at(std::ifstream& stream, const std::string& path, std::int64_t offset, std::span<std::byte> to) {
   stream.seekg(offset);
   stream.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
-  if (!stream) refuse(path, "it cannot be read to its end");
+  if (!stream) refuse_checkpoint(path, "it cannot be read to its end");
 }
 
 /// The packed header, checked; rank 0 reads it. Empty where there is no file.
@@ -94,15 +94,17 @@ Bytes read_header(const std::string& path, Preamble& preamble) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw std::ios_base::failure("cannot open '" + path + "'");
   read_at(stream, path, 0, std::as_writable_bytes(std::span(&preamble, 1)));
-  if (preamble.magic != magic) refuse(path, "it does not begin as a checkpoint does");
+  if (preamble.magic != magic) refuse_checkpoint(path, "it does not begin as a checkpoint does");
   if (preamble.version != version)
-    refuse(path, fmt::format("layout {}, this program reads {}", preamble.version, version));
+    refuse_checkpoint(path, fmt::format("layout {}, this program reads {}", preamble.version, version));
   if (preamble.file_bytes != size)
-    refuse(path, fmt::format("{} bytes, its beginning says {}", size, preamble.file_bytes));
-  if (preamble.header_bytes <= 0 || preamble.header_bytes > size) refuse(path, "its header is too long");
+    refuse_checkpoint(path, fmt::format("{} bytes, its beginning says {}", size, preamble.file_bytes));
+  if (preamble.header_bytes <= 0 || preamble.header_bytes > size)
+    refuse_checkpoint(path, "its header is too long");
   Bytes header(static_cast<std::size_t>(preamble.header_bytes));
   read_at(stream, path, sizeof preamble, header);
-  if (preamble.right_digest(header) != preamble.digest) refuse(path, "its header is not what was written");
+  if (preamble.right_digest(header) != preamble.digest)
+    refuse_checkpoint(path, "its header is not what was written");
   return header;
 }
 
@@ -140,7 +142,8 @@ Bytes read_checked(std::ifstream& stream, const std::string& path, const Row& ro
   Bytes bytes(static_cast<std::size_t>(row.bytes));
   read_at(stream, path, offset, bytes);
   if (parallel::digest_of(bytes) != row.digest)
-    refuse(path, fmt::format("the {} bytes from {} on are not what was written", row.bytes, offset));
+    refuse_checkpoint(path,
+                      fmt::format("the {} bytes from {} on are not what was written", row.bytes, offset));
   return bytes;
 }
 

@@ -9,14 +9,14 @@ namespace aeroloom::io {
 
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 20;
+constexpr std::size_t write_buffer_size = std::size_t{1} << 20;
 
 }  // namespace
 
 LocalFile::LocalFile(std::string path) : _path(std::move(path)), _file(std::fopen(_path.c_str(), "wb")) {
   if (!_file) fail("cannot create");
   std::setvbuf(_file.get(), nullptr, _IONBF, 0);
-  _buffer.reserve(buffer_size);
+  _buffer.reserve(write_buffer_size);
 }
 
 void LocalFile::fail(const char* what) const {
@@ -29,8 +29,8 @@ void LocalFile::flush() {
 }
 
 void LocalFile::write(std::span<const std::byte> bytes) {
-  if (_buffer.size() + bytes.size() > buffer_size) flush();
-  if (bytes.size() >= buffer_size) {
+  if (_buffer.size() + bytes.size() > write_buffer_size) flush();
+  if (bytes.size() >= write_buffer_size) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), _file.get()) != bytes.size()) fail("cannot write");
     return;
   }

@@ -69,7 +69,7 @@ struct PartSums {
 };
 
 /// An amount that a part contributes to region or patch `id`.
-struct Share {
+struct AmountOfPart {
   std::int32_t part, id;
   double amount;
 };
@@ -80,7 +80,7 @@ public:
   std::array<std::array<Accumulator, measure_count>, cell_shape_count> of;
   std::vector<PartSums> sums;
   std::array<std::vector<WorstCellOfShape>, measure_count> worst;
-  std::vector<Share> region_volumes, patch_areas;
+  std::vector<AmountOfPart> region_volumes, patch_areas;
 
   void add_part(const FilePart& part, const std::vector<double>& volumes, const std::vector<double>& ratios) {
     PartSums sum{part.id};
@@ -169,10 +169,10 @@ std::vector<Row> by_part(const parallel::Communicator& communicator, const std::
 }
 
 /// Collective.
-std::vector<double> add_shares(const parallel::Communicator& communicator, const std::vector<Share>& mine,
-                               std::size_t count) {
+std::vector<double> add_shares(const parallel::Communicator& communicator,
+                               const std::vector<AmountOfPart>& mine, std::size_t count) {
   std::vector<double> sums(count, 0.0);
-  for (const Share& share : by_part(communicator, mine))
+  for (const AmountOfPart& share : by_part(communicator, mine))
     sums.at(static_cast<std::size_t>(share.id)) += share.amount;
   return sums;
 }

@@ -3,6 +3,7 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/environment.hpp"
 #include "parallel/host.hpp"
+#include "parallel/process_memory.hpp"
 #include "parallel/session.hpp"
 
 #include <algorithm>
@@ -28,20 +29,6 @@ struct Limit {
 Limit& limit() {
   static Limit instance;
   return instance;
-}
-
-/// A figure of /proc/self/status in bytes; 0 where the system does not tell.
-std::int64_t status_bytes(const char* key) {
-  std::FILE* file = std::fopen("/proc/self/status", "r");
-  if (!file) return 0;
-  char line[256];
-  long long kibibytes = 0;
-  const std::size_t length = std::strlen(key);
-  while (std::fgets(line, sizeof line, file)) {
-    if (std::strncmp(line, key, length) == 0 && std::sscanf(line + length, ": %lld", &kibibytes) == 1) break;
-  }
-  std::fclose(file);
-  return 1024 * static_cast<std::int64_t>(kibibytes);
 }
 
 /// Once it has struck, the way out needs memory, too.

@@ -23,7 +23,7 @@ struct SharedFile::Handle {
 namespace {
 
 /// Counts of the library are 32-bit.
-constexpr std::size_t largest_part = std::size_t{1} << 28;
+constexpr std::size_t largest_transfer = std::size_t{1} << 28;
 
 void require_success(int code, const char* what, const std::string& path) {
   if (code == MPI_SUCCESS) return;
@@ -74,8 +74,8 @@ void work_and_close(const Communicator& communicator, SharedFile::Handle& handle
 }  // namespace
 
 void SharedFile::write(std::int64_t offset, std::span<const std::byte> bytes) {
-  for (std::size_t begin = 0; begin < bytes.size(); begin += largest_part) {
-    const std::size_t count = std::min(largest_part, bytes.size() - begin);
+  for (std::size_t begin = 0; begin < bytes.size(); begin += largest_transfer) {
+    const std::size_t count = std::min(largest_transfer, bytes.size() - begin);
     MPI_Status status;
     require_success(MPI_File_write_at(_handle.file, offset + static_cast<std::int64_t>(begin),
                                       bytes.data() + begin, static_cast<int>(count), MPI_BYTE, &status),

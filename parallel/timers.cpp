@@ -1,5 +1,6 @@
 #include "parallel/timers.hpp"
 
+#include "parallel/process_memory.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/session.hpp"
 
@@ -27,25 +28,6 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A memory figure of a file of /proc/self, in bytes; 0 where the system does not tell.
-std::int64_t bytes_of(const char* path, const char* key) {
-  std::FILE* status = std::fopen(path, "r");
-  if (!status) return 0;
-  char line[256];
-  long long kibibytes = 0;
-  const std::size_t length = std::strlen(key);
-  while (std::fgets(line, sizeof line, status)) {
-    if (std::strncmp(line, key, length) == 0 && std::sscanf(line + length, ": %lld", &kibibytes) == 1) break;
-  }
-  std::fclose(status);
-  return 1024 * static_cast<std::int64_t>(kibibytes);
-}
-
-/// Resource usage would not do instead: its peak survives exec and may be that of the launcher.
-std::int64_t status_bytes(const char* key) {
-  return bytes_of("/proc/self/status", key);
-}
-
 /// Resident pages of files and of shared memory.
 std::int64_t shared_bytes() {
   return status_bytes("RssFile") + status_bytes("RssShmem");
@@ -55,7 +37,7 @@ std::int64_t shared_bytes() {
 /// system does not tell.
 std::int64_t share_of_shared_bytes() {
   const char* path = "/proc/self/smaps_rollup";
-  const std::int64_t share = bytes_of(path, "Pss_File") + bytes_of(path, "Pss_Shmem");
+  const std::int64_t share = process_memory(path, "Pss_File") + process_memory(path, "Pss_Shmem");
   return share > 0 ? share : shared_bytes();
 }
 

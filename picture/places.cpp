@@ -1,5 +1,6 @@
 #include "picture/places.hpp"
 
+#include "geometry/angle.hpp"
 #include "parallel/collective_error.hpp"
 #include "picture/line_items.hpp"
 
@@ -17,9 +18,9 @@ using mesh::DistributedMesh;
 using mesh::LocalIndex;
 using parallel::Communicator;
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double sharp = 40 * degree;   ///< edges count on their own from here on
-constexpr double corner = 75 * degree;  ///< coarse triangles on a rounding turn by less
+using geometry::degree;
+constexpr double sharp_turn = 40 * degree;  ///< edges count on their own from here on
+constexpr double corner = 75 * degree;      ///< coarse triangles on a rounding turn by less
 constexpr Vec3 upstream{-1, 0, 0};
 
 /// How a triangle is curved; positive where it is convex for the flow.
@@ -110,14 +111,14 @@ bool flow_divides(Vec3 normal, Vec3 along, double angle) {
   return dot(normal, upstream) > 0.3 && std::abs(dot(upstream, cross(along, normal))) < std::sin(angle);
 }
 
-/// Bits of leading edges. Each sharp edge comes from both of its triangles.
+/// Bits of leading edges. Each sharp_turn edge comes from both of its triangles.
 std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::Numbering& numbering,
                                     const Folds& folds, const Scene& scene) {
   std::vector<LineItem> items;
   const double diagonal = scene.box.diagonal();
   for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] < sharp) continue;
+      if (e.turns[i] < sharp_turn) continue;
       if (flow_divides(e.bisectors[i], normalized(e.edge(i)), 0.45 * e.turns[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
@@ -170,11 +171,11 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
       if (const Sharpest here{angle, item}; beats(here, mine)) mine = here;
     };
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] >= sharp) take(e.turns[i], item_of_edge(e, i, vertices));
+      if (e.turns[i] >= sharp_turn) take(e.turns[i], item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
     if (curvature.largest * scene.box.diagonal() > 8)
-      take(std::min(curvature.largest * e.size, sharp), item_of_triangle(e, curvature, vertices));
+      take(std::min(curvature.largest * e.size, sharp_turn), item_of_triangle(e, curvature, vertices));
   });
   std::vector<Sharpest> all = communicator.all_gather_items<Sharpest>(std::span<const Sharpest>(&mine, 1));
   const Sharpest& best = *std::min_element(all.begin(), all.end(), beats);

@@ -5,6 +5,7 @@
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/option_keys.hpp"
+#include "pipeline/place_text.hpp"
 #include "pipeline/shown_changes.hpp"
 #include "pipeline/size_domain.hpp"
 #include "pipeline/text_file.hpp"
@@ -41,10 +42,6 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   forecast.piece_triangles = std::clamp<std::int64_t>(std::llround(triangles / pieces), 1000, 200'000);
   forecast.piece_tets = std::clamp<std::int64_t>(std::llround(tetrahedra / pieces), 10'000, 1'000'000);
   return forecast;
-}
-
-std::string place(geometry::Vec3 p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
 std::string describe_reading(const Case& input, const cad::Diagnosis& found) {

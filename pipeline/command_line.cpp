@@ -15,7 +15,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
-constexpr const char* description =
+constexpr const char* program_description =
     "Aeroloom: from aircraft CAD to a distributed tetrahedral mesh.\n"
     "There are no boundary layers: all elements are isotropic tetrahedra.";
 
@@ -45,7 +45,7 @@ void describe_program(CLI::App& program) {
 }  // namespace
 
 int run_command_line(const parallel::Communicator& communicator, int argc, char** argv) {
-  CLI::App program(description, "aeroloom");
+  CLI::App program(program_description, "aeroloom");
   describe_program(program);
   Loudness loudness;
   add_loudness(program, loudness);

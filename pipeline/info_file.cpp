@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using parallel::Communicator;
 
-constexpr int schema_version = 1;
+constexpr int info_schema_version = 1;
 
 bool ends_like(const std::string& file, const std::vector<std::string>& ends) {
   return std::any_of(ends.begin(), ends.end(), [&](const std::string& end) { return file.ends_with(end); });
@@ -78,7 +78,7 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
   std::error_code ignored;  // the size is told where there is one
   const std::uintmax_t bytes = std::filesystem::file_size(request.file, ignored);
   if (request.print_json) {
-    Json json = {{"schema_version", schema_version}, {"file", request.file}};
+    Json json = {{"schema_version", info_schema_version}, {"file", request.file}};
     json["bytes"] = ignored ? Json() : Json(bytes);
     json.update(facts);
     print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -2,6 +2,7 @@
 
 #include "io/read_mesh.hpp"
 #include "pipeline/change_json.hpp"
+#include "pipeline/place_text.hpp"
 
 #include <algorithm>
 
@@ -18,10 +19,6 @@ constexpr std::size_t shown_names = 20;
 
 Json box_json(const geometry::Box& box) {
   return {to_json(box.low), to_json(box.high)};
-}
-
-std::string place(geometry::Vec3 p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
 std::string box_text(const geometry::Box& box) {

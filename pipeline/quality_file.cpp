@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int schema_version = 1;
+constexpr int quality_schema_version = 1;
 
 Json mesh_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
   return {{"points", mesh.vertex_count},
@@ -57,7 +57,7 @@ Json patches_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
 Json report_json(const std::string& path, const io::Assembled& file, const io::MixedQuality& quality,
                  const std::string& missed) {
   const io::LinkDefects& defects = quality.defects;
-  return {{"schema_version", schema_version},
+  return {{"schema_version", quality_schema_version},
           {"file", path},
           {"mesh", mesh_json(file.mesh, quality)},
           {"regions", regions_json(file.mesh, quality)},

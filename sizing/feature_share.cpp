@@ -19,7 +19,7 @@ constexpr double finest_point = 0.05;    // of the minimum, at short edges and s
 constexpr double finest_over_gap = 0.5;  // of the widest gap that was sewn
 // Of the budget: what is aimed at, and what is near enough to it.
 constexpr double aim = 0.93, well_used = 0.85;
-constexpr int most_rounds = 8;
+constexpr int bisection_rounds = 8;
 constexpr double same_floor = 0.05;  // logarithm of two floors that are as good as equal
 // Fields that are coarser have so many times fewer leaves, at most.
 constexpr double slack = 4;
@@ -54,7 +54,7 @@ public:
     }
     double low = lowest, high = _options.minimum, floor = lowest;
     Known known{_options.minimum, 1};
-    for (int round = 0; round < most_rounds && std::log(high / low) > same_floor; ++round) {
+    for (int round = 0; round < bisection_rounds && std::log(high / low) > same_floor; ++round) {
       const std::optional<double> tetrahedra = count(floor);
       const double share = tetrahedra ? *tetrahedra / *base : 0;
       if (tetrahedra && floor < known.floor) known = {floor, share};

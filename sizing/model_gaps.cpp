@@ -18,9 +18,8 @@ using parallel::ScopedCpu;
 // Gaps that are looked for, and the shortest edge of the facets rays start from, as parts of the body's
 // extent.
 constexpr double narrow_gap = 20, finest_gap = 400;
-// Rays on a facet that is bisected down to an edge, times the square of that edge, over its area; and how
-// many rays all faces together may take, about.
-constexpr double rays_per_area = 24, most_rays = 2e6;
+// How many rays all faces together may take, about.
+constexpr double most_rays = 2e6;
 // And those that look closer at open gaps.
 constexpr double most_close_rays = 3e5;
 

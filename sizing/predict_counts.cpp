@@ -1,3 +1,4 @@
+#include "sizing/curvature_size.hpp"
 #include "sizing/model_sampler.hpp"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
 constexpr double tetrahedra_per_volume = 11.3;
 constexpr double facet_per_size = 3;  // edge of a part of a facet that one value of h stands for
 constexpr double cube_per_size = 1;   // edge of a cube on the boundary that one value of h stands for
-constexpr int deepest_bisection = 40;
 constexpr int deepest_subdivision = 8;
 constexpr std::int64_t leaves_per_task = 1024;
 

@@ -17,18 +17,16 @@ using geometry::Vec3;
 constexpr double facing = -0.5;          // largest cosine between normals of walls that face each other
 constexpr double edge_per_size = 4;      // of facets that one ray stands for
 constexpr double wedge_slenderness = 8;  // distance to the common edge over the gap
-constexpr int deepest_bisection = 24;
+constexpr int deepest_edge_split = 24;
 // Walls that meet in an edge run together where the gap, at their angle, closes within so many times the way
 // to it.
 constexpr double closing_reach = 2;
-// Rays on a facet that is bisected down to an edge, times the square of that edge, over its area.
-constexpr double rays_per_area = 24;
 // Rays on the narrow facets of a face over those predicted, at most, and a few for those that have hardly
 // any.
 constexpr double most_over_predicted = 3;
 constexpr std::int64_t few_rays = 1000;
 // The middle of a facet's parameters is no point beside it where it is farther away, over the longest edge.
-constexpr double farthest_middle = 0.25;
+constexpr double middle_off_facet = 0.25;
 // An open gap over what walls may be off by, at least: the distance of both its facets from the surface and
 // the accuracy of the model, what was sewn or this part of the widest gap.
 constexpr double gap_over_error = 2, accuracy = 1e-5;
@@ -120,7 +118,7 @@ private:
     const auto [from, length] = longest_edge(t);
     // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
     const double fine = std::max(_finest, _edge_per_gap * std::min(gap, _widest));
-    if (length > fine && depth < deepest_bisection) {
+    if (length > fine && depth < deepest_edge_split) {
       for (const Triangle& half : bisect(t, from)) cover(half, depth + 1);
     } else if (length > _edge_per_gap * open) {
       _gaps.narrow.push_back({t, open, _deviation});
@@ -137,7 +135,7 @@ private:
     const double open = look_around(center, normal).open;
     if (open <= _widest) _gaps.open.push_back({center, open}), gap = open;
     const auto [from, length] = longest_edge(t);
-    if (length <= _edge_per_gap * gap || depth >= deepest_bisection) return;
+    if (length <= _edge_per_gap * gap || depth >= deepest_edge_split) return;
     for (const Triangle& half : bisect(t, from)) cover_narrow(half, gap, depth + 1);
   }
 
@@ -198,7 +196,7 @@ std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, 
       const Triangle corners{facets.points[a], facets.points[b], facets.points[c]};
       deviation =
           std::min(distance(model.face_point(face, middle), (corners[0] + corners[1] + corners[2]) / 3),
-                   farthest_middle * longest_edge(corners).length);
+                   middle_off_facet * longest_edge(corners).length);
     }
     deviations.push_back(deviation);
   }

@@ -9,6 +9,9 @@
 
 namespace aeroloom::sizing {
 
+/// Rays on a facet that is bisected down to an edge, times the square of that edge, over its area.
+inline constexpr double rays_per_area = 24;
+
 /// A point of a face with the distance to the wall opposite to it.
 struct Gap {
   geometry::Vec3 point;

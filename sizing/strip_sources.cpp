@@ -1,5 +1,6 @@
 // Narrow faces: where two edges of a face come closer than its elements are large.
 #include "sizing/closed_corners.hpp"
+#include "sizing/curvature_size.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/segment_tree.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 using cad::Facets;
 using geometry::Vec3;
 
-constexpr int deepest_bisection = 40;
 constexpr int facets_per_leaf = 8;
 
 /// The boundary lines of one face, which of them lie opposite each other, and how far apart.

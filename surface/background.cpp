@@ -1,5 +1,6 @@
 #include "surface/background.hpp"
 
+#include "geometry/angle.hpp"
 #include "surface/boundary_thinning.hpp"
 #include "surface/parameters.hpp"
 #include "surface/support_mesher.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -18,7 +18,7 @@ using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr double degree = std::numbers::pi / 180;
+using geometry::degree;
 /// Of curves and of the surface along an edge of the background.
 constexpr double largest_turn = 30 * degree;
 /// But no edge is shorter than so many fine ones for that.

@@ -1,5 +1,6 @@
 #include "surface/chart.hpp"
 
+#include "geometry/angle.hpp"
 #include "surface/conformal_map.hpp"
 #include "surface/cut_curves.hpp"
 #include "surface/plane_cut.hpp"
@@ -8,14 +9,13 @@
 #include "surface/surface_error.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
 namespace aeroloom::surface {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using geometry::degree;
 /// Below this spread of normals a parallel projection stretches by less than 7 %.
 constexpr double projection_spread = 20 * degree;
 /// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,

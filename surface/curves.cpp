@@ -32,7 +32,7 @@ struct PlacedVertex {
 };
 
 /// The part of an edge between its legs, where the field alone spreads vertices.
-struct Stretch {
+struct FreeStretch {
   double from, to;  // parameters
   int legs = 0;
 
@@ -40,9 +40,9 @@ struct Stretch {
   bool has_leg_at_last(const Edge& edge) const { return to < edge.last_parameter; }
 };
 
-Stretch between_legs(const Model& model, EdgeId id, const std::array<double, 2>& legs) {
+FreeStretch between_legs(const Model& model, EdgeId id, const std::array<double, 2>& legs) {
   const Edge& edge = model.edge(id);
-  Stretch stretch{edge.first_parameter, edge.last_parameter};
+  FreeStretch stretch{edge.first_parameter, edge.last_parameter};
   if (legs[0] > 0) stretch.from = cad::parameter_at(model, {id, true}, legs[0]).value_or(stretch.from);
   if (legs[1] > 0) stretch.to = cad::parameter_at(model, {id, false}, legs[1]).value_or(stretch.to);
   if (!(stretch.from < stretch.to)) return {edge.first_parameter, edge.last_parameter};
@@ -51,7 +51,7 @@ Stretch between_legs(const Model& model, EdgeId id, const std::array<double, 2>&
 }
 
 MetricLength metric_length(const Model& model, const sizing::SizeField& field, EdgeId edge,
-                           const Stretch& stretch) {
+                           const FreeStretch& stretch) {
   auto density = [&model, &field, edge](double t) {
     return geometry::norm(model.edge_tangent(edge, t)) / field(model.edge_point(edge, t));
   };
@@ -107,7 +107,7 @@ EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& leng
 }
 
 std::vector<PlacedVertex> place_vertices(const Model& model, EdgeId id, const MetricLength& length,
-                                         const Stretch& stretch, int segments) {
+                                         const FreeStretch& stretch, int segments) {
   const Edge& edge = model.edge(id);
   std::vector<double> parameters = equal_parts(length, segments - stretch.legs);
   if (stretch.has_leg_at_first(edge)) parameters.insert(parameters.begin(), stretch.from);
@@ -197,7 +197,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   std::vector<EdgeId> mine;
   std::vector<MetricLength> lengths;
   std::vector<EdgeMeasure> measures;
-  std::vector<Stretch> stretches;
+  std::vector<FreeStretch> stretches;
   std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field, clock);
   shorten_legs(model, field, short_legs, corners);
   const auto legs = legs_of_edges(model, corners);

@@ -107,7 +107,7 @@ SeedPieces make_pieces(CutFace cut, const sizing::SizeField& field) {
 }
 
 /// What divide_seed() is asked for.
-struct Division {
+struct DivisionRequest {
   const cad::Model& model;
   const PieceSeed& seed;
   std::int32_t group;
@@ -117,7 +117,7 @@ struct Division {
 
 /// The method of Chen, Zhao, Zheng et al., a verb each. Nothing where there is no background mesh as coarse
 /// as 2^power fine sizes.
-std::optional<SeedPieces> divide(const Division& wanted, int power, CoarseSizes& sizes) {
+std::optional<SeedPieces> divide(const DivisionRequest& wanted, int power, CoarseSizes& sizes) {
   const auto& [model, seed, group, parts, options] = wanted;
   const sizing::SizeField& fine = sizes.fine();
 
@@ -161,7 +161,7 @@ SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t gro
   const double parts = count_parts(seed, options);
   const double factor = std::sqrt(seed.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
-  const Division wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};
+  const DivisionRequest wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};
   for (int at = power; at >= std::max(0, power - most_halvings); --at) {
     if (std::optional<SeedPieces> pieces = divide(wanted, at, sizes)) return std::move(*pieces);
   }

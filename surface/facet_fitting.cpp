@@ -16,7 +16,7 @@ using geometry::Vec3;
 /// Edges between points whose normals differ by more (20 degrees) are divided, and so is the longest edge of
 /// a triangle that leans away from the normals of its corners (30 degrees), in so many rounds.
 constexpr double turning_cosine = 0.94, leaning_cosine = 0.87;
-constexpr int dividing_rounds = 4;
+constexpr int fitting_rounds = 4;
 /// Unless the edge is shorter than this part of the elements: where sizes do not resolve the curvature,
 /// facets as short in every direction would be many times as many.
 constexpr double finest_over_size = 0.125;
@@ -51,7 +51,7 @@ void OpenFacets::fit_to_surface(const sizing::SizeField& field) {
     triangulate_again(frames);
     flip(frames);
   }
-  for (int round = 0; round < dividing_rounds && divide_turning_edges(frames, field); ++round) {
+  for (int round = 0; round < fitting_rounds && divide_turning_edges(frames, field); ++round) {
     frame_new_points();
     flip(frames);
   }

@@ -148,7 +148,7 @@ std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& co
   return at_hand;
 }
 
-double shortest_edge(const NamedTriangle& t) {
+double shortest_side(const NamedTriangle& t) {
   return std::min({distance(t.points[0], t.points[1]), distance(t.points[1], t.points[2]),
                    distance(t.points[2], t.points[0])});
 }
@@ -158,7 +158,7 @@ TriangleHit make_hit(mesh::PieceId piece_a, const BatchTriangle& a, mesh::PieceI
   const auto& [p, q, r] = a.corners.points;
   if (std::tie(piece_b, b.cell) < std::tie(piece_a, a.cell)) return make_hit(piece_b, b, piece_a, a);
   return {piece_a, piece_b,           a.cell,
-          b.cell,  (p + q + r) / 3.0, std::min(shortest_edge(a.corners), shortest_edge(b.corners))};
+          b.cell,  (p + q + r) / 3.0, std::min(shortest_side(a.corners), shortest_side(b.corners))};
 }
 
 /// The triangles that reach into a box, by their low end along an axis.

@@ -21,8 +21,6 @@ constexpr double smallest_edge = 0.3, largest_edge = 1.5;
 /// What the clearance grows by in each step of a retry.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
-/// Trilinear interpolation may be steeper than the growth limit by this factor.
-constexpr double slope_margin = std::numbers::sqrt3;
 
 /// A slot's place in its leaf, in halves of the leaf's edge.
 constexpr int slot_places[slots_per_leaf][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},

@@ -12,8 +12,6 @@ namespace {
 
 /// Cubes that are looked at by every rank alike, before the rest is shared out.
 constexpr std::size_t common_cells = 4096;
-/// Trilinear interpolation may be steeper than the growth limit by this factor.
-constexpr double slope_margin = std::numbers::sqrt3;
 
 /// Finds the cubes that sizes want split.
 class SplitSearch {

@@ -10,9 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace aeroloom::volume {
+
+/// Trilinear interpolation may be steeper than the growth limit by this factor.
+inline constexpr double slope_margin = std::numbers::sqrt3;
 
 using BlockIndex = std::int32_t;  ///< of a block, along the Morton curve
 

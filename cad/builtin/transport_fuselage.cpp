@@ -12,7 +12,7 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr int degree = 3;
+constexpr int spline_degree = 3;
 constexpr int nose_stations = 6;  // over a quarter of an ellipse
 constexpr int tail_stations = 8;
 constexpr double cabin_station_spacing = 1.5;  // in radii
@@ -51,17 +51,17 @@ Fuselage::Fuselage(const TransportDimensions& d) {
   _stations.push_back({d.fuselage_length, 0.6 * end_radius, d.tail_upsweep});
   _stations.push_back({d.fuselage_length, 0, d.tail_upsweep});
   // With knots 0, 1, 2, ... the control point i rules around the parameter i - 1.
-  const auto spans = static_cast<double>(_stations.size() - degree);
+  const auto spans = static_cast<double>(_stations.size() - spline_degree);
   _breaks = {0, cabin_front - 1, cabin_end - 1, spans};
 }
 
 Part Fuselage::make_part() const {
-  const int count = static_cast<int>(_stations.size()), spans = count - degree;
+  const int count = static_cast<int>(_stations.size()), spans = count - spline_degree;
   TColStd_Array1OfReal u_knots(1, 2), v_knots(1, spans + 1);
   TColStd_Array1OfInteger u_multiplicities(1, 2), v_multiplicities(1, spans + 1);
   u_knots(1) = 0, u_knots(2) = 1;
   u_multiplicities.Init(3), v_multiplicities.Init(1);
-  v_multiplicities(1) = v_multiplicities(spans + 1) = degree + 1;
+  v_multiplicities(1) = v_multiplicities(spans + 1) = spline_degree + 1;
   for (int i = 0; i <= spans; ++i) v_knots(i + 1) = i;
   std::vector<NamedFace> faces;
   for (const auto& sector : sectors) {
@@ -79,7 +79,7 @@ Part Fuselage::make_part() const {
       }
     }
     const Handle(Geom_BSplineSurface) surface = new Geom_BSplineSurface(
-        poles, weights, u_knots, v_knots, u_multiplicities, v_multiplicities, 2, degree);
+        poles, weights, u_knots, v_knots, u_multiplicities, v_multiplicities, 2, spline_degree);
     for (std::size_t k = 0; k + 1 < _breaks.size(); ++k) {
       const auto part = Handle(Geom_BSplineSurface)::DownCast(surface->Copy());
       part->Segment(0, 1, _breaks[k], _breaks[k + 1]);
@@ -91,22 +91,22 @@ Part Fuselage::make_part() const {
 
 Fuselage::Station Fuselage::evaluate(double parameter) const {
   // De Boor's algorithm on the clamped uniform knots.
-  const int spans = static_cast<int>(_stations.size()) - degree;
+  const int spans = static_cast<int>(_stations.size()) - spline_degree;
   const int span = std::clamp(static_cast<int>(parameter), 0, spans - 1);
   const auto knot = [&](int i) {
-    return std::clamp(static_cast<double>(i - degree), 0.0, static_cast<double>(spans));
+    return std::clamp(static_cast<double>(i - spline_degree), 0.0, static_cast<double>(spans));
   };
-  Station d[degree + 1];
-  for (int i = 0; i <= degree; ++i) d[i] = _stations[span + i];
-  for (int round = 1; round <= degree; ++round) {
-    for (int i = degree; i >= round; --i) {
-      const double low = knot(span + i), high = knot(span + i + degree + 1 - round);
+  Station d[spline_degree + 1];
+  for (int i = 0; i <= spline_degree; ++i) d[i] = _stations[span + i];
+  for (int round = 1; round <= spline_degree; ++round) {
+    for (int i = spline_degree; i >= round; --i) {
+      const double low = knot(span + i), high = knot(span + i + spline_degree + 1 - round);
       const double t = (parameter - low) / (high - low);
       d[i] = {(1 - t) * d[i - 1].x + t * d[i].x, (1 - t) * d[i - 1].radius + t * d[i].radius,
               (1 - t) * d[i - 1].z + t * d[i].z};
     }
   }
-  return d[degree];
+  return d[spline_degree];
 }
 
 double Fuselage::depth(Vec3 point) const {

@@ -3,10 +3,10 @@
 #include "cad/model/border_path.hpp"
 #include "cad/model/face_corners.hpp"
 #include "cad/model/face_width.hpp"
+#include "geometry/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using geometry::degree;
 /// A strip's loop turns by more at the ends of its long borders, and by less along them.
 constexpr double corner_turn = 30 * degree;
 /// Strips are this many times longer than wide, at least.

@@ -116,19 +116,20 @@ void settle_boundary(const Model& model, FaceId id, Facets& facets) {
   }
 }
 
-using Side = std::pair<std::int32_t, std::int32_t>;
+using FacetSide = std::pair<std::int32_t, std::int32_t>;
 
 /// Directed sides of the triangles that no neighbour passes the other way, sorted.
-std::vector<Side> open_sides(const Facets& facets) {
-  std::vector<Side> sides;
+std::vector<FacetSide> open_sides(const Facets& facets) {
+  std::vector<FacetSide> sides;
   sides.reserve(3 * facets.triangles.size());
   for (const auto& t : facets.triangles) {
     for (int i = 0; i < 3; ++i) sides.emplace_back(t[i], t[(i + 1) % 3]);
   }
   std::sort(sides.begin(), sides.end());
-  std::vector<Side> open;
-  for (const Side& side : sides) {
-    if (!std::binary_search(sides.begin(), sides.end(), Side{side.second, side.first})) open.push_back(side);
+  std::vector<FacetSide> open;
+  for (const FacetSide& side : sides) {
+    if (!std::binary_search(sides.begin(), sides.end(), FacetSide{side.second, side.first}))
+      open.push_back(side);
   }
   return open;
 }
@@ -136,7 +137,7 @@ std::vector<Side> open_sides(const Facets& facets) {
 /// What is wrong with a triangulation; empty when nothing is.
 std::string find_defect(const Facets& facets) {
   if (facets.triangles.empty()) return "no triangles";
-  std::vector<Side> boundary;
+  std::vector<FacetSide> boundary;
   for (const auto& line : facets.boundary) {
     if (line.nodes.size() < 2) return fmt::format("edge {} missing on the boundary", line.use.edge);
     for (std::size_t i = 1; i < line.nodes.size(); ++i) {
@@ -147,8 +148,9 @@ std::string find_defect(const Facets& facets) {
     }
   }
   std::sort(boundary.begin(), boundary.end());
-  for (const Side& side : open_sides(facets)) {
-    if (!std::binary_search(boundary.begin(), boundary.end(), Side(std::minmax(side.first, side.second)))) {
+  for (const FacetSide& side : open_sides(facets)) {
+    if (!std::binary_search(boundary.begin(), boundary.end(),
+                            FacetSide(std::minmax(side.first, side.second)))) {
       const Vec3 at = facets.points[side.first];
       return fmt::format("a hole at ({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
     }

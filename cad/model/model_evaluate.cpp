@@ -3,27 +3,16 @@
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/sheets.hpp"
+#include "cad/model/to_vec.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <TColStd_Array1OfReal.hxx>
-#include <gp_Pnt.hxx>
-#include <gp_Vec.hxx>
 
 namespace aeroloom::cad {
 namespace {
-
-Vec3 to_vec(const gp_XYZ& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
-Vec3 to_vec(const gp_Pnt& p) {
-  return to_vec(p.XYZ());
-}
-Vec3 to_vec(const gp_Vec& p) {
-  return to_vec(p.XYZ());
-}
 
 /// Parameters for a point that was moved away from those of `guess`: where the surface goes on to it, its
 /// own, else the guess, which lies on the face's border.

@@ -14,7 +14,7 @@ namespace aeroloom::cad {
 namespace {
 
 constexpr int newton_steps = 40;
-constexpr int halvings = 12;
+constexpr int step_halvings = 12;
 
 /// Half the squared distance from the target to the surface, and its derivatives.
 struct Distance {
@@ -75,7 +75,7 @@ private:
   bool descend(Distance& at) const {
     const Vec2 direction = shorten(newton_direction(at));
     double share = 1;
-    for (int halving = 0; halving < halvings; ++halving, share *= 0.5) {
+    for (int halving = 0; halving < step_halvings; ++halving, share *= 0.5) {
       const Vec2 target = clamp(at.uv + share * direction);
       const Vec2 move = target - at.uv;
       const double length2 =

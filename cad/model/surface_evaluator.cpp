@@ -1,5 +1,7 @@
 #include "cad/model/surface_evaluator.hpp"
 
+#include "cad/model/to_vec.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +12,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-Vec3 to_vec(const gp_XYZ& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
 
 Handle(Geom_BSplineSurface) as_spline(const Handle(Geom_Surface) & surface) {
   const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface);

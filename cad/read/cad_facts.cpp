@@ -1,5 +1,6 @@
 #include "cad/read/cad_facts.hpp"
 
+#include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/read/cad_reader.hpp"
@@ -11,12 +12,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-std::int32_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, kind, map);
-  return map.Extent();
-}
 
 using Counts = std::map<std::string, std::int32_t>;
 

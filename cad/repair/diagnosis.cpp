@@ -1,5 +1,6 @@
 #include "cad/repair/diagnosis.hpp"
 
+#include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/read/cad_reader.hpp"
@@ -37,12 +38,6 @@ MeasuredEdge measure(const TopoDS_Edge& edge) {
   const BRepAdaptor_Curve curve(edge);
   const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
   return {GCPnts_AbscissaPoint::Length(curve), {middle.X(), middle.Y(), middle.Z()}};
-}
-
-int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, kind, map);
-  return map.Extent();
 }
 
 void find_open_edges(const TopoDS_Shape& shape, Diagnosis& diagnosis) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t largest_tag = std::int64_t{1} << 62;
 /// Values that are read at a time.
-constexpr std::int64_t chunk = std::int64_t{1} << 16;
+constexpr std::int64_t integers_at_once = std::int64_t{1} << 16;
 
 /// What becomes a region (dimension 3) or a patch (2).
 struct Group {
@@ -227,7 +227,7 @@ void read_nodes(Source& source, RawMesh& raw) {
 /// Appends elements begin ... end of a block, without ghosts, to ids and groups.
 void read_block(Source& source, const MshElementBlock& block, std::int64_t begin, std::int64_t end,
                 std::int32_t id, std::vector<mesh::GlobalIndex>& corners, std::vector<std::int32_t>& ids) {
-  const std::int64_t width = 1 + block.corners, step = chunk / width;
+  const std::int64_t width = 1 + block.corners, step = integers_at_once / width;
   const std::vector<std::int64_t>& ghosts = source.tables.ghosts;
   std::vector<std::int64_t> records;
   source.scanner.seek(block.place + 8 * width * begin);

@@ -23,21 +23,21 @@ namespace {
 using mesh::LocalIndex;
 
 /// Items that are put into their binary form at a time.
-constexpr std::size_t chunk = std::size_t{1} << 16;
+constexpr std::size_t batch = std::size_t{1} << 16;
 
 template <class T>
-void append(std::string& text, T value) {
+void append_bytes(std::string& text, T value) {
   text.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 void append_sizes(std::string& text, std::initializer_list<std::int64_t> values) {
-  for (const std::int64_t value : values) append(text, value);
+  for (const std::int64_t value : values) append_bytes(text, value);
 }
 
 std::string nodes_begin(std::int64_t count, std::int64_t least, std::int64_t largest, std::int32_t entity) {
   std::string text = msh_nodes_begin;
   append_sizes(text, {1, count, least, largest});
-  for (const std::int32_t value : {3, entity, 0}) append(text, value);
-  append(text, count);
+  for (const std::int32_t value : {3, entity, 0}) append_bytes(text, value);
+  append_bytes(text, count);
   return text;
 }
 
@@ -49,8 +49,8 @@ std::string elements_begin(std::int64_t blocks, std::int64_t count, std::int64_t
 
 std::string head_of(const MshBlock& block) {
   std::string text;
-  for (const std::int32_t value : {block.dimension, block.entity, block.type}) append(text, value);
-  append(text, block.count);
+  for (const std::int32_t value : {block.dimension, block.entity, block.type}) append_bytes(text, value);
+  append_bytes(text, block.count);
   return text;
 }
 
@@ -59,12 +59,12 @@ template <class Write>
 void put_run(const FilePart& part, const Block& block, const Run& run, std::int64_t first_tag,
              const Write& write) {
   std::vector<std::int64_t> records;
-  records.reserve(chunk + 8);
+  records.reserve(batch + 8);
   for (LocalIndex i = run.begin; i < run.end; ++i) {
     records.push_back(first_tag + (i - run.begin));
     const LocalIndex* item = block.item(i);
     for (int k = 0; k < block.corners; ++k) records.push_back(part.numbers[item[k]] + 1);
-    if (records.size() < chunk && i + 1 < run.end) continue;
+    if (records.size() < batch && i + 1 < run.end) continue;
     write(std::span<const std::int64_t>(records));
     records.clear();
   }
@@ -84,8 +84,8 @@ void for_runs(const FilePart& part, const MshBlocks& blocks, const Visit& visit)
 void write_owned(parallel::SharedFile& file, const FilePart& part, const MshLayout& layout) {
   std::vector<std::int64_t> tags;
   std::vector<double> points;
-  tags.reserve(chunk);
-  points.reserve(3 * chunk);
+  tags.reserve(batch);
+  points.reserve(3 * batch);
   std::int64_t next = part.first_owned;
   const auto flush = [&] {
     file.write_items(layout.tags + 8 * next, std::span<const std::int64_t>(tags));
@@ -99,7 +99,7 @@ void write_owned(parallel::SharedFile& file, const FilePart& part, const MshLayo
     tags.push_back(part.numbers[v] + 1);
     const double* p = part.coordinates.data() + 3 * static_cast<std::size_t>(v);
     points.insert(points.end(), p, p + 3);
-    if (tags.size() == chunk) flush();
+    if (tags.size() == batch) flush();
   }
   flush();
 }

@@ -32,7 +32,7 @@ std::vector<std::string> patch_names(const FileMesh& mesh) {
 }
 
 /// A name on a line of its own section: line breaks and backslashes escaped.
-std::string escaped(const std::string& name) {
+std::string escaped_word(const std::string& name) {
   std::string result;
   for (const char letter : name) {
     if (letter == '\\' || letter == '\n' || letter == '\r') result += '\\';
@@ -164,10 +164,10 @@ std::string msh_head(const FileMesh& mesh, const std::vector<MshBox>& boxes, con
   text += "\n$EndMeshFormat\n$Comments\nAeroloom\n";
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const mesh::Patch& patch = mesh.patches[i];
-    text += fmt::format("patch {} {} {}\n", i + 1, mesh::name_of(patch.type), escaped(patch.name));
+    text += fmt::format("patch {} {} {}\n", i + 1, mesh::name_of(patch.type), escaped_word(patch.name));
   }
   for (std::size_t i = 0; i < mesh.regions.size(); ++i)
-    text += fmt::format("region {} {}\n", i + 1, escaped(mesh.regions[i]));
+    text += fmt::format("region {} {}\n", i + 1, escaped_word(mesh.regions[i]));
   text += fmt::format("$EndComments\n$PhysicalNames\n{}\n", mesh.patches.size() + mesh.regions.size());
   const auto add_names = [&](int dimension, const std::vector<std::string>& names) {
     const std::vector<std::string> held = distinct_names(names, longest_name, quotable);

@@ -19,7 +19,7 @@ constexpr std::size_t buffer_size = std::size_t{1} << 20;
 constexpr std::size_t longest_line = std::size_t{1} << 16;
 constexpr std::size_t longest_token = 64;
 
-bool is_blank(int letter) {
+bool is_blank_letter(int letter) {
   return letter == ' ' || letter == '\n' || letter == '\t' || letter == '\r';
 }
 
@@ -70,8 +70,8 @@ void MshScanner::seek(std::int64_t position) {
 
 std::string_view MshScanner::token() {
   _token.clear();
-  while (is_blank(peek())) ++_next;
-  while (peek() >= 0 && !is_blank(peek())) {
+  while (is_blank_letter(peek())) ++_next;
+  while (peek() >= 0 && !is_blank_letter(peek())) {
     _token += _buffer[_next++];
     if (_token.size() > longest_token) fail("a number was expected");
   }
@@ -168,7 +168,7 @@ bool MshScanner::line_is(std::string_view text) {
 }
 
 std::string MshScanner::next_line() {
-  while (is_blank(peek())) ++_next;
+  while (is_blank_letter(peek())) ++_next;
   return line();
 }
 

@@ -17,7 +17,7 @@ std::int32_t group_of(std::int32_t tag) {
 }
 
 /// Back from what msh_head.cpp makes of line breaks.
-std::string unescaped(const std::string& text) {
+std::string unescaped_word(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '\\' || i + 1 == text.size()) {
@@ -148,7 +148,7 @@ private:
       if (what == "patch" && !(line >> type)) continue;
       line.get();
       std::getline(line, name);
-      _tables.comments[{what == "patch" ? 2 : 3, tag}] = {type, unescaped(name)};
+      _tables.comments[{what == "patch" ? 2 : 3, tag}] = {type, unescaped_word(name)};
     }
   }
 

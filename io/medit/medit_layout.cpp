@@ -17,7 +17,7 @@ using mesh::GlobalIndex;
 constexpr int text_coordinate = 25;
 
 template <class Number>
-void append(std::string& bytes, Number number) {
+void append_number(std::string& bytes, Number number) {
   char raw[sizeof(Number)];
   std::memcpy(raw, &number, sizeof(Number));
   bytes.append(raw, sizeof(Number));
@@ -32,11 +32,11 @@ GlobalIndex largest_number(const MeditCounts& counts) {
 
 std::string binary_header(const MeditLayout& layout) {
   std::string bytes;
-  append<std::int32_t>(bytes, 1);
-  append<std::int32_t>(bytes, layout.version);
-  append<std::int32_t>(bytes, static_cast<std::int32_t>(MeditKeyword::dimension));
-  append<std::int64_t>(bytes, 24);
-  append<std::int32_t>(bytes, 3);
+  append_number<std::int32_t>(bytes, 1);
+  append_number<std::int32_t>(bytes, layout.version);
+  append_number<std::int32_t>(bytes, static_cast<std::int32_t>(MeditKeyword::dimension));
+  append_number<std::int64_t>(bytes, 24);
+  append_number<std::int32_t>(bytes, 3);
   return bytes;
 }
 
@@ -44,13 +44,13 @@ std::string section_header(const MeditLayout& layout, const MeditSection& sectio
   if (layout.encoding == MeditEncoding::text)
     return fmt::format("\n{}\n{}\n", name_of(section.keyword), section.count);
   std::string bytes;
-  append(bytes, static_cast<std::int32_t>(section.keyword));
+  append_number(bytes, static_cast<std::int32_t>(section.keyword));
   const std::int64_t header_bytes = 4 + 8 + layout.integer_width;
-  append<std::int64_t>(bytes, section.begin + header_bytes + section.count * section.line_bytes);
+  append_number<std::int64_t>(bytes, section.begin + header_bytes + section.count * section.line_bytes);
   if (layout.version < 4) {
-    append(bytes, static_cast<std::int32_t>(section.count));
+    append_number(bytes, static_cast<std::int32_t>(section.count));
   } else {
-    append<std::int64_t>(bytes, section.count);
+    append_number<std::int64_t>(bytes, section.count);
   }
   return bytes;
 }
@@ -116,8 +116,8 @@ MeditLayout medit_layout(const MeditCounts& counts, MeditEncoding encoding, bool
     layout.version = wide || largest > std::numeric_limits<std::int32_t>::max() ? 4 : 3;
     layout.integer_width = layout.version < 4 ? 4 : 8;
     layout.header = binary_header(layout);
-    append(layout.footer, static_cast<std::int32_t>(MeditKeyword::end));
-    append<std::int64_t>(layout.footer, 0);
+    append_number(layout.footer, static_cast<std::int32_t>(MeditKeyword::end));
+    append_number<std::int64_t>(layout.footer, 0);
   }
   layout.size = static_cast<std::int64_t>(layout.header.size());
   add_section(layout, MeditKeyword::vertices, 3, counts.vertices);

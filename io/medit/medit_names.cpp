@@ -23,7 +23,7 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-std::string escaped(const std::string& name) {
+std::string escaped_name(const std::string& name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool end_blank = name[i] == ' ' && (i == 0 || i + 1 == name.size());
@@ -39,7 +39,7 @@ std::string escaped(const std::string& name) {
 }
 
 /// Nothing where an escape is none of ours.
-std::optional<std::string> unescaped(std::string_view text) {
+std::optional<std::string> unescaped_name(std::string_view text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '\\') {
@@ -104,7 +104,7 @@ std::string parse_line(std::string_view line, MeditNames& names) {
     type = mesh::patch_type_of(type_word);
     if (!type) return fmt::format("'{}' is no type of a patch", type_word);
   }
-  const std::optional<std::string> name = unescaped(line);
+  const std::optional<std::string> name = unescaped_name(line);
   if (!name) return fmt::format("the name '{}' has a backslash with neither \\ nor xHH behind it", line);
   const bool is_new = of_cells ? names.regions.emplace(reference, *name).second
                                : names.patches.emplace(reference, mesh::Patch{*name, *type}).second;
@@ -121,11 +121,11 @@ std::string medit_names_text(const FileMesh& mesh) {
   std::string text = "# shape, reference, name, and the type of patches; references hold for all shapes\n";
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     text += fmt::format("{} {} {}\n", word_for(mesh.region_cells[r], cell_words), r + 1,
-                        escaped(mesh.regions[r]));
+                        escaped_name(mesh.regions[r]));
   }
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     text += fmt::format("{} {} {} {}\n", word_for(mesh.patch_faces[p], face_words), p + 1,
-                        escaped(mesh.patches[p].name), mesh::name_of(mesh.patches[p].type));
+                        escaped_name(mesh.patches[p].name), mesh::name_of(mesh.patches[p].type));
   }
   return text;
 }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t longest_word = 120;
+constexpr std::size_t longest_foam_word = 120;
 
 bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
@@ -207,7 +207,7 @@ void write_dictionaries(const FoamCase& foam_case) {
 }
 
 std::vector<std::string> foam_words(const std::vector<std::string>& names) {
-  return distinct_names(names, longest_word, word_of);
+  return distinct_names(names, longest_foam_word, word_of);
 }
 
 }  // namespace aeroloom::io

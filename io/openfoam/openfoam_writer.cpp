@@ -55,10 +55,10 @@ bool is_boundary(const mesh::Patch& patch) {
 }
 
 /// Writes the files of one part.
-class PartWriter {
+class FoamPartWriter {
 public:
-  PartWriter(const FileMesh& mesh, const FilePart& part, const FoamPlan& plan, const FoamFaces& order,
-             const Names& names, const FoamFormat& format, fs::path folder)
+  FoamPartWriter(const FileMesh& mesh, const FilePart& part, const FoamPlan& plan, const FoamFaces& order,
+                 const Names& names, const FoamFormat& format, fs::path folder)
       : _mesh(mesh),
         _part(part),
         _plan(plan),
@@ -310,7 +310,7 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const FilePart& part = mesh.parts[i];
         const FoamFaces order = order_faces(mesh, part, links.parts[i], plan);
-        PartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
+        FoamPartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
       }
       if (communicator.is_root()) write_dictionaries(foam_case);
     });

@@ -23,7 +23,7 @@ namespace {
 using mesh::GlobalIndex;
 
 /// Elements and points read at a time.
-constexpr std::int64_t chunk_items = 1 << 15;
+constexpr std::int64_t records_at_once = 1 << 15;
 
 /// Reads a file with integers of one width.
 template <class Integer>
@@ -83,8 +83,8 @@ private:
     raw.coordinates.reserve(3 * static_cast<std::size_t>(share.count()));
     raw.point_ids.reserve(static_cast<std::size_t>(share.count()));
     std::vector<std::byte> chunk;
-    for (std::int64_t begin = share.begin; begin < share.end; begin += chunk_items) {
-      const std::int64_t end = std::min(begin + chunk_items, share.end);
+    for (std::int64_t begin = share.begin; begin < share.end; begin += records_at_once) {
+      const std::int64_t end = std::min(begin + records_at_once, share.end);
       chunk.resize(static_cast<std::size_t>((end - begin) * stride));
       _file.read_bytes(section + begin * stride, chunk);
       for (std::int64_t i = begin; i < end; ++i) {
@@ -138,8 +138,8 @@ private:
   /// Elements of a patch, -1: of the volume.
   void read_elements(const Elements& section, Share share, std::int32_t patch, RawMesh& raw) {
     std::vector<Integer> places, integers;
-    for (std::int64_t begin = share.begin; begin < share.end; begin += chunk_items) {
-      const std::int64_t end = std::min(begin + chunk_items, share.end);
+    for (std::int64_t begin = share.begin; begin < share.end; begin += records_at_once) {
+      const std::int64_t end = std::min(begin + records_at_once, share.end);
       places.resize(static_cast<std::size_t>(end - begin + 1));
       const std::int64_t places_at = section.places + begin * width;
       _file.read(places_at, std::span<Integer>(places));

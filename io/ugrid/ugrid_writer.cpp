@@ -20,7 +20,7 @@ namespace {
 using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
-UgridCounts counts_of(const FileMesh& mesh) {
+UgridCounts ugrid_counts_of(const FileMesh& mesh) {
   UgridCounts counts;
   counts.points = mesh.vertex_count;
   for (const FaceShape shape : face_shapes)
@@ -36,7 +36,7 @@ class UgridParts {
 public:
   UgridParts(const FileMesh& mesh, const BoundaryPatches& patches, RangeWriter& writer)
       : _patches(patches),
-        _counts(counts_of(mesh)),
+        _counts(ugrid_counts_of(mesh)),
         _layout(ugrid_layout(_counts, sizeof(Integer))),
         _writer(writer) {}
 
@@ -164,7 +164,7 @@ void write_ugrid(const parallel::Communicator& communicator, const FileMesh& mes
   UgridKind kind;
   parallel::agree(communicator, [&] {
     kind = ugrid_kind_of(path);
-    require_ugrid_fits(counts_of(mesh), kind, path);
+    require_ugrid_fits(ugrid_counts_of(mesh), kind, path);
     // Conditions of an earlier mesh must not stand beside this one if it remains alone.
     if (communicator.is_root()) std::filesystem::remove(mapbc_path_of(path));
   });

@@ -17,7 +17,7 @@ namespace aeroloom::io {
 
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped_xml(const std::string& text) {
   std::string result;
   for (const char letter : text) {
     switch (letter) {
@@ -112,7 +112,7 @@ std::string index_text(const char* grid_type, std::span<const IndexArray> point_
                      "    </PCellData>\n    <PPoints>\n"
                      "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
                      "    </PPoints>\n";
-  for (const std::string& source : sources) text += "    <Piece Source=\"" + escaped(source) + "\"/>\n";
+  for (const std::string& source : sources) text += "    <Piece Source=\"" + escaped_xml(source) + "\"/>\n";
   return text + "  </" + grid + ">\n</VTKFile>\n";
 }
 

@@ -87,14 +87,14 @@ PartRange deal_parts(const parallel::Communicator& communicator, const std::stri
 }
 
 /// What this rank has read of several parts.
-struct Share {
+struct VtkShare {
   RawMesh raw;
   std::vector<VtkLabel> regions, patches;     ///< what labels of cells and faces refer to, so far
   GlobalIndex with_ids = 0, without_ids = 0;  ///< parts with points
 };
 
 template <class T>
-void append(std::vector<T>& items, std::vector<T>& more) {
+void move_to_end(std::vector<T>& items, std::vector<T>& more) {
   if (items.empty()) items.swap(more);
   items.insert(items.end(), more.begin(), more.end());
   std::vector<T>().swap(more);
@@ -106,7 +106,7 @@ std::int32_t label_offset(const std::vector<VtkLabel>& before, const std::vector
   return static_cast<std::int32_t>(before.size());
 }
 
-void append_part(VtkPart part, Share& share) {
+void append_part(VtkPart part, VtkShare& share) {
   RawMesh& raw = share.raw;
   if (part.point_count() > 0) ++(part.has_ids ? share.with_ids : share.without_ids);
   const auto first_point = static_cast<GlobalIndex>(raw.point_ids.size());
@@ -122,18 +122,18 @@ void append_part(VtkPart part, Share& share) {
   }
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
     for (std::int32_t& label : part.cell_labels[s]) label += first_region;
-    append(raw.cells[s], part.cells[s]);
-    append(raw.cell_regions[s], part.cell_labels[s]);
+    move_to_end(raw.cells[s], part.cells[s]);
+    move_to_end(raw.cell_regions[s], part.cell_labels[s]);
   }
   for (std::size_t s = 0; s < face_shape_count; ++s) {
     for (std::int32_t& label : part.face_labels[s]) label += first_patch;
-    append(raw.faces[s], part.faces[s]);
-    append(raw.face_patches[s], part.face_labels[s]);
+    move_to_end(raw.faces[s], part.faces[s]);
+    move_to_end(raw.face_patches[s], part.face_labels[s]);
   }
-  append(raw.coordinates, part.coordinates);
-  append(raw.point_ids, part.ids);
-  append(share.regions, part.regions);
-  append(share.patches, part.patches);
+  move_to_end(raw.coordinates, part.coordinates);
+  move_to_end(raw.point_ids, part.ids);
+  move_to_end(share.regions, part.regions);
+  move_to_end(share.patches, part.patches);
 }
 
 /// Ids of points that have none in the file are their places among all. Collective.
@@ -189,7 +189,7 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
   return named;
 }
 
-void require_ids_everywhere(const parallel::Communicator& communicator, const Share& share,
+void require_ids_everywhere(const parallel::Communicator& communicator, const VtkShare& share,
                             const std::string& path) {
   const GlobalIndex with = communicator.sum(share.with_ids), without = communicator.sum(share.without_ids);
   if (with == 0 || without == 0) return;
@@ -205,7 +205,7 @@ void require_ids_everywhere(const parallel::Communicator& communicator, const Sh
 RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& path) {
   const std::vector<std::string> parts = find_parts(communicator, path);
   const PartRange mine = deal_parts(communicator, path, parts);
-  Share share;
+  VtkShare share;
   parallel::agree(communicator, [&] {
     for (std::size_t p = mine.begin; p < mine.end; ++p)
       append_part(with_index(path, parts[p], [&] { return read_vtk_part(parts[p]); }), share);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* schema_name = "aeroloom.schema.json";
 
-struct Arguments {
+struct InitArguments {
   std::string file = "case.yaml";
   std::string geometry;
   bool full = false, force = false, no_schema = false;
@@ -32,7 +32,7 @@ void require_ours(const std::string& schema_file) {
                   "--no-schema does without");
 }
 
-void write_template(const Arguments& arguments) {
+void write_template(const InitArguments& arguments) {
   if (fs::is_directory(arguments.file))
     throw CaseError(arguments.file + " is a folder; give the case a name, such as " +
                     (fs::path(arguments.file) / "case.yaml").string());
@@ -59,7 +59,7 @@ void write_template(const Arguments& arguments) {
 
 Command add_init(CLI::App& program) {
   CLI::App* app = program.add_subcommand("init", "write a commented case to start from");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InitArguments>();
   app->add_option("file", arguments->file, "the case to write; left out: " + arguments->file)
       ->type_name(file_kind::of_case);
   app->add_option("--geometry", arguments->geometry, "the CAD file: STEP, IGES or BREP")

@@ -14,13 +14,13 @@
 namespace aeroloom::pipeline {
 namespace {
 
-struct Arguments {
+struct SchemaArguments {
   std::string output;
   bool markdown = false;
 };
 
 /// What is to be written: the schema, or the page of the reference with its tables renewed.
-std::string schema_text(const Arguments& arguments) {
+std::string schema_text(const SchemaArguments& arguments) {
   if (!arguments.markdown) return case_schema(case_keys());
   std::string reference = case_reference(case_keys());
   if (arguments.output.empty() || !std::filesystem::exists(arguments.output)) return reference;
@@ -36,7 +36,7 @@ std::string schema_text(const Arguments& arguments) {
 Command add_schema(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("schema", "print the keys of a case as a JSON Schema, for editors of YAML");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SchemaArguments>();
   app->add_option("--output", arguments->output, "write to this file instead")
       ->type_name(file_kind::any)
       ->group(option_group::output);

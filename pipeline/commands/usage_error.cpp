@@ -1,6 +1,7 @@
 #include "pipeline/commands/usage_error.hpp"
 
 #include "pipeline/nearest_name.hpp"
+#include "pipeline/yaml_value.hpp"
 
 #include <vector>
 
@@ -24,12 +25,6 @@ std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   return names;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 std::string suggest(const std::string& word, const std::vector<std::string>& known) {

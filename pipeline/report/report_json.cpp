@@ -8,7 +8,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
-constexpr int schema_version = 3;
+constexpr int report_schema_version = 3;
 
 Json versions_json() {
   Json versions = {{"aeroloom", program_version()}};
@@ -48,7 +48,7 @@ Json pictures_json(const std::vector<Picture>& pictures) {
 Json outcome_json(const Case& input, const RunRecord& record, const ReportFacts& facts) {
   const RunOutcome& outcome = facts.outcome;
   Json json;
-  json["schema_version"] = schema_version;
+  json["schema_version"] = report_schema_version;
   json["program"] = {{"name", "aeroloom"}, {"version", program_version()}};
   json["versions"] = versions_json();
   json["status"] = outcome.code == ExitCode::ok ? "ok" : "failed";
