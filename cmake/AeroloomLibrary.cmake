@@ -1,8 +1,23 @@
-# One folder, one library, one namespace: aeroloom_library(<folder> SOURCES ... PUBLIC ... PRIVATE ...).
-# PUBLIC and PRIVATE name libraries; a library of another folder is written aeroloom_<folder>.
+# Most of the time of a compiler goes into headers, the same ones for every source, so several sources make one
+# unit. Names in anonymous namespaces are therefore unique within a folder. 1: each source on its own.
+set(AEROLOOM_SOURCES_AT_ONCE 8 CACHE STRING "Sources of a folder that are compiled together")
+function(aeroloom_compile_at_once target)
+  if(AEROLOOM_SOURCES_AT_ONCE GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AEROLOOM_SOURCES_AT_ONCE})
+  endif()
+endfunction()
+
+# One folder, one library, one namespace: aeroloom_library(<folder> SOURCES ... PUBLIC ... PRIVATE ...
+# ALONE ...). PUBLIC and PRIVATE name libraries; a library of another folder is written aeroloom_<folder>.
+# Sources are compiled several at a time, in the order given (AEROLOOM_SOURCES_AT_ONCE), but those of ALONE:
+# dear ones, or ones whose third-party headers leave macros behind.
 function(aeroloom_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(aeroloom_${folder} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;ALONE" ${ARGN})
+  add_library(aeroloom_${folder} STATIC ${ARG_SOURCES} ${ARG_ALONE})
+  aeroloom_compile_at_once(aeroloom_${folder})
+  if(ARG_ALONE)
+    set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
   set_target_properties(aeroloom_${folder} PROPERTIES EXPORT_NAME ${folder})
   target_include_directories(aeroloom_${folder} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
