@@ -1,7 +1,7 @@
 #include "io/gmsh/msh_head.hpp"
 
 #include "io/distinct_names.hpp"
-#include "mesh/delivery.hpp"
+#include "mesh/rendezvous.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -145,15 +145,14 @@ std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator
     }
   };
   // Each entity meets on one rank, so that nobody gathers a box of every rank.
-  const int ranks = communicator.size();
-  merge(mesh::deliver(communicator, found, [ranks](const Found& item) {
-    return static_cast<parallel::Rank>(item.entity % ranks);
-  }));
+  const std::vector<Found> met =
+      mesh::meet_by_key(communicator, std::move(found), &Found::entity, &Found::entity);
+  merge(met);
   found.clear();
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (static_cast<int>(i % static_cast<std::size_t>(ranks)) == communicator.rank())
-      found.push_back({static_cast<std::int64_t>(i), boxes[i]});
-  }
+  mesh::for_each_key(met, &Found::entity, [&](std::span<const Found> group) {
+    const std::int64_t entity = group.front().entity;
+    found.push_back({entity, boxes[static_cast<std::size_t>(entity)]});
+  });
   merge(communicator.all_gather_items(std::span<const Found>(found)));
   return boxes;
 }
