@@ -30,6 +30,7 @@ void require_agreement(const parallel::Communicator& communicator, const Distrib
                        const SharedVertices& shared) {
   struct Clash {
     Knower first, second;
+    static constexpr auto fields() { return std::tuple(&Clash::first, &Clash::second); }
   };
   std::vector<Knower> mine(shared.size());
   shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) {

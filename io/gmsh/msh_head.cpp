@@ -130,6 +130,7 @@ std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator
   struct Found {
     std::int64_t entity;
     MshBox box;
+    static constexpr auto fields() { return std::tuple(&Found::entity, &Found::box); }
   };
   std::vector<Found> found;
   for (std::size_t i = 0; i < boxes.size(); ++i) {

@@ -63,6 +63,9 @@ TEST(Rendezvous, BringsAllOfAKeyToOneRankInOrder) {
 TEST(Rendezvous, AnswersThoseWhoCame) {
   struct Next {
     std::int32_t part, cell, next_part, next_cell, count;
+    static constexpr auto fields() {
+      return std::tuple(&Next::part, &Next::cell, &Next::next_part, &Next::next_cell, &Next::count);
+    }
   };
   const Communicator world = Communicator::world();
   const std::vector<Side> mine = sides_of(world);

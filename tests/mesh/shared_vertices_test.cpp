@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -127,6 +128,7 @@ TEST(SharedVertices, TakeValuesOfAnyKind) {
   struct Far {
     double distance;
     std::int32_t piece;
+    static constexpr auto fields() { return std::tuple(&Far::distance, &Far::piece); }
   };
   const Communicator world = Communicator::world();
   const Held held(world);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +17,7 @@ std::size_t items_between(Rank from, Rank to, int ranks) {
 struct Letter {
   std::int32_t from, to;
   std::int64_t place;
+  static constexpr auto fields() { return std::tuple(&Letter::from, &Letter::to, &Letter::place); }
   friend bool operator==(const Letter&, const Letter&) = default;
 };
 
