@@ -15,9 +15,11 @@
 namespace aeroloom::parallel {
 namespace {
 
-/// Seconds between two lines where lines stay, and where they are rewritten; between two looks at the
-/// processes of the node, of which there may be hundreds.
-constexpr double seconds_between_lines = 5, seconds_between_rewrites = 0.2, seconds_between_looks = 1;
+/// Seconds between two lines where lines stay.
+double seconds_between_lines = 5;
+/// Seconds between two lines that are rewritten; between two looks at the processes of the node, of which
+/// there may be hundreds.
+constexpr double seconds_between_rewrites = 0.2, seconds_between_looks = 1;
 
 /// What is known of the stage at hand.
 struct Stage {
@@ -129,6 +131,10 @@ void Progress::reach(std::int64_t done, std::int64_t elements) {
   if (!log_line::is_wanted()) return;
   const double now = wall_seconds();
   if (is_due(now) || (_printed && ends)) show(now);
+}
+
+void set_seconds_between_lines(double seconds) {
+  seconds_between_lines = seconds;
 }
 
 void stage_begins(const std::string& name) {

@@ -37,6 +37,9 @@ private:
   Progress* _outer;
 };
 
+/// How often a line comes where lines stay; every five seconds unless a test has less patience.
+void set_seconds_between_lines(double seconds);
+
 /// A stage begins: the time that is told counts from here. StageClock calls it.
 void stage_begins(const std::string& name);
 void stage_ends();

@@ -90,10 +90,10 @@ private:
   /// Tetrahedra made.
   std::int64_t fill_one(ZoneContent& content) {
     const ScopedCpu task(_clock, ScopedCpu::As::task);
-    const double begin = parallel::cpu_seconds();
+    const double begin = parallel::cpu_seconds(), seconds = _input.options.base_cpu_seconds;
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
-    ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone), _input.tasks);
+    ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone), _input.tasks, seconds);
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);
     parallel::log_verbose(fmt::format(

@@ -15,6 +15,7 @@ struct VolumeOptions {
   double perturbation = 0.005;     ///< of lattice points, in mean edges of the lattice
   double halo = 1.2;               ///< width of what a zone knows around it, in the largest sizes there
   std::int64_t largest_zone = 20'000'000;  ///< predicted tetrahedra above which a zone is refused
+  double base_cpu_seconds = 10;            ///< of the child of a zone; its size adds to them
   int retries = 3;                         ///< rungs of the ladder after the first try
   parallel::Sabotage sabotage = parallel::Sabotage::none;  ///< of zones, for tests of containment
   std::int64_t sabotaged_zone = -1;  ///< the one that sabotage strikes until it is merged; -1: all

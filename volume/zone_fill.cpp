@@ -21,7 +21,6 @@ const char* const task_name = "volume.zone";
 
 // Limits of a child. TetGen takes about 1 us and 350 bytes per tetrahedron; what takes forty times as long is
 // stuck.
-constexpr double base_cpu_seconds = 10.0;
 constexpr double cpu_seconds_per_tetrahedron = 40e-6;
 constexpr std::int64_t base_bytes = 2LL << 30;
 constexpr std::int64_t bytes_per_tetrahedron = 1500;
@@ -159,7 +158,8 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
                                    tetrahedra_per_triangle * static_cast<double>(problem.triangles.size()));
 }
 
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, parallel::TaskStore* tasks) {
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, parallel::TaskStore* tasks,
+                      double base_cpu_seconds) {
   if (sabotage != parallel::Sabotage::none) tasks = nullptr;
   const Bytes packed = pack_problem(problem, sabotage);
   ZoneFilling filling;

@@ -167,7 +167,8 @@ TEST_P(Containment, turns_a_failure_into_a_filling_that_says_so) {
   const Communicator world = Communicator::world();
   const bool is_struck = world.rank() == world.size() - 1;
   const ZoneProblem problem = cube_problem(50);
-  const ZoneFilling filling = fill_zone(problem, is_struck ? GetParam().sabotage : Sabotage::none);
+  const ZoneFilling filling =
+      fill_zone(problem, is_struck ? GetParam().sabotage : Sabotage::none, nullptr, 1);
   EXPECT_EQ(filling.filled, !is_struck);
   EXPECT_EQ(filling.failure.empty(), !is_struck);
   EXPECT_EQ(filling.owned.cells.empty(), is_struck);
