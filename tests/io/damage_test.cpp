@@ -38,8 +38,9 @@ TEST_F(Damage, IsNoMatterToAReaderThatLooksFirst) {
   const damage::Outcome outcome =
       damage::survive(world, good_file(), file, [&](const std::string& p) { read_counted(world, p, true); });
   EXPECT_EQ(outcome.cases, outcome.refused + outcome.accepted);
-  EXPECT_GT(outcome.refused, 100);
-  EXPECT_GT(outcome.accepted, 50) << "changed letters do not matter";
+  EXPECT_GT(outcome.cases, 50);
+  EXPECT_GT(outcome.refused, outcome.cases / 5);
+  EXPECT_GT(outcome.accepted, outcome.cases / 10) << "changed letters do not matter";
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 

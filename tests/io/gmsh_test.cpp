@@ -251,10 +251,10 @@ TEST_F(Msh, DamageIsSurvived) {
     assemble(world, read_msh(world, damaged), damaged, 2);
   };
   const std::string binary = examples::bytes_of(path("good.msh"));
-  EXPECT_GT(damage::survive(world, binary, path("bad.msh"), read).refused, 100);
+  EXPECT_GT(damage::survive(world, binary, path("bad.msh"), read).refused, 20);
   damage::Options options;
   options.seed = 2;
-  EXPECT_GT(damage::survive(world, small, path("bad.msh"), read, options).refused, 100);
+  EXPECT_GT(damage::survive(world, small, path("bad.msh"), read, options).refused, 20);
 }
 
 TEST_F(Msh, UnwritablePlacesAreNamed) {

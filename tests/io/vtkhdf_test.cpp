@@ -129,6 +129,7 @@ TEST_F(Vtkhdf, SurvivesDamagedFiles) {
   options.flips = world.size() > 1 ? 40 : 150;
   options.fields = world.size() > 1 ? 10 : 40;
   options.pieces = 10;
+  options.every = damage::stride(11);  // each takes a dozen processes
   const damage::Outcome outcome = damage::survive(
       world, good, folder / "damaged.vtkhdf",
       [&](const std::string& path) { assemble(world, read_vtkhdf(world, path), path, 0); }, options);
