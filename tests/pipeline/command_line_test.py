@@ -10,14 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-from program import SOURCE
-
-# Two seconds on one core.
-SMALL_CASE = """
-geometry: {builtin: transport, trailing_edges: sharpen}
-farfield: {shape: box, extent: 3}
-sizing: {minimum: 0.4, feature_minimum: 0.2, maximum: 12, surface_maximum: 3, curvature_angle: 30, growth: 1.5, proximity: 0}
-"""
+from program import COARSE_TRANSPORT, SOURCE
 
 LAUNCHER = str(SOURCE / "scripts" / "mpirun_local.sh")
 
@@ -58,7 +51,7 @@ def commands_of(shell):
 
 def check_examples(shell):
     """Every example in every help runs as it stands."""
-    (shell.folder / "case.yaml").write_text(SMALL_CASE)
+    (shell.folder / "case.yaml").write_text(COARSE_TRANSPORT)
     commands = commands_of(shell)
     assert {"run", "check", "info", "improve", "quality", "convert", "export-cad", "completion", "init", "schema"} <= set(commands)
     ran = set()
@@ -211,7 +204,7 @@ def check_info(shell):
     assert small["unit"] == "mm" and abs(small["bounds"][1][0] / small["bounds_in_metres"][1][0] - 1000) < 1e-9
 
     case = facts("case.yaml")
-    assert case["kind"] == "case" and "growth: 1.5" in case["configuration"]
+    assert case["kind"] == "case" and "growth: 1.8" in case["configuration"]
     (shell.folder / "wrong.yaml").write_text("geometry: {fil: a.step}\n")
     (shell.folder / "broken.vtu").write_text("<VTKFile")
     for file, code, word in (("nowhere.step", 7, "nowhere.step"), ("out", 3, "is a folder"),

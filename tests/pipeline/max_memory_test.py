@@ -7,9 +7,14 @@ import subprocess
 import sys
 import tempfile
 
-from program import COARSE_TRANSPORT, SOURCE
+from program import SOURCE
 
-CASE = COARSE_TRANSPORT.replace("0.12", "0.3").replace("1.2,", "2.4,")
+# Large enough for what does not fit to be the mesh, not the program.
+CASE = """
+geometry: {builtin: transport}
+farfield: {shape: box, extent: 3}
+sizing: {minimum: 0.3, maximum: 12, surface_maximum: 2.4, curvature_angle: 20, growth: 1.5}
+"""
 
 
 def main():

@@ -3,7 +3,7 @@
 import sys
 
 import vtk
-from program import COARSE_TRANSPORT, Run
+from program import shared_run
 
 
 def read(reader, file):
@@ -13,8 +13,7 @@ def read(reader, file):
 
 
 def main():
-    run = Run(sys.argv[1], COARSE_TRANSPORT, ranks=2)
-    assert run.code == 0, run.text
+    run = shared_run(sys.argv[1])
     mesh = read(vtk.vtkXMLPUnstructuredGridReader(), run.output / "mesh.pvtu")
     assert mesh.GetNumberOfCells() == run.report["mesh"]["tetrahedra"]
     assert {mesh.GetCellType(i) for i in range(0, mesh.GetNumberOfCells(), 97)} == {vtk.VTK_TETRA}

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 import tempfile
 import time
@@ -9,19 +10,30 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 GEOMETRY = pathlib.Path(os.environ.get("AEROLOOM_GEOMETRY", SOURCE.parent / "shared" / "geometry"))
 
-# The built-in aircraft, coarse: a few seconds on one core.
+# The built-in aircraft, coarse: two seconds on one core.
 COARSE_TRANSPORT = """
-geometry: {builtin: transport}
+geometry: {builtin: transport, trailing_edges: sharpen}
 farfield: {shape: box, extent: 3}
-sizing: {minimum: 0.12, maximum: 12, surface_maximum: 1.2, curvature_angle: 20, growth: 1.5}
+sizing: {minimum: 0.5, maximum: 20, surface_maximum: 4, curvature_angle: 30, growth: 1.8, proximity: 0}
 """
+
+# What several tests look at once it is finished: in pieces, with a patch whose name is markup.
+HOSTILE = "<script>alert('&amp;')</script><img src=x onerror=alert(1)>"
+SHARED_CASE = COARSE_TRANSPORT + f"""
+surface: {{piece_triangles: 400}}
+volume: {{piece_tets: 12000}}
+output: {{tasks: true}}
+patches:
+  "{HOSTILE}": {{faces: ['wing_*_upper']}}
+"""
+SHARED_RANKS = 2
 
 
 class Run:
     """One finished run: exit code, output, seconds, report and output folder."""
 
-    def __init__(self, program, case, ranks=1, overrides=(), seconds=280):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
+    def __init__(self, program, case, ranks=1, overrides=(), seconds=280, folder=None):
+        self.folder = pathlib.Path(folder or tempfile.mkdtemp(prefix="aeroloom_test_"))
         case_file = self.folder / "case.yaml"
         case_file.write_text(case)
         self.output = self.folder / "out"
@@ -34,3 +46,14 @@ class Run:
         self.code, self.text = done.returncode, done.stdout + done.stderr
         report = self.output / "report.json"
         self.report = json.loads(report.read_text()) if report.exists() else None
+
+
+def shared_run(program):
+    """The run of SHARED_CASE on SHARED_RANKS, to be read only: that of shared_run.py where AEROLOOM_SHARED_RUN names it, as
+    the tests of a build do, else a new one."""
+    kept = os.environ.get("AEROLOOM_SHARED_RUN")
+    if kept and (pathlib.Path(kept) / "run.pickle").exists():
+        return pickle.loads((pathlib.Path(kept) / "run.pickle").read_bytes())
+    run = Run(program, SHARED_CASE, SHARED_RANKS)
+    assert run.code == 0, run.text
+    return run

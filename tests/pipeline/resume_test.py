@@ -12,7 +12,7 @@ import tempfile
 from killed_run import command, run_and_kill
 from program import COARSE_TRANSPORT
 
-CASE = COARSE_TRANSPORT + "volume: {piece_tets: 10000}\nsurface: {piece_triangles: 2000}\n"
+CASE = COARSE_TRANSPORT + "volume: {piece_tets: 10000}\nsurface: {piece_triangles: 500}\n"
 STAGES = ["geometry", "sizing", "surface", "volume", "improve"]
 KEPT = [stage for stage in STAGES if stage != "volume"]  # that goes when the improved one is there
 
@@ -45,7 +45,7 @@ def check_killed(runs, wanted):
     caught = 0
     for stage, ranks, again in (("surface", 1, 3), ("volume", 2, 1), ("improve", 3, 2)):
         tasks = [folder / f"{stage}.0.{rank}.tasks" for rank in range(ranks)]
-        if runs.kill(ranks, lambda _: sum(size_of(t) for t in tasks) > 200000) is None:
+        if runs.kill(ranks, lambda _: sum(size_of(t) for t in tasks) > 20000) is None:
             continue  # it was quicker than the eye
         caught += 1
         code, text, report = runs.run(again, "output.checkpoints=resume")
@@ -109,7 +109,7 @@ def check_full_disk(runs, wanted):
     from what did fit. Left out where file systems cannot be mounted."""
     shutil.rmtree(runs.output)
     runs.output.mkdir()
-    mount = ["mount", "-t", "tmpfs", "-o", "size=3M", "tmpfs", str(runs.output)]
+    mount = ["mount", "-t", "tmpfs", "-o", "size=1500k", "tmpfs", str(runs.output)]
     if subprocess.run(mount, capture_output=True).returncode != 0:
         print("not tested: a full disk (mount is not permitted)")
         return

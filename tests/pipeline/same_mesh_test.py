@@ -4,7 +4,7 @@ import csv
 import filecmp
 import sys
 
-from program import COARSE_TRANSPORT, Run
+from program import SHARED_CASE, SHARED_RANKS, Run, shared_run
 
 
 def check_tasks(runs):
@@ -27,8 +27,8 @@ def check_tasks(runs):
 
 
 def main():
-    pieces = ("volume.piece_tets=30000", "surface.piece_triangles=1500", "output.tasks=true")
-    runs = {ranks: Run(sys.argv[1], COARSE_TRANSPORT, ranks, pieces) for ranks in (1, 2, 3)}
+    runs = {ranks: shared_run(sys.argv[1]) if ranks == SHARED_RANKS else Run(sys.argv[1], SHARED_CASE, ranks)
+            for ranks in (1, 2, 3)}
     for ranks, run in runs.items():
         assert run.code == 0, f"{ranks} ranks ended with {run.code}:\n{run.text}"
         assert run.report["status"] == "ok" and run.report["ranks"] == ranks
