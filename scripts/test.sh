@@ -6,4 +6,7 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh --tests
 cmake --preset release > /dev/null
 cmake --build --preset release
-ctest --preset release
+passed=0
+ctest --preset release --output-junit tests.xml || passed=$?
+scripts/dearest_tests.py build/release
+exit "$passed"
