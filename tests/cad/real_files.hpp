@@ -1,6 +1,8 @@
 /// The folder of real geometry that tests look for, and small damaged files.
 #pragma once
 
+#include "tests/source_tree.hpp"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +15,7 @@ namespace aeroloom::cad::real {
 
 inline std::filesystem::path folder() {
   if (const char* set = std::getenv("AEROLOOM_GEOMETRY")) return set;
-  return std::filesystem::path(AEROLOOM_SOURCE_DIR) / ".." / "shared" / "geometry";
+  return source_tree() / ".." / "shared" / "geometry";
 }
 
 inline std::string file(const std::string& name) {

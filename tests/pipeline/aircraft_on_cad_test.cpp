@@ -4,10 +4,13 @@
 #include "improve/improver.hpp"
 #include "mesh/validity.hpp"
 #include "surface/surface_mesher.hpp"
+#include "tests/references.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +30,7 @@ struct Aircraft {
   improve::ImproveReport improved;
 };
 
-Aircraft mesh_aircraft(const parallel::Communicator& ranks, bool improve) {
+Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   cad::DomainOptions domain;
   domain.transport.emplace();
   domain.far_field.emplace();
@@ -47,11 +50,9 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks, bool improve) {
   const volume::VolumeInput input{aircraft.surface.mesh, numbering, aircraft.surface.field, options};
   aircraft.volume =
       volume::fill_zones(ranks, input, volume::decompose(ranks, input, clock), clock, aircraft.report);
-  if (improve) {
-    cad::PointLocator locator(model);
-    aircraft.improved =
-        improve::improve_mesh(ranks, aircraft.volume, {}, clock, {&locator, &aircraft.surface.field});
-  }
+  cad::PointLocator locator(model);
+  aircraft.improved =
+      improve::improve_mesh(ranks, aircraft.volume, {}, clock, {&locator, &aircraft.surface.field});
   return aircraft;
 }
 
@@ -93,9 +94,18 @@ std::vector<double> areas_by_face(const parallel::Communicator& ranks, const cad
   return areas;
 }
 
-TEST(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
-  const auto ranks = parallel::Communicator::world();
-  const Aircraft aircraft = mesh_aircraft(ranks, true);
+/// Meshed once for all tests.
+class AircraftOnCad : public testing::Test {
+protected:
+  static void SetUpTestSuite() { meshed.emplace(mesh_aircraft(parallel::Communicator::world())); }
+  static void TearDownTestSuite() { meshed.reset(); }
+
+  inline static std::optional<Aircraft> meshed;
+  const parallel::Communicator ranks = parallel::Communicator::world();
+  const Aircraft& aircraft = *meshed;
+};
+
+TEST_F(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
   EXPECT_GT(aircraft.surface.report.divided_faces, 3) << "faces are cut into pieces";
   EXPECT_GT(aircraft.volume.piece_count, 2) << "the volume is filled in zones";
   EXPECT_GT(ranks.sum(aircraft.improved.changed_triangles), 0) << "there is something to compare";
@@ -115,17 +125,15 @@ TEST(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
   EXPECT_NEAR(body, cad_body, 0.01 * cad_body);
 }
 
-TEST(AircraftOnCad, IsTheSameMeshOnAnyNumberOfRanks) {
-  const auto world = parallel::Communicator::world(), self = parallel::Communicator::self();
-  if (world.size() == 1) GTEST_SKIP() << "nothing to compare";
-  const auto hash = [](const parallel::Communicator& ranks) {
-    const Aircraft aircraft = mesh_aircraft(ranks, true);
-    return mesh::hash_mesh(ranks, aircraft.volume, mesh::number_mesh(ranks, aircraft.volume));
+TEST_F(AircraftOnCad, IsTheSameMeshOnAnyNumberOfRanks) {
+  const auto hash = [](const parallel::Communicator& on, const Aircraft& of) {
+    return mesh::hash_mesh(on, of.volume, mesh::number_mesh(on, of.volume));
   };
-  const std::string together = hash(world);
-  if (world.is_root()) {
-    EXPECT_EQ(together, hash(self));
-  }
+  const std::string together = hash(ranks, aircraft);
+  if (!ranks.is_root()) return;
+  const auto self = parallel::Communicator::self();
+  EXPECT_EQ(together,
+            references::of_one_rank(ranks, together, [&] { return hash(self, mesh_aircraft(self)); }));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "parallel/communicator.hpp"
 #include "pipeline/load_domain.hpp"
 #include "pipeline/run.hpp"
+#include "tests/references.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <filesystem>
@@ -72,20 +73,21 @@ inline Case coarse_case(const std::string& file, const Folder& folder, double ta
   return input;
 }
 
-/// Runs the case on all ranks together, then on rank 0 alone: the record of the first, with the hash of both
-/// in `alone` (the first's own where there is nothing to compare).
+/// Runs the case on all ranks together; the record, and in `alone` the hash of the mesh of one rank.
 inline RunRecord run_twice(const Case& input, std::string& alone) {
   const auto world = parallel::Communicator::world();
   RunRecord record;
   run_case(world, input, record);
   alone = record.hash;
   parallel::agree(world, [&] {
-    if (!world.is_root() || world.size() == 1) return;
-    Case again = input;
-    again.output.directory += "_alone";
-    RunRecord other;
-    run_case(parallel::Communicator::self(), again, other);
-    alone = other.hash;
+    if (!world.is_root()) return;
+    alone = references::of_one_rank(world, record.hash, [&] {
+      Case again = input;
+      again.output.directory += "_alone";
+      RunRecord other;
+      run_case(parallel::Communicator::self(), again, other);
+      return other.hash;
+    });
   });
   return record;
 }

@@ -1,6 +1,7 @@
 /// The table of keys: every key is documented, and what is told of it holds.
 #include "pipeline/case.hpp"
 #include "pipeline/key_info.hpp"
+#include "tests/source_tree.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -111,7 +112,7 @@ TEST(CaseKeys, LinksLeadToPagesAndHeadingsThatAreThere) {
   for (const KeyInfo& key : case_keys()) {
     const std::string& text = key.doc.text;
     for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
-      const std::string page = std::string(AEROLOOM_SOURCE_DIR) + "/docs/" + (*found)[1].str();
+      const std::string page = source_tree() / "docs" / (*found)[1].str();
       EXPECT_TRUE(std::ifstream(page).good()) << key.path << ": " << page;
       const std::string anchor = (*found)[3].str();
       EXPECT_TRUE(anchor.empty() || has_heading(page, anchor)) << key.path << ": " << page << "#" << anchor;

@@ -6,6 +6,7 @@
 #include "pipeline/text_file.hpp"
 #include "sizing/size_field.hpp"
 #include "tests/pipeline/case_fixture.hpp"
+#include "tests/source_tree.hpp"
 
 #include <regex>
 #include <sstream>
@@ -86,7 +87,7 @@ TEST_F(CaseTest, TheTemplateHasTheKeys) {
 }
 
 TEST(CaseReference, ThePageIsUpToDate) {
-  const std::string page = read_text(std::string(AEROLOOM_SOURCE_DIR) + "/docs/configuration.md");
+  const std::string page = read_text(source_tree() / "docs/configuration.md");
   EXPECT_TRUE(page == with_reference(page, case_reference(case_keys())))
       << "docs/configuration.md is stale; renew it: aeroloom schema --markdown --output "
          "docs/configuration.md";

@@ -8,6 +8,7 @@
 #include "surface/chart.hpp"
 #include "surface/curves.hpp"
 #include "surface/support.hpp"
+#include "tests/source_tree.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -42,9 +43,8 @@ inline cad::Facets facets_of(const cad::Model& model, cad::FaceId face) {
 
 inline std::filesystem::path aircraft_folder() {
   const char* set = std::getenv("AEROLOOM_GEOMETRY");
-  const std::filesystem::path root = set != nullptr
-                                         ? std::filesystem::path(set)
-                                         : std::filesystem::path(AEROLOOM_SOURCE_DIR) / "../shared/geometry";
+  const std::filesystem::path root =
+      set != nullptr ? std::filesystem::path(set) : source_tree() / "../shared/geometry";
   return root / "aircraft";
 }
 

@@ -1,0 +1,18 @@
+/// What the run on one rank gave, for those on more ranks to compare with: the entry on one rank keeps it,
+/// the others find it (REFERENCES in cmake/AeroloomLibrary.cmake). Without, each makes its own.
+#pragma once
+
+#include "parallel/communicator.hpp"
+
+#include <functional>
+#include <string>
+
+namespace aeroloom::references {
+
+/// The text, such as a hash, that this place of the running test had on one rank: `here` where there is but
+/// one, what was kept since the program was built, or what `make` gives on this rank. Call it on rank 0 of
+/// `ranks` alone, the same times in each run of the test.
+std::string of_one_rank(const parallel::Communicator& ranks, const std::string& here,
+                        const std::function<std::string()>& make);
+
+}  // namespace aeroloom::references
