@@ -5,9 +5,9 @@
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -20,6 +20,7 @@ template <parallel::Transferable T, class Destination>
 std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T> items,
                        const Destination& destination) {
   if (communicator.size() == 1) return items;
+  constexpr std::size_t item_bytes = parallel::wire_size<T>;
   const parallel::Rank here = communicator.rank();
   std::vector<std::size_t> counts(communicator.size(), 0);
   for (const T& item : items) ++counts[destination(item)];
@@ -28,7 +29,7 @@ std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T
   for (std::size_t rank = 0; rank < counts.size(); ++rank) {
     if (counts[rank] == 0 || static_cast<parallel::Rank>(rank) == here) continue;
     parcel_of[rank] = parcels.size();
-    parcels.push_back({static_cast<parallel::Rank>(rank), parallel::Bytes(counts[rank] * sizeof(T))});
+    parcels.push_back({static_cast<parallel::Rank>(rank), parallel::Bytes(counts[rank] * item_bytes)});
   }
   std::fill(counts.begin(), counts.end(), 0);
   std::size_t kept = 0;
@@ -37,29 +38,29 @@ std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T
     if (rank == here) {
       items[kept++] = item;
     } else {
-      std::memcpy(parcels[parcel_of[rank]].content.data() + counts[rank]++ * sizeof(T), &item, sizeof(T));
+      parallel::write_item(item, parcels[parcel_of[rank]].content.data() + counts[rank]++ * item_bytes);
     }
   }
   items.resize(kept);
   items.shrink_to_fit();
   std::vector<parallel::Parcel> arrived = communicator.exchange(std::move(parcels));
   std::size_t total = kept;
-  for (const auto& parcel : arrived) total += parcel.content.size() / sizeof(T);
+  for (const auto& parcel : arrived) total += parcel.content.size() / item_bytes;
   std::vector<T> result(total);
-  auto* to = reinterpret_cast<std::byte*>(result.data());
-  const auto append = [&to](const void* from, std::size_t bytes) {
-    if (bytes > 0) std::memcpy(to, from, bytes);
-    to += bytes;
-  };
+  std::span<T> to(result);
   std::size_t next = 0;
   const auto append_parcels = [&](parallel::Rank end) {
     for (; next < arrived.size() && arrived[next].rank < end; ++next) {
-      append(arrived[next].content.data(), arrived[next].content.size());
-      parallel::Bytes().swap(arrived[next].content);
+      parallel::Bytes& content = arrived[next].content;
+      const std::size_t count = content.size() / item_bytes;
+      parallel::read_items(content.data(), to.first(count));
+      to = to.subspan(count);
+      parallel::Bytes().swap(content);
     }
   };
   append_parcels(here);
-  append(items.data(), kept * sizeof(T));
+  std::copy(items.begin(), items.end(), to.begin());
+  to = to.subspan(kept);
   append_parcels(communicator.size());
   return result;
 }
@@ -73,6 +74,7 @@ std::vector<Row> gather_by_piece(const parallel::Communicator& communicator, con
   struct Tagged {
     Row row;
     PieceId piece;
+    static constexpr auto fields() { return std::tuple(&Tagged::row, &Tagged::piece); }
   };
   std::vector<Tagged> mine(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) mine[i] = {rows[i], mesh.pieces[i].id};

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -32,7 +31,7 @@ KeyRanges fair_ranges(const parallel::Communicator& communicator, std::vector<Gl
 /// The lowest of what the ranks say, -1 standing for nothing. Collective.
 GlobalIndex lowest_of_all(const parallel::Communicator& communicator, GlobalIndex mine);
 
-/// Keys are ids of a file, or numbers. A Value has no padding: its bits are compared.
+/// Keys are ids of a file, or numbers. The bits of values are compared.
 template <parallel::Transferable Value>
 class DistributedTable {
 public:
@@ -107,7 +106,7 @@ DistributedTable<Value>::DistributedTable(const parallel::Communicator& communic
   std::size_t kept = 0;
   for (const Row& row : _rows) {
     if (kept > 0 && _rows[kept - 1].key == row.key) {
-      const bool equal = std::memcmp(&_rows[kept - 1].value, &row.value, sizeof(Value)) == 0;
+      const bool equal = parallel::same_bits(_rows[kept - 1].value, row.value);
       if (!equal && _clash < 0) _clash = row.key;
     } else {
       _rows[kept++] = row;

@@ -2,22 +2,19 @@
 /// passing library, and counts and displacements stay inside.
 #pragma once
 
+#include "parallel/packer.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace aeroloom::parallel {
 
 using Rank = int;
-using Bytes = std::vector<std::byte>;
-
-template <class T>
-concept Transferable = std::is_trivially_copyable_v<T>;
 
 /// A parcel of a sparse exchange: the bytes for (or from) one rank.
 struct Parcel {
@@ -73,6 +70,14 @@ public:
   template <Transferable T>
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 
+  /// As broadcast, gather and all_gather, of anything that can be packed.
+  template <class T>
+  void broadcast_value(T& value, Rank root = 0) const;
+  template <class T>
+  std::vector<T> gather_values(const T& mine, Rank root = 0) const;
+  template <class T>
+  std::vector<T> all_gather_values(const T& mine) const;
+
 private:
   friend class NodeMemory;
   friend struct HostAccess;
@@ -83,47 +88,6 @@ private:
   void all_gather_into(std::span<const std::byte> mine, const std::vector<std::uint64_t>& sizes,
                        std::byte* to) const;
   std::shared_ptr<CommunicatorHandle> _handle;
-};
-
-/// Items as bytes and back; sizes that do not divide throw std::logic_error.
-template <Transferable T>
-Bytes to_bytes(std::span<const T> items) {
-  const auto raw = std::as_bytes(items);
-  return {raw.begin(), raw.end()};
-}
-template <Transferable T>
-std::vector<T> from_bytes(std::span<const std::byte> bytes);
-
-/// Writes values and arrays one after another into a byte buffer; Unpacker reads them back in order.
-class Packer {
-public:
-  template <Transferable T>
-  void value(const T& item);
-  template <Transferable T>
-  void array(const std::vector<T>& items);
-  void text(const std::string& text);
-  Bytes take() { return std::move(_bytes); }
-
-private:
-  void append(const void* data, std::size_t count);
-  Bytes _bytes;
-};
-
-/// Reads what Packer wrote. Reading past the end throws std::logic_error.
-class Unpacker {
-public:
-  explicit Unpacker(std::span<const std::byte> bytes) : _bytes(bytes) {}
-  template <Transferable T>
-  T value();
-  template <Transferable T>
-  std::vector<T> array();
-  std::string text();
-  bool at_end() const { return _position == _bytes.size(); }
-
-private:
-  void copy(void* to, std::size_t count);
-  std::span<const std::byte> _bytes;
-  std::size_t _position = 0;
 };
 
 }  // namespace aeroloom::parallel

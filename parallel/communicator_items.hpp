@@ -3,33 +3,27 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
+#include <numeric>
 #include <stdexcept>
 
 namespace aeroloom::parallel {
 
 template <Transferable T>
-std::vector<T> from_bytes(std::span<const std::byte> bytes) {
-  if (bytes.size() % sizeof(T) != 0) {
-    throw std::logic_error("from_bytes: " + std::to_string(bytes.size()) +
-                           " bytes are no whole number of items");
-  }
-  std::vector<T> items(bytes.size() / sizeof(T));
-  if (!bytes.empty()) std::memcpy(items.data(), bytes.data(), bytes.size());
-  return items;
-}
-
-template <Transferable T>
 std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
-  const std::vector<std::uint64_t> sizes = all_sizes(mine.size_bytes());
-  std::uint64_t bytes = 0;
+  const std::vector<std::uint64_t> sizes = all_sizes(mine.size() * wire_size<T>);
   for (const std::uint64_t size : sizes) {
-    if (size % sizeof(T) != 0) throw std::logic_error("all_gather_items: a part of an item");
-    bytes += size;
+    if (size % wire_size<T> != 0) throw std::logic_error("all_gather_items: a part of an item");
   }
-  std::vector<T> all(bytes / sizeof(T));
-  all_gather_into(std::as_bytes(mine), sizes, reinterpret_cast<std::byte*>(all.data()));
-  return all;
+  const std::uint64_t bytes = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
+  if constexpr (is_exact<T>) {
+    std::vector<T> all(bytes / sizeof(T));
+    all_gather_into(std::as_bytes(mine), sizes, reinterpret_cast<std::byte*>(all.data()));
+    return all;
+  } else {
+    Bytes all(bytes);
+    all_gather_into(to_bytes(mine), sizes, all.data());
+    return from_bytes<T>(all);
+  }
 }
 
 template <Transferable T>
@@ -39,31 +33,26 @@ void Communicator::broadcast_items(std::vector<T>& items, Rank root) const {
   items = from_bytes<T>(bytes);
 }
 
-template <Transferable T>
-void Packer::value(const T& item) {
-  append(&item, sizeof(T));
+template <class T>
+void Communicator::broadcast_value(T& value, Rank root) const {
+  Bytes bytes;
+  if (rank() == root) bytes = to_wire(value);
+  broadcast(bytes, root);
+  if (rank() != root) value = from_wire<T>(bytes);
 }
 
-template <Transferable T>
-void Packer::array(const std::vector<T>& items) {
-  value(static_cast<std::uint64_t>(items.size()));
-  append(items.data(), items.size() * sizeof(T));
+template <class T>
+std::vector<T> Communicator::gather_values(const T& mine, Rank root) const {
+  std::vector<T> values;
+  for (const Bytes& bytes : gather(to_wire(mine), root)) values.push_back(from_wire<T>(bytes));
+  return values;
 }
 
-template <Transferable T>
-T Unpacker::value() {
-  T item;
-  copy(&item, sizeof(T));
-  return item;
-}
-
-template <Transferable T>
-std::vector<T> Unpacker::array() {
-  const auto count = value<std::uint64_t>();
-  if (count > (_bytes.size() - _position) / sizeof(T)) throw std::logic_error("Unpacker: array past the end");
-  std::vector<T> items(count);
-  copy(items.data(), count * sizeof(T));
-  return items;
+template <class T>
+std::vector<T> Communicator::all_gather_values(const T& mine) const {
+  std::vector<T> values;
+  for (const Bytes& bytes : all_gather(to_wire(mine))) values.push_back(from_wire<T>(bytes));
+  return values;
 }
 
 }  // namespace aeroloom::parallel

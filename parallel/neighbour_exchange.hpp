@@ -38,7 +38,13 @@ public:
   void exchange(std::span<const std::byte> out, std::span<std::byte> in) const;
   template <Transferable T>
   void exchange(std::span<const T> out, std::span<T> in) const {
-    exchange(std::as_bytes(out), std::as_writable_bytes(in));
+    if constexpr (is_exact<T>) {
+      exchange(std::as_bytes(out), std::as_writable_bytes(in));
+    } else {
+      Bytes arrived(in.size() * wire_size<T>);
+      exchange(to_bytes(out), std::span<std::byte>(arrived));
+      read_items(arrived.data(), in);
+    }
   }
 
   /// The same the other way round: what was sent is received.

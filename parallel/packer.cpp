@@ -1,31 +1,37 @@
-#include "parallel/communicator.hpp"
-
-#include <stdexcept>
+#include "parallel/packer.hpp"
 
 namespace aeroloom::parallel {
 
 void Packer::text(const std::string& text) {
-  value(static_cast<std::uint64_t>(text.size()));
-  append(text.data(), text.size());
+  array(std::span<const char>(text));
 }
 
-void Packer::append(const void* data, std::size_t count) {
-  const auto* first = static_cast<const std::byte*>(data);
-  _bytes.insert(_bytes.end(), first, first + count);
+void Packer::append(std::span<const std::byte> bytes) {
+  _bytes.insert(_bytes.end(), bytes.begin(), bytes.end());
+}
+
+std::byte* Packer::extend(std::size_t count) {
+  _bytes.resize(_bytes.size() + count);
+  return _bytes.data() + (_bytes.size() - count);
 }
 
 std::string Unpacker::text() {
-  const auto count = value<std::uint64_t>();
-  if (count > _bytes.size() - _position) throw std::logic_error("Unpacker: text past the end");
-  std::string text(count, '\0');
-  copy(text.data(), count);
+  std::string text(count(1), '\0');
+  read_items(advance(text.size()), std::span<char>(text));
   return text;
 }
 
-void Unpacker::copy(void* to, std::size_t count) {
-  if (count > _bytes.size() - _position) throw std::logic_error("Unpacker: value past the end");
-  if (count > 0) std::memcpy(to, _bytes.data() + _position, count);
+std::size_t Unpacker::count(std::size_t bytes) {
+  const auto count = value<std::uint64_t>();
+  if (bytes > 0 && count > (_bytes.size() - _position) / bytes)
+    throw std::logic_error("Unpacker: a count past the end");
+  return count;
+}
+
+const std::byte* Unpacker::advance(std::size_t count) {
+  if (count > _bytes.size() - _position) throw std::logic_error("Unpacker: past the end");
   _position += count;
+  return _bytes.data() + (_position - count);
 }
 
 }  // namespace aeroloom::parallel
