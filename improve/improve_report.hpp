@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 namespace aeroloom::improve {
 
@@ -13,6 +14,11 @@ struct ImproveReport {
   std::int64_t swaps = 0;                            ///< cavities filled anew
   std::int64_t changed_triangles = 0;                ///< of the boundary
 
+  static constexpr auto fields() {
+    return std::tuple(&ImproveReport::bad_before, &ImproveReport::bad_after, &ImproveReport::min_angle_before,
+                      &ImproveReport::min_angle_after, &ImproveReport::smoothed, &ImproveReport::slid,
+                      &ImproveReport::swaps, &ImproveReport::changed_triangles);
+  }
   /// What another run has changed, on top.
   void add_changes(const ImproveReport& of) {
     smoothed += of.smoothed;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace aeroloom::improve {
 namespace {
@@ -150,18 +151,14 @@ ImproveReport improve_or_find(mesh::Piece& piece, const ImproveOptions& options,
                               parallel::TaskStore* tasks) {
   if (tasks == nullptr || !options.enabled) return improve_piece(piece, options, source);
   const parallel::Digest key =
-      parallel::Digester().value(options.target_angle).bytes(mesh::pack_piece(piece)).result();
+      parallel::Digester().value(options.target_angle).bytes(parallel::to_wire(piece)).result();
   if (const std::optional<parallel::Bytes> known = tasks->find(key)) {
-    parallel::Unpacker unpacker(*known);
-    const auto report = unpacker.value<ImproveReport>();
-    piece = mesh::unpack_piece(unpacker.array<std::byte>());
+    ImproveReport report;
+    std::tie(report, piece) = parallel::from_wire<std::tuple<ImproveReport, mesh::Piece>>(*known);
     return report;
   }
   const ImproveReport report = improve_piece(piece, options, source);
-  parallel::Packer packer;
-  packer.value(report);
-  packer.array(mesh::pack_piece(piece));
-  tasks->keep(key, packer.take());
+  tasks->keep(key, parallel::to_wire(std::tie(report, piece)));
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include "mesh/delivery.hpp"
 
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::mesh {
@@ -11,6 +12,8 @@ std::vector<std::int64_t> sum_bins(const parallel::Communicator& communicator,
                                    const std::vector<std::int64_t>& bins) {
   struct Entry {
     std::int64_t bin, count;
+
+    static constexpr auto fields() { return std::tuple(&Entry::bin, &Entry::count); }
   };
   const auto per_rank = static_cast<std::int64_t>(bins.size() / communicator.size() + 1);
   std::vector<Entry> filled;

@@ -3,9 +3,11 @@
 
 #include "mesh/patch.hpp"
 #include "mesh/piece.hpp"
+#include "parallel/communicator.hpp"
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -15,20 +17,30 @@ namespace aeroloom::mesh {
 struct FaceSides {
   RegionId front = 0, back = no_region;
 
+  static constexpr auto fields() { return std::tuple(&FaceSides::front, &FaceSides::back); }
   bool is_inner() const { return back != no_region; }
 };
 
-/// The pieces of one mesh that live on this rank. Data and queries; algorithms are free functions.
-struct DistributedMesh {
+/// What is the same on every rank.
+struct MeshFacts {
   CellKind kind = CellKind::tetrahedron;
   PieceId piece_count = 0;             ///< of the whole mesh; ids run from 0
-  std::vector<Piece> pieces;           ///< on this rank, ascending id
-  std::vector<std::string> patches;    ///< names by patch index, the same on every rank
-  std::vector<PatchType> patch_types;  ///< by patch index, the same on every rank; those left out are walls
-  std::vector<std::string> faces;      ///< CAD face names by face id, the same on every rank
-  std::vector<FaceSides> sides;      ///< by face id, the same on every rank; empty: all faces bound region 0
-  std::vector<std::string> regions;  ///< names by region id, the same on every rank; empty: one, unnamed
-  std::int32_t cavity_rounds = 0;    ///< that changed the pieces so far (cavities/rounds.hpp), on every rank
+  std::vector<std::string> patches;    ///< names by patch index
+  std::vector<PatchType> patch_types;  ///< by patch index; those left out are walls
+  std::vector<std::string> faces;      ///< CAD face names by face id
+  std::vector<FaceSides> sides;        ///< by face id; empty: all faces bound region 0
+  std::vector<std::string> regions;    ///< names by region id; empty: one, unnamed
+  std::int32_t cavity_rounds = 0;      ///< that changed the pieces so far (cavities/rounds.hpp)
+
+  static constexpr auto fields() {
+    return std::tuple(&MeshFacts::kind, &MeshFacts::piece_count, &MeshFacts::patches, &MeshFacts::patch_types,
+                      &MeshFacts::faces, &MeshFacts::sides, &MeshFacts::regions, &MeshFacts::cavity_rounds);
+  }
+};
+
+/// The pieces of one mesh that live on this rank. Data and queries; algorithms are free functions.
+struct DistributedMesh : MeshFacts {
+  std::vector<Piece> pieces;  ///< on this rank, ascending id
 
   RegionId region_count() const { return regions.empty() ? 1 : static_cast<RegionId>(regions.size()); }
   FaceSides sides_of(std::int32_t face) const {

@@ -121,6 +121,8 @@ std::vector<std::string> Findings::sentences(const parallel::Communicator& commu
   struct Place {
     std::int64_t violation;
     geometry::Vec3 point;
+
+    static constexpr auto fields() { return std::tuple(&Place::violation, &Place::point); }
   };
   const Table table = over_all_ranks(communicator);
   std::vector<Place> mine;

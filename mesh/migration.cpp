@@ -30,7 +30,7 @@ void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
     if (owner[piece.id] == communicator.rank()) {
       staying.push_back(std::move(piece));
     } else {
-      leaving[owner[piece.id]].array(pack_piece(piece));
+      parallel::pack(leaving[owner[piece.id]], piece);
       piece = {};  // a piece is never held twice for longer than it is packed
     }
   }
@@ -39,7 +39,7 @@ void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
   for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) staying.push_back(unpack_piece(unpacker.array<std::byte>()));
+    while (!unpacker.at_end()) staying.push_back(parallel::unpack<Piece>(unpacker));
     parallel::Bytes().swap(parcel.content);
   }
   std::sort(staying.begin(), staying.end(), [](const Piece& a, const Piece& b) { return a.id < b.id; });

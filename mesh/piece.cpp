@@ -18,42 +18,6 @@ bool all_below(const std::vector<LocalIndex>& indices, LocalIndex end) {
 
 }  // namespace
 
-parallel::Bytes pack_piece(const Piece& piece) {
-  parallel::Packer packer;
-  packer.value(piece.id);
-  packer.value(piece.kind);
-  packer.value(piece.region);
-  packer.array(piece.coordinates);
-  packer.array(piece.cells);
-  packer.array(piece.vertex_dimension);
-  packer.array(piece.vertex_entity);
-  packer.array(piece.boundary);
-  packer.array(piece.triangle_face);
-  packer.array(piece.triangle_patch);
-  packer.array(piece.shared_vertices);
-  packer.array(piece.shared_tokens);
-  return packer.take();
-}
-
-Piece unpack_piece(std::span<const std::byte> bytes) {
-  parallel::Unpacker unpacker(bytes);
-  Piece piece;
-  piece.id = unpacker.value<PieceId>();
-  piece.kind = unpacker.value<CellKind>();
-  piece.region = unpacker.value<std::int32_t>();
-  piece.coordinates = unpacker.array<double>();
-  piece.cells = unpacker.array<LocalIndex>();
-  piece.vertex_dimension = unpacker.array<std::int8_t>();
-  piece.vertex_entity = unpacker.array<std::int32_t>();
-  piece.boundary = unpacker.array<LocalIndex>();
-  piece.triangle_face = unpacker.array<std::int32_t>();
-  piece.triangle_patch = unpacker.array<std::int32_t>();
-  piece.shared_vertices = unpacker.array<LocalIndex>();
-  piece.shared_tokens = unpacker.array<SharedToken>();
-  if (!unpacker.at_end()) throw std::logic_error("unpack_piece: bytes left over");
-  return piece;
-}
-
 void require_consistent_arrays(const Piece& piece) {
   const auto n = static_cast<std::size_t>(piece.vertex_count());
   const auto b = static_cast<std::size_t>(piece.boundary_count());

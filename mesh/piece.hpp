@@ -2,11 +2,10 @@
 #pragma once
 
 #include "geometry/vec.hpp"
-#include "parallel/communicator.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -42,6 +41,13 @@ struct Piece {
   std::vector<LocalIndex> shared_vertices;    ///< (s) ascending: vertices that other pieces may know too
   std::vector<SharedToken> shared_tokens;     ///< (s)
 
+  static constexpr auto fields() {
+    return std::tuple(&Piece::id, &Piece::kind, &Piece::region, &Piece::coordinates, &Piece::cells,
+                      &Piece::vertex_dimension, &Piece::vertex_entity, &Piece::boundary,
+                      &Piece::triangle_face, &Piece::triangle_patch, &Piece::shared_vertices,
+                      &Piece::shared_tokens);
+  }
+
   int vertices_per_cell() const { return static_cast<int>(kind); }
   LocalIndex vertex_count() const { return static_cast<LocalIndex>(coordinates.size() / 3); }
   LocalIndex cell_count() const { return static_cast<LocalIndex>(cells.size() / vertices_per_cell()); }
@@ -67,10 +73,6 @@ struct Piece {
     return (kind == CellKind::triangle ? cells.data() : boundary.data()) + 3 * static_cast<std::size_t>(t);
   }
 };
-
-/// A piece as bytes, for migration, and back. Bit for bit.
-parallel::Bytes pack_piece(const Piece& piece);
-Piece unpack_piece(std::span<const std::byte> bytes);
 
 /// What a piece occupies in memory, bytes: its arrays with what they have reserved.
 std::int64_t bytes_at_rest(const Piece& piece);

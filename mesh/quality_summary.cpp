@@ -51,6 +51,8 @@ struct Accumulated {
 
 struct Values {
   double of[measures];
+
+  static constexpr auto fields() { return std::tuple(&Values::of); }
 };
 
 Values measure_triangle(const Piece& piece, LocalIndex c) {

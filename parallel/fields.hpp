@@ -53,6 +53,7 @@ struct FlatTraits {
 template <class T, std::size_t N>
 struct FlatTraits<T[N]> {
   static constexpr bool is_flat = FlatTraits<T>::is_flat;
+  static constexpr bool is_transferable = FlatTraits<T>::is_transferable;
   static constexpr std::size_t bytes = N * FlatTraits<T>::bytes;
 };
 template <class T, std::size_t N>
@@ -64,6 +65,7 @@ struct Members;
 template <class... M, class... C>
 struct Members<std::tuple<M C::*...>> {
   static constexpr bool are_flat = (FlatTraits<M>::is_flat && ...);
+  static constexpr bool are_transferable = (FlatTraits<M>::is_transferable && ...);
   static constexpr std::size_t bytes = (FlatTraits<M>::bytes + ... + 0);
   /// Of a struct that has these members and no others.
   static constexpr std::size_t size_with(std::size_t alignment) {
@@ -74,11 +76,28 @@ struct Members<std::tuple<M C::*...>> {
   }
 };
 
+/// Whether no member is listed twice.
+template <HasFields T>
+constexpr bool fields_are_distinct() {
+  return std::apply(
+      [](const auto... members) {
+        const auto same = [](const auto a, const auto b) {
+          if constexpr (std::is_same_v<decltype(a), decltype(b)>) return a == b;
+          return false;
+        };
+        const auto count = [&](const auto member) { return (int{same(member, members)} + ... + 0); };
+        return ((count(members) == 1) && ...);
+      },
+      T::fields());
+}
+
 template <HasFields T>
 struct FlatTraits<T> {
   using List = Members<decltype(T::fields())>;
+  static_assert(fields_are_distinct<T>(), "fields() lists each member once");
   static_assert(List::size_with(alignof(T)) == sizeof(T), "fields() lists all members in their order");
   static constexpr bool is_flat = std::is_trivially_copyable_v<T> && List::are_flat;
+  static constexpr bool is_transferable = std::is_trivially_copyable_v<T> && List::are_transferable;
   static constexpr std::size_t bytes = List::bytes;
 };
 

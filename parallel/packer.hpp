@@ -89,6 +89,9 @@ template <class T>
 void pack(Packer& packer, const T& item);
 template <class T>
 void unpack_into(Unpacker& unpacker, T& item);
+/// As pack(), and empties the arrays.
+template <class T>
+void hand_over(Packer& packer, T& item);
 template <class T>
 T unpack(Unpacker& unpacker) {
   T item{};
@@ -100,6 +103,13 @@ template <class T>
 Bytes to_wire(const T& item) {
   Packer packer;
   pack(packer, item);
+  return packer.take();
+}
+/// As to_wire(), for what is large: each array goes once it is packed, so the whole is never there twice.
+template <class T>
+Bytes hand_over_to_wire(T item) {
+  Packer packer;
+  hand_over(packer, item);
   return packer.take();
 }
 /// Throws std::logic_error where there are not just the bytes of one T.

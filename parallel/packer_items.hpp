@@ -163,6 +163,20 @@ void pack(Packer& packer, const T& item) {
 }
 
 template <class T>
+void hand_over(Packer& packer, T& item) {
+  if constexpr (Flat<T>) {
+    pack(packer, item);
+  } else if constexpr (HasFields<T>) {
+    for_each_field(item, [&](auto& field) { hand_over(packer, field); });
+  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+    std::apply([&](auto&... each) { (hand_over(packer, each), ...); }, item);
+  } else {
+    pack(packer, item);
+    item = T();
+  }
+}
+
+template <class T>
 void unpack_into(Unpacker& unpacker, T& item) {
   Wire<T>::unpack(unpacker, item);
 }

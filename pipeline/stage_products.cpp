@@ -48,7 +48,7 @@ void pack_mesh(const mesh::DistributedMesh& mesh, Packer& packer, CheckpointDraf
   packer.array(mesh.sides);
   pack_texts(mesh.regions, packer);
   for (const mesh::Piece& piece : mesh.pieces)
-    draft.items.push_back({piece.id, [&piece] { return mesh::pack_piece(piece); }});
+    draft.items.push_back({piece.id, [&piece] { return parallel::to_wire(piece); }});
 }
 
 /// Items go as their pieces come.
@@ -63,7 +63,7 @@ mesh::DistributedMesh unpack_mesh(Unpacker& unpacker, std::vector<CheckpointCont
   mesh.sides = unpacker.array<mesh::FaceSides>();
   mesh.regions = unpack_texts(unpacker);
   for (CheckpointContent::Item& item : items)
-    mesh.pieces.push_back(mesh::unpack_piece(std::exchange(item.bytes, parallel::Bytes())));
+    mesh.pieces.push_back(parallel::from_wire<mesh::Piece>(std::exchange(item.bytes, parallel::Bytes())));
   return mesh;
 }
 

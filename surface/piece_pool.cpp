@@ -216,9 +216,10 @@ mesh::Piece PiecePool::mesh_or_find(const PieceSeed& seed, const SizeField& fiel
   if (_tasks == nullptr) return mesh_piece(_model, seed, field, _options);
   const parallel::Digest key =
       parallel::Digester().value(of_field.low).value(of_field.high).bytes(pack_seed(seed)).result();
-  if (const std::optional<parallel::Bytes> known = _tasks->find(key)) return mesh::unpack_piece(*known);
+  if (const std::optional<parallel::Bytes> known = _tasks->find(key))
+    return parallel::from_wire<mesh::Piece>(*known);
   mesh::Piece piece = mesh_piece(_model, seed, field, _options);
-  _tasks->keep(key, mesh::pack_piece(piece));
+  _tasks->keep(key, parallel::to_wire(piece));
   return piece;
 }
 

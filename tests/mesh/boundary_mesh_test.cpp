@@ -4,6 +4,7 @@
 #include "tests/mesh/meshes.hpp"
 
 #include <map>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,8 @@ TEST_P(BoundaryOfCube, HasOnePieceForEachPieceAndFaceInTheirOrder) {
   struct Row {
     PieceId id;
     std::int32_t face;
+
+    static constexpr auto fields() { return std::tuple(&Row::id, &Row::face); }
   };
   std::vector<Row> rows;
   for (const Piece& piece : surface.pieces) {

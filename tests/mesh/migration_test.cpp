@@ -3,6 +3,8 @@
 #include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 namespace aeroloom::mesh {
@@ -13,26 +15,28 @@ using parallel::Communicator;
 TEST(Piece, SurvivesPackingBitForBit) {
   const auto mesh = examples::cube(Communicator::self(), 2, 3);
   for (const Piece& piece : mesh.pieces) {
-    const parallel::Bytes bytes = pack_piece(piece);
-    const Piece copy = unpack_piece(bytes);
+    const parallel::Bytes bytes = parallel::to_wire(piece);
+    const Piece copy = parallel::from_wire<Piece>(bytes);
     EXPECT_EQ(copy.id, piece.id);
     EXPECT_EQ(copy.kind, piece.kind);
-    EXPECT_EQ(pack_piece(copy), bytes);
+    EXPECT_EQ(parallel::to_wire(copy), bytes);
   }
 }
 
 TEST(Piece, RefusesBytesThatAreTooFewOrTooMany) {
   const auto mesh = examples::two_tets(Communicator::self());
-  parallel::Bytes bytes = pack_piece(mesh.pieces[0]);
+  parallel::Bytes bytes = parallel::to_wire(mesh.pieces[0]);
   bytes.push_back(std::byte{0});
-  EXPECT_THROW(unpack_piece(bytes), std::logic_error);
+  EXPECT_THROW(parallel::from_wire<Piece>(bytes), std::logic_error);
   bytes.resize(bytes.size() - 2);
-  EXPECT_THROW(unpack_piece(bytes), std::logic_error);
+  EXPECT_THROW(parallel::from_wire<Piece>(bytes), std::logic_error);
 }
 
 TEST(Delivery, ArrivesByAscendingSenderInTheSendersOrder) {
   struct Item {
     std::int32_t from, to, number;
+
+    static constexpr auto fields() { return std::tuple(&Item::from, &Item::to, &Item::number); }
     bool operator==(const Item&) const = default;
   };
   const auto world = Communicator::world();
@@ -67,7 +71,7 @@ TEST(Migration, PutsEveryPieceWhereItsOwnerSays) {
     for (int p = 0; p < pieces; ++p) {
       if (owner[p] != world.rank()) continue;
       ASSERT_LT(next, mesh.pieces.size());
-      EXPECT_EQ(pack_piece(mesh.pieces[next++]), pack_piece(all.pieces[p]));
+      EXPECT_EQ(parallel::to_wire(mesh.pieces[next++]), parallel::to_wire(all.pieces[p]));
     }
     EXPECT_EQ(next, mesh.pieces.size());
   }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,10 @@ struct Row {
   GlobalIndex number;
   std::int64_t owned;
   double x, y, z;
+
+  static constexpr auto fields() {
+    return std::tuple(&Row::piece, &Row::vertex, &Row::number, &Row::owned, &Row::x, &Row::y, &Row::z);
+  }
   friend bool operator==(const Row&, const Row&) = default;
 };
 

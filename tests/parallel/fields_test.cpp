@@ -118,6 +118,16 @@ TEST(FieldsTest, CompositesComeBack) {
   EXPECT_EQ(from_wire<std::optional<std::string>>(to_wire(std::optional<std::string>())), std::nullopt);
 }
 
+TEST(FieldsTest, HandingOverEmptiesTheArrays) {
+  Composite all = some_composite();
+  EXPECT_EQ(hand_over_to_wire(all), to_wire(all));
+  Packer packer;
+  hand_over(packer, all);
+  EXPECT_EQ(packer.take(), to_wire(some_composite()));
+  EXPECT_EQ(all.lengths.capacity() + all.holed.capacity(), 0U);
+  EXPECT_TRUE(all.names.empty() && all.map.empty());
+}
+
 TEST(FieldsTest, ReferencesAndSpansArePackedAsWhatTheyReferTo) {
   const std::string name = "tail";
   const std::vector<Holed> items = poisoned(3);

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,8 @@ std::vector<double> face_areas(const Communicator& communicator, const Meshed& m
   struct Row {
     std::int32_t face;
     double area;
+
+    static constexpr auto fields() { return std::tuple(&Row::face, &Row::area); }
   };
   std::vector<Row> mine;
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
@@ -134,7 +137,7 @@ TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
     const PieceSeed seed = seed_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
     mesh::Piece alone = mesh_piece(meshed.model, seed, meshed.field, {});
     alone.id = piece.id;
-    EXPECT_EQ(pack_piece(piece), pack_piece(alone)) << "face " << piece.common_face();
+    EXPECT_EQ(parallel::to_wire(piece), parallel::to_wire(alone)) << "face " << piece.common_face();
   }
 }
 
