@@ -138,6 +138,10 @@ struct Decomposition {
 Decomposition inspect_pieces(const Communicator& communicator, const mesh::DistributedMesh& surface) {
   struct Row {
     std::int32_t face, piece, triangles, border;
+
+    static constexpr auto fields() {
+      return std::tuple(&Row::face, &Row::piece, &Row::triangles, &Row::border);
+    }
   };
   std::vector<Row> rows;
   for (const mesh::Piece& piece : surface.pieces) {

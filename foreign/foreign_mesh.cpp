@@ -83,6 +83,11 @@ std::vector<Face> all_faces(const parallel::Communicator& communicator,
 struct VertexNote {
   GlobalIndex number;
   std::int32_t face, part, place, rank;
+
+  static constexpr auto fields() {
+    return std::tuple(&VertexNote::number, &VertexNote::face, &VertexNote::part, &VertexNote::place,
+                      &VertexNote::rank);
+  }
 };
 
 /// Notes of all vertices that several parts know, each with the largest face that any of them knows.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace aeroloom::improve {
 namespace {
@@ -24,6 +25,8 @@ void balance_pieces(const parallel::Communicator& communicator, mesh::Distribute
     mesh::PieceId piece;
     parallel::Rank owner;
     double work;
+
+    static constexpr auto fields() { return std::tuple(&Row::piece, &Row::owner, &Row::work); }
   };
   std::vector<Row> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)

@@ -21,6 +21,10 @@ struct EdgeShare {
   std::int64_t edge, piece;
   double angle;                       ///< degrees that its tetrahedra enclose
   std::array<std::int32_t, 2> faces;  ///< CAD faces of its boundary triangles there, -1 for none
+
+  static constexpr auto fields() {
+    return std::tuple(&EdgeShare::edge, &EdgeShare::piece, &EdgeShare::angle, &EdgeShare::faces);
+  }
 };
 
 double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {

@@ -153,7 +153,7 @@ void PinnedSearch::list_sharp_curves() {
         for (auto low = both.begin(); low != both.end(); ++low) {
           for (auto high = low + 1; high != both.end(); ++high) {
             mine.push_back(
-                {edge, piece.region, 0, *low, *high, _wedges[edge].angle, piece.point(a), piece.point(b)});
+                {edge, piece.region, *low, *high, _wedges[edge].angle, piece.point(a), piece.point(b)});
           }
         }
       }

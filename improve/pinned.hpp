@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::improve {
@@ -22,11 +23,16 @@ struct PinningEntity {
   Kind kind = Kind::faces;
   std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces, ascending; twice the same of two curves
   std::int32_t vertex = -1;                   ///< CAD vertex of two curves
-  std::int32_t unused = 0;                    ///< no padding travels
   double angle = 0;                           ///< degrees: the smallest that the mesh has there
   double smallest_dihedral = 0;               ///< degrees, of its tetrahedra
   geometry::Vec3 at;                          ///< where that smallest angle is
   std::int64_t tetrahedra = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&PinningEntity::kind, &PinningEntity::faces, &PinningEntity::vertex,
+                      &PinningEntity::angle, &PinningEntity::smallest_dihedral, &PinningEntity::at,
+                      &PinningEntity::tetrahedra);
+  }
 };
 
 /// Walls nearer to each other than the elements on them are long: a CAD face with a strip between two of its
@@ -38,6 +44,12 @@ struct UnresolvedFeature {
   double smallest_dihedral = 0;  ///< degrees, of its tetrahedra
   geometry::Vec3 at;             ///< inside, where it is narrowest
   std::int64_t tetrahedra = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&UnresolvedFeature::face, &UnresolvedFeature::opposite, &UnresolvedFeature::width,
+                      &UnresolvedFeature::smallest_dihedral, &UnresolvedFeature::at,
+                      &UnresolvedFeature::tetrahedra);
+  }
 };
 
 /// Tetrahedra of one kind that miss the target. Without any, no angle is beyond the target.

@@ -16,12 +16,16 @@ namespace aeroloom::improve {
 
 /// An edge of the mesh on such a curve, for two of the faces that meet there.
 struct SharpSegment {
-  std::int64_t edge;        ///< its number, the same on every rank
-  mesh::RegionId region;    ///< that the wedge lies in
-  std::int32_t unused = 0;  ///< no padding travels
-  std::int32_t low, high;   ///< the faces, low < high
-  double angle;             ///< degrees that the boundary encloses
-  geometry::Vec3 a, b;      ///< its ends, alike on every rank
+  std::int64_t edge;       ///< its number, the same on every rank
+  mesh::RegionId region;   ///< that the wedge lies in
+  std::int32_t low, high;  ///< the faces, low < high
+  double angle;            ///< degrees that the boundary encloses
+  geometry::Vec3 a, b;     ///< its ends, alike on every rank
+
+  static constexpr auto fields() {
+    return std::tuple(&SharpSegment::edge, &SharpSegment::region, &SharpSegment::low, &SharpSegment::high,
+                      &SharpSegment::angle, &SharpSegment::a, &SharpSegment::b);
+  }
 };
 
 /// All of them, to be asked for the nearest one between two faces.

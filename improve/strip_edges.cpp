@@ -27,7 +27,7 @@ std::vector<StripEdge> find_strip_edges(const parallel::Communicator& communicat
         const EdgeName first{std::min(ga, gc), std::max(ga, gc), std::numeric_limits<std::int64_t>::min()};
         for (auto found = std::lower_bound(edges.begin(), edges.end(), first);
              found != edges.end() && found->low == first.low && found->high == first.high; ++found) {
-          mine.push_back({found - edges.begin(), piece.triangle_face[strip.triangle], 0, strip.width,
+          mine.push_back({found - edges.begin(), piece.triangle_face[strip.triangle], strip.width,
                           0.5 * (piece.point(a) + piece.point(c))});
         }
       }

@@ -6,6 +6,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::improve {
@@ -14,15 +15,21 @@ namespace aeroloom::improve {
 struct EdgeName {
   mesh::GlobalIndex low, high;
   std::int64_t region;
+
+  static constexpr auto fields() { return std::tuple(&EdgeName::low, &EdgeName::high, &EdgeName::region); }
   auto operator<=>(const EdgeName&) const = default;
 };
 
 /// An edge across a strip.
 struct StripEdge {
   std::int64_t edge;  ///< its number in the list
-  std::int32_t face, unused;
+  std::int32_t face;
   double width;       ///< of the narrowest triangle of the strip that has the edge
   geometry::Vec3 at;  ///< its middle
+
+  static constexpr auto fields() {
+    return std::tuple(&StripEdge::edge, &StripEdge::face, &StripEdge::width, &StripEdge::at);
+  }
 };
 
 /// Those of the edges (ascending, the same on every rank) that belong to strip triangles and run from one

@@ -9,6 +9,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::improve {
@@ -29,6 +30,8 @@ public:
 private:
   struct Row {
     std::int32_t dimension, entity, face;
+
+    static constexpr auto fields() { return std::tuple(&Row::dimension, &Row::entity, &Row::face); }
     auto operator<=>(const Row&) const = default;
   };
   std::vector<Row> _rows;  // of CAD vertices and curves, ascending

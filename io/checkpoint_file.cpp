@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -17,8 +18,6 @@ namespace {
 using parallel::Bytes;
 using parallel::Communicator;
 using parallel::Digest;
-using parallel::Packer;
-using parallel::Unpacker;
 
 constexpr std::uint64_t magic = 0x54504b43'4f524541;  // "AEROCKPT"
 constexpr std::uint64_t version = 1;
@@ -29,14 +28,14 @@ struct Preamble {
   std::int64_t header_bytes = 0, file_bytes = 0;
   Digest digest;  ///< of the above and of the header
 
+  static constexpr auto fields() {
+    return std::tuple(&Preamble::magic, &Preamble::version, &Preamble::header_bytes, &Preamble::file_bytes,
+                      &Preamble::digest);
+  }
   Digest right_digest(std::span<const std::byte> header) const {
-    return parallel::Digester()
-        .value(magic)
-        .value(version)
-        .value(header_bytes)
-        .value(file_bytes)
-        .bytes(header)
-        .result();
+    Preamble unsigned_one = *this;
+    unsigned_one.digest = {};
+    return parallel::Digester().bytes(parallel::to_wire(unsigned_one)).bytes(header).result();
   }
 };
 
@@ -44,38 +43,25 @@ struct Preamble {
 struct Row {
   std::int64_t number = 0, bytes = 0;
   Digest digest;
+
+  static constexpr auto fields() { return std::tuple(&Row::number, &Row::bytes, &Row::digest); }
 };
+
+constexpr std::int64_t preamble_bytes = parallel::wire_size<Preamble>;
 
 struct Header {
   CheckpointLabel label;
-  std::vector<Row> rows;              ///< of the common bytes, then of the items by number
-  std::vector<std::int64_t> offsets;  ///< of each
+  std::vector<Row> rows;  ///< of the common bytes, then of the items by number
 
-  void place_behind(std::int64_t first) {
-    offsets.clear();
+  static constexpr auto fields() { return std::tuple(&Header::label, &Header::rows); }
+  /// Where the bytes of each row begin, and where the last ones end.
+  std::vector<std::int64_t> offsets(std::int64_t first) const {
+    std::vector<std::int64_t> offsets;
     for (const Row& row : rows) offsets.push_back(std::exchange(first, first + row.bytes));
     offsets.push_back(first);
+    return offsets;
   }
 };
-
-Bytes pack_header(const Header& header) {
-  Packer packer;
-  packer.value(header.label.key);
-  packer.value(static_cast<std::uint64_t>(header.label.about.size()));
-  for (const std::string& text : header.label.about) packer.text(text);
-  packer.array(header.rows);
-  return packer.take();
-}
-
-Header unpack_header(std::span<const std::byte> bytes) {
-  Unpacker unpacker(bytes);
-  Header header;
-  header.label.key = unpacker.value<Digest>();
-  const auto texts = unpacker.value<std::uint64_t>();
-  for (std::uint64_t i = 0; i < texts; ++i) header.label.about.push_back(unpacker.text());
-  header.rows = unpacker.array<Row>();
-  return header;
-}
 
 [[noreturn]] void refuse_checkpoint(const std::string& path, const std::string& why) {
   throw std::ios_base::failure(fmt::format("'{}' is damaged: {}", path, why));
@@ -93,7 +79,9 @@ Bytes read_header(const std::string& path, Preamble& preamble) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw std::ios_base::failure("cannot open '" + path + "'");
-  read_at(stream, path, 0, std::as_writable_bytes(std::span(&preamble, 1)));
+  Bytes beginning(preamble_bytes);
+  read_at(stream, path, 0, beginning);
+  preamble = parallel::from_wire<Preamble>(beginning);
   if (preamble.magic != magic) refuse_checkpoint(path, "it does not begin as a checkpoint does");
   if (preamble.version != version)
     refuse_checkpoint(path, fmt::format("layout {}, this program reads {}", preamble.version, version));
@@ -102,7 +90,7 @@ Bytes read_header(const std::string& path, Preamble& preamble) {
   if (preamble.header_bytes <= 0 || preamble.header_bytes > size)
     refuse_checkpoint(path, "its header is too long");
   Bytes header(static_cast<std::size_t>(preamble.header_bytes));
-  read_at(stream, path, sizeof preamble, header);
+  read_at(stream, path, preamble_bytes, header);
   if (preamble.right_digest(header) != preamble.digest)
     refuse_checkpoint(path, "its header is not what was written");
   return header;
@@ -128,7 +116,7 @@ Header plan(const Communicator& communicator, const CheckpointLabel& label, cons
       mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
     }
   });
-  Header header{label, communicator.all_gather_items<Row>(mine), {}};
+  Header header{label, communicator.all_gather_items<Row>(mine)};
   std::sort(header.rows.begin(), header.rows.end(),
             [](const Row& a, const Row& b) { return a.number < b.number; });
   std::vector<Row> common{
@@ -151,23 +139,23 @@ Bytes read_checked(std::ifstream& stream, const std::string& path, const Row& ro
 
 void write_checkpoint(const Communicator& communicator, const std::string& path, const CheckpointLabel& label,
                       const CheckpointDraft& draft) {
-  Header header = plan(communicator, label, draft);
-  const Bytes packed = pack_header(header);
-  header.place_behind(static_cast<std::int64_t>(sizeof(Preamble) + packed.size()));
+  const Header header = plan(communicator, label, draft);
+  const Bytes packed = parallel::to_wire(header);
+  const auto offsets = header.offsets(preamble_bytes + static_cast<std::int64_t>(packed.size()));
   // What stood there stays until all of the new one does.
   const std::string fresh = path + ".new";
   const auto work = [&](parallel::SharedFile& file) {
     if (communicator.is_root()) {
-      Preamble preamble{magic, version, static_cast<std::int64_t>(packed.size()), header.offsets.back(), {}};
+      Preamble preamble{magic, version, static_cast<std::int64_t>(packed.size()), offsets.back(), {}};
       preamble.digest = preamble.right_digest(packed);
-      file.write(0, std::as_bytes(std::span(&preamble, 1)));
-      file.write(sizeof preamble, packed);
-      file.write(header.offsets.front(), draft.common);
+      file.write(0, parallel::to_wire(preamble));
+      file.write(preamble_bytes, packed);
+      file.write(offsets.front(), draft.common);
     }
     for (const CheckpointDraft::Item& item : draft.items) {
       const auto row = std::lower_bound(header.rows.begin() + 1, header.rows.end(), item.number,
                                         [](const Row& a, std::int64_t number) { return a.number < number; });
-      file.write(header.offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
+      file.write(offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
     }
   };
   parallel::write_shared_file(communicator, fresh, work, parallel::Named::when_written);
@@ -180,7 +168,7 @@ std::optional<CheckpointLabel> read_checkpoint_label(const Communicator& communi
                                                      const std::string& path, std::size_t texts) {
   const Bytes packed = share_header(communicator, path);
   if (packed.empty()) return std::nullopt;
-  CheckpointLabel label = unpack_header(packed).label;
+  CheckpointLabel label = parallel::from_wire<Header>(packed).label;
   if (label.about.size() != texts) return std::nullopt;
   return label;
 }
@@ -190,12 +178,12 @@ CheckpointContent read_checkpoint(const Communicator& communicator, const std::s
   CheckpointContent content;
   parallel::agree(communicator, [&] {
     if (packed.empty()) throw std::ios_base::failure("there is no '" + path + "'");
-    Header header = unpack_header(packed);
-    header.place_behind(static_cast<std::int64_t>(sizeof(Preamble) + packed.size()));
+    const auto header = parallel::from_wire<Header>(packed);
+    const auto offsets = header.offsets(preamble_bytes + static_cast<std::int64_t>(packed.size()));
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw std::ios_base::failure("cannot open '" + path + "'");
     if (communicator.is_root())
-      content.common = read_checked(stream, path, header.rows.front(), header.offsets.front());
+      content.common = read_checked(stream, path, header.rows.front(), offsets.front());
     std::vector<double> loads;
     for (std::size_t i = 1; i < header.rows.size(); ++i)
       loads.push_back(static_cast<double>(header.rows[i].bytes));
@@ -203,7 +191,7 @@ CheckpointContent read_checkpoint(const Communicator& communicator, const std::s
     for (std::size_t i = 0; i < owners.size(); ++i) {
       if (owners[i] != communicator.rank()) continue;
       content.items.push_back(
-          {header.rows[i + 1].number, read_checked(stream, path, header.rows[i + 1], header.offsets[i + 1])});
+          {header.rows[i + 1].number, read_checked(stream, path, header.rows[i + 1], offsets[i + 1])});
     }
   });
   communicator.broadcast(content.common);

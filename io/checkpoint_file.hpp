@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -20,6 +21,8 @@ namespace aeroloom::io {
 struct CheckpointLabel {
   parallel::Digest key;            ///< of everything its content depends on
   std::vector<std::string> about;  ///< the same in words, to tell what is different where the key is
+
+  static constexpr auto fields() { return std::tuple(&CheckpointLabel::key, &CheckpointLabel::about); }
 };
 
 /// What is written.

@@ -6,14 +6,17 @@
 #include <ios>
 #include <new>
 #include <optional>
+#include <tuple>
 
 namespace aeroloom::parallel {
 
 namespace {
 
 struct Failure {
-  FailureKind kind;
+  FailureKind kind = FailureKind::bug;
   std::string message;
+
+  static constexpr auto fields() { return std::tuple(&Failure::kind, &Failure::message); }
 };
 
 /// How many agree() are at work, one within the other.
@@ -61,22 +64,14 @@ void agree(const Communicator& communicator, const std::function<void()>& work) 
   if (failed == 0) return;
   const Rank first = static_cast<Rank>(
       communicator.minimum(static_cast<std::int64_t>(mine ? communicator.rank() : communicator.size())));
-  Packer packer;
-  if (communicator.rank() == first) {
-    packer.value(mine->kind);
-    packer.text(mine->message);
-  }
-  Bytes bytes = packer.take();
-  communicator.broadcast(bytes, first);
-  Unpacker unpacker(bytes);
-  const auto kind = unpacker.value<FailureKind>();
-  std::string message = unpacker.text();
+  Failure failure = mine.value_or(Failure());
+  communicator.broadcast_value(failure, first);
   if (failed > 1) {
     const std::int64_t others = failed - 1;
-    message +=
+    failure.message +=
         " (" + std::to_string(others) + (others == 1 ? " other rank" : " other ranks") + " failed as well)";
   }
-  throw CollectiveError(kind, message);
+  throw CollectiveError(failure.kind, failure.message);
 }
 
 }  // namespace aeroloom::parallel

@@ -57,4 +57,12 @@ private:
   std::span<const T> _items;
 };
 
+/// Read into memory of this rank alone.
+template <class T>
+struct Wire<NodeArray<T>> {
+  static constexpr std::size_t least = least_wire_size<std::vector<T>>;
+  static void pack(Packer& packer, const NodeArray<T>& array) { packer.array(array.items()); }
+  static void unpack(Unpacker& unpacker, NodeArray<T>& array) { array = NodeArray<T>(unpacker.array<T>()); }
+};
+
 }  // namespace aeroloom::parallel

@@ -114,10 +114,15 @@ Bytes hand_over_to_wire(T item) {
 }
 /// Throws std::logic_error where there are not just the bytes of one T.
 template <class T>
-T from_wire(std::span<const std::byte> bytes) {
+void from_wire_into(std::span<const std::byte> bytes, T& item) {
   Unpacker unpacker(bytes);
-  T item = unpack<T>(unpacker);
+  unpack_into(unpacker, item);
   if (!unpacker.at_end()) throw std::logic_error("from_wire: bytes left over");
+}
+template <class T>
+T from_wire(std::span<const std::byte> bytes) {
+  T item{};
+  from_wire_into(bytes, item);
   return item;
 }
 

@@ -56,11 +56,11 @@ void restart_peak() {
 
 /// Throws on every rank unless all have closed the stages of rank 0.
 void require_same_stages(const Communicator& communicator, const std::vector<StageCost>& costs, bool open) {
-  Packer packer;
-  for (const StageCost& cost : costs) packer.text(cost.name);
-  const Bytes mine = packer.take();
-  Bytes expected = mine;
-  communicator.broadcast(expected);
+  std::vector<std::string> mine;
+  mine.reserve(costs.size());
+  for (const StageCost& cost : costs) mine.push_back(cost.name);
+  std::vector<std::string> expected = mine;
+  communicator.broadcast_value(expected);
   const bool differs = open || mine != expected;
   if (communicator.sum(std::int64_t{differs ? 1 : 0}) > 0) {
     throw std::logic_error("the ranks have not closed the same stages");

@@ -54,17 +54,11 @@ Collection& of_this_rank() {
   return instance;
 }
 
-Bytes packed(const Warnings& warnings, std::size_t room) {
-  Collection fitting(most_texts, room);
-  for (const Warning& warning : warnings.kept) fitting.add(warning);
-  Packer packer;
-  packer.value(static_cast<std::int64_t>(fitting.warnings().kept.size()));
-  for (const Warning& warning : fitting.warnings().kept) {
-    packer.text(warning.message);
-    packer.value(warning.times);
-  }
-  packer.value(warnings.left_out + fitting.warnings().left_out);
-  return packer.take();
+Warnings fitting(const Warnings& warnings, std::size_t room) {
+  Collection some(most_texts, room);
+  for (const Warning& warning : warnings.kept) some.add(warning);
+  some.leave_out(warnings.left_out);
+  return some.warnings();
 }
 
 }  // namespace
@@ -78,16 +72,15 @@ Warnings take_warnings(const Communicator& communicator) {
   const std::size_t room = communicator.is_root()
                                ? most_bytes
                                : std::clamp(most_bytes_of_others / others, least_bytes_of_a_rank, most_bytes);
-  const std::vector<Bytes> parts = communicator.gather(packed(of_this_rank().warnings(), room));
+  std::vector<Warnings> parts = communicator.gather_values(fitting(of_this_rank().warnings(), room));
   of_this_rank() = Collection(most_texts, most_bytes);
   Collection all(5 * most_texts, most_bytes + most_bytes_of_others);
   for (std::size_t r = 0; r < parts.size(); ++r) {
-    Unpacker unpacker(parts[r]);
-    for (auto n = unpacker.value<std::int64_t>(); n > 0; --n) {
-      std::string message = unpacker.text();
-      all.add({std::move(message), static_cast<Rank>(r), unpacker.value<std::int64_t>()});
+    for (Warning& warning : parts[r].kept) {
+      warning.rank = static_cast<Rank>(r);
+      all.add(warning);
     }
-    all.leave_out(unpacker.value<std::int64_t>());
+    all.leave_out(parts[r].left_out);
   }
   return all.warnings();
 }

@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 namespace aeroloom::picture {
 
 /// A colour as a screen shows it (sRGB).
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
+
+  static constexpr auto fields() { return std::tuple(&Colour::red, &Colour::green, &Colour::blue); }
   friend bool operator==(Colour, Colour) = default;
 };
 

@@ -16,6 +16,11 @@ struct LineItem {
   std::array<mesh::GlobalIndex, 3> vertices;  ///< ascending; of an edge the last is there twice
   geometry::Vec3 point, normal, along;        ///< as in Place
   double length = 0, size = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&LineItem::vertices, &LineItem::point, &LineItem::normal, &LineItem::along,
+                      &LineItem::length, &LineItem::size);
+  }
 };
 
 /// By vertices; the two items of a sharp edge, one from each of its triangles, by what differs in them.

@@ -158,6 +158,8 @@ std::optional<Place> shared(const Communicator& communicator, const std::optiona
 struct Sharpest {
   double angle = 0;
   LineItem item{};
+
+  static constexpr auto fields() { return std::tuple(&Sharpest::angle, &Sharpest::item); }
 };
 bool beats(const Sharpest& a, const Sharpest& b) {
   return a.angle != b.angle ? a.angle > b.angle : precedes(a.item, b.item);

@@ -5,6 +5,7 @@
 #include "picture/scene.hpp"
 
 #include <optional>
+#include <tuple>
 
 namespace aeroloom::picture {
 
@@ -16,6 +17,10 @@ struct Place {
   geometry::Vec3 along;   ///< unit, along the line, perpendicular to the normal
   double size = 0;        ///< mean length of edges there
   bool upstream = false;  ///< of an edge: the flow meets it, else it is only the sharpest there is
+
+  static constexpr auto fields() {
+    return std::tuple(&Place::point, &Place::normal, &Place::along, &Place::size, &Place::upstream);
+  }
 };
 
 /// The middle of the longest leading edge of a body. The flow comes along x from below. A triangle lies on a

@@ -35,6 +35,10 @@ struct Farthest {
   double value = 0;
   Vec3 point;
   std::int64_t direction = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&Farthest::value, &Farthest::point, &Farthest::direction);
+  }
 };
 bool beats(const Farthest& a, const Farthest& b) {
   return std::tie(a.value, a.point.x, a.point.y, a.point.z) >
@@ -92,10 +96,14 @@ Shown triangles_on_hull(const Communicator& communicator, const DistributedMesh&
 /// Sums over the marked triangles of a piece, and the volume of all of them.
 struct PieceSums {
   std::int32_t patch = -1, marked = 0, unmarked = 0;
-  std::int32_t unused = 0;  // no padding travels
   double area = 0, volume = 0, whole_volume = 0;
   Vec3 area_vector;
   Box box;
+
+  static constexpr auto fields() {
+    return std::tuple(&PieceSums::patch, &PieceSums::marked, &PieceSums::unmarked, &PieceSums::area,
+                      &PieceSums::volume, &PieceSums::whole_volume, &PieceSums::area_vector, &PieceSums::box);
+  }
 };
 
 /// By piece, of the whole mesh; volumes are those of the cones from `origin`.

@@ -2,16 +2,14 @@
 #pragma once
 
 #include "cad/domain/domain.hpp"
-#include "cad/repair/change.hpp"
-#include "parallel/communicator.hpp"
+#include "parallel/packer.hpp"
+
+#include <span>
 
 namespace aeroloom::pipeline {
 
-void pack_changes(const cad::Changes& changes, parallel::Packer& packer);
-cad::Changes unpack_changes(parallel::Unpacker& unpacker);
-
-void pack_domain(const cad::Domain& domain, parallel::Packer& packer);
+parallel::Bytes pack_domain(const cad::Domain& domain);
 /// Throws cad::CadError where the bytes hold no model.
-cad::Domain unpack_domain(parallel::Unpacker& unpacker);
+cad::Domain unpack_domain(std::span<const std::byte> bytes);
 
 }  // namespace aeroloom::pipeline

@@ -6,6 +6,7 @@
 #include "pipeline/finished_volume.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace aeroloom::pipeline {
 
@@ -22,6 +23,10 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const c
     cad::FaceId face;
     double area;
     std::int64_t triangles;
+
+    static constexpr auto fields() {
+      return std::tuple(&PieceRow::piece, &PieceRow::face, &PieceRow::area, &PieceRow::triangles);
+    }
   };
   std::vector<PieceRow> mine;
   for (const mesh::Piece& piece : surface.pieces) {

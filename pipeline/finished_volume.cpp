@@ -85,6 +85,10 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator,
     std::int32_t patch;
     double area;
     std::int64_t triangles;
+
+    static constexpr auto fields() {
+      return std::tuple(&Row::piece, &Row::patch, &Row::area, &Row::triangles);
+    }
   };
   std::vector<Row> mine;
   for (const mesh::Piece& piece : volume.pieces) {

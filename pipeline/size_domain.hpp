@@ -10,6 +10,7 @@
 #include "sizing/size_field.hpp"
 
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::pipeline {
@@ -18,6 +19,8 @@ namespace aeroloom::pipeline {
 struct JoinedFaces {
   std::vector<std::vector<cad::FaceId>> groups;  ///< for cad::join_faces
   cad::Changes changes;                          ///< one for each face that vanished
+
+  static constexpr auto fields() { return std::tuple(&JoinedFaces::groups, &JoinedFaces::changes); }
 };
 
 struct SizedDomain {

@@ -3,6 +3,7 @@
 #include "cad/model/joined_faces.hpp"
 #include "pipeline/domain_bytes.hpp"
 
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::pipeline {
@@ -10,88 +11,65 @@ namespace {
 
 using io::CheckpointContent;
 using io::CheckpointDraft;
-using parallel::Packer;
-using parallel::Unpacker;
+using parallel::Bytes;
+using parallel::from_wire;
+using parallel::to_wire;
 
-template <class T>
-void pack_optional(const std::optional<T>& value, Packer& packer) {
-  packer.value(std::uint8_t{value.has_value()});
-  if (value) packer.value(*value);
-}
-
-template <class T>
-std::optional<T> unpack_optional(Unpacker& unpacker) {
-  if (unpacker.value<std::uint8_t>() == 0) return std::nullopt;
-  return unpacker.value<T>();
-}
-
-void pack_texts(const std::vector<std::string>& texts, Packer& packer) {
-  packer.value(static_cast<std::uint64_t>(texts.size()));
-  for (const std::string& text : texts) packer.text(text);
-}
-
-std::vector<std::string> unpack_texts(Unpacker& unpacker) {
-  std::vector<std::string> texts;
-  const auto count = unpacker.value<std::uint64_t>();
-  for (std::uint64_t i = 0; i < count; ++i) texts.push_back(unpacker.text());
-  return texts;
-}
-
-/// Everything but the pieces, which become items.
-void pack_mesh(const mesh::DistributedMesh& mesh, Packer& packer, CheckpointDraft& draft) {
-  packer.value(mesh.kind);
-  packer.value(mesh.piece_count);
-  packer.value(mesh.cavity_rounds);
-  pack_texts(mesh.patches, packer);
-  packer.array(mesh.patch_types);
-  pack_texts(mesh.faces, packer);
-  packer.array(mesh.sides);
-  pack_texts(mesh.regions, packer);
+std::vector<CheckpointDraft::Item> draft_pieces(const mesh::DistributedMesh& mesh) {
+  std::vector<CheckpointDraft::Item> items;
   for (const mesh::Piece& piece : mesh.pieces)
-    draft.items.push_back({piece.id, [&piece] { return parallel::to_wire(piece); }});
+    items.push_back({piece.id, [&piece] { return to_wire(piece); }});
+  return items;
 }
 
 /// Items go as their pieces come.
-mesh::DistributedMesh unpack_mesh(Unpacker& unpacker, std::vector<CheckpointContent::Item> items) {
-  mesh::DistributedMesh mesh;
-  mesh.kind = unpacker.value<mesh::CellKind>();
-  mesh.piece_count = unpacker.value<mesh::PieceId>();
-  mesh.cavity_rounds = unpacker.value<std::int32_t>();
-  mesh.patches = unpack_texts(unpacker);
-  mesh.patch_types = unpacker.array<mesh::PatchType>();
-  mesh.faces = unpack_texts(unpacker);
-  mesh.sides = unpacker.array<mesh::FaceSides>();
-  mesh.regions = unpack_texts(unpacker);
+mesh::DistributedMesh make_mesh(mesh::MeshFacts facts, std::vector<CheckpointContent::Item> items) {
+  mesh::DistributedMesh mesh{std::move(facts), {}};
   for (CheckpointContent::Item& item : items)
-    mesh.pieces.push_back(parallel::from_wire<mesh::Piece>(std::exchange(item.bytes, parallel::Bytes())));
+    mesh.pieces.push_back(from_wire<mesh::Piece>(std::exchange(item.bytes, Bytes())));
   return mesh;
 }
 
-void pack_features(const FeatureReport& features, Packer& packer) {
-  packer.value(features.share);
-  packer.value(features.tetrahedra);
-  packer.value(static_cast<std::uint64_t>(features.strips.size()));
-  for (const UnresolvedStrip& strip : features.strips) {
-    packer.text(strip.face);
-    packer.value(strip.width);
-    packer.value(strip.place);
-    packer.value(strip.surface_degrees);
-  }
-}
+/// What is kept of sizes.
+struct SizesRecord {
+  sizing::SizingOptions sizes;
+  Bytes field;
+  JoinedFaces joined;
+  std::optional<sizing::PredictedCounts> counts;
+  std::optional<FeatureReport> features;
 
-FeatureReport unpack_features(Unpacker& unpacker) {
-  FeatureReport features;
-  features.share = unpacker.value<sizing::FeatureShare>();
-  features.tetrahedra = unpacker.value<double>();
-  features.strips.resize(unpacker.value<std::uint64_t>());
-  for (UnresolvedStrip& strip : features.strips) {
-    strip.face = unpacker.text();
-    strip.width = unpacker.value<double>();
-    strip.place = unpacker.value<geometry::Vec3>();
-    strip.surface_degrees = unpacker.value<double>();
+  static constexpr auto fields() {
+    return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
+                      &SizesRecord::features);
   }
-  return features;
-}
+};
+
+/// What is kept of a surface besides its pieces.
+struct SurfaceRecord {
+  parallel::Digest sized;  ///< what it depends on
+  Bytes sizes;             ///< where they are not those of the stage before
+  surface::SurfaceReport report;
+  Bytes field;  ///< where it is not that of the sizes
+  mesh::MeshFacts mesh;
+
+  static constexpr auto fields() {
+    return std::tuple(&SurfaceRecord::sized, &SurfaceRecord::sizes, &SurfaceRecord::report,
+                      &SurfaceRecord::field, &SurfaceRecord::mesh);
+  }
+};
+
+/// What is kept of a volume besides its pieces.
+struct VolumeRecord {
+  volume::DecompositionReport decomposition;
+  volume::VolumeReport volume;
+  improve::ImproveReport improve;
+  mesh::MeshFacts mesh;
+
+  static constexpr auto fields() {
+    return std::tuple(&VolumeRecord::decomposition, &VolumeRecord::volume, &VolumeRecord::improve,
+                      &VolumeRecord::mesh);
+  }
+};
 
 /// What a surface depends on.
 parallel::Digest digest_of(const SizedDomain& sized) {
@@ -103,159 +81,65 @@ parallel::Digest digest_of(const SizedDomain& sized) {
   return digester.result();
 }
 
-void pack_report(const surface::SurfaceReport& report, Packer& packer) {
-  packer.value(report.curve_vertices);
-  packer.value(report.pieces);
-  packer.value(report.divided_faces);
-  packer.array(report.cut_angles);
-  packer.array(report.sharp_corners);
-  packer.array(report.closed_tips);
-  packer.array(report.needles);
-  packer.value(report.triangles);
-  packer.value(report.mending_rounds);
-  packer.value(report.load_error_90);
-}
-
-surface::SurfaceReport unpack_surface_report(Unpacker& unpacker) {
-  surface::SurfaceReport report;
-  report.curve_vertices = unpacker.value<std::int64_t>();
-  report.pieces = unpacker.value<std::int64_t>();
-  report.divided_faces = unpacker.value<std::int64_t>();
-  report.cut_angles = unpacker.array<surface::CutAngle>();
-  report.sharp_corners = unpacker.array<surface::ListedCorner>();
-  report.closed_tips = unpacker.array<surface::ClosedTip>();
-  report.needles = unpacker.array<surface::NeedleGroup>();
-  report.triangles = unpacker.value<std::int64_t>();
-  report.mending_rounds = unpacker.value<int>();
-  report.load_error_90 = unpacker.value<double>();
-  return report;
-}
-
-void pack_report(const volume::VolumeReport& report, Packer& packer) {
-  packer.value(report.tetrahedra);
-  packer.value(report.overlap);
-  packer.value(report.steiner_points);
-  packer.value(static_cast<std::uint64_t>(report.retries.size()));
-  for (const volume::Retry& retry : report.retries) {
-    packer.value(retry.zone);
-    packer.text(retry.change);
-    packer.text(retry.reason);
-  }
-  packer.array(report.disagreements);
-  packer.value(report.rounds);
-  packer.value(report.load_error_90);
-}
-
-volume::VolumeReport unpack_volume_report(Unpacker& unpacker) {
-  volume::VolumeReport report;
-  report.tetrahedra = unpacker.value<std::int64_t>();
-  report.overlap = unpacker.value<double>();
-  report.steiner_points = unpacker.value<std::int64_t>();
-  report.retries.resize(unpacker.value<std::uint64_t>());
-  for (volume::Retry& retry : report.retries) {
-    retry.zone = unpacker.value<std::int32_t>();
-    retry.change = unpacker.text();
-    retry.reason = unpacker.text();
-  }
-  report.disagreements = unpacker.array<volume::Disagreement>();
-  report.rounds = unpacker.value<int>();
-  report.load_error_90 = unpacker.value<double>();
-  return report;
-}
-
 }  // namespace
 
 CheckpointDraft pack_domain_product(const cad::Domain& domain) {
-  Packer packer;
-  pack_domain(domain, packer);
-  return {packer.take(), {}};
+  return {pack_domain(domain), {}};
 }
 
 cad::Domain unpack_domain_product(CheckpointContent content) {
-  Unpacker unpacker(content.common);
-  return unpack_domain(unpacker);
+  return unpack_domain(content.common);
 }
 
 CheckpointDraft pack_sizes(const SizedDomain& sized) {
-  Packer packer;
-  packer.value(sized.sizes);
-  packer.array(sized.field.pack());
-  packer.value(static_cast<std::uint64_t>(sized.joined.groups.size()));
-  for (const std::vector<cad::FaceId>& group : sized.joined.groups) packer.array(group);
-  pack_changes(sized.joined.changes, packer);
-  pack_optional(sized.counts, packer);
-  packer.value(std::uint8_t{sized.features.has_value()});
-  if (sized.features) pack_features(*sized.features, packer);
-  return {packer.take(), {}};
+  return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features}),
+          {}};
 }
 
 SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointContent content,
                          const cad::Model& domain) {
-  Unpacker unpacker(content.common);
-  const auto sizes = unpacker.value<sizing::SizingOptions>();
-  sizing::SizeField field = sizing::SizeField::unpack(communicator, unpacker.array<std::byte>());
-  SizedDomain sized{domain, sizes, std::move(field), {}, {}, {}};
-  sized.joined.groups.resize(unpacker.value<std::uint64_t>());
-  for (std::vector<cad::FaceId>& group : sized.joined.groups) group = unpacker.array<cad::FaceId>();
+  auto record = from_wire<SizesRecord>(content.common);
+  SizedDomain sized{domain,
+                    record.sizes,
+                    sizing::SizeField::unpack(communicator, record.field),
+                    std::move(record.joined),
+                    record.counts,
+                    std::move(record.features)};
   if (!sized.joined.groups.empty()) sized.model = cad::join_faces(domain, sized.joined.groups);
-  sized.joined.changes = unpack_changes(unpacker);
-  sized.counts = unpack_optional<sizing::PredictedCounts>(unpacker);
-  if (unpacker.value<std::uint8_t>() != 0) sized.features = unpack_features(unpacker);
   return sized;
 }
 
 // The common part of rank 0 counts: others pack none of what each node holds once.
 CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product) {
-  CheckpointDraft draft;
-  Packer packer;
-  packer.value(digest_of(product.sized));
-  const bool root = communicator.is_root();
-  packer.array(root && product.sizes_are_other ? pack_sizes(product.sized).common : parallel::Bytes());
-  pack_report(product.report, packer);
-  const bool refined = product.field.digest() != product.sized.field.digest();
-  packer.array(root && refined ? product.field.pack() : parallel::Bytes());
-  pack_mesh(product.mesh, packer, draft);
-  draft.common = packer.take();
-  return draft;
+  SurfaceRecord record{digest_of(product.sized), {}, product.report, {}, product.mesh};
+  if (communicator.is_root()) {
+    if (product.sizes_are_other) record.sizes = pack_sizes(product.sized).common;
+    if (product.field.digest() != product.sized.field.digest()) record.field = product.field.pack();
+  }
+  return {to_wire(record), draft_pieces(product.mesh)};
 }
 
 std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
                                                    CheckpointContent content, const cad::Model& domain,
                                                    SizedDomain& sized) {
-  Unpacker unpacker(content.common);
-  const auto wanted = unpacker.value<parallel::Digest>();
-  if (parallel::Bytes sizes = unpacker.array<std::byte>(); !sizes.empty())
-    sized = unpack_sizes(communicator, {std::move(sizes), {}}, domain);
-  if (wanted != digest_of(sized)) return std::nullopt;
-  surface::SurfaceReport report = unpack_surface_report(unpacker);
-  const parallel::Bytes refined = unpacker.array<std::byte>();
-  mesh::DistributedMesh mesh = unpack_mesh(unpacker, std::move(content.items));
+  auto record = from_wire<SurfaceRecord>(content.common);
+  if (!record.sizes.empty()) sized = unpack_sizes(communicator, {std::move(record.sizes), {}}, domain);
+  if (record.sized != digest_of(sized)) return std::nullopt;
   return surface::SurfaceMesh{
-      std::move(mesh), std::move(report),
-      refined.empty() ? sized.field : sizing::SizeField::unpack(communicator, refined)};
+      make_mesh(std::move(record.mesh), std::move(content.items)), std::move(record.report),
+      record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)};
 }
 
 CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
                             const volume::DecompositionReport& decomposition,
                             const volume::VolumeReport& volume, const improve::ImproveReport& improve) {
-  CheckpointDraft draft;
-  Packer packer;
-  packer.value(decomposition);
-  pack_report(volume, packer);
-  packer.value(improve);
-  pack_mesh(mesh, packer, draft);
-  draft.common = packer.take();
-  return draft;
+  return {to_wire(VolumeRecord{decomposition, volume, improve, mesh}), draft_pieces(mesh)};
 }
 
 VolumeProduct unpack_volume(CheckpointContent content) {
-  Unpacker unpacker(content.common);
-  VolumeProduct product;
-  product.decomposition = unpacker.value<volume::DecompositionReport>();
-  product.volume = unpack_volume_report(unpacker);
-  product.improve = unpacker.value<improve::ImproveReport>();
-  product.mesh = unpack_mesh(unpacker, std::move(content.items));
-  return product;
+  auto record = from_wire<VolumeRecord>(content.common);
+  return {make_mesh(std::move(record.mesh), std::move(content.items)), record.decomposition,
+          std::move(record.volume), record.improve};
 }
 
 }  // namespace aeroloom::pipeline

@@ -10,12 +10,10 @@ std::string task_table(const parallel::Communicator& communicator, const paralle
     mine += fmt::format("{},{},{},{},{:.6g},{:.6f},{},{}\n", communicator.rank(), task.stage, task.kind,
                         task.number, task.predicted, task.cpu_seconds, task.bytes, task.child_bytes);
   }
-  parallel::Packer packer;
-  packer.text(mine);
   std::string table;
-  for (const parallel::Bytes& rows : communicator.gather(packer.take())) {
+  for (const std::string& rows : communicator.gather_values(mine)) {
     if (table.empty()) table = "rank,stage,kind,number,predicted,cpu_seconds,bytes,child_bytes\n";
-    table += parallel::Unpacker(rows).text();
+    table += rows;
   }
   return table;
 }

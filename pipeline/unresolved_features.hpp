@@ -6,6 +6,7 @@
 #include "sizing/model_sampler.hpp"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::pipeline {
@@ -16,6 +17,11 @@ struct UnresolvedStrip {
   double width;            ///< at the narrowest place, in the model's unit
   geometry::Vec3 place;    ///< there
   double surface_degrees;  ///< the angle of triangles to expect: one side is the width, one the floor
+
+  static constexpr auto fields() {
+    return std::tuple(&UnresolvedStrip::face, &UnresolvedStrip::width, &UnresolvedStrip::place,
+                      &UnresolvedStrip::surface_degrees);
+  }
 };
 
 /// What came of features finer than the smallest size, where sizes were chosen from the model.
@@ -24,6 +30,9 @@ struct FeatureReport {
   double tetrahedra = 0;                ///< predicted in all
   std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty where everything is resolved
 
+  static constexpr auto fields() {
+    return std::tuple(&FeatureReport::share, &FeatureReport::tetrahedra, &FeatureReport::strips);
+  }
   /// Predicted tetrahedra with every strip resolved; about that.
   double wanted_tetrahedra() const;
 };

@@ -5,6 +5,7 @@
 #include "sizing/size_field.hpp"
 
 #include <cstdint>
+#include <tuple>
 
 namespace aeroloom::sizing {
 
@@ -22,6 +23,12 @@ struct FeatureShare {
   double minimum = 0;    ///< of everything else
   double gap_floor = 0;  ///< as `floor`, of gaps
   double gap_share = 1;  ///< the part of `share` that these bring on top of the others
+
+  static constexpr auto fields() {
+    return std::tuple(&FeatureShare::floor, &FeatureShare::share, &FeatureShare::limited,
+                      &FeatureShare::resolved_share, &FeatureShare::minimum, &FeatureShare::gap_floor,
+                      &FeatureShare::gap_share);
+  }
 };
 
 /// Lets strips ask for sizes down to `floor`, short edges and sharp corners, around which elements grow from

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -179,6 +180,8 @@ bool FieldBuilder::split_where_coarse(const SplitCubes::Leaves& leaves, const Se
   struct Cube {
     std::uint64_t key;
     std::int64_t level;
+
+    static constexpr auto fields() { return std::tuple(&Cube::key, &Cube::level); }
   };
   std::vector<Cube> mine;
   const auto visit = [&](auto&& self, std::uint64_t key, int level) -> void {

@@ -10,6 +10,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -55,6 +56,7 @@ private:
     std::uint64_t key;
     double size;
 
+    static constexpr auto fields() { return std::tuple(&PointSize::key, &PointSize::size); }
     friend auto operator<=>(const PointSize&, const PointSize&) = default;
   };
   /// A range of leaves or sources.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::sizing {
@@ -290,6 +291,10 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
     FaceId face;
     std::size_t floor;
     double elements;
+
+    static constexpr auto fields() {
+      return std::tuple(&FaceElements::face, &FaceElements::floor, &FaceElements::elements);
+    }
   };
   SizingOptions options;
   options.minimum = options.maximum = minimum;

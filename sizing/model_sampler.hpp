@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -27,6 +28,8 @@ struct Strip {
   cad::FaceId face;
   double width;
   geometry::Vec3 place;
+
+  static constexpr auto fields() { return std::tuple(&Strip::face, &Strip::width, &Strip::place); }
 };
 
 /// Whether samples of faces are kept: those that serve once only are not worth their memory.

@@ -5,6 +5,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -16,6 +17,11 @@ struct NarrowFace {
   double degrees = 0;    ///< largest turn of the surface across the edges that vanish
   double deviation = 0;  ///< width * sin(turn): how far the mesh may leave the surface there
   geometry::Vec3 place;  ///< on an edge that vanishes
+
+  static constexpr auto fields() {
+    return std::tuple(&NarrowFace::face, &NarrowFace::into, &NarrowFace::width, &NarrowFace::degrees,
+                      &NarrowFace::deviation, &NarrowFace::place);
+  }
 };
 
 /// Faces narrower than `width` which have a neighbour in the same patch, between the same regions, that goes

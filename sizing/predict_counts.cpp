@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <tuple>
 
 namespace aeroloom::sizing {
 namespace {
@@ -171,6 +172,8 @@ double ModelSampler::count_triangles(const SizeField& field) const {
   struct FaceCount {
     cad::FaceId face;
     double count;
+
+    static constexpr auto fields() { return std::tuple(&FaceCount::face, &FaceCount::count); }
   };
   std::vector<FaceCount> mine;
   {

@@ -5,6 +5,7 @@
 #include "sizing/triangle_tree.hpp"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -42,6 +43,8 @@ struct Wall {
   cad::FaceId face;
   Triangle corners;
   double deviation;  ///< its distance from the surface
+
+  static constexpr auto fields() { return std::tuple(&Wall::face, &Wall::corners, &Wall::deviation); }
 };
 
 /// The facets of all faces.

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -32,6 +33,12 @@ struct SizingOptions {
   double chordal_deviation =
       0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
 
+  static constexpr auto fields() {
+    return std::tuple(&SizingOptions::minimum, &SizingOptions::maximum, &SizingOptions::curvature_angle,
+                      &SizingOptions::growth, &SizingOptions::surface_maximum, &SizingOptions::proximity,
+                      &SizingOptions::feature_minimum, &SizingOptions::strip_minimum,
+                      &SizingOptions::gap_minimum, &SizingOptions::chordal_deviation);
+  }
   friend bool operator==(const SizingOptions&, const SizingOptions&) = default;
 };
 
@@ -54,6 +61,8 @@ inline double smallest_gap_size(const SizingOptions& options) {
 struct SizeSource {
   geometry::Vec3 point;
   double size;
+
+  static constexpr auto fields() { return std::tuple(&SizeSource::point, &SizeSource::size); }
 };
 
 /// A graded octree with sizes at the corners of its leaves, trilinear inside, continuous. At a source h is at
@@ -104,6 +113,8 @@ public:
 
 private:
   friend class FieldBuilder;
+  template <class Field>
+  static auto fields_of(Field& field);
   /// The size at an offset from the low corner of the root cube.
   double interpolate(double dx, double dy, double dz) const;
 
@@ -129,6 +140,10 @@ SizeField build_size_field(const parallel::Communicator& communicator, const cad
 /// what meshes of ten models have on average, over the volume.
 struct PredictedCounts {
   double triangles = 0, tetrahedra = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&PredictedCounts::triangles, &PredictedCounts::tetrahedra);
+  }
 };
 /// Collective.
 PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,

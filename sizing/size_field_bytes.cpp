@@ -1,7 +1,8 @@
 #include "sizing/size_field.hpp"
 
 #include <stdexcept>
-#include <utility>
+#include <tuple>
+#include <vector>
 
 namespace aeroloom::sizing {
 namespace {
@@ -13,37 +14,29 @@ std::vector<T> copy_of(const parallel::NodeArray<T>& array) {
 
 }  // namespace
 
+/// All but what follows from the leaves.
+template <class Field>
+auto SizeField::fields_of(Field& field) {
+  return std::tie(field._options, field._domain, field._low, field._root_edge, field._factor,
+                  field._leaf_keys, field._leaf_levels, field._corner_sizes);
+}
+
 parallel::Bytes SizeField::pack() const {
-  parallel::Packer packer;
-  packer.value(_options);
-  packer.value(_domain);
-  packer.value(_low);
-  packer.value(_root_edge);
-  packer.value(_factor);
-  packer.array(copy_of(_leaf_keys));
-  packer.array(copy_of(_leaf_levels));
-  packer.array(copy_of(_corner_sizes));
-  return packer.take();
+  return parallel::to_wire(fields_of(*this));
 }
 
 SizeField SizeField::unpack(const parallel::Communicator& communicator, std::span<const std::byte> bytes) {
-  parallel::Unpacker unpacker(bytes);
   SizeField field;
-  field._options = unpacker.value<SizingOptions>();
-  field._domain = unpacker.value<geometry::Box>();
-  field._low = unpacker.value<geometry::Vec3>();
-  field._root_edge = unpacker.value<double>();
-  field._factor = unpacker.value<double>();
-  SplitCubes::Leaves leaves;
-  leaves.keys = unpacker.array<std::uint64_t>();
-  leaves.levels = unpacker.array<std::uint8_t>();
-  std::vector<float> corner_sizes = unpacker.array<float>();
-  if (leaves.levels.size() != leaves.keys.size() || corner_sizes.size() != 8 * leaves.keys.size())
+  auto fields = fields_of(field);
+  parallel::from_wire_into(bytes, fields);
+  const std::size_t leaves = field._leaf_keys.size();
+  if (field._leaf_levels.size() != leaves || field._corner_sizes.size() != 8 * leaves)
     throw std::logic_error("SizeField::unpack: arrays of different lengths");
-  field._leaf_table = LeafTable(leaves).shared(communicator);
-  field._corner_sizes = {communicator, std::move(corner_sizes)};
-  field._leaf_keys = {communicator, std::move(leaves.keys)};
-  field._leaf_levels = {communicator, std::move(leaves.levels)};
+  field._leaf_table =
+      LeafTable({copy_of(field._leaf_keys), copy_of(field._leaf_levels)}).shared(communicator);
+  field._corner_sizes = field._corner_sizes.shared(communicator);
+  field._leaf_keys = field._leaf_keys.shared(communicator);
+  field._leaf_levels = field._leaf_levels.shared(communicator);
   return field;
 }
 

@@ -3,6 +3,7 @@
 
 #include "cad/model/model.hpp"
 
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -14,6 +15,11 @@ struct EdgeMeasure {
   double length;         ///< about
   double chord;          ///< distance of its ends
   double turning;        ///< about the integral of the curvature, radians
+
+  static constexpr auto fields() {
+    return std::tuple(&EdgeMeasure::edge, &EdgeMeasure::metric_length, &EdgeMeasure::length,
+                      &EdgeMeasure::chord, &EdgeMeasure::turning);
+  }
 };
 
 /// Segments per edge of the model, 0 where it carries no vertices: the metric length rounded, but no fewer

@@ -14,6 +14,7 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 
 namespace aeroloom::surface {
 namespace {
@@ -29,6 +30,11 @@ struct PlacedVertex {
   std::int32_t rank_on_edge;
   double parameter;
   Vec3 point;
+
+  static constexpr auto fields() {
+    return std::tuple(&PlacedVertex::edge, &PlacedVertex::rank_on_edge, &PlacedVertex::parameter,
+                      &PlacedVertex::point);
+  }
 };
 
 /// The part of an edge between its legs, where the field alone spreads vertices.

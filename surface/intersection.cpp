@@ -25,12 +25,20 @@ struct Batch {
   mesh::PieceId piece;
   std::int32_t order;
   parallel::Rank rank;
+
+  static constexpr auto fields() {
+    return std::tuple(&Batch::box, &Batch::piece, &Batch::order, &Batch::rank);
+  }
 };
 
 struct BatchTriangle {
   NamedTriangle corners;
   Box box;
   LocalIndex cell;
+
+  static constexpr auto fields() {
+    return std::tuple(&BatchTriangle::corners, &BatchTriangle::box, &BatchTriangle::cell);
+  }
 };
 
 using Triangles = std::vector<BatchTriangle>;
@@ -132,18 +140,13 @@ std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& co
   for (auto next = wanted.begin(); next != wanted.end();) {
     const parallel::Rank rank = next->first;
     parallel::Packer packer;
-    for (; next != wanted.end() && next->first == rank; ++next) {
-      packer.value(next->second);
-      packer.array(at_hand[next->second]);
-    }
+    for (; next != wanted.end() && next->first == rank; ++next)
+      parallel::pack(packer, std::tie(next->second, at_hand[next->second]));
     parcels.push_back({rank, packer.take()});
   }
   for (const parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) {
-      const auto number = unpacker.value<std::int32_t>();
-      at_hand[number] = unpacker.array<BatchTriangle>();
-    }
+    while (!unpacker.at_end()) at_hand.insert(parallel::unpack<std::pair<std::int32_t, Triangles>>(unpacker));
   }
   return at_hand;
 }

@@ -5,6 +5,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -15,6 +16,11 @@ struct TriangleHit {
   mesh::LocalIndex first, second;           ///< cells of those pieces
   geometry::Vec3 center;                    ///< of the first triangle
   double size;                              ///< shortest edge of both
+
+  static constexpr auto fields() {
+    return std::tuple(&TriangleHit::first_piece, &TriangleHit::second_piece, &TriangleHit::first,
+                      &TriangleHit::second, &TriangleHit::center, &TriangleHit::size);
+  }
 };
 
 /// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.

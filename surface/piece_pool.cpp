@@ -135,18 +135,14 @@ PiecePool::Seeds PiecePool::deal_out(Seeds seeds, const std::vector<Row>& rows,
       here.emplace(rows[i].key, std::move(at->second));
       continue;
     }
-    leaving[owners[i]].value(rows[i].key);
-    leaving[owners[i]].array(pack_seed(at->second));
+    parallel::pack(leaving[owners[i]], *at);
   }
   std::vector<parallel::Parcel> parcels;
   parcels.reserve(leaving.size());
   for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
   for (const parallel::Parcel& parcel : _communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) {
-      const auto key = unpacker.value<Key>();
-      here.emplace(key, unpack_seed(unpacker.array<std::byte>()));
-    }
+    while (!unpacker.at_end()) here.insert(parallel::unpack<std::pair<Key, PieceSeed>>(unpacker));
   }
   return here;
 }
@@ -215,7 +211,7 @@ mesh::Piece PiecePool::mesh_or_find(const PieceSeed& seed, const SizeField& fiel
                                     const parallel::Digest& of_field) const {
   if (_tasks == nullptr) return mesh_piece(_model, seed, field, _options);
   const parallel::Digest key =
-      parallel::Digester().value(of_field.low).value(of_field.high).bytes(pack_seed(seed)).result();
+      parallel::Digester().value(of_field.low).value(of_field.high).bytes(parallel::to_wire(seed)).result();
   if (const std::optional<parallel::Bytes> known = _tasks->find(key))
     return parallel::from_wire<mesh::Piece>(*known);
   mesh::Piece piece = mesh_piece(_model, seed, field, _options);

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -60,6 +61,8 @@ private:
     Key key;
     double load;    // predicted triangles
     double facets;  // of the support
+
+    static constexpr auto fields() { return std::tuple(&Row::key, &Row::load, &Row::facets); }
   };
 
   bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, cad::FaceId face,

@@ -31,35 +31,4 @@ double predict_triangles(const Support& support, const sizing::SizeField& field)
   return std::max(1.0, 2 * inside + border - 2 * euler);
 }
 
-parallel::Bytes pack_seed(const PieceSeed& seed) {
-  parallel::Packer packer;
-  packer.value(seed.load);
-  packer.value(seed.support.face);
-  packer.array(seed.support.points);
-  packer.array(seed.support.triangles);
-  packer.array(seed.support.corner_uv);
-  packer.array(seed.support.mesh_vertex);
-  packer.array(seed.support.loop_edges);
-  packer.array(seed.vertices.points);
-  packer.array(seed.vertices.uv);
-  packer.array(seed.vertices.tokens);
-  return packer.take();
-}
-
-PieceSeed unpack_seed(std::span<const std::byte> bytes) {
-  parallel::Unpacker unpacker(bytes);
-  PieceSeed seed;
-  seed.load = unpacker.value<double>();
-  seed.support.face = unpacker.value<cad::FaceId>();
-  seed.support.points = unpacker.array<geometry::Vec3>();
-  seed.support.triangles = unpacker.array<std::array<std::int32_t, 3>>();
-  seed.support.corner_uv = unpacker.array<std::array<geometry::Vec2, 3>>();
-  seed.support.mesh_vertex = unpacker.array<std::int32_t>();
-  seed.support.loop_edges = unpacker.array<std::array<std::int32_t, 2>>();
-  seed.vertices.points = unpacker.array<geometry::Vec3>();
-  seed.vertices.uv = unpacker.array<geometry::Vec2>();
-  seed.vertices.tokens = unpacker.array<mesh::SharedToken>();
-  return seed;
-}
-
 }  // namespace aeroloom::surface

@@ -6,6 +6,7 @@
 #include "surface/support.hpp"
 
 #include <span>
+#include <tuple>
 
 namespace aeroloom::surface {
 
@@ -14,14 +15,14 @@ struct PieceSeed {
   Support support;
   FaceVertices vertices;  ///< on the borders of the piece
   double load = 1;        ///< predicted triangles
+
+  static constexpr auto fields() {
+    return std::tuple(&PieceSeed::support, &PieceSeed::vertices, &PieceSeed::load);
+  }
 };
 
 /// Predicted triangles of a support under a field. Euler's formula gives them from the vertices: those on the
 /// loops are known, those inside are the integral of 2/(sqrt(3) h^2) less what belongs to the loops.
 double predict_triangles(const Support& support, const sizing::SizeField& field);
-
-/// Bit for bit, for another rank.
-parallel::Bytes pack_seed(const PieceSeed& seed);
-PieceSeed unpack_seed(std::span<const std::byte> bytes);
 
 }  // namespace aeroloom::surface

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -24,6 +25,11 @@ struct SharpCorner {
   /// corner is closed instead (cusp_tips.hpp).
   double leg = 0;
   bool closes = false;  ///< its edges are one as far as they are next to each other (cusp_tips.hpp)
+
+  static constexpr auto fields() {
+    return std::tuple(&SharpCorner::face, &SharpCorner::vertex, &SharpCorner::ends, &SharpCorner::degrees,
+                      &SharpCorner::leg, &SharpCorner::closes);
+  }
 };
 
 /// All of them by face, the same on every rank. Collective.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -25,6 +26,11 @@ struct Support {
   /// Boundary edges of the mesh as directed pairs of support points, the support on the left: chords between
   /// consecutive mesh vertices. Empty on a closed surface.
   std::vector<std::array<std::int32_t, 2>> loop_edges;
+
+  static constexpr auto fields() {
+    return std::tuple(&Support::face, &Support::points, &Support::triangles, &Support::corner_uv,
+                      &Support::mesh_vertex, &Support::loop_edges);
+  }
 };
 
 /// The mesh vertices of a piece known before its interior is meshed: those on its borders first, which have
@@ -34,6 +40,9 @@ struct FaceVertices {
   std::vector<geometry::Vec2> uv;         ///< one valid parameter pair on the face for each
   std::vector<mesh::SharedToken> tokens;  ///< of the vertices on borders, ascending
 
+  static constexpr auto fields() {
+    return std::tuple(&FaceVertices::points, &FaceVertices::uv, &FaceVertices::tokens);
+  }
   std::int32_t border_count() const { return static_cast<std::int32_t>(tokens.size()); }
   /// The vertex on the border of that name, which must be known.
   std::int32_t find(mesh::SharedToken token) const {

@@ -5,6 +5,7 @@
 #include "geometry/vec.hpp"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -14,6 +15,8 @@ struct CutAngle {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;
   double degrees = 0;
+
+  static constexpr auto fields() { return std::tuple(&CutAngle::face, &CutAngle::point, &CutAngle::degrees); }
 };
 
 /// A corner of a CAD face below 30 degrees: the one triangle that fills it is as sharp.
@@ -21,6 +24,10 @@ struct ListedCorner {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;
   double degrees = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&ListedCorner::face, &ListedCorner::point, &ListedCorner::degrees);
+  }
 };
 
 /// A tip of a CAD face between two curves tangent to each other that was closed (cusp_tips.hpp).
@@ -29,6 +36,10 @@ struct ClosedTip {
   geometry::Vec3 point;  ///< the CAD vertex it ends in
   double length = 0;     ///< from there to the last vertices that became one
   double moved = 0;      ///< how far a vertex on its curves moved, at most
+
+  static constexpr auto fields() {
+    return std::tuple(&ClosedTip::face, &ClosedTip::point, &ClosedTip::length, &ClosedTip::moved);
+  }
 };
 
 /// A triangle is a needle when its smallest angle is below this, degrees.
@@ -53,6 +64,11 @@ struct NeedleGroup {
   std::int64_t below_half = 0;  ///< of them, those below half as much
   double degrees = 0;           ///< the smallest angle
   geometry::Vec3 at;            ///< middle of the triangle that has it
+
+  static constexpr auto fields() {
+    return std::tuple(&NeedleGroup::face, &NeedleGroup::cause, &NeedleGroup::needles,
+                      &NeedleGroup::below_half, &NeedleGroup::degrees, &NeedleGroup::at);
+  }
 };
 
 struct SurfaceReport {
@@ -66,6 +82,13 @@ struct SurfaceReport {
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds in which sizes had to fall
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
+
+  static constexpr auto fields() {
+    return std::tuple(&SurfaceReport::curve_vertices, &SurfaceReport::pieces, &SurfaceReport::divided_faces,
+                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_tips,
+                      &SurfaceReport::needles, &SurfaceReport::triangles, &SurfaceReport::mending_rounds,
+                      &SurfaceReport::load_error_90);
+  }
 };
 
 }  // namespace aeroloom::surface

@@ -8,6 +8,7 @@
 #include <compare>
 #include <iterator>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -52,6 +53,8 @@ namespace {
 struct Closing {
   std::int32_t tip;
   std::int32_t pairs;
+
+  static constexpr auto fields() { return std::tuple(&Closing::tip, &Closing::pairs); }
 };
 
 /// How the triangles beyond a tip's first `pairs` pairs know its vertices.
@@ -147,6 +150,8 @@ std::vector<Tip> agree_on_tips(const parallel::Communicator& communicator, const
 struct CurveTriangle {
   std::array<CurveVertex, 3> vertices;
   cad::FaceId face;
+
+  static constexpr auto fields() { return std::tuple(&CurveTriangle::vertices, &CurveTriangle::face); }
   auto operator<=>(const CurveTriangle&) const = default;
 };
 

@@ -55,6 +55,10 @@ struct Witness {
   mesh::GlobalIndex triangle;
   Vec3 place;
 
+  static constexpr auto fields() {
+    return std::tuple(&Witness::set, &Witness::region, &Witness::contact, &Witness::places,
+                      &Witness::triangle, &Witness::place);
+  }
   bool is_as(const Witness& other) const { return set == other.set && region == other.region; }
   friend bool operator<(const Witness& a, const Witness& b) {
     return std::tie(a.set, a.region, a.contact) < std::tie(b.set, b.region, b.contact);

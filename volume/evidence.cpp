@@ -114,21 +114,8 @@ Evidence::Item Evidence::lowest(const parallel::Communicator& communicator, cons
   const bool is_mine = mine && mine->zone == zone;
   const auto root = static_cast<parallel::Rank>(
       communicator.minimum(std::int64_t{is_mine ? communicator.rank() : communicator.size()}));
-  parallel::Bytes bytes;
-  if (communicator.rank() == root) {
-    parallel::Packer packer;
-    packer.text(mine->message);
-    packer.array(mine->points);
-    packer.array(mine->triangles);
-    bytes = packer.take();
-  }
-  communicator.broadcast(bytes, root);
-  parallel::Unpacker unpacker(bytes);
-  Item item;
-  item.zone = static_cast<ZoneIndex>(zone);
-  item.message = unpacker.text();
-  item.points = unpacker.array<Vec3>();
-  item.triangles = unpacker.array<LocalTriangle>();
+  Item item = is_mine ? *mine : Item();
+  communicator.broadcast_value(item, root);
   return item;
 }
 
@@ -200,20 +187,9 @@ void refuse_surface(const parallel::Communicator& communicator, const Contradict
 
 std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
                                          const std::vector<ZoneFailure>& mine) {
-  parallel::Packer packer;
-  for (const ZoneFailure& failure : mine) {
-    packer.value(failure.zone);
-    packer.text(failure.reason);
-  }
   std::vector<ZoneFailure> all;
-  for (const parallel::Bytes& bytes : communicator.all_gather(packer.take())) {
-    parallel::Unpacker unpacker(bytes);
-    while (!unpacker.at_end()) {
-      ZoneFailure& failure = all.emplace_back();
-      failure.zone = unpacker.value<ZoneIndex>();
-      failure.reason = unpacker.text();
-    }
-  }
+  for (const std::vector<ZoneFailure>& failures : communicator.all_gather_values(mine))
+    all.insert(all.end(), failures.begin(), failures.end());
   std::sort(all.begin(), all.end(),
             [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
   return all;

@@ -9,6 +9,7 @@
 #include "volume/zone_supply.hpp"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -17,6 +18,8 @@ namespace aeroloom::volume {
 struct ZoneFailure {
   ZoneIndex zone;
   std::string reason;
+
+  static constexpr auto fields() { return std::tuple(&ZoneFailure::zone, &ZoneFailure::reason); }
 };
 
 /// The failures of all ranks, by zone. Collective.
@@ -46,6 +49,10 @@ private:
     std::string message;
     std::vector<geometry::Vec3> points;
     std::vector<LocalTriangle> triangles;
+
+    static constexpr auto fields() {
+      return std::tuple(&Item::zone, &Item::has_defect, &Item::message, &Item::points, &Item::triangles);
+    }
   };
   /// The item of the lowest zone among all ranks' chosen ones; zone is no_zone when there is none.
   static Item lowest(const parallel::Communicator& communicator, const Item* mine);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -343,6 +344,8 @@ private:
     struct Row {
       ZoneIndex zone;
       mesh::RegionId region;
+
+      static constexpr auto fields() { return std::tuple(&Row::zone, &Row::region); }
     };
     std::vector<Row> rows;
     for (const auto& [zone, result] : _results) {

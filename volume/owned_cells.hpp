@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -28,6 +29,10 @@ struct ZoneProblem {
       back;  ///< regions on either side of each triangle; front: it is seen from outside
   std::vector<mesh::RegionId> regions;  ///< of the lattice points
 
+  static constexpr auto fields() {
+    return std::tuple(&ZoneProblem::points, &ZoneProblem::owners, &ZoneProblem::triangles,
+                      &ZoneProblem::front, &ZoneProblem::back, &ZoneProblem::regions);
+  }
   std::size_t surface_points() const { return points.size() - regions.size(); }
 };
 
@@ -35,6 +40,8 @@ struct ZoneProblem {
 struct Crossing {
   std::int32_t cell;
   std::int32_t face;  ///< opposite to this vertex
+
+  static constexpr auto fields() { return std::tuple(&Crossing::cell, &Crossing::face); }
 };
 
 /// The tetrahedra of a zone: those that have a vertex of it and none of a lower one.
@@ -45,6 +52,11 @@ struct OwnedCells {
   std::vector<std::int32_t> triangles;  ///< whose front side they cover
   /// Points of the surface that cells of other zones may have too, be it in a corner alone; ascending.
   std::vector<mesh::LocalIndex> touched;
+
+  static constexpr auto fields() {
+    return std::tuple(&OwnedCells::cells, &OwnedCells::regions, &OwnedCells::crossings,
+                      &OwnedCells::triangles, &OwnedCells::touched);
+  }
 };
 
 /// A tetrahedron with a lattice vertex lies in the region of that. At another the star of a vertex of the

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -37,6 +38,10 @@ struct BlockRow {
   float longest_edge;
   std::int32_t triangles;
   float nearest;
+
+  static constexpr auto fields() {
+    return std::tuple(&BlockRow::block, &BlockRow::longest_edge, &BlockRow::triangles, &BlockRow::nearest);
+  }
 };
 
 /// How far a triangle is from the middle of a block, in space, rounded up.
@@ -82,6 +87,8 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
 struct Want {
   BlockIndex block;
   parallel::Rank rank;
+
+  static constexpr auto fields() { return std::tuple(&Want::block, &Want::rank); }
 };
 
 /// The blocks of others that a rank wants the triangles of.
@@ -228,6 +235,8 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
   struct Parcel {
     SurfaceTriangle triangle;
     std::int64_t rank;
+
+    static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
   };
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;

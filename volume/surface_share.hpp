@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -21,10 +22,14 @@ struct SurfaceTriangle {
   std::array<geometry::Vec3, 3> points;
   std::array<std::int32_t, 3> entity;  ///< classification of the vertices
   std::array<std::int8_t, 3> dimension;
-  std::int8_t unused = 0;  ///< no padding travels
   std::int32_t face, patch;
   mesh::RegionId front, back;  ///< regions on either side; counter-clockwise seen from outside the front one
-  std::int32_t also_unused = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&SurfaceTriangle::number, &SurfaceTriangle::vertices, &SurfaceTriangle::points,
+                      &SurfaceTriangle::entity, &SurfaceTriangle::dimension, &SurfaceTriangle::face,
+                      &SurfaceTriangle::patch, &SurfaceTriangle::front, &SurfaceTriangle::back);
+  }
 };
 
 /// A closed box in the grid around a triangle.

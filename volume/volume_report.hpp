@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -16,6 +17,12 @@ struct DecompositionReport {
   double expected_tetrahedra = 0;  ///< from points and triangles
   std::int32_t zones = 0;
   double imbalance = 1;  ///< heaviest zone over the mean, halo included
+
+  static constexpr auto fields() {
+    return std::tuple(&DecompositionReport::blocks, &DecompositionReport::lattice_points,
+                      &DecompositionReport::expected_tetrahedra, &DecompositionReport::zones,
+                      &DecompositionReport::imbalance);
+  }
 };
 
 /// A zone that could not be filled at first.
@@ -23,6 +30,8 @@ struct Retry {
   std::int32_t zone;
   std::string change;  ///< what was done about it
   std::string reason;
+
+  static constexpr auto fields() { return std::tuple(&Retry::zone, &Retry::change, &Retry::reason); }
 };
 
 /// A place where zones made different tetrahedra, and which of them counts.
@@ -31,6 +40,10 @@ struct Disagreement {
   std::int32_t zone;   ///< that counts
   std::int32_t faces;  ///< that did not match
   std::int32_t round;
+
+  static constexpr auto fields() {
+    return std::tuple(&Disagreement::place, &Disagreement::zone, &Disagreement::faces, &Disagreement::round);
+  }
 };
 
 /// What the filling tells.
@@ -42,6 +55,12 @@ struct VolumeReport {
   std::vector<Disagreement> disagreements;
   int rounds = 1;            ///< of filling; further ones fill again what failed or disagreed
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
+
+  static constexpr auto fields() {
+    return std::tuple(&VolumeReport::tetrahedra, &VolumeReport::overlap, &VolumeReport::steiner_points,
+                      &VolumeReport::retries, &VolumeReport::disagreements, &VolumeReport::rounds,
+                      &VolumeReport::load_error_90);
+  }
 };
 
 }  // namespace aeroloom::volume

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <tuple>
 
 namespace aeroloom::volume {
 
@@ -48,29 +49,6 @@ private:
   int _exponent = 0;
 };
 
-Bytes pack_problem(const ZoneProblem& problem, parallel::Sabotage sabotage) {
-  parallel::Packer packer;
-  packer.value(sabotage);
-  packer.array(problem.points);
-  packer.array(problem.owners);
-  packer.array(problem.triangles);
-  packer.array(problem.front);
-  packer.array(problem.back);
-  packer.array(problem.regions);
-  return packer.take();
-}
-
-ZoneProblem unpack_problem(parallel::Unpacker& unpacker) {
-  ZoneProblem problem;
-  problem.points = unpacker.array<Vec3>();
-  problem.owners = unpacker.array<Owner>();
-  problem.triangles = unpacker.array<LocalTriangle>();
-  problem.front = unpacker.array<mesh::RegionId>();
-  problem.back = unpacker.array<mesh::RegionId>();
-  problem.regions = unpacker.array<mesh::RegionId>();
-  return problem;
-}
-
 /// Along a space-filling curve, crossings with them.
 void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
   OwnedCells sorted;
@@ -93,9 +71,8 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
 
 /// Runs in the child.
 Bytes fill_task(std::span<const std::byte> input) {
-  parallel::Unpacker unpacker(input);
-  parallel::commit_sabotage(unpacker.value<parallel::Sabotage>());
-  const ZoneProblem problem = unpack_problem(unpacker);
+  const auto [sabotage, problem] = parallel::from_wire<std::tuple<parallel::Sabotage, ZoneProblem>>(input);
+  parallel::commit_sabotage(sabotage);
   const UnitFrame frame(problem.points);
   std::vector<Vec3> points = problem.points, added;
   OwnedCells owned;
@@ -116,24 +93,12 @@ Bytes fill_task(std::span<const std::byte> input) {
     owned = select_owned(problem, mesh, points);
   }
   sort_cells(points, owned);
-  parallel::Packer packer;
-  packer.array(owned.cells);
-  packer.array(owned.regions);
-  packer.array(owned.crossings);
-  packer.array(owned.triangles);
-  packer.array(owned.touched);
-  packer.array(added);
-  return packer.take();
+  return parallel::to_wire(std::tie(owned, added));
 }
 
 void unpack_filling(std::span<const std::byte> bytes, ZoneFilling& filling) {
-  parallel::Unpacker unpacker(bytes);
-  filling.owned.cells = unpacker.array<LocalCell>();
-  filling.owned.regions = unpacker.array<mesh::RegionId>();
-  filling.owned.crossings = unpacker.array<Crossing>();
-  filling.owned.triangles = unpacker.array<std::int32_t>();
-  filling.owned.touched = unpacker.array<mesh::LocalIndex>();
-  filling.added = unpacker.array<Vec3>();
+  auto result = std::tie(filling.owned, filling.added);
+  parallel::from_wire_into(bytes, result);
   filling.filled = true;
 }
 
@@ -161,7 +126,7 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
 ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, parallel::TaskStore* tasks,
                       double base_cpu_seconds) {
   if (sabotage != parallel::Sabotage::none) tasks = nullptr;
-  const Bytes packed = pack_problem(problem, sabotage);
+  const Bytes packed = parallel::to_wire(std::tie(sabotage, problem));
   ZoneFilling filling;
   parallel::Digest key;
   if (tasks != nullptr) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -18,7 +19,11 @@ struct ZoneFace {
   ZoneIndex zone;
   mesh::RegionId region;
   std::int32_t odd;  ///< 1 where its turn, seen from outside of the cell, is that of the descending vertices
-  std::int32_t unused = 0;  ///< no padding travels
+
+  static constexpr auto fields() {
+    return std::tuple(&ZoneFace::vertices, &ZoneFace::leaves, &ZoneFace::zone, &ZoneFace::region,
+                      &ZoneFace::odd);
+  }
 };
 
 /// A zone's part of the mesh.

@@ -3,6 +3,7 @@
 #include "mesh/delivery.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -17,13 +18,21 @@ struct PointOfZone {
   std::int64_t number;  ///< of the lattice
   Vec3 point;
   mesh::RegionId region;
-  std::int32_t unused = 0;  ///< no padding travels
+
+  static constexpr auto fields() {
+    return std::tuple(&PointOfZone::zone, &PointOfZone::rank, &PointOfZone::number, &PointOfZone::point,
+                      &PointOfZone::region);
+  }
 };
 
 struct TriangleOfZone {
   ZoneIndex zone;
   parallel::Rank rank;
   SurfaceTriangle triangle;
+
+  static constexpr auto fields() {
+    return std::tuple(&TriangleOfZone::zone, &TriangleOfZone::rank, &TriangleOfZone::triangle);
+  }
 };
 
 /// What this rank sends.

@@ -12,6 +12,7 @@
 #include "volume/zones.hpp"
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -42,6 +43,10 @@ struct ZoneWant {
   BlockIndex block;
   parallel::Rank rank;
   std::int32_t leaves;  ///< a bit each
+
+  static constexpr auto fields() {
+    return std::tuple(&ZoneWant::zone, &ZoneWant::block, &ZoneWant::rank, &ZoneWant::leaves);
+  }
 };
 
 /// What a rank has of the volume: the points of its blocks and the triangles that meet them.

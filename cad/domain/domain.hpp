@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -33,6 +34,11 @@ struct FarFieldOptions {
   Symmetry symmetry = Symmetry::automatic;
   std::optional<double> symmetry_position =
       {};  ///< of the plane on its axis; default: where the body ends, or 0
+
+  static constexpr auto fields() {
+    return std::tuple(&FarFieldOptions::shape, &FarFieldOptions::extent, &FarFieldOptions::axis,
+                      &FarFieldOptions::symmetry, &FarFieldOptions::symmetry_position);
+  }
 };
 
 /// What happens to blunt trailing edges: strips between two faces that meet at a sharp angle.
@@ -44,6 +50,11 @@ struct TrailingEdgeOptions {
       {};  ///< patterns of faces' or patches' names, with * and ?; none: any face
   double width =
       0;  ///< of strips that are closed, at most; 0: 3 % of their length, 10 % of the neighbours' breadth
+
+  static constexpr auto fields() {
+    return std::tuple(&TrailingEdgeOptions::treatment, &TrailingEdgeOptions::faces,
+                      &TrailingEdgeOptions::width);
+  }
 };
 
 struct DomainOptions {
@@ -53,6 +64,12 @@ struct DomainOptions {
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
   TrailingEdgeOptions trailing_edges = {};
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
+
+  static constexpr auto fields() {
+    return std::tuple(&DomainOptions::file, &DomainOptions::transport, &DomainOptions::kind,
+                      &DomainOptions::far_field, &DomainOptions::trailing_edges,
+                      &DomainOptions::smallest_size);
+  }
 };
 
 /// What was read and what was done with it, for log and report.
@@ -61,6 +78,11 @@ struct DomainReport {
   std::string reason;                       ///< why, when it was decided here
   double reference_length = 0;              ///< of the body (or the domain)
   Changes changes;                          ///< every repair: what, where, how much
+
+  static constexpr auto fields() {
+    return std::tuple(&DomainReport::kind, &DomainReport::reason, &DomainReport::reference_length,
+                      &DomainReport::changes);
+  }
 };
 
 struct Domain {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -13,6 +14,8 @@ namespace aeroloom::cad {
 struct NamedFaces {
   std::string name;
   std::int32_t faces = 0;
+
+  static constexpr auto fields() { return std::tuple(&NamedFaces::name, &NamedFaces::faces); }
 };
 
 struct CadFacts {
@@ -23,6 +26,12 @@ struct CadFacts {
   std::int32_t solids = 0, shells = 0, faces = 0, edges = 0;
   /// By name, each once: of solids (parts, products), of faces, of layers, and colours ("#rrggbb").
   std::vector<NamedFaces> parts, face_names, layers, colours;
+
+  static constexpr auto fields() {
+    return std::tuple(&CadFacts::format, &CadFacts::unit_name, &CadFacts::unit_in_metres, &CadFacts::bounds,
+                      &CadFacts::solids, &CadFacts::shells, &CadFacts::faces, &CadFacts::edges,
+                      &CadFacts::parts, &CadFacts::face_names, &CadFacts::layers, &CadFacts::colours);
+  }
 };
 
 /// Reads the file, in this process: what crashes in the CAD library ends it. Not collective. Throws CadError

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -16,6 +17,8 @@ struct Change {
   std::string what;                ///< one sentence: entity and deed
   std::optional<Vec3> where = {};  ///< a place to look at
   double how_much = 0;             ///< largest distance anything moved, in the model's unit; 0: nothing moved
+
+  static constexpr auto fields() { return std::tuple(&Change::what, &Change::where, &Change::how_much); }
 };
 
 using Changes = std::vector<Change>;

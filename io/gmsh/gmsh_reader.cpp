@@ -30,6 +30,7 @@ struct Group {
   std::int32_t is_entity = 0;  ///< 0: a physical group
   std::int32_t tag = 0;
 
+  static constexpr auto fields() { return std::tuple(&Group::dimension, &Group::is_entity, &Group::tag); }
   auto operator<=>(const Group&) const = default;
 };
 
@@ -127,6 +128,10 @@ struct NamedGroup {
   Group group;
   std::string name;
   mesh::PatchType type = mesh::PatchType::wall;
+
+  static constexpr auto fields() {
+    return std::tuple(&NamedGroup::group, &NamedGroup::name, &NamedGroup::type);
+  }
 };
 
 mesh::PatchType type_of(const std::string& comment, const std::string& name) {
@@ -157,23 +162,8 @@ std::vector<NamedGroup> agree_on_groups(const parallel::Communicator& communicat
       if (group.dimension > 0 && !mine.contains(group)) mine[group] = name_group(source.tables, group);
     }
   }
-  parallel::Packer packer;
-  for (const auto& [group, named] : mine) {
-    packer.value(group);
-    packer.text(named.name);
-    packer.value(named.type);
-  }
   std::map<Group, NamedGroup> all;
-  for (const parallel::Bytes& bytes : communicator.all_gather(packer.take())) {
-    parallel::Unpacker unpacker(bytes);
-    while (!unpacker.at_end()) {
-      NamedGroup named;
-      named.group = unpacker.value<Group>();
-      named.name = unpacker.text();
-      named.type = unpacker.value<mesh::PatchType>();
-      all.try_emplace(named.group, named);
-    }
-  }
+  for (std::map<Group, NamedGroup>& groups : communicator.all_gather_values(mine)) all.merge(groups);
   std::vector<NamedGroup> result;
   result.reserve(all.size());
   for (auto& [group, named] : all) result.push_back(std::move(named));

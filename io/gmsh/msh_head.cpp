@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -130,6 +131,7 @@ std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator
   struct Found {
     std::int64_t entity;
     MshBox box;
+
     static constexpr auto fields() { return std::tuple(&Found::entity, &Found::box); }
   };
   std::vector<Found> found;

@@ -15,8 +15,6 @@
 namespace aeroloom::io::hdf5 {
 
 using parallel::Bytes;
-using parallel::Packer;
-using parallel::Unpacker;
 
 namespace {
 
@@ -146,36 +144,27 @@ herr_t look_for_mark(hid_t group, const char* name, const H5L_info_t*, void* con
   return search.found.empty() ? 0 : 1;
 }
 
-Bytes survey(const std::string& path, hid_t file, Unpacker& request) {
+Bytes survey(const std::string& path, hid_t file, const SurveyRequest& request) {
   const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
-  Packer reply;
-  for (auto n = request.value<std::size_t>(); n > 0; --n) {
-    const ArrayFacts facts = facts_of(file, request.text(), file_bytes);
-    reply.value(facts.kind);
-    reply.array(facts.dimensions);
+  Survey survey;
+  for (const std::string& array : request.arrays) survey.arrays.push_back(facts_of(file, array, file_bytes));
+  for (const AttributeName& name : request.attributes) {
+    const Handle object = open_object(file, name.object);
+    survey.attributes.push_back(object < 0 ? "" : attribute_of(object, name.attribute));
   }
-  for (auto n = request.value<std::size_t>(); n > 0; --n) {
-    const Handle object = open_object(file, request.text());
-    const std::string name = request.text();
-    reply.text(object < 0 ? "" : attribute_of(object, name));
-  }
-  const std::string group_name = request.text();
-  MarkSearch search;
-  search.mark.object = request.text();
-  search.mark.attribute = request.text();
-  const Handle group = open_object(file, group_name);
+  MarkSearch search{request.mark, ""};
+  const Handle group = open_object(file, request.group);
   if (group >= 0 && H5Iget_type(group) == H5I_GROUP) {
     require(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, look_for_mark, &search),
-            "members of " + group_name);
+            "members of " + request.group);
   }
-  reply.text(search.found);
-  return reply.take();
+  survey.marked = search.found;
+  return parallel::to_wire(survey);
 }
 
 template <class T>
-Bytes rows(hid_t file, Unpacker& request, hid_t type) {
-  const std::string name = request.text();
-  const auto begin = request.value<std::int64_t>(), count = request.value<std::int64_t>();
+Bytes rows(hid_t file, const RowRange& range, hid_t type) {
+  const auto& [name, begin, count] = range;
   const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "array " + name);
   const Handle space(H5Dget_space(array), H5Sclose, name);
   const std::vector<std::int64_t> dimensions = dimensions_of(space, name);
@@ -205,8 +194,7 @@ struct TextTable {
   std::vector<char*> pointers;
 };
 
-Bytes texts(hid_t file, Unpacker& request) {
-  const std::string name = request.text();
+Bytes texts(hid_t file, const std::string& name) {
   const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "array " + name);
   const Handle type(H5Dget_type(array), H5Tclose, name);
   const Handle space(H5Dget_space(array), H5Sclose, name);
@@ -216,38 +204,37 @@ Bytes texts(hid_t file, Unpacker& request) {
   if (H5Tget_class(type) != H5T_STRING || dimensions.size() > 1 || bytes <= 0 ||
       count > most_text_bytes / bytes)
     throw std::runtime_error("array " + name + " is no list of texts");
-  Packer reply;
+  std::vector<std::string> texts;
   if (require(H5Tis_variable_str(type), name) > 0) {
     TextTable table(static_cast<std::size_t>(count));
     require(H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(table.pointers.data())),
             name);
-    for (const char* text : table.pointers) reply.text(text == nullptr ? "" : text);
-    return reply.take();
+    for (const char* text : table.pointers) texts.emplace_back(text == nullptr ? "" : text);
+    return parallel::to_wire(texts);
   }
   std::string table(static_cast<std::size_t>(count * bytes), '\0');
   require(H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.data()), name);
   for (std::int64_t i = 0; i < count; ++i) {
     const std::string text =
         table.substr(static_cast<std::size_t>(i * bytes), static_cast<std::size_t>(bytes));
-    reply.text(text.substr(0, text.find('\0')));
+    texts.push_back(text.substr(0, text.find('\0')));
   }
-  return reply.take();
+  return parallel::to_wire(texts);
 }
 
 Bytes run(std::span<const std::byte> input) {
-  Unpacker request(input);
-  const auto operation = request.value<Operation>();
-  const std::string path = request.text();
-  const Handle file = open_file(path);
-  switch (operation) {
+  const auto request = parallel::from_wire<ReadingRequest>(input);
+  const std::span<const std::byte> details = request.details;
+  const Handle file = open_file(request.path);
+  switch (request.operation) {
     case Operation::survey:
-      return survey(path, file, request);
+      return survey(request.path, file, parallel::from_wire<SurveyRequest>(details));
     case Operation::integers:
-      return rows<std::int64_t>(file, request, H5T_NATIVE_INT64);
+      return rows<std::int64_t>(file, parallel::from_wire<RowRange>(details), H5T_NATIVE_INT64);
     case Operation::reals:
-      return rows<double>(file, request, H5T_NATIVE_DOUBLE);
+      return rows<double>(file, parallel::from_wire<RowRange>(details), H5T_NATIVE_DOUBLE);
     default:
-      return texts(file, request);
+      return texts(file, parallel::from_wire<std::string>(details));
   }
 }
 

@@ -14,24 +14,18 @@
 
 namespace aeroloom::io::hdf5 {
 
-using parallel::Packer;
-using parallel::Unpacker;
-
 namespace {
 
 constexpr std::int64_t rows_at_a_time = std::int64_t{1} << 21;
 
 /// Runs one operation in a child; its bytes.
-parallel::Bytes read_contained(const std::string& path, Operation operation, const parallel::Bytes& details) {
-  Packer packer;
-  packer.value(operation);
-  packer.text(path);
-  parallel::Bytes input = packer.take();
-  input.insert(input.end(), details.begin(), details.end());
+parallel::Bytes read_contained(const ReadingRequest& request) {
+  const std::string& path = request.path;
   parallel::ContainedLimits limits;
   limits.cpu_seconds = 120;
   limits.address_space_bytes = std::int64_t{2} << 30;
-  parallel::ContainedResult result = parallel::run_contained(reading_task(), input, limits);
+  parallel::ContainedResult result =
+      parallel::run_contained(reading_task(), parallel::to_wire(request), limits);
   switch (result.status) {
     case parallel::ContainedStatus::ok:
       return std::move(result.output);
@@ -54,11 +48,8 @@ std::vector<T> read_rows(const std::string& path, Operation operation, const std
                          std::int64_t begin, std::int64_t count) {
   std::vector<T> items;
   for (std::int64_t done = 0; done < count; done += rows_at_a_time) {
-    Packer packer;
-    packer.text(array);
-    packer.value(begin + done);
-    packer.value(std::min(rows_at_a_time, count - done));
-    const parallel::Bytes bytes = read_contained(path, operation, packer.take());
+    const RowRange range{array, begin + done, std::min(rows_at_a_time, count - done)};
+    const parallel::Bytes bytes = read_contained({operation, path, parallel::to_wire(range)});
     const std::vector<T> portion = parallel::from_bytes<T>(bytes);
     items.insert(items.end(), portion.begin(), portion.end());
   }
@@ -78,29 +69,7 @@ InputFile::InputFile(std::string path) : _path(std::move(path)) {
 }
 
 Survey InputFile::survey(const SurveyRequest& request) const {
-  Packer packer;
-  packer.value(request.arrays.size());
-  for (const std::string& array : request.arrays) packer.text(array);
-  packer.value(request.attributes.size());
-  for (const AttributeName& name : request.attributes) {
-    packer.text(name.object);
-    packer.text(name.attribute);
-  }
-  packer.text(request.group);
-  packer.text(request.mark.object);
-  packer.text(request.mark.attribute);
-  const parallel::Bytes bytes = read_contained(_path, Operation::survey, packer.take());
-  Unpacker unpacker(bytes);
-  Survey survey;
-  for (std::size_t i = 0; i < request.arrays.size(); ++i) {
-    ArrayFacts facts;
-    facts.kind = unpacker.value<ItemKind>();
-    facts.dimensions = unpacker.array<std::int64_t>();
-    survey.arrays.push_back(std::move(facts));
-  }
-  for (std::size_t i = 0; i < request.attributes.size(); ++i) survey.attributes.push_back(unpacker.text());
-  survey.marked = unpacker.text();
-  return survey;
+  return parallel::from_wire<Survey>(read_contained({Operation::survey, _path, parallel::to_wire(request)}));
 }
 
 std::vector<std::int64_t> InputFile::integers(const std::string& array, std::int64_t begin,
@@ -113,13 +82,8 @@ std::vector<double> InputFile::reals(const std::string& array, std::int64_t begi
 }
 
 std::vector<std::string> InputFile::texts(const std::string& array) const {
-  Packer packer;
-  packer.text(array);
-  const parallel::Bytes bytes = read_contained(_path, Operation::texts, packer.take());
-  Unpacker unpacker(bytes);
-  std::vector<std::string> texts;
-  while (!unpacker.at_end()) texts.push_back(unpacker.text());
-  return texts;
+  return parallel::from_wire<std::vector<std::string>>(
+      read_contained({Operation::texts, _path, parallel::to_wire(array)}));
 }
 
 }  // namespace aeroloom::io::hdf5

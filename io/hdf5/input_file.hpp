@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io::hdf5 {
@@ -18,6 +19,7 @@ struct ArrayFacts {
   ItemKind kind = ItemKind::missing;  ///< `other`: a group, or items of another kind
   std::vector<std::int64_t> dimensions;
 
+  static constexpr auto fields() { return std::tuple(&ArrayFacts::kind, &ArrayFacts::dimensions); }
   bool exists() const { return kind != ItemKind::missing; }
   /// Of the first dimension.
   std::int64_t rows() const { return dimensions.empty() ? 0 : dimensions[0]; }
@@ -26,6 +28,8 @@ struct ArrayFacts {
 /// An attribute to look up: texts come as they are, the first of integers as digits.
 struct AttributeName {
   std::string object, attribute;
+
+  static constexpr auto fields() { return std::tuple(&AttributeName::object, &AttributeName::attribute); }
 };
 
 /// What to look up in one go.
@@ -35,11 +39,18 @@ struct SurveyRequest {
   /// A member of `group` whose attribute has this value is wanted (the first by name).
   std::string group;
   AttributeName mark;  ///< `object`: the value
+
+  static constexpr auto fields() {
+    return std::tuple(&SurveyRequest::arrays, &SurveyRequest::attributes, &SurveyRequest::group,
+                      &SurveyRequest::mark);
+  }
 };
 struct Survey {
   std::vector<ArrayFacts> arrays;       ///< in the order of the request
   std::vector<std::string> attributes;  ///< in the order of the request; empty where there is none
   std::string marked;                   ///< name of the member of the group; empty where there is none
+
+  static constexpr auto fields() { return std::tuple(&Survey::arrays, &Survey::attributes, &Survey::marked); }
 };
 
 /// An HDF5 file to read. All throw std::runtime_error that names the file and what cannot be read;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -26,8 +27,10 @@ struct Widths {
 
 /// A section that is read.
 struct Section {
-  std::int32_t keyword = 0, unused = 0;
+  std::int32_t keyword = 0;
   std::int64_t lines = 0, count = 0;
+
+  static constexpr auto fields() { return std::tuple(&Section::keyword, &Section::lines, &Section::count); }
 };
 
 std::int64_t decode_integer(const RangeReader& file, const std::byte* at, int width) {
@@ -118,7 +121,7 @@ private:
       if (other.keyword == keyword)
         _file.fail(at, fmt::format("{} come twice", name_of(static_cast<MeditKeyword>(keyword))));
     }
-    sections.push_back({static_cast<std::int32_t>(keyword), 0, lines, count});
+    sections.push_back({static_cast<std::int32_t>(keyword), lines, count});
     return after(at, lines + count * bytes, next);
   }
 

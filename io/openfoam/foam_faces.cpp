@@ -89,6 +89,10 @@ void require_closed(const LinkDefects& defects) {
 struct PartRow {
   std::int32_t part, rank;
   GlobalIndex cells, inner;
+
+  static constexpr auto fields() {
+    return std::tuple(&PartRow::part, &PartRow::rank, &PartRow::cells, &PartRow::inner);
+  }
 };
 
 std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, const FileMesh& mesh,

@@ -194,17 +194,10 @@ private:
 
 RawMesh read_su2(const parallel::Communicator& communicator, const std::string& path) {
   RawMesh raw;
-  parallel::Packer packer;
   parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    Su2Text(path, raw).read();
-    for (const mesh::Patch& patch : raw.patches) packer.text(patch.name);
+    if (communicator.is_root()) Su2Text(path, raw).read();
   });
-  parallel::Bytes bytes = packer.take();
-  communicator.broadcast(bytes);
-  parallel::Unpacker unpacker(bytes);
-  raw.patches.clear();
-  while (!unpacker.at_end()) raw.patches.push_back({unpacker.text(), mesh::PatchType::wall});
+  communicator.broadcast_value(raw.patches);
   set_marker_types(communicator, path, raw.patches);
   raw.regions = {"fluid"};
   return raw;

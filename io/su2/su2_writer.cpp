@@ -10,6 +10,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <fmt/compile.h>
@@ -100,6 +101,10 @@ struct Stretch {
   std::int32_t section, part;
   std::int64_t bytes;   ///< its length
   std::int64_t offset;  ///< in the file
+
+  static constexpr auto fields() {
+    return std::tuple(&Stretch::section, &Stretch::part, &Stretch::bytes, &Stretch::offset);
+  }
 };
 
 /// All stretches of this rank's parts with their lengths.

@@ -47,26 +47,11 @@ Table parse_mapbc(const std::string& path) {
 
 Table read_mapbc(const parallel::Communicator& communicator, const std::string& path) {
   Table table;
-  parallel::Packer packer;
   parallel::agree(communicator, [&] {
     std::error_code none;
-    if (!communicator.is_root() || !std::filesystem::exists(path, none)) return;
-    table = parse_mapbc(path);
-    for (const auto& [id, patch] : table) {
-      packer.value(id);
-      packer.value(patch.type);
-      packer.text(patch.name);
-    }
+    if (communicator.is_root() && std::filesystem::exists(path, none)) table = parse_mapbc(path);
   });
-  parallel::Bytes bytes = packer.take();
-  communicator.broadcast(bytes);
-  if (communicator.is_root()) return table;
-  parallel::Unpacker unpacker(bytes);
-  while (!unpacker.at_end()) {
-    const auto id = unpacker.value<std::int64_t>();
-    const auto type = unpacker.value<mesh::PatchType>();
-    table[id] = {unpacker.text(), type};
-  }
+  communicator.broadcast_value(table);
   return table;
 }
 

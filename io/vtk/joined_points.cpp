@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ using mesh::GlobalIndex;
 struct PlacedPoint {
   std::array<std::uint64_t, 3> bits;
   GlobalIndex id;
+
+  static constexpr auto fields() { return std::tuple(&PlacedPoint::bits, &PlacedPoint::id); }
 };
 
 PlacedPoint placed(const RawMesh& raw, std::size_t point) {

@@ -27,56 +27,16 @@ parallel::ContainedLimits limits_of(std::int64_t file_bytes) {
   return limits;
 }
 
-/// Packs an array and lets go of it: the whole is never there twice.
-template <class T>
-void hand_over(parallel::Packer& packer, std::vector<T>& items) {
-  packer.array(items);
-  std::vector<T>().swap(items);
-}
-
-parallel::Bytes pack(VtkPart part) {
-  parallel::Packer packer;
-  hand_over(packer, part.coordinates);
-  hand_over(packer, part.ids);
-  packer.value(part.has_ids);
-  for (auto& items : part.cells) hand_over(packer, items);
-  for (auto& items : part.cell_labels) hand_over(packer, items);
-  for (auto& items : part.faces) hand_over(packer, items);
-  for (auto& items : part.face_labels) hand_over(packer, items);
-  pack_labels(packer, part.regions);
-  pack_labels(packer, part.patches);
-  return packer.take();
-}
-
-VtkPart unpack(const parallel::Bytes& bytes) {
-  parallel::Unpacker unpacker(bytes);
-  VtkPart part;
-  part.coordinates = unpacker.array<double>();
-  part.ids = unpacker.array<mesh::GlobalIndex>();
-  part.has_ids = unpacker.value<bool>();
-  for (auto& items : part.cells) items = unpacker.array<mesh::GlobalIndex>();
-  for (auto& items : part.cell_labels) items = unpacker.array<std::int32_t>();
-  for (auto& items : part.faces) items = unpacker.array<mesh::GlobalIndex>();
-  for (auto& items : part.face_labels) items = unpacker.array<std::int32_t>();
-  part.regions = unpack_labels(unpacker);
-  part.patches = unpack_labels(unpacker);
-  return part;
-}
-
 std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 parallel::Bytes run_part_task(std::span<const std::byte> input) {
-  return pack(extract_vtk_part(text_of(input)));
+  return parallel::hand_over_to_wire(extract_vtk_part(text_of(input)));
 }
 
 parallel::Bytes run_sources_task(std::span<const std::byte> input) {
-  parallel::Packer packer;
-  const std::vector<std::string> sources = extract_vtk_sources(text_of(input));
-  packer.value(static_cast<std::uint64_t>(sources.size()));
-  for (const std::string& source : sources) packer.text(source);
-  return packer.take();
+  return parallel::to_wire(extract_vtk_sources(text_of(input)));
 }
 
 /// Before any server of contained runs starts.
@@ -112,26 +72,6 @@ parallel::Bytes run(const char* task, const std::string& path) {
 
 }  // namespace
 
-void pack_labels(parallel::Packer& packer, const std::vector<VtkLabel>& labels) {
-  packer.value(static_cast<std::uint64_t>(labels.size()));
-  for (const VtkLabel& label : labels) {
-    packer.value(label.value);
-    packer.text(label.named.name);
-    packer.value(label.named.type);
-  }
-}
-
-std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker) {
-  std::vector<VtkLabel> labels;
-  for (auto left = unpacker.value<std::uint64_t>(); left > 0; --left) {
-    VtkLabel& label = labels.emplace_back();
-    label.value = unpacker.value<std::int64_t>();
-    label.named.name = unpacker.text();
-    label.named.type = unpacker.value<mesh::PatchType>();
-  }
-  return labels;
-}
-
 std::int64_t readable_bytes(const std::string& path) {
   namespace fs = std::filesystem;
   if (!fs::is_regular_file(path))
@@ -145,15 +85,11 @@ std::int64_t readable_bytes(const std::string& path) {
 }
 
 VtkPart read_vtk_part(const std::string& path) {
-  return unpack(run(part_task, path));
+  return parallel::from_wire<VtkPart>(run(part_task, path));
 }
 
 std::vector<std::string> read_vtk_sources(const std::string& path) {
-  const parallel::Bytes bytes = run(sources_task, path);
-  parallel::Unpacker unpacker(bytes);
-  std::vector<std::string> sources;
-  for (auto left = unpacker.value<std::uint64_t>(); left > 0; --left) sources.push_back(unpacker.text());
-  return sources;
+  return parallel::from_wire<std::vector<std::string>>(run(sources_task, path));
 }
 
 }  // namespace aeroloom::io

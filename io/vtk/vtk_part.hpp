@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -16,10 +17,9 @@ namespace aeroloom::io {
 struct VtkLabel {
   std::int64_t value = 0;  ///< in the array that tells them apart
   mesh::Patch named;       ///< its name; `type` of patches only
-};
 
-void pack_labels(parallel::Packer& packer, const std::vector<VtkLabel>& labels);
-std::vector<VtkLabel> unpack_labels(parallel::Unpacker& unpacker);
+  static constexpr auto fields() { return std::tuple(&VtkLabel::value, &VtkLabel::named); }
+};
 
 /// n points, cells and faces by corners in CellShape's order. Corners are ids of points; without ids they are
 /// 0 .. n - 1, in their order.
@@ -33,6 +33,11 @@ struct VtkPart {
   std::array<std::vector<std::int32_t>, face_shape_count> face_labels;  ///< into `patches`
   std::vector<VtkLabel> regions, patches;
 
+  static constexpr auto fields() {
+    return std::tuple(&VtkPart::coordinates, &VtkPart::ids, &VtkPart::has_ids, &VtkPart::cells,
+                      &VtkPart::cell_labels, &VtkPart::faces, &VtkPart::face_labels, &VtkPart::regions,
+                      &VtkPart::patches);
+  }
   std::size_t point_count() const { return coordinates.size() / 3; }
 };
 

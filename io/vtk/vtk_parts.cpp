@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -74,6 +75,8 @@ struct Plan {
 struct PlaceRow {
   mesh::GlobalIndex items;
   std::int32_t id, rank;
+
+  static constexpr auto fields() { return std::tuple(&PlaceRow::items, &PlaceRow::id, &PlaceRow::rank); }
 };
 
 /// The rows of all parts by id.
@@ -111,54 +114,51 @@ Plan plan_files(const parallel::Communicator& communicator, std::span<const Part
   return plan;
 }
 
+/// What of a part travels.
+template <template <class> class Array>
+struct PieceArrays {
+  struct Items {
+    Array<mesh::LocalIndex> connectivity;
+    Array<Run> runs;
+
+    static constexpr auto fields() { return std::tuple(&Items::connectivity, &Items::runs); }
+  };
+  std::int32_t id = 0;
+  Array<double> coordinates;
+  Array<mesh::GlobalIndex> numbers;
+  std::array<Items, cell_shape_count> cells;
+  std::array<Items, face_shape_count> faces;
+  Array<std::int32_t> triangle_face, triangle_patch;
+
+  static constexpr auto fields() {
+    return std::tuple(&PieceArrays::id, &PieceArrays::coordinates, &PieceArrays::numbers, &PieceArrays::cells,
+                      &PieceArrays::faces, &PieceArrays::triangle_face, &PieceArrays::triangle_patch);
+  }
+};
+
+/// A part of this rank.
 template <class T>
-void pack_items(parallel::Packer& packer, std::span<const T> items) {
-  packer.array(std::vector<T>(items.begin(), items.end()));
+using View = std::span<const T>;
+
+PieceArrays<View> arrays_of(const PartPiece& piece) {
+  PieceArrays<View> arrays;
+  arrays.id = piece.part.id;
+  arrays.coordinates = piece.part.coordinates;
+  arrays.numbers = piece.part.numbers;
+  const auto items_of = [](const Block& block) -> PieceArrays<View>::Items {
+    return {block.connectivity, block.runs};
+  };
+  std::transform(piece.part.cells.begin(), piece.part.cells.end(), arrays.cells.begin(), items_of);
+  std::transform(piece.part.faces.begin(), piece.part.faces.end(), arrays.faces.begin(), items_of);
+  arrays.triangle_face = piece.triangle_face;
+  arrays.triangle_patch = piece.triangle_patch;
+  return arrays;
 }
 
 /// A part that came from another rank. Its arrays stay where they are when it moves.
-struct BroughtPiece {
-  struct Items {
-    std::vector<mesh::LocalIndex> connectivity;
-    std::vector<Run> runs;
-  };
-  std::int32_t id = 0;
-  std::vector<double> coordinates;
-  std::vector<mesh::GlobalIndex> numbers;
-  std::array<Items, cell_shape_count> cells;
-  std::array<Items, face_shape_count> faces;
-  std::vector<std::int32_t> triangle_face, triangle_patch;
-};
-
-void pack_piece(parallel::Packer& packer, const PartPiece& piece) {
-  packer.value(piece.part.id);
-  pack_items(packer, piece.part.coordinates);
-  pack_items(packer, piece.part.numbers);
-  const auto pack_block = [&](const Block& block) {
-    pack_items(packer, block.connectivity);
-    packer.array(block.runs);
-  };
-  for (const Block& block : piece.part.cells) pack_block(block);
-  for (const Block& block : piece.part.faces) pack_block(block);
-  pack_items(packer, piece.triangle_face);
-  pack_items(packer, piece.triangle_patch);
-}
-
-BroughtPiece unpack_piece(parallel::Unpacker& unpacker) {
-  BroughtPiece piece;
-  piece.id = unpacker.value<std::int32_t>();
-  piece.coordinates = unpacker.array<double>();
-  piece.numbers = unpacker.array<mesh::GlobalIndex>();
-  const auto unpack_items = [&](BroughtPiece::Items& items) {
-    items.connectivity = unpacker.array<mesh::LocalIndex>();
-    items.runs = unpacker.array<Run>();
-  };
-  for (auto& items : piece.cells) unpack_items(items);
-  for (auto& items : piece.faces) unpack_items(items);
-  piece.triangle_face = unpacker.array<std::int32_t>();
-  piece.triangle_patch = unpacker.array<std::int32_t>();
-  return piece;
-}
+template <class T>
+using List = std::vector<T>;
+using BroughtPiece = PieceArrays<List>;
 
 PartPiece view(const BroughtPiece& brought) {
   PartPiece piece;
@@ -186,7 +186,8 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   std::map<parallel::Rank, parallel::Packer> packers;
   for (const PartPiece& piece : mine) {
     const FilePlan& file = plan.plan_of(piece);
-    if (file.turn == turn && file.writer != communicator.rank()) pack_piece(packers[file.writer], piece);
+    if (file.turn == turn && file.writer != communicator.rank())
+      parallel::pack(packers[file.writer], arrays_of(piece));
   }
   std::vector<parallel::Parcel> parcels;
   parcels.reserve(packers.size());
@@ -194,7 +195,7 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   std::vector<BroughtPiece> pieces;
   for (parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) pieces.push_back(unpack_piece(unpacker));
+    while (!unpacker.at_end()) pieces.push_back(parallel::unpack<BroughtPiece>(unpacker));
     parallel::Bytes().swap(parcel.content);
   }
   return pieces;

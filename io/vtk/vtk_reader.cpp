@@ -24,20 +24,16 @@ using mesh::GlobalIndex;
 /// The files that hold the mesh, the same on every rank. Collective.
 std::vector<std::string> find_parts(const parallel::Communicator& communicator, const std::string& path) {
   const std::string extension = fs::path(path).extension().string();
-  parallel::Packer packer;
+  std::vector<std::string> parts;
   parallel::agree(communicator, [&] {
     if (extension != ".pvtu" && extension != ".vtu" && extension != ".vtk")
       throw std::runtime_error(fmt::format("'{}': '{}' is not among .vtu, .pvtu and .vtk", path, extension));
     if (!communicator.is_root() || extension != ".pvtu") return;
     for (const std::string& source : read_vtk_sources(path))
-      packer.text((fs::path(path).parent_path() / source).string());
+      parts.push_back((fs::path(path).parent_path() / source).string());
   });
   if (extension != ".pvtu") return {path};
-  parallel::Bytes bytes = packer.take();
-  communicator.broadcast(bytes);
-  parallel::Unpacker unpacker(bytes);
-  std::vector<std::string> parts;
-  while (!unpacker.at_end()) parts.push_back(unpacker.text());
+  communicator.broadcast_value(parts);
   return parts;
 }
 
@@ -166,14 +162,9 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
                                       std::span<std::vector<std::int32_t>> labels) {
   std::vector<VtkLabel> all = table;
   sort_labels(all);
-  parallel::Packer packer;
-  pack_labels(packer, all);
+  const auto of_ranks = communicator.all_gather_values(all);
   all.clear();
-  for (const parallel::Bytes& bytes : communicator.all_gather(packer.take())) {
-    parallel::Unpacker unpacker(bytes);
-    std::vector<VtkLabel> labels_of_rank = unpack_labels(unpacker);
-    std::move(labels_of_rank.begin(), labels_of_rank.end(), std::back_inserter(all));
-  }
+  for (const std::vector<VtkLabel>& of_rank : of_ranks) all.insert(all.end(), of_rank.begin(), of_rank.end());
   sort_labels(all);
   std::vector<std::int32_t> place;
   place.reserve(table.size());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io::vtkhdf {
@@ -14,6 +15,10 @@ namespace aeroloom::io::vtkhdf {
 /// What a partition holds of a grid, or all lower ones together.
 struct GridCounts {
   std::int64_t points = 0, cells = 0, corners = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&GridCounts::points, &GridCounts::cells, &GridCounts::corners);
+  }
 };
 
 /// Offsets in bytes of the first item of each array.

@@ -174,7 +174,7 @@ RawMesh read_vtkhdf(const Communicator& communicator, const std::string& path) {
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) facts = vtkhdf::survey_file(path);
   });
-  vtkhdf::broadcast_facts(communicator, facts);
+  communicator.broadcast_value(facts);
   RawMesh raw, boundary;
   parallel::agree(communicator, [&] {
     vtkhdf::read_share(facts, path, communicator.rank(), communicator.size(), raw, boundary);

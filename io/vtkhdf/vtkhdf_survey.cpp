@@ -211,44 +211,10 @@ private:
   hdf5::Survey _survey;
 };
 
-void pack_texts(parallel::Packer& packer, const std::vector<std::string>& texts) {
-  packer.value(texts.size());
-  for (const std::string& text : texts) packer.text(text);
-}
-
-std::vector<std::string> unpack_texts(parallel::Unpacker& unpacker) {
-  std::vector<std::string> texts(unpacker.value<std::size_t>());
-  for (std::string& text : texts) text = unpacker.text();
-  return texts;
-}
-
 }  // namespace
 
 FileFacts survey_file(const std::string& path) {
   return Surveyor(path).find();
-}
-
-void broadcast_facts(const parallel::Communicator& communicator, FileFacts& facts) {
-  parallel::Packer packer;
-  packer.array(facts.before);
-  packer.text(facts.id_array);
-  for (const bool flag : {facts.has_regions, facts.has_patches, facts.has_ghosts, facts.has_boundary})
-    packer.value(flag);
-  packer.value(facts.boundary_faces);
-  packer.value(facts.boundary_corners);
-  for (const auto* texts : {&facts.region_names, &facts.patch_names, &facts.patch_types})
-    pack_texts(packer, *texts);
-  parallel::Bytes bytes = packer.take();
-  communicator.broadcast(bytes);
-  parallel::Unpacker unpacker(bytes);
-  facts.before = unpacker.array<GridCounts>();
-  facts.id_array = unpacker.text();
-  for (bool* flag : {&facts.has_regions, &facts.has_patches, &facts.has_ghosts, &facts.has_boundary})
-    *flag = unpacker.value<bool>();
-  facts.boundary_faces = unpacker.value<std::int64_t>();
-  facts.boundary_corners = unpacker.value<std::int64_t>();
-  for (auto* texts : {&facts.region_names, &facts.patch_names, &facts.patch_types})
-    *texts = unpack_texts(unpacker);
 }
 
 }  // namespace aeroloom::io::vtkhdf

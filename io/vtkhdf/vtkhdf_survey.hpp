@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io::vtkhdf {
@@ -18,6 +19,12 @@ struct FileFacts {
   std::int64_t boundary_faces = 0, boundary_corners = 0;
   std::vector<std::string> region_names, patch_names, patch_types;  ///< of /Boundary where there is one
 
+  static constexpr auto fields() {
+    return std::tuple(&FileFacts::before, &FileFacts::id_array, &FileFacts::has_regions,
+                      &FileFacts::has_patches, &FileFacts::has_ghosts, &FileFacts::has_boundary,
+                      &FileFacts::boundary_faces, &FileFacts::boundary_corners, &FileFacts::region_names,
+                      &FileFacts::patch_names, &FileFacts::patch_types);
+  }
   const GridCounts& all() const { return before.back(); }
   std::size_t partition_count() const { return before.size() - 1; }
 };
@@ -25,8 +32,5 @@ struct FileFacts {
 /// Throws std::runtime_error, or std::filesystem::filesystem_error where the file cannot be opened. Not
 /// collective.
 FileFacts survey_file(const std::string& path);
-
-/// The same on every rank from what rank 0 has. Collective.
-void broadcast_facts(const parallel::Communicator& communicator, FileFacts& facts);
 
 }  // namespace aeroloom::io::vtkhdf

@@ -117,11 +117,8 @@ TEST(BlockRegions, contradict_each_other_where_the_surface_has_a_gap_on_every_ra
           return t.number == contradiction->triangle && distance(t.points[0], contradiction->place) < 0.8;
         });
     EXPECT_GT(world.sum(std::int64_t{has_triangle}), 0);
-    parallel::Packer said;
-    said.value(contradiction->place);
-    said.value(contradiction->triangle);
-    said.value(contradiction->seen);
-    const auto all = world.all_gather(said.take());
+    const auto all = world.all_gather(
+        parallel::to_wire(std::tie(contradiction->place, contradiction->triangle, contradiction->seen)));
     for (const parallel::Bytes& other : all) EXPECT_EQ(other, all.front());
   }
 }

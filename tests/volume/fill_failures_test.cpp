@@ -36,10 +36,7 @@ VolumeOptions struck(Sabotage sabotage, std::int64_t zone, int retries) {
 
 /// Bytes that are the same on every rank, or the test fails.
 void expect_same_everywhere(const Communicator& communicator, const std::string& text) {
-  parallel::Packer packer;
-  packer.text(text);
-  const auto all = communicator.all_gather(packer.take());
-  for (const parallel::Bytes& other : all) EXPECT_EQ(other, all.front());
+  for (const std::string& other : communicator.all_gather_values(text)) EXPECT_EQ(other, text);
 }
 
 // --- one zone
@@ -133,10 +130,7 @@ Ending failure_of(const Communicator& communicator, const surfaces::Surface& sur
     ADD_FAILURE() << "another error: " << error.what();
   }
   expect_same_everywhere(communicator, ending.text);
-  parallel::Packer packer;
-  packer.array(ending.points);
-  packer.array(ending.triangles);
-  const auto all = communicator.all_gather(packer.take());
+  const auto all = communicator.all_gather(parallel::to_wire(std::tie(ending.points, ending.triangles)));
   for (const parallel::Bytes& other : all) EXPECT_EQ(other, all.front());
   for (const LocalTriangle& t : ending.triangles) {
     for (const auto v : t) {

@@ -6,6 +6,7 @@
 #include "volume/zones.hpp"
 
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -252,6 +253,8 @@ TEST(FillZones, keep_names_regions_and_sides) {
   std::set<std::array<double, 5>> known;
   struct Row {
     double row[5];
+
+    static constexpr auto fields() { return std::tuple(&Row::row); }
   };
   const auto rows_of = [](const mesh::DistributedMesh& mesh) {
     std::vector<Row> rows;

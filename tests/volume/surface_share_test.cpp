@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -186,6 +187,8 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
   // By number, on every rank: what each piece says of its cells.
   struct Row {
     SurfaceTriangle triangle;
+
+    static constexpr auto fields() { return std::tuple(&Row::triangle); }
   };
   std::vector<Row> mine;
   for (std::size_t p = 0; p < shared.problem.surface.pieces.size(); ++p) {

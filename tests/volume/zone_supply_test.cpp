@@ -158,7 +158,6 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     std::int64_t number;
     Vec3 point;
     mesh::RegionId region;
-    std::int32_t unused = 0;
   };
   std::vector<Row> mine;
   const BlockPoints& points = divided.data.points;
