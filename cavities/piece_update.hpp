@@ -4,6 +4,7 @@
 #include "cavities/rounds.hpp"
 
 #include <span>
+#include <tuple>
 
 namespace aeroloom::cavities {
 
@@ -13,6 +14,10 @@ struct WireTet {
   mesh::PieceId piece;
   mesh::RegionId region;
   std::array<mesh::SharedToken, 4> vertices;
+
+  static constexpr auto fields() {
+    return std::tuple(&WireTet::cavity, &WireTet::piece, &WireTet::region, &WireTet::vertices);
+  }
 };
 struct WireVertex {
   CavityId cavity;
@@ -20,14 +25,24 @@ struct WireVertex {
   std::int32_t dimension;
   mesh::SharedToken token;
   geometry::Vec3 point;
-  std::int32_t entity, unused = 0;  ///< no padding travels
+  std::int32_t entity;
+
+  static constexpr auto fields() {
+    return std::tuple(&WireVertex::cavity, &WireVertex::piece, &WireVertex::dimension, &WireVertex::token,
+                      &WireVertex::point, &WireVertex::entity);
+  }
 };
 struct WireTriangle {
   CavityId cavity;
   mesh::PieceId piece;
   std::int32_t face;
   std::array<mesh::SharedToken, 3> vertices;
-  std::int32_t patch, unused = 0;
+  std::int32_t patch;
+
+  static constexpr auto fields() {
+    return std::tuple(&WireTriangle::cavity, &WireTriangle::piece, &WireTriangle::face,
+                      &WireTriangle::vertices, &WireTriangle::patch);
+  }
 };
 
 /// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.

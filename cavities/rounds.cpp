@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::cavities {
@@ -24,6 +25,8 @@ struct Outcome {
   CavityId cavity;
   std::int32_t refilled;  ///< 0: it stays as it was
   std::int32_t added;     ///< vertices
+
+  static constexpr auto fields() { return std::tuple(&Outcome::cavity, &Outcome::refilled, &Outcome::added); }
 };
 
 template <class T, class Less>
@@ -143,6 +146,8 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
   struct Row {
     CavityId cavity;
     std::int64_t tets;
+
+    static constexpr auto fields() { return std::tuple(&Row::cavity, &Row::tets); }
   };
   std::vector<CavityId> all;
   for (const WireTet& t : mine.tets) all.push_back(t.cavity);

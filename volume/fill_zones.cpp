@@ -344,8 +344,8 @@ private:
     struct Row {
       ZoneIndex zone;
       mesh::RegionId region;
-
       static constexpr auto fields() { return std::tuple(&Row::zone, &Row::region); }
+      auto operator<=>(const Row&) const = default;
     };
     std::vector<Row> rows;
     for (const auto& [zone, result] : _results) {
@@ -354,16 +354,13 @@ private:
       _report.steiner_points += result.steiner_points;
     }
     rows = _communicator.all_gather_items<Row>(rows);
-    const auto before = [](const Row& a, const Row& b) {
-      return a.zone != b.zone ? a.zone < b.zone : a.region < b.region;
-    };
-    std::sort(rows.begin(), rows.end(), before);
+    std::sort(rows.begin(), rows.end());
     mesh::DistributedMesh mesh;
     mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
     for (auto& [zone, result] : _results) {
       for (mesh::Piece& piece : result.pieces) {
         piece.id = static_cast<mesh::PieceId>(
-            std::lower_bound(rows.begin(), rows.end(), Row{zone, piece.region}, before) - rows.begin());
+            std::lower_bound(rows.begin(), rows.end(), Row{zone, piece.region}) - rows.begin());
         mesh.pieces.push_back(std::move(piece));
       }
     }
