@@ -27,6 +27,8 @@ using mesh::RegionId;
 struct Face {
   std::int32_t patch;
   RegionId front, back;
+
+  static constexpr auto fields() { return std::tuple(&Face::patch, &Face::front, &Face::back); }
   friend auto operator<=>(const Face&, const Face&) = default;
 };
 

@@ -22,7 +22,11 @@ struct LoneSide {
   std::int32_t side;
   std::int32_t rank;     ///< where the part lives
   std::int32_t bounded;  ///< 1: there is a boundary face
-  std::int32_t unused;
+
+  static constexpr auto fields() {
+    return std::tuple(&LoneSide::key, &LoneSide::part, &LoneSide::cell, &LoneSide::side, &LoneSide::rank,
+                      &LoneSide::bounded);
+  }
 };
 
 /// Tells a part what lies behind a side.
@@ -32,7 +36,11 @@ struct Introduction {
   std::int32_t side;
   CellBehind behind;
   std::int32_t rank;
-  std::int32_t unused;
+
+  static constexpr auto fields() {
+    return std::tuple(&Introduction::part, &Introduction::cell, &Introduction::side, &Introduction::behind,
+                      &Introduction::rank);
+  }
 };
 
 /// Matches what is inside one part.
@@ -77,7 +85,7 @@ private:
     for (std::size_t k = 0; k < 4; ++k) {
       if (key[k] >= 0) numbers[k] = _part.numbers[key[k]];
     }
-    _lone.push_back({face_key(numbers), _part.id, cells[0].item, cells[0].side, _rank, face >= 0 ? 1 : 0, 0});
+    _lone.push_back({face_key(numbers), _part.id, cells[0].item, cells[0].side, _rank, face >= 0 ? 1 : 0});
   }
 
   std::size_t side_of(const FaceUser& user) const {
@@ -106,8 +114,7 @@ std::vector<Introduction> introduce(const parallel::Communicator& communicator, 
     if (j - i == 1 && met[i].bounded == 0) ++defects.open_faces;
     if (j - i != 2) continue;
     for (const auto& [to, from] : {std::pair(&met[i], &met[i + 1]), std::pair(&met[i + 1], &met[i])}) {
-      introductions.push_back(
-          {to->part, to->cell, to->side, {from->part, from->cell, from->side}, to->rank, 0});
+      introductions.push_back({to->part, to->cell, to->side, {from->part, from->cell, from->side}, to->rank});
     }
   }
   return mesh::deliver(communicator, std::move(introductions),

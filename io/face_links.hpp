@@ -4,6 +4,7 @@
 #include "io/file_mesh.hpp"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -24,6 +25,9 @@ struct CellBehind {
   mesh::LocalIndex cell = -1;  ///< of that part
   std::int32_t side = -1;      ///< of that cell
 
+  static constexpr auto fields() {
+    return std::tuple(&CellBehind::part, &CellBehind::cell, &CellBehind::side);
+  }
   bool exists() const { return part >= 0; }
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,17 +49,21 @@ std::vector<Run> runs_of(std::span<const std::int32_t> ids) {
 
 /// How many a part has of a kind and id; kind -1: vertices that it owns.
 struct CountRow {
-  std::int32_t part, kind, id, unused = 0;
+  std::int32_t part, kind, id;
   GlobalIndex count;
+
+  static constexpr auto fields() {
+    return std::tuple(&CountRow::part, &CountRow::kind, &CountRow::id, &CountRow::count);
+  }
 };
 
 std::vector<CountRow> count_rows(FileMesh& mesh) {
   std::vector<CountRow> rows;
   for (FilePart& part : mesh.parts) {
-    rows.push_back({part.id, -1, 0, 0, part.owned_count});
+    rows.push_back({part.id, -1, 0, part.owned_count});
     for (int kind = 0; kind < kind_count; ++kind) {
       for (const Run& run : block_of(part, kind).runs)
-        rows.push_back({part.id, kind, run.id, 0, run.end - run.begin});
+        rows.push_back({part.id, kind, run.id, run.end - run.begin});
     }
   }
   return rows;

@@ -64,14 +64,20 @@ public:
 };
 
 struct PartSums {
-  std::int32_t part = 0, unused = 0;
+  std::int32_t part = 0;
   std::array<std::array<double, measure_count>, cell_shape_count> of{};
+
+  static constexpr auto fields() { return std::tuple(&PartSums::part, &PartSums::of); }
 };
 
 /// An amount that a part contributes to region or patch `id`.
 struct AmountOfPart {
   std::int32_t part, id;
   double amount;
+
+  static constexpr auto fields() {
+    return std::tuple(&AmountOfPart::part, &AmountOfPart::id, &AmountOfPart::amount);
+  }
 };
 
 /// What one rank knows of its parts.

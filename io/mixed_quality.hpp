@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -40,6 +41,11 @@ struct WorstCellOfShape {
   mesh::GlobalIndex cell = 0;
   CellShape shape = CellShape::tetrahedron;
   geometry::Vec3 center;  ///< mean of the corners
+
+  static constexpr auto fields() {
+    return std::tuple(&WorstCellOfShape::value, &WorstCellOfShape::cell, &WorstCellOfShape::shape,
+                      &WorstCellOfShape::center);
+  }
 };
 
 struct MixedQuality {

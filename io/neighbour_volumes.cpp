@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace aeroloom::io {
@@ -21,6 +22,10 @@ struct VolumeMessage {
   std::int32_t part;
   LocalIndex cell;
   double volume;
+
+  static constexpr auto fields() {
+    return std::tuple(&VolumeMessage::part, &VolumeMessage::cell, &VolumeMessage::volume);
+  }
 };
 
 /// The rank of each part. Collective.
@@ -28,6 +33,8 @@ std::vector<Rank> ranks_of_parts(const parallel::Communicator& communicator, con
   struct Row {
     std::int32_t part;
     Rank rank;
+
+    static constexpr auto fields() { return std::tuple(&Row::part, &Row::rank); }
   };
   std::vector<Row> mine;
   for (const FilePart& part : mesh.parts) mine.push_back({part.id, communicator.rank()});

@@ -87,6 +87,8 @@ public:
     GlobalIndex key;
     GlobalIndex value;
     std::int64_t rank;
+
+    static constexpr auto fields() { return std::tuple(&Note::key, &Note::value, &Note::rank); }
   };
   /// Ascending by key, then value.
   std::vector<Note> gather(std::vector<Note> notes) const {

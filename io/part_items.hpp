@@ -26,6 +26,10 @@ struct PartItem {
   std::array<mesh::GlobalIndex, N> corners;
   mesh::GlobalIndex order;
   std::int32_t part, id;
+
+  static constexpr auto fields() {
+    return std::tuple(&PartItem::corners, &PartItem::order, &PartItem::part, &PartItem::id);
+  }
 };
 
 /// Of all shapes.

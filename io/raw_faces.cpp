@@ -27,8 +27,11 @@ struct Comer {
   GlobalIndex order;          ///< of a face of the file
   std::int32_t region, part;  ///< of a cell
   std::int32_t patch;         ///< of a face of the file
-  std::int32_t unused;
 
+  static constexpr auto fields() {
+    return std::tuple(&Comer::key, &Comer::corners, &Comer::order, &Comer::region, &Comer::part,
+                      &Comer::patch);
+  }
   bool is_cell() const { return region != none; }
 };
 
@@ -60,7 +63,7 @@ public:
         corners_at(faces_of(cell_shapes[s])[static_cast<std::size_t>(user.side)],
                    _share.cells[s].data() +
                        static_cast<std::size_t>(cell) * static_cast<std::size_t>(corners_of(cell_shapes[s])));
-    Comer comer{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.parts[s][cell], none, 0};
+    Comer comer{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.parts[s][cell], none};
     for (std::size_t k = 0; k < 4; ++k) {
       if (corners[k] >= 0) comer.corners[k] = _share.numbers[corners[k]];
     }
@@ -98,8 +101,7 @@ std::vector<Comer> comers_of(const parallel::Communicator& communicator, const N
       const GlobalIndex* v = share.faces[s].data() + f * static_cast<std::size_t>(corners_of(shape));
       Comer comer{{},      {v[0], v[1], v[2], shape == FaceShape::triangle ? -1 : v[3]},
                   order++, none,
-                  none,    share.patches[s][f],
-                  0};
+                  none,    share.patches[s][f]};
       comer.key = face_key(comer.corners);
       comers.push_back(comer);
     }
@@ -118,6 +120,8 @@ struct Found {
 struct Misfit {
   FaceKey<GlobalIndex> key{-1, -1, -1, -1};
   std::int64_t cells = 0;
+
+  static constexpr auto fields() { return std::tuple(&Misfit::key, &Misfit::cells); }
 };
 
 /// What comes together on this rank.

@@ -16,7 +16,7 @@ namespace aeroloom::mesh {
 /// sender and in the sender's order. Whoever uses the result sorts it by content: the order depends on ranks.
 /// What stays on its rank is not packed, and what was sent is freed before the result is put together: move
 /// the items in where they are not needed any more. Collective.
-template <parallel::Transferable T, class Destination>
+template <parallel::Flat T, class Destination>
 std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T> items,
                        const Destination& destination) {
   if (communicator.size() == 1) return items;
@@ -68,7 +68,7 @@ std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T
 /// The rows of all pieces by piece id, on every rank. `rows` has one entry per local piece, in the order of
 /// mesh.pieces. Throws CollectiveError when the pieces of all ranks are not exactly 0 .. piece_count - 1.
 /// Collective.
-template <parallel::Transferable Row>
+template <parallel::Flat Row>
 std::vector<Row> gather_by_piece(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                  const std::vector<Row>& rows) {
   struct Tagged {

@@ -32,7 +32,7 @@ KeyRanges fair_ranges(const parallel::Communicator& communicator, std::vector<Gl
 GlobalIndex lowest_of_all(const parallel::Communicator& communicator, GlobalIndex mine);
 
 /// Keys are ids of a file, or numbers. The bits of values are compared.
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 class DistributedTable {
 public:
   struct Row {
@@ -97,7 +97,7 @@ private:
   GlobalIndex _clash = -1, _count = 0;
 };
 
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 DistributedTable<Value>::DistributedTable(const parallel::Communicator& communicator, KeyRanges ranges,
                                           std::vector<Row> rows)
     : _communicator(communicator), _ranges(std::move(ranges)) {
@@ -117,7 +117,7 @@ DistributedTable<Value>::DistributedTable(const parallel::Communicator& communic
   _count = communicator.sum(static_cast<std::int64_t>(kept));
 }
 
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 std::vector<typename DistributedTable<Value>::Question> DistributedTable<Value>::ask(
     const std::vector<GlobalIndex>& keys) const {
   std::vector<Question> questions;
@@ -127,14 +127,14 @@ std::vector<typename DistributedTable<Value>::Question> DistributedTable<Value>:
                  [&](const Question& question) { return _ranges.rank_of(question.key); });
 }
 
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 std::int64_t DistributedTable<Value>::position(GlobalIndex key) const {
   const auto found = std::lower_bound(_rows.begin(), _rows.end(), key,
                                       [](const Row& row, GlobalIndex wanted) { return row.key < wanted; });
   return found != _rows.end() && found->key == key ? found - _rows.begin() : -1;
 }
 
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 template <class What>
 std::vector<What> DistributedTable<Value>::reply(std::vector<Answer<What>> answers) const {
   answers = deliver(_communicator, std::move(answers), [](const Answer<What>& a) { return a.rank; });
@@ -144,7 +144,7 @@ std::vector<What> DistributedTable<Value>::reply(std::vector<Answer<What>> answe
   return result;
 }
 
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 typename DistributedTable<Value>::Found DistributedTable<Value>::fetch(
     const std::vector<GlobalIndex>& keys) const {
   Found found;
@@ -160,7 +160,7 @@ typename DistributedTable<Value>::Found DistributedTable<Value>::fetch(
 }
 
 /// Numbers by position, to those who asked for them.
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 std::vector<GlobalIndex> DistributedTable<Value>::answer(const std::vector<Question>& questions,
                                                          const std::vector<GlobalIndex>& numbers) const {
   std::vector<Answer<GlobalIndex>> answers;
@@ -172,7 +172,7 @@ std::vector<GlobalIndex> DistributedTable<Value>::answer(const std::vector<Quest
   return reply(std::move(answers));
 }
 
-template <parallel::Transferable Value>
+template <parallel::Flat Value>
 typename DistributedTable<Value>::Numbers DistributedTable<Value>::number(
     const std::vector<GlobalIndex>& used, const std::vector<GlobalIndex>& others) {
   const std::vector<Question> questions = ask(used);

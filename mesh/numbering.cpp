@@ -82,6 +82,8 @@ void number_owned(const parallel::Communicator& communicator, const DistributedM
                   Numbering& numbering) {
   struct Counts {
     GlobalIndex vertices, cells;
+
+    static constexpr auto fields() { return std::tuple(&Counts::vertices, &Counts::cells); }
   };
   std::vector<Counts> counts;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {

@@ -50,13 +50,13 @@ public:
 
   /// Replaces the value of each owner's copy by that of all pieces: ((v0 op v1) op v2) ..., `op(total,
   /// value)` in the order of piece ids, whatever the ranks. Other copies stay. Collective.
-  template <parallel::Transferable T, class Op>
+  template <parallel::Flat T, class Op>
   void reduce(std::vector<T>& copies, const Op& op) const;
   /// Replaces the values of all copies by those of their owners. Collective.
-  template <parallel::Transferable T>
+  template <parallel::Flat T>
   void scatter(std::vector<T>& copies) const;
   /// Both: all copies have the value of all pieces. Collective.
-  template <parallel::Transferable T, class Op>
+  template <parallel::Flat T, class Op>
   void reduce_and_scatter(std::vector<T>& copies, const Op& op) const;
 
   /// Strikes the copies that no other piece knows off this list, and off those of the mesh it was made from.
@@ -86,7 +86,7 @@ private:
   parallel::NeighbourExchange _to_owners, _from_owners;
 };
 
-template <parallel::Transferable T, class Op>
+template <parallel::Flat T, class Op>
 void SharedVertices::reduce(std::vector<T>& copies, const Op& op) const {
   require_size(copies.size());
   std::vector<T> out, arrived(_owners.size());
@@ -99,7 +99,7 @@ void SharedVertices::reduce(std::vector<T>& copies, const Op& op) const {
   }
 }
 
-template <parallel::Transferable T>
+template <parallel::Flat T>
 void SharedVertices::scatter(std::vector<T>& copies) const {
   require_size(copies.size());
   std::vector<T> out, arrived(_outgoing.size());
@@ -112,7 +112,7 @@ void SharedVertices::scatter(std::vector<T>& copies) const {
   }
 }
 
-template <parallel::Transferable T, class Op>
+template <parallel::Flat T, class Op>
 void SharedVertices::reduce_and_scatter(std::vector<T>& copies, const Op& op) const {
   reduce(copies, op);
   scatter(copies);

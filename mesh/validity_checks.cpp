@@ -89,6 +89,8 @@ std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
   struct Part {
     RegionId region;
     geometry::Box box;
+
+    static constexpr auto fields() { return std::tuple(&Part::region, &Part::box); }
   };
   std::vector<Part> mine;
   for (const Piece& piece : mesh.pieces) {

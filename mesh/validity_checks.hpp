@@ -5,6 +5,7 @@
 #include "mesh/findings.hpp"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -49,6 +50,10 @@ struct RegionTerm {
   RegionId region;
   PieceId piece;
   double value;
+
+  static constexpr auto fields() {
+    return std::tuple(&RegionTerm::region, &RegionTerm::piece, &RegionTerm::value);
+  }
 };
 /// The sums by region, taken in piece order: the same bits whatever the ranks. Collective.
 std::vector<double> sum_by_region(const parallel::Communicator& communicator, const DistributedMesh& mesh,

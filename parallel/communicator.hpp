@@ -65,9 +65,9 @@ public:
   double sum(double value) const;
 
   /// Concatenation of every rank's items in rank order, on every rank.
-  template <Transferable T>
+  template <Flat T>
   std::vector<T> all_gather_items(std::span<const T> mine) const;
-  template <Transferable T>
+  template <Flat T>
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 
   /// As broadcast, gather and all_gather, of anything that can be packed.

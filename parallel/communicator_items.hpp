@@ -8,7 +8,7 @@
 
 namespace aeroloom::parallel {
 
-template <Transferable T>
+template <Flat T>
 std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
   const std::vector<std::uint64_t> sizes = all_sizes(mine.size() * wire_size<T>);
   for (const std::uint64_t size : sizes) {
@@ -26,7 +26,7 @@ std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
   }
 }
 
-template <Transferable T>
+template <Flat T>
 void Communicator::broadcast_items(std::vector<T>& items, Rank root) const {
   Bytes bytes = to_bytes(std::span<const T>(items));
   broadcast(bytes, root);

@@ -4,6 +4,7 @@
 
 #include "parallel/communicator.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -33,15 +34,21 @@ public:
   Digester& bytes(std::span<const std::byte> bytes);
   /// The text and its length.
   Digester& text(std::string_view text);
-  /// Items without padding; their number counts too.
-  template <Transferable T>
+  /// Their number counts too.
+  template <Flat T>
   Digester& items(std::span<const T> items) {
-    return value(static_cast<std::uint64_t>(items.size())).bytes(std::as_bytes(items));
+    value(static_cast<std::uint64_t>(items.size()));
+    if constexpr (is_exact<T>) {
+      return bytes(std::as_bytes(items));
+    } else {
+      return bytes(to_bytes(items));
+    }
   }
-  template <Transferable T>
-  requires(std::has_unique_object_representations_v<T> ||
-           std::is_floating_point_v<T>) Digester& value(const T& item) {
-    return bytes(std::as_bytes(std::span<const T>(&item, 1)));
+  template <Flat T>
+  Digester& value(const T& item) {
+    std::array<std::byte, wire_size<T>> of_item;
+    write_item(item, of_item.data());
+    return bytes(of_item);
   }
   Digest result() const;
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <type_traits>
@@ -28,32 +27,23 @@ struct FlatTraits;
 template <class T>
 concept Flat = FlatTraits<T>::is_flat;
 
-template <class T>
-concept Transferable = Flat<T>;
-
-template <Transferable T>
+/// The bytes that travel of one item.
+template <Flat T>
 inline constexpr std::size_t wire_size = FlatTraits<T>::bytes;
 
 /// Whether no byte of it is padding: such items travel as the bytes they are in memory.
-template <Transferable T>
+template <Flat T>
 inline constexpr bool is_exact = wire_size<T> == sizeof(T);
-
-/// For now a trivially copyable struct that lists no fields travels with its padding.
-template <class T>
-inline constexpr bool travels_whole = std::is_class_v<T>&& std::is_trivially_copyable_v<T>;
-template <class T>
-inline constexpr bool travels_whole<std::optional<T>> = false;
 
 template <class T>
 struct FlatTraits {
   static constexpr bool is_flat =
-      ((std::is_arithmetic_v<T> || std::is_enum_v<T>)&&!std::is_same_v<T, long double>) || travels_whole<T>;
+      (std::is_arithmetic_v<T> || std::is_enum_v<T>)&&!std::is_same_v<T, long double>;
   static constexpr std::size_t bytes = sizeof(T);
 };
 template <class T, std::size_t N>
 struct FlatTraits<T[N]> {
   static constexpr bool is_flat = FlatTraits<T>::is_flat;
-  static constexpr bool is_transferable = FlatTraits<T>::is_transferable;
   static constexpr std::size_t bytes = N * FlatTraits<T>::bytes;
 };
 template <class T, std::size_t N>
@@ -65,7 +55,6 @@ struct Members;
 template <class... M, class... C>
 struct Members<std::tuple<M C::*...>> {
   static constexpr bool are_flat = (FlatTraits<M>::is_flat && ...);
-  static constexpr bool are_transferable = (FlatTraits<M>::is_transferable && ...);
   static constexpr std::size_t bytes = (FlatTraits<M>::bytes + ... + 0);
   /// Of a struct that has these members and no others.
   static constexpr std::size_t size_with(std::size_t alignment) {
@@ -97,7 +86,6 @@ struct FlatTraits<T> {
   static_assert(fields_are_distinct<T>(), "fields() lists each member once");
   static_assert(List::size_with(alignof(T)) == sizeof(T), "fields() lists all members in their order");
   static constexpr bool is_flat = std::is_trivially_copyable_v<T> && List::are_flat;
-  static constexpr bool is_transferable = std::is_trivially_copyable_v<T> && List::are_transferable;
   static constexpr std::size_t bytes = List::bytes;
 };
 
@@ -108,7 +96,7 @@ constexpr void for_each_field(T& item, const Visit& visit) {
 }
 
 /// Writes wire_size<T> bytes at `to` and returns where they end.
-template <Transferable T>
+template <Flat T>
 std::byte* write_item(const T& item, std::byte* to) {
   if constexpr (is_exact<T>) {
     std::memcpy(to, &item, sizeof(T));
@@ -123,7 +111,7 @@ std::byte* write_item(const T& item, std::byte* to) {
 }
 
 /// Reads what write_item() wrote and returns where it ends.
-template <Transferable T>
+template <Flat T>
 const std::byte* read_item(const std::byte* from, T& item) {
   if constexpr (is_exact<T>) {
     std::memcpy(&item, from, sizeof(T));
@@ -138,7 +126,7 @@ const std::byte* read_item(const std::byte* from, T& item) {
 }
 
 /// As write_item() and read_item(), for items one after another.
-template <Transferable T>
+template <Flat T>
 void write_items(std::span<const T> items, std::byte* to) {
   if constexpr (is_exact<T>) {
     if (!items.empty()) std::memcpy(to, items.data(), items.size_bytes());
@@ -146,7 +134,7 @@ void write_items(std::span<const T> items, std::byte* to) {
     for (const T& item : items) to = write_item(item, to);
   }
 }
-template <Transferable T>
+template <Flat T>
 void read_items(const std::byte* from, std::span<T> items) {
   if constexpr (is_exact<T>) {
     if (!items.empty()) std::memcpy(items.data(), from, items.size_bytes());
@@ -156,7 +144,7 @@ void read_items(const std::byte* from, std::span<T> items) {
 }
 
 /// Whether both are the same bits, padding aside.
-template <Transferable T>
+template <Flat T>
 bool same_bits(const T& a, const T& b) {
   std::array<std::byte, wire_size<T>> bits_of_a, bits_of_b;
   write_item(a, bits_of_a.data());

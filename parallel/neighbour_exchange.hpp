@@ -36,7 +36,7 @@ public:
   /// Sends `out` and fills `in`. Items are of one size, the same on all ranks: `out` and `in` hold whole
   /// ones, sent_items() and received_items() of them, else std::logic_error is thrown. Collective.
   void exchange(std::span<const std::byte> out, std::span<std::byte> in) const;
-  template <Transferable T>
+  template <Flat T>
   void exchange(std::span<const T> out, std::span<T> in) const {
     if constexpr (is_exact<T>) {
       exchange(std::as_bytes(out), std::as_writable_bytes(in));

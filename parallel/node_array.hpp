@@ -23,7 +23,7 @@ public:
 };
 
 /// An array that does not change. Cheap to copy: copies refer to the same memory.
-template <Transferable T>
+template <Flat T>
 class NodeArray {
 public:
   NodeArray() = default;

@@ -20,7 +20,7 @@ namespace aeroloom::parallel {
 using Bytes = std::vector<std::byte>;
 
 /// Items as bytes and back; sizes that do not divide throw std::logic_error.
-template <Transferable T>
+template <Flat T>
 Bytes to_bytes(std::span<const T> items) {
   if constexpr (is_exact<T>) {
     const auto raw = std::as_bytes(items);
@@ -31,7 +31,7 @@ Bytes to_bytes(std::span<const T> items) {
     return bytes;
   }
 }
-template <Transferable T>
+template <Flat T>
 std::vector<T> from_bytes(std::span<const std::byte> bytes) {
   if (bytes.size() % wire_size<T> != 0) {
     throw std::logic_error("from_bytes: " + std::to_string(bytes.size()) +
@@ -45,12 +45,12 @@ std::vector<T> from_bytes(std::span<const std::byte> bytes) {
 /// Writes one after another into a byte buffer; Unpacker reads it back in order.
 class Packer {
 public:
-  template <Transferable T>
+  template <Flat T>
   void value(const T& item);
   /// The number of items and the items, as one block.
-  template <Transferable T>
+  template <Flat T>
   void array(std::span<const T> items);
-  template <Transferable T>
+  template <Flat T>
   void array(const std::vector<T>& items) {
     array(std::span<const T>(items));
   }
@@ -68,9 +68,9 @@ private:
 class Unpacker {
 public:
   explicit Unpacker(std::span<const std::byte> bytes) : _bytes(bytes) {}
-  template <Transferable T>
+  template <Flat T>
   T value();
-  template <Transferable T>
+  template <Flat T>
   std::vector<T> array();
   std::string text();
   /// Of things that take at least `bytes` each.

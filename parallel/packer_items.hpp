@@ -3,12 +3,12 @@
 
 namespace aeroloom::parallel {
 
-template <Transferable T>
+template <Flat T>
 void Packer::value(const T& item) {
   write_item(item, extend(wire_size<T>));
 }
 
-template <Transferable T>
+template <Flat T>
 void Packer::array(std::span<const T> items) {
   count(items.size());
   if constexpr (is_exact<T>) {
@@ -18,14 +18,14 @@ void Packer::array(std::span<const T> items) {
   }
 }
 
-template <Transferable T>
+template <Flat T>
 T Unpacker::value() {
   T item;
   read_item(advance(wire_size<T>), item);
   return item;
 }
 
-template <Transferable T>
+template <Flat T>
 std::vector<T> Unpacker::array() {
   std::vector<T> items(count(wire_size<T>));
   read_items(advance(items.size() * wire_size<T>), std::span<T>(items));
@@ -57,7 +57,7 @@ template <class T, std::size_t Extent>
 struct Wire<std::span<T, Extent>> {
   static constexpr std::size_t least = sizeof(std::uint64_t);
   static void pack(Packer& packer, std::span<T> items) {
-    if constexpr (Transferable<std::remove_const_t<T>>) {
+    if constexpr (Flat<std::remove_const_t<T>>) {
       packer.array(std::span<const std::remove_const_t<T>>(items));
     } else {
       packer.count(items.size());
@@ -73,7 +73,7 @@ struct Wire<std::vector<T>> {
     Wire<std::span<const T>>::pack(packer, items);
   }
   static void unpack(Unpacker& unpacker, std::vector<T>& items) {
-    if constexpr (Transferable<T>) {
+    if constexpr (Flat<T>) {
       items = unpacker.array<T>();
     } else {
       items = std::vector<T>(unpacker.count(least_wire_size<T>));

@@ -20,8 +20,9 @@ public:
   /// Writes at `offset` bytes from the beginning; above 2^31 bytes too. Not collective. Throws
   /// std::filesystem::filesystem_error with the reason.
   void write(std::int64_t offset, std::span<const std::byte> bytes);
-  template <Transferable T>
+  template <Flat T>
   void write_items(std::int64_t offset, std::span<const T> items) {
+    static_assert(is_exact<T>);
     write(offset, std::as_bytes(items));
   }
 

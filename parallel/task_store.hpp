@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::parallel {
@@ -49,6 +50,11 @@ private:
     Digest key, content;
     std::int64_t offset = 0, bytes = 0;
     std::int32_t generation = 0, rank = 0;
+
+    static constexpr auto fields() {
+      return std::tuple(&Place::key, &Place::content, &Place::offset, &Place::bytes, &Place::generation,
+                        &Place::rank);
+    }
   };
   struct RecordHeader;
   struct FileName;

@@ -5,6 +5,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <tuple>
 
 namespace aeroloom::surface {
 
@@ -12,6 +13,8 @@ namespace aeroloom::surface {
 struct VertexName {
   std::int64_t piece = -1;
   std::uint64_t id = 0;
+
+  static constexpr auto fields() { return std::tuple(&VertexName::piece, &VertexName::id); }
   friend bool operator==(const VertexName&, const VertexName&) = default;
 };
 
@@ -19,6 +22,8 @@ struct VertexName {
 struct NamedTriangle {
   geometry::Vec3 points[3];
   VertexName names[3];
+
+  static constexpr auto fields() { return std::tuple(&NamedTriangle::points, &NamedTriangle::names); }
 };
 
 /// Whether the closed triangles share a point outside their common vertices and edge. Two triangles with

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -12,6 +13,8 @@ namespace aeroloom::io {
 /// Least and largest coordinates; of nothing: infinite, the wrong way round.
 struct MshBox {
   std::array<double, 3> least, largest;
+
+  static constexpr auto fields() { return std::tuple(&MshBox::least, &MshBox::largest); }
 };
 /// By patch, then by region, of the whole mesh. Collective.
 std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator, const FileMesh& mesh);

@@ -20,6 +20,8 @@ constexpr std::int64_t chunk_bytes = std::int64_t{1} << 20;
 struct Widths {
   std::int32_t version = 3;
   ByteOrder order = ByteOrder::little;
+
+  static constexpr auto fields() { return std::tuple(&Widths::version, &Widths::order); }
   int real() const { return version == 1 ? 4 : 8; }
   int integer() const { return version < 4 ? 4 : 8; }
   int position() const { return version < 3 ? 4 : 8; }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -49,6 +50,11 @@ struct FoamFaceNote {
   std::int32_t zone = -1;                     ///< if the other side has the boundary face
   std::int32_t rank = 0;
   mesh::GlobalIndex number = -1;  ///< among the inner faces of the part that tells, if its cell is the owner
+
+  static constexpr auto fields() {
+    return std::tuple(&FoamFaceNote::part, &FoamFaceNote::cell, &FoamFaceNote::side, &FoamFaceNote::zone,
+                      &FoamFaceNote::rank, &FoamFaceNote::number);
+  }
 };
 
 /// Numbers of the whole mesh: cells part by part; faces as OpenFOAM orders them there.

@@ -27,7 +27,7 @@ public:
     _begin = offset;
   }
 
-  template <parallel::Transferable T>
+  template <parallel::Flat T>
   void put(T value) {
     if (_reverses) value = with_bytes_reversed(value);
     if (_used + sizeof(T) > _buffer.size()) flush();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <tuple>
 
 namespace aeroloom::io {
 
@@ -35,6 +36,8 @@ std::vector<GridCounts> gather_rows(const parallel::Communicator& communicator, 
   struct Row {
     std::int64_t part;
     GridCounts counts;
+
+    static constexpr auto fields() { return std::tuple(&Row::part, &Row::counts); }
   };
   std::vector<Row> rows;
   for (std::size_t i = 0; i < mine.size(); ++i) rows.push_back({mesh.parts[i].id, mine[i]});

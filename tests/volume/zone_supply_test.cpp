@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -112,6 +113,8 @@ TEST(PlanZones, deals_zones_out_evenly_in_small_batches) {
     std::int64_t batch;
     ZoneIndex zone;
     parallel::Rank rank;
+
+    static constexpr auto fields() { return std::tuple(&Row::batch, &Row::zone, &Row::rank); }
   };
   std::vector<Row> mine;
   for (std::size_t batch = 0; batch < divided.plan.wants.size(); ++batch) {
@@ -158,6 +161,8 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     std::int64_t number;
     Vec3 point;
     mesh::RegionId region;
+
+    static constexpr auto fields() { return std::tuple(&Row::number, &Row::point, &Row::region); }
   };
   std::vector<Row> mine;
   const BlockPoints& points = divided.data.points;
