@@ -15,6 +15,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -51,6 +52,8 @@ struct Run {
   std::int32_t id = 0;                  ///< of the region or patch
   mesh::LocalIndex begin = 0, end = 0;  ///< in the part, among those of this shape
   mesh::GlobalIndex before = 0;         ///< of this shape and id, in parts of lower id
+
+  static constexpr auto fields() { return std::tuple(&Run::id, &Run::begin, &Run::end, &Run::before); }
 };
 
 /// The cells or faces of one shape in a part.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -20,6 +21,8 @@ struct FaceCorner {
 struct EdgeEnd {
   EdgeId edge = no_entity;
   bool first = true;  ///< at the edge's first parameter
+
+  static constexpr auto fields() { return std::tuple(&EdgeEnd::edge, &EdgeEnd::first); }
 };
 inline EdgeEnd end_at_corner(const EdgeUse& use, bool leaving) {
   return {use.edge, leaving != use.reversed};
