@@ -13,8 +13,9 @@ namespace aeroloom::foreign {
 
 /// Cuts a mesh of tetrahedra into pieces of about `piece_tets` tetrahedra (empty: of what suits their
 /// number), of one region each, along a space-filling curve. Each patch becomes a face for each region that
-/// it bounds (and each two, between regions). The same pieces for any number of ranks. Collective. Throws
-/// CollectiveError (input), naming `path`, where there are pyramids or prisms.
+/// it bounds (and each two, between regions), as io/raw_mesh.hpp has it; vertices on it are told so. The same
+/// pieces for any number of ranks. Collective. Throws CollectiveError (input), naming `path`, where there are
+/// pyramids or prisms.
 mesh::DistributedMesh pieces_of(const parallel::Communicator& communicator, const io::FileMesh& mesh,
                                 const std::string& path, std::optional<std::int64_t> piece_tets);
 

@@ -1,9 +1,9 @@
 #include "geometry/predicates.hpp"
-#include "io/cell_measures.hpp"
-#include "io/id_table.hpp"
-#include "io/part_items.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
+#include "mesh/build_pieces.hpp"
+#include "mesh/cell_measures.hpp"
+#include "mesh/id_table.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -19,7 +19,10 @@ namespace aeroloom::io {
 namespace {
 
 using mesh::GlobalIndex;
+using mesh::IdTable;
 using mesh::LocalIndex;
+using mesh::PieceItems;
+using mesh::PointTable;
 
 /// Cells of a part where nothing else decides.
 constexpr GlobalIndex suitable_part_cells = 250'000;
@@ -114,7 +117,7 @@ int volume_sign(CellShape shape, const std::vector<std::array<double, 3>>& point
     return geometry::has_positive_volume(p[0], p[1], p[2], p[3]) ? 1
                                                                  : geometry::orient3d(p[0], p[1], p[2], p[3]);
   }
-  const double volume = cell_volume(shape, p.data());
+  const double volume = mesh::cell_volume(shape, p.data());
   return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
@@ -132,8 +135,8 @@ public:
   ShareBuilder(const RawMesh& raw, const IdTable& ids, const std::vector<std::array<double, 3>>& points)
       : _raw(raw), _ids(ids), _points(points) {}
 
-  void add_cells(const CellPlaces& places, std::int32_t parts, NumberedShare& share, PartItems& items) {
-    for_each_cell_shape([&](auto s) {
+  void add_cells(const CellPlaces& places, std::int32_t parts, NumberedShare& share, PieceItems& items) {
+    mesh::for_each_cell_shape([&](auto s) {
       constexpr std::size_t n = s + 4;
       const std::vector<GlobalIndex>& ids = _raw.cells[s];
       auto& out = std::get<s>(items.cells);
@@ -148,12 +151,12 @@ public:
         const auto part =
             static_cast<std::int32_t>(static_cast<double>(order) / static_cast<double>(places.total) * parts);
         const std::int32_t region = _raw.cell_regions[s][c / n];
-        share.parts[s].push_back(std::min(part, parts - 1));
-        PartItem<n>& item = out.emplace_back();
+        share.pieces[s].push_back(std::min(part, parts - 1));
+        mesh::CellItem<n>& item = out.emplace_back();
         for (std::size_t k = 0; k < n; ++k) item.corners[k] = share.numbers[corners[k]];
         item.order = order;
-        item.part = share.parts[s].back();
-        item.id = region;
+        item.piece = share.pieces[s].back();
+        item.group = region;
       }
       share.regions[s] = _raw.cell_regions[s];
     });
@@ -211,21 +214,21 @@ GlobalIndex number_faces(const RawMesh& raw, const IdTable& ids, const std::vect
   return left_out;
 }
 
-PointStore store_points(const parallel::Communicator& communicator, RawMesh& raw, const std::string& path) {
+PointTable store_points(const parallel::Communicator& communicator, RawMesh& raw, const std::string& path) {
   GlobalIndex limit = 0;
   for (const GlobalIndex id : raw.point_ids) limit = std::max(limit, id + 1);
   for (const auto& cells : raw.cells) {
     for (const GlobalIndex id : cells) limit = std::max(limit, id + 1);
   }
   limit = communicator.maximum(limit);
-  std::vector<PointStore::Row> points(raw.point_ids.size());
+  std::vector<PointTable::Row> points(raw.point_ids.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double* p = raw.coordinates.data() + 3 * i;
     points[i] = {raw.point_ids[i], {p[0], p[1], p[2]}};
   }
   std::vector<double>().swap(raw.coordinates);
   mesh::KeyRanges ranges = mesh::fair_ranges(communicator, std::move(raw.point_ids), limit);
-  PointStore store(communicator, std::move(ranges), std::move(points));
+  PointTable store(communicator, std::move(ranges), std::move(points));
   if (store.clash() >= 0)
     refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));
   return store;
@@ -257,17 +260,17 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
   if (places.total == 0) refuse(path, "there are no tetrahedra, pyramids or prisms in it");
   if (parts <= 0) parts = suitable_parts(places.total);
   Assembled result;
-  PointStore store = store_points(communicator, raw, path);
+  PointTable store = store_points(communicator, raw, path);
   const GlobalIndex in_file = store.count();
   const IdTable ids = used_ids(raw);
-  PartItems items;
+  PieceItems items;
   NumberedShare share;
   {
-    const PointStore::Found found = store.fetch(ids.numbers());
+    const PointTable::Found found = store.fetch(ids.numbers());
     if (found.missing >= 0)
       refuse(path, fmt::format("a cell refers to point {}, which there is not", found.missing));
     const IdTable of_faces = face_ids(raw);
-    PointStore::Numbers numbers = store.number(ids.numbers(), of_faces.numbers());
+    PointTable::Numbers numbers = store.number(ids.numbers(), of_faces.numbers());
     share.numbers = std::move(numbers.used);
     share.shared = std::move(numbers.shared);
     result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
@@ -282,8 +285,10 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
   result.unnamed_faces = matched.unnamed;
   result.left_out_faces += matched.left_out;
   items.faces = std::move(matched.items);
-  result.mesh = build_parts(communicator, std::move(items), store, parts, Ownership::by_number,
-                            std::move(matched.patches), std::move(raw.regions));
+  matched.names.piece_count = parts;
+  result.mesh =
+      file_mesh_of(communicator, mesh::build_pieces(communicator, std::move(items), {store},
+                                                    mesh::Ownership::by_number, std::move(matched.names)));
   return result;
 }
 

@@ -19,32 +19,10 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
 constexpr int kind_count = cell_shape_count + face_shape_count;
-constexpr std::array<CellFace, 4> tetrahedron_faces = {
-    {{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}}};
-constexpr std::array<CellFace, 5> pyramid_faces = {
-    {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}};
-constexpr std::array<CellFace, 5> prism_faces = {
-    {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
 
 /// A block of a part: cells by shape, then faces by shape.
 Block& block_of(FilePart& part, int kind) {
   return kind < cell_shape_count ? part.cells[kind] : part.faces[kind - cell_shape_count];
-}
-
-void set_corners(FilePart& part) {
-  for (const CellShape shape : cell_shapes) part.cells[static_cast<int>(shape)].corners = corners_of(shape);
-  for (const FaceShape shape : face_shapes) part.faces[static_cast<int>(shape)].corners = corners_of(shape);
-}
-
-/// The runs of ascending ids.
-std::vector<Run> runs_of(std::span<const std::int32_t> ids) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (runs.empty() || runs.back().id != ids[i])
-      runs.push_back({ids[i], static_cast<LocalIndex>(i), static_cast<LocalIndex>(i), 0});
-    ++runs.back().end;
-  }
-  return runs;
 }
 
 /// How many a part has of a kind and id; kind -1: vertices that it owns.
@@ -118,11 +96,10 @@ void finish(const parallel::Communicator& communicator, FileMesh& mesh) {
   parallel::agree(communicator, [&] { place_parts(mesh, all); });
 }
 
-/// A patch whose triangles lie between regions as well as outside is told apart by ids from `inner_ids` on.
-std::int32_t patch_with_side(const mesh::DistributedMesh& mesh, const mesh::Piece& piece,
-                             std::size_t triangle) {
-  const bool inner = mesh.sides_of(piece.triangle_face[triangle]).is_inner();
-  return piece.triangle_patch[triangle] + (inner ? static_cast<std::int32_t>(mesh.patches.size()) : 0);
+/// A patch whose faces lie between regions as well as outside is told apart by ids behind those of all.
+std::int32_t patch_with_side(const mesh::DistributedMesh& mesh, std::int32_t patch, std::int32_t face) {
+  const bool inner = mesh.sides_of(face).is_inner();
+  return patch + (inner ? static_cast<std::int32_t>(mesh.patches.size()) : 0);
 }
 
 /// The patches as files have them, and where each one goes: first those outside, then those between regions.
@@ -135,8 +112,10 @@ SplitPatches split_patches(const parallel::Communicator& communicator, const mes
   const std::size_t count = mesh.patches.size();
   std::vector<std::uint8_t> used(2 * count, 0);
   for (const mesh::Piece& piece : mesh.pieces) {
-    for (std::size_t t = 0; t < piece.triangle_patch.size(); ++t)
-      used.at(patch_with_side(mesh, piece, t)) = 1;
+    for (const FaceShape shape : face_shapes) {
+      const auto faces = mesh::cad_faces_of(piece, shape), patches = mesh::patches_of(piece, shape);
+      for (std::size_t f = 0; f < faces.size(); ++f) used.at(patch_with_side(mesh, patches[f], faces[f])) = 1;
+    }
   }
   const std::vector<std::uint8_t> all = communicator.all_gather_items(std::span<const std::uint8_t>(used));
   for (std::size_t i = 0; i < all.size(); ++i) used[i % used.size()] |= all[i];
@@ -144,7 +123,7 @@ SplitPatches split_patches(const parallel::Communicator& communicator, const mes
   split.target.resize(2 * count);
   for (std::size_t p = 0; p < count; ++p) {
     const bool inner_alone = used[count + p] && !used[p];
-    const auto type = p < mesh.patch_types.size() ? mesh.patch_types[p] : mesh::PatchType::wall;
+    const auto type = mesh.type_of_patch(static_cast<std::int32_t>(p));
     split.patches.push_back({mesh.patches[p], inner_alone ? mesh::PatchType::interior : type});
     split.target[p] = split.target[count + p] = static_cast<std::int32_t>(p);
   }
@@ -160,70 +139,76 @@ SplitPatches split_patches(const parallel::Communicator& communicator, const mes
   return split;
 }
 
-/// The boundary of a piece in the order of patches.
-void sort_boundary(const mesh::DistributedMesh& mesh, const mesh::Piece& piece, const SplitPatches& split,
-                   PartArrays& arrays) {
-  const auto patch = [&](LocalIndex t) { return split.target[patch_with_side(mesh, piece, t)]; };
-  std::vector<LocalIndex> order(piece.boundary_count());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](LocalIndex a, LocalIndex b) { return patch(a) < patch(b); });
-  for (const LocalIndex t : order) {
-    const LocalIndex* v = piece.boundary_triangle(t);
-    arrays.faces[0].insert(arrays.faces[0].end(), v, v + 3);
-    arrays.face_patches[0].push_back(patch(t));
+Block cells_of(const mesh::Piece& piece, CellShape shape) {
+  Block block{corners_of(shape), mesh::connectivity_of(piece, shape), {}, 0, {}};
+  mesh::for_each_region_run(piece, shape, [&](mesh::RegionId region, LocalIndex begin, LocalIndex end) {
+    block.runs.push_back({region, begin, end, 0});
+  });
+  return block;
+}
+
+/// The boundary faces of a piece in the order of patches.
+Block faces_of_piece(const mesh::DistributedMesh& mesh, const mesh::Piece& piece, FaceShape shape,
+                     const SplitPatches& split) {
+  Block block{corners_of(shape), mesh::connectivity_of(piece, shape), {}, 0, {}};
+  const auto faces = mesh::cad_faces_of(piece, shape), patches = mesh::patches_of(piece, shape);
+  const auto patch = [&](LocalIndex f) { return split.target[patch_with_side(mesh, patches[f], faces[f])]; };
+  const auto less = [&](LocalIndex a, LocalIndex b) { return patch(a) < patch(b); };
+  block.order.resize(faces.size());
+  std::iota(block.order.begin(), block.order.end(), 0);
+  const bool in_order = std::is_sorted(block.order.begin(), block.order.end(), less);
+  if (!in_order) std::stable_sort(block.order.begin(), block.order.end(), less);
+  for (std::size_t i = 0; i < block.order.size(); ++i) {
+    const std::int32_t id = patch(block.order[i]);
+    const auto at = static_cast<LocalIndex>(i);
+    if (block.runs.empty() || block.runs.back().id != id) block.runs.push_back({id, at, at, 0});
+    ++block.runs.back().end;
   }
+  if (in_order) block.order = {};
+  return block;
+}
+
+FilePart part_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, std::size_t i,
+                 const SplitPatches& split) {
+  const mesh::Piece& piece = mesh.pieces[i];
+  FilePart part;
+  part.id = piece.id;
+  part.piece = &piece;
+  part.coordinates = piece.coordinates;
+  part.numbers = numbering.vertices[i];
+  part.owned = numbering.owned[i];
+  part.owned_count = static_cast<LocalIndex>(std::count(part.owned.begin(), part.owned.end(), 1));
+  for (const CellShape shape : cell_shapes)
+    part.cells[static_cast<std::size_t>(shape)] = cells_of(piece, shape);
+  for (const FaceShape shape : face_shapes)
+    part.faces[static_cast<std::size_t>(shape)] = faces_of_piece(mesh, piece, shape, split);
+  return part;
 }
 
 void require(bool condition, std::int32_t part, const char* what) {
   if (!condition) throw std::logic_error(fmt::format("part {}: {}", part, what));
 }
 
-void require_items(const std::vector<LocalIndex>& connectivity, const std::vector<std::int32_t>& ids,
-                   int corners, std::size_t vertices, std::size_t names, std::int32_t part) {
-  require(connectivity.size() == ids.size() * static_cast<std::size_t>(corners), part,
-          "arrays differ in length");
-  require(std::is_sorted(ids.begin(), ids.end()), part, "cells or faces are not in the order of ids");
-  require(ids.empty() || (ids.front() >= 0 && static_cast<std::size_t>(ids.back()) < names), part,
-          "a region or patch does not exist");
-  require(std::all_of(connectivity.begin(), connectivity.end(),
-                      [&](LocalIndex v) { return v >= 0 && static_cast<std::size_t>(v) < vertices; }),
-          part, "a vertex does not exist");
-}
-
-void require_consistent(const PartArrays& arrays, const FileMesh& mesh, std::int32_t part) {
-  const std::size_t vertices = arrays.numbers.size();
-  require(arrays.coordinates.size() == 3 * vertices && arrays.owned.size() == vertices, part,
-          "arrays of vertices differ in length");
-  for (const CellShape shape : cell_shapes) {
-    const auto s = static_cast<std::size_t>(shape);
-    require_items(arrays.cells[s], arrays.cell_regions[s], corners_of(shape), vertices, mesh.regions.size(),
-                  part);
+void require_fitting(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering) {
+  if (numbering.vertices.size() != mesh.pieces.size() || numbering.owned.size() != mesh.pieces.size())
+    throw std::logic_error("the numbering does not belong to the mesh");
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const mesh::Piece& piece = mesh.pieces[i];
+    mesh::require_consistent_arrays(piece);
+    const auto vertices = static_cast<std::size_t>(piece.vertex_count());
+    require(numbering.vertices[i].size() == vertices && numbering.owned[i].size() == vertices, piece.id,
+            "arrays of vertices differ in length");
+    for (const FaceShape shape : face_shapes) {
+      for (const std::int32_t patch : mesh::patches_of(piece, shape))
+        require(patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size(), piece.id,
+                "a patch does not exist");
+    }
+    for (const CellShape shape : cell_shapes) {
+      mesh::for_each_region_run(piece, shape, [&](mesh::RegionId region, LocalIndex, LocalIndex) {
+        require(region >= 0 && region < mesh.region_count(), piece.id, "a region does not exist");
+      });
+    }
   }
-  for (const FaceShape shape : face_shapes) {
-    const auto s = static_cast<std::size_t>(shape);
-    require_items(arrays.faces[s], arrays.face_patches[s], corners_of(shape), vertices, mesh.patches.size(),
-                  part);
-  }
-}
-
-FilePart view_of(const PartArrays& arrays, std::int32_t id) {
-  FilePart part;
-  part.id = id;
-  part.coordinates = arrays.coordinates;
-  part.numbers = arrays.numbers;
-  part.owned = arrays.owned;
-  part.owned_count = static_cast<LocalIndex>(std::count(arrays.owned.begin(), arrays.owned.end(), 1));
-  set_corners(part);
-  for (std::size_t s = 0; s < cell_shape_count; ++s) {
-    part.cells[s].connectivity = arrays.cells[s];
-    part.cells[s].runs = runs_of(arrays.cell_regions[s]);
-  }
-  for (std::size_t s = 0; s < face_shape_count; ++s) {
-    part.faces[s].connectivity = arrays.faces[s];
-    part.faces[s].runs = runs_of(arrays.face_patches[s]);
-  }
-  return part;
 }
 
 void require_numbers(const FileMesh& mesh) {
@@ -238,18 +223,6 @@ void require_numbers(const FileMesh& mesh) {
 }
 
 }  // namespace
-
-std::span<const CellFace> faces_of(CellShape shape) {
-  switch (shape) {
-    case CellShape::tetrahedron:
-      return tetrahedron_faces;
-    case CellShape::pyramid:
-      return pyramid_faces;
-    case CellShape::prism:
-      return prism_faces;
-  }
-  throw std::logic_error("no such shape of a cell");
-}
 
 GlobalIndex FileMesh::cell_count(CellShape shape) const {
   GlobalIndex count = 0;
@@ -280,46 +253,32 @@ GlobalIndex FileMesh::face_count(FaceShape shape) const {
 
 FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                       const mesh::Numbering& numbering) {
+  parallel::agree(communicator, [&] { require_fitting(mesh, numbering); });
   FileMesh result;
+  result.pieces = &mesh;
+  result.numbering = &numbering;
   result.part_count = mesh.piece_count;
   result.regions = mesh.regions.empty() ? std::vector<std::string>{"fluid"} : mesh.regions;
   SplitPatches split = split_patches(communicator, mesh);
-  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    const mesh::Piece& piece = mesh.pieces[i];
-    PartArrays& arrays = *result.storage.emplace_back(std::make_unique<PartArrays>());
-    sort_boundary(mesh, piece, split, arrays);
-    FilePart& part = result.parts.emplace_back(view_of(arrays, piece.id));
-    part.coordinates = piece.coordinates;
-    part.numbers = numbering.vertices[i];
-    part.owned = numbering.owned[i];
-    part.owned_count = static_cast<LocalIndex>(std::count(part.owned.begin(), part.owned.end(), 1));
-    part.cells[0].connectivity = piece.cells;
-    if (piece.cell_count() > 0) part.cells[0].runs = {{piece.region, 0, piece.cell_count(), 0}};
-  }
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
+    result.parts.push_back(part_of(mesh, numbering, i, split));
   result.patches = std::move(split.patches);
-  finish(communicator, result);
-  return result;
-}
-
-FileMesh make_file_mesh(const parallel::Communicator& communicator, std::int32_t part_count,
-                        std::vector<OwnedPart> parts, std::vector<mesh::Patch> patches,
-                        std::vector<std::string> regions) {
-  FileMesh result;
-  result.part_count = part_count;
-  result.patches = std::move(patches);
-  result.regions = std::move(regions);
-  parallel::agree(communicator, [&] {
-    for (OwnedPart& part : parts) {
-      require(result.parts.empty() || result.parts.back().id < part.id, part.id, "ids do not ascend");
-      require(part.id >= 0 && part.id < part_count, part.id, "the id is out of range");
-      require_consistent(*part.arrays, result, part.id);
-      result.parts.push_back(view_of(*part.arrays, part.id));
-      result.storage.push_back(std::move(part.arrays));
-    }
-  });
   finish(communicator, result);
   parallel::agree(communicator, [&] { require_numbers(result); });
   return result;
+}
+
+FileMesh file_mesh_of(const parallel::Communicator& communicator, mesh::NumberedMesh mesh) {
+  const auto held = std::make_shared<const mesh::NumberedMesh>(std::move(mesh));
+  FileMesh result = file_mesh_of(communicator, held->mesh, held->numbering);
+  result.held = held;
+  return result;
+}
+
+FileMesh repartition(const parallel::Communicator& communicator, const FileMesh& mesh, std::int32_t parts,
+                     mesh::PieceRegions regions) {
+  return file_mesh_of(communicator,
+                      mesh::repartition(communicator, *mesh.pieces, *mesh.numbering, parts, regions));
 }
 
 }  // namespace aeroloom::io

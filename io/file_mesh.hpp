@@ -1,13 +1,16 @@
-/// A mesh as files have it: parts with cells of several shapes, boundary faces by patch, cells by region.
+/// The layout of a mesh in files: its pieces as parts, boundary faces by patch, cells by region, and the
+/// place of each among all.
 ///
-/// Writers see every mesh this way and never gather it. A part is written by the rank that holds it; the
-/// place of all it has in a file follows from counts, which every rank knows or finds here. Files depend on
-/// the parts, never on ranks.
+/// Writers see every mesh this way and never gather it. A part is written by the rank that holds the piece;
+/// the place of all it has in a file follows from counts, which every rank knows or finds here. Files depend
+/// on the pieces, never on ranks.
 #pragma once
 
 #include "geometry/vec.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/patch.hpp"
+#include "mesh/repartition.hpp"
+#include "mesh/shapes.hpp"
 #include "parallel/communicator.hpp"
 
 #include <array>
@@ -20,32 +23,15 @@
 
 namespace aeroloom::io {
 
-/// Corners in the order that CGNS, Gmsh and Medit share; all have positive volume. Tetrahedron: as in
-/// mesh/piece.hpp. Pyramid: base 0, 1, 2, 3 counter-clockwise seen from its apex 4. Prism: triangle 0, 1, 2
-/// counter-clockwise seen from the triangle 3, 4, 5 opposite, 3 opposite 0 (VTK has it the other way round,
-/// see to_vtk in io/vtk_order.hpp).
-enum class CellShape : std::uint8_t { tetrahedron, pyramid, prism };
-inline constexpr int cell_shape_count = 3;
-inline constexpr std::array<CellShape, cell_shape_count> cell_shapes = {CellShape::tetrahedron,
-                                                                        CellShape::pyramid, CellShape::prism};
-inline constexpr int corners_of(CellShape shape) {
-  return static_cast<int>(shape) + 4;
-}
-
-/// Counter-clockwise seen from outside the fluid (from the front region, of faces between two): what a normal
-/// out of the fluid sees.
-enum class FaceShape : std::uint8_t { triangle, quadrilateral };
-inline constexpr int face_shape_count = 2;
-inline constexpr std::array<FaceShape, face_shape_count> face_shapes = {FaceShape::triangle,
-                                                                        FaceShape::quadrilateral};
-inline constexpr int corners_of(FaceShape shape) {
-  return static_cast<int>(shape) + 3;
-}
-
-/// A face of a cell by its corners, counter-clockwise seen from outside the cell; a triangle's fourth is -1.
-using CellFace = std::array<std::int8_t, 4>;
-/// The faces of a cell: 4, 5 and 5.
-std::span<const CellFace> faces_of(CellShape shape);
+using mesh::cell_shape_count;
+using mesh::cell_shapes;
+using mesh::CellFace;
+using mesh::CellShape;
+using mesh::corners_of;
+using mesh::face_shape_count;
+using mesh::face_shapes;
+using mesh::faces_of;
+using mesh::FaceShape;
 
 /// Consecutive cells of one region, or faces of one patch.
 struct Run {
@@ -59,9 +45,10 @@ struct Run {
 /// The cells or faces of one shape in a part.
 struct Block {
   int corners = 0;
-  std::span<const mesh::LocalIndex> connectivity;  ///< (m, corners), vertices of the part
+  std::span<const mesh::LocalIndex> connectivity;  ///< (m, corners), vertices of the piece, in its order
   std::vector<Run> runs;                           ///< ascending id, together all of the block
   mesh::GlobalIndex before = 0;                    ///< of this shape, in parts of lower id
+  std::vector<mesh::LocalIndex> order;             ///< (m) the place in the piece of each; empty: its own
 
   mesh::LocalIndex count() const {
     return corners == 0
@@ -69,7 +56,8 @@ struct Block {
                : static_cast<mesh::LocalIndex>(connectivity.size() / static_cast<std::size_t>(corners));
   }
   const mesh::LocalIndex* item(mesh::LocalIndex i) const {
-    return connectivity.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(corners);
+    const mesh::LocalIndex at = order.empty() ? i : order[static_cast<std::size_t>(i)];
+    return connectivity.data() + static_cast<std::size_t>(at) * static_cast<std::size_t>(corners);
   }
 };
 
@@ -86,6 +74,8 @@ struct FilePart {
   std::array<Block, cell_shape_count> cells;
   std::array<Block, face_shape_count> faces;
 
+  const mesh::Piece* piece = nullptr;  ///< what the part looks into; none of what came from another rank
+
   mesh::LocalIndex vertex_count() const { return static_cast<mesh::LocalIndex>(numbers.size()); }
   mesh::LocalIndex cell_count() const { return cells[0].count() + cells[1].count() + cells[2].count(); }
   mesh::LocalIndex face_count() const { return faces[0].count() + faces[1].count(); }
@@ -95,26 +85,11 @@ struct FilePart {
   }
 };
 
-/// The arrays behind a part, where they are nobody else's.
-struct PartArrays {
-  std::vector<double> coordinates;
-  std::vector<mesh::GlobalIndex> numbers;
-  std::vector<std::uint8_t> owned;
-  std::array<std::vector<mesh::LocalIndex>, cell_shape_count> cells;
-  std::array<std::vector<std::int32_t>, cell_shape_count> cell_regions;  ///< ascending
-  std::array<std::vector<mesh::LocalIndex>, face_shape_count> faces;
-  std::array<std::vector<std::int32_t>, face_shape_count> face_patches;  ///< ascending
-};
-
-/// The parts of one mesh that are on this rank. Moves, does not copy: parts look into arrays that it holds,
-/// or into the mesh it was made from, which must live on unchanged.
+/// The parts of one mesh that are on this rank: views of its pieces, no coordinates or cells are copied.
 struct FileMesh {
-  FileMesh() = default;
-  FileMesh(FileMesh&&) = default;
-  FileMesh& operator=(FileMesh&&) = default;
-  FileMesh(const FileMesh&) = delete;
-  FileMesh& operator=(const FileMesh&) = delete;
-  ~FileMesh() = default;
+  const mesh::DistributedMesh* pieces = nullptr;  ///< what the parts look into, and must live on unchanged
+  const mesh::Numbering* numbering = nullptr;
+  std::shared_ptr<const mesh::NumberedMesh> held;  ///< both, where nobody else holds them
 
   std::int32_t part_count = 0;         ///< of the whole mesh
   std::vector<FilePart> parts;         ///< on this rank, ascending id
@@ -123,7 +98,6 @@ struct FileMesh {
   std::vector<std::string> regions;    ///< one at least
   std::vector<std::array<mesh::GlobalIndex, cell_shape_count>> region_cells;  ///< by region and shape
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> patch_faces;   ///< by patch and shape
-  std::vector<std::unique_ptr<PartArrays>> storage;                           ///< behind the parts
 
   mesh::GlobalIndex cell_count(CellShape shape) const;
   mesh::GlobalIndex cell_count() const;
@@ -132,28 +106,16 @@ struct FileMesh {
   mesh::GlobalIndex face_count(FaceShape shape) const;
 };
 
-/// Views of the pieces of a mesh, one part each; no coordinates or cells are copied. A patch with triangles
-/// between regions and others becomes two, the former called NAME_interior. `mesh` and `numbering` must
-/// outlive the result. Collective.
+/// The layout of a mesh, a part each piece. A patch with faces between regions and others becomes two, the
+/// former called NAME_interior. `mesh` and `numbering` must outlive the result, which holds them itself where
+/// it gets both. Throws CollectiveError (bug) where the arrays of a piece do not fit together, or owned
+/// vertices are not numbered in turn. Collective.
 FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                       const mesh::Numbering& numbering);
+FileMesh file_mesh_of(const parallel::Communicator& communicator, mesh::NumberedMesh mesh);
 
-/// A mesh from arrays: `parts` are those of this rank (ids ascending, each id of 0 .. part_count - 1 on one
-/// rank). Finds runs, offsets and totals. Throws CollectiveError (bug) where arrays break what FilePart and
-/// PartArrays promise. Collective.
-struct OwnedPart {
-  std::int32_t id = 0;
-  std::unique_ptr<PartArrays> arrays;
-};
-FileMesh make_file_mesh(const parallel::Communicator& communicator, std::int32_t part_count,
-                        std::vector<OwnedPart> parts, std::vector<mesh::Patch> patches,
-                        std::vector<std::string> regions);
-
-/// The same mesh in `parts` parts of nearly equal numbers of cells, cut along a space-filling curve (Hilbert,
-/// doi:10.1007/BF01199431) through the middles of the cells, whatever parts it had; parts of one region each
-/// where `by_region`. Vertices are numbered anew by the lowest part that knows them. Collective; the same for
-/// any number of ranks.
+/// The same mesh in `parts` parts (mesh/repartition.hpp). Collective.
 FileMesh repartition(const parallel::Communicator& communicator, const FileMesh& mesh, std::int32_t parts,
-                     bool by_region = false);
+                     mesh::PieceRegions regions = mesh::PieceRegions::several);
 
 }  // namespace aeroloom::io

@@ -1,7 +1,7 @@
 #include "io/raw_faces.hpp"
 
-#include "io/part_faces.hpp"
-#include "mesh/delivery.hpp"
+#include "mesh/piece_faces.hpp"
+#include "mesh/rendezvous.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -16,23 +16,26 @@ namespace aeroloom::io {
 
 namespace {
 
+using mesh::FaceKey;
+using mesh::FaceUser;
 using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
-constexpr std::int32_t none = -1;
+constexpr std::int32_t none = mesh::no_region;  // or patch
 
 /// What comes to a face: a side of a cell (region and part), or a face of the file (patch and order).
 struct Comer {
   FaceKey<GlobalIndex> key, corners;
-  GlobalIndex order;          ///< of a face of the file
-  std::int32_t region, part;  ///< of a cell
-  std::int32_t patch;         ///< of a face of the file
+  GlobalIndex order;           ///< of a face of the file
+  std::int32_t region, piece;  ///< of a cell
+  std::int32_t patch;          ///< of a face of the file
 
+  bool is_cell() const { return region != none; }
+  auto place() const { return std::tuple(region, patch, order, corners); }
   static constexpr auto fields() {
-    return std::tuple(&Comer::key, &Comer::corners, &Comer::order, &Comer::region, &Comer::part,
+    return std::tuple(&Comer::key, &Comer::corners, &Comer::order, &Comer::region, &Comer::piece,
                       &Comer::patch);
   }
-  bool is_cell() const { return region != none; }
 };
 
 /// The cells of a share, for match_faces.
@@ -47,7 +50,8 @@ public:
       const auto& corners = _share.cells[static_cast<std::size_t>(shape)];
       for (std::size_t i = 0; i < corners.size(); i += static_cast<std::size_t>(corners_of(shape)), ++cell) {
         std::int32_t side = 0;
-        for (const CellFace& face : faces_of(shape)) sink(corners_at(face, corners.data() + i), cell, side++);
+        for (const CellFace& face : faces_of(shape))
+          sink(mesh::corners_at(face, corners.data() + i), cell, side++);
       }
     }
   }
@@ -60,14 +64,14 @@ public:
     while (cell >= static_cast<LocalIndex>(_share.regions[s].size()))
       cell -= static_cast<LocalIndex>(_share.regions[s++].size());
     const auto corners =
-        corners_at(faces_of(cell_shapes[s])[static_cast<std::size_t>(user.side)],
-                   _share.cells[s].data() +
-                       static_cast<std::size_t>(cell) * static_cast<std::size_t>(corners_of(cell_shapes[s])));
-    Comer comer{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.parts[s][cell], none};
+        mesh::corners_at(faces_of(cell_shapes[s])[static_cast<std::size_t>(user.side)],
+                         _share.cells[s].data() + static_cast<std::size_t>(cell) *
+                                                      static_cast<std::size_t>(corners_of(cell_shapes[s])));
+    Comer comer{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.pieces[s][cell], none};
     for (std::size_t k = 0; k < 4; ++k) {
       if (corners[k] >= 0) comer.corners[k] = _share.numbers[corners[k]];
     }
-    comer.key = face_key(comer.corners);
+    comer.key = mesh::face_key(comer.corners);
     return comer;
   }
 
@@ -84,14 +88,15 @@ std::vector<Comer> comers_of(const parallel::Communicator& communicator, const N
   const auto may_be_elsewhere = [&](const FaceKey<LocalIndex>& key) {
     return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || share.shared[v] != 0; });
   };
-  match_faces(
-      share.numbers.size(), faces, [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
-        met.clear();
-        for (const FaceUser& user : users) met.push_back(faces.comer(user));
-        const bool settled = met.size() == 2 && met[0].region == met[1].region &&
-                             opposite_direction(met[0].corners, met[1].corners) && !may_be_elsewhere(key);
-        if (!settled) comers.insert(comers.end(), met.begin(), met.end());
-      });
+  mesh::match_faces(share.numbers.size(), faces,
+                    [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
+                      met.clear();
+                      for (const FaceUser& user : users) met.push_back(faces.comer(user));
+                      const bool settled = met.size() == 2 && met[0].region == met[1].region &&
+                                           mesh::opposite_direction(met[0].corners, met[1].corners) &&
+                                           !may_be_elsewhere(key);
+                      if (!settled) comers.insert(comers.end(), met.begin(), met.end());
+                    });
   GlobalIndex count = 0;
   for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
   GlobalIndex order = communicator.exclusive_scan(count);
@@ -102,7 +107,7 @@ std::vector<Comer> comers_of(const parallel::Communicator& communicator, const N
       Comer comer{{},      {v[0], v[1], v[2], shape == FaceShape::triangle ? -1 : v[3]},
                   order++, none,
                   none,    share.patches[s][f]};
-      comer.key = face_key(comer.corners);
+      comer.key = mesh::face_key(comer.corners);
       comers.push_back(comer);
     }
   }
@@ -113,7 +118,7 @@ std::vector<Comer> comers_of(const parallel::Communicator& communicator, const N
 struct Found {
   FaceKey<GlobalIndex> corners;
   GlobalIndex order;
-  std::int32_t part, patch, region, behind;
+  std::int32_t piece, patch, region, behind;
 };
 
 /// The first place where cells do not fit together.
@@ -127,15 +132,8 @@ struct Misfit {
 /// What comes together on this rank.
 class Meeting {
 public:
-  explicit Meeting(std::vector<Comer> met) : _met(std::move(met)) {
-    std::sort(_met.begin(), _met.end(), [](const Comer& a, const Comer& b) {
-      return std::tie(a.key, a.region, a.patch, a.order, a.corners) <
-             std::tie(b.key, b.region, b.patch, b.order, b.corners);
-    });
-    for (std::size_t i = 0, j = 0; i < _met.size(); i = j) {
-      for (j = i; j < _met.size() && _met[j].key == _met[i].key;) ++j;
-      settle(std::span(_met).subspan(i, j - i));
-    }
+  explicit Meeting(const std::vector<Comer>& met) {
+    mesh::for_each_key(met, &Comer::key, [&](std::span<const Comer> group) { settle(group); });
   }
 
   std::vector<Found> found;
@@ -148,7 +146,8 @@ private:
     std::size_t faces = 0;
     while (faces < group.size() && !group[faces].is_cell()) ++faces;
     const auto cells = group.subspan(faces);
-    if (cells.size() > 2 || (cells.size() == 2 && !opposite_direction(cells[0].corners, cells[1].corners))) {
+    if (cells.size() > 2 ||
+        (cells.size() == 2 && !mesh::opposite_direction(cells[0].corners, cells[1].corners))) {
       misfits.push_back({group[0].key, static_cast<std::int64_t>(cells.size())});
       return;
     }
@@ -157,7 +156,7 @@ private:
     if (!bounds) return;
     Found& face = found.emplace_back();
     face.corners = cells[0].corners;
-    face.part = cells[0].part;
+    face.piece = cells[0].piece;
     face.region = cells[0].region;
     face.behind = cells.size() == 2 ? cells[1].region : none;
     const Comer* given = faces > 0 ? &group[0] : nullptr;
@@ -172,11 +171,9 @@ private:
   /// The corners as the file has them, from the first one, in the direction of the cell's side; those of the
   /// side where the file goes crosswise.
   static FaceKey<GlobalIndex> turned_like(FaceKey<GlobalIndex> corners, const FaceKey<GlobalIndex>& side) {
-    if (opposite_direction(corners, side)) std::swap(corners[1], corners[corners[3] < 0 ? 2 : 3]);
-    return same_direction(corners, side) ? corners : side;
+    if (mesh::opposite_direction(corners, side)) std::swap(corners[1], corners[corners[3] < 0 ? 2 : 3]);
+    return mesh::same_direction(corners, side) ? corners : side;
   }
-
-  std::vector<Comer> _met;
 };
 
 void require_fit(const parallel::Communicator& communicator, const std::vector<Misfit>& mine,
@@ -259,28 +256,75 @@ private:
   std::map<Use, std::int32_t> _targets;
 };
 
+/// A face of the model: a patch where it bounds one region, or lies between two.
+struct ModelFace {
+  std::int32_t patch;
+  mesh::RegionId front, back;
+  friend auto operator<=>(const ModelFace&, const ModelFace&) = default;
+  static constexpr auto fields() {
+    return std::tuple(&ModelFace::patch, &ModelFace::front, &ModelFace::back);
+  }
+};
+
+/// The different ones of all ranks, ascending. Collective.
+std::vector<ModelFace> all_faces(const parallel::Communicator& communicator, std::vector<ModelFace> faces) {
+  const auto sort_unique = [&] {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  };
+  sort_unique();
+  faces = communicator.all_gather_items(std::span<const ModelFace>(faces));
+  sort_unique();
+  return faces;
+}
+
+void name_faces(const std::vector<ModelFace>& faces, mesh::DistributedMesh& names) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const ModelFace& face = faces[f];
+    const bool alone = (f == 0 || faces[f - 1].patch != face.patch) &&
+                       (f + 1 == faces.size() || faces[f + 1].patch != face.patch);
+    std::string name = names.patches[face.patch];
+    if (!alone) name += "_" + names.regions[face.front];
+    if (!alone && face.back != mesh::no_region) name += "_" + names.regions[face.back];
+    names.faces.push_back(std::move(name));
+    names.sides.push_back({face.front, face.back});
+  }
+}
+
 }  // namespace
 
 MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
                             std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
                             const std::string& path) {
-  Meeting meeting(mesh::deliver(communicator, comers_of(communicator, share), [&](const Comer& comer) {
-    return meeting_rank(comer.key, communicator.size());
-  }));
+  Meeting meeting(
+      mesh::meet_by_key(communicator, comers_of(communicator, share), &Comer::key, &Comer::place));
   require_fit(communicator, meeting.misfits, path);
   PatchTable table(communicator, std::move(patches), regions, meeting.found);
+  std::vector<ModelFace> of_found;
+  of_found.reserve(meeting.found.size());
+  for (const Found& face : meeting.found)
+    of_found.push_back({table.patch_of(face), face.region, face.behind});
+  const std::vector<ModelFace> faces = all_faces(communicator, of_found);
   MatchedFaces matched;
-  for (const Found& face : meeting.found) {
+  for (std::size_t i = 0; i < of_found.size(); ++i) {
+    const Found& face = meeting.found[i];
     matched.unnamed += face.patch == none ? 1 : 0;
     const auto& c = face.corners;
-    const std::int32_t patch = table.patch_of(face);
+    const auto id =
+        static_cast<std::int32_t>(std::lower_bound(faces.begin(), faces.end(), of_found[i]) - faces.begin());
+    const std::int32_t patch = of_found[i].patch;
     if (c[3] < 0) {
-      std::get<0>(matched.items).push_back({{c[0], c[1], c[2]}, face.order, face.part, patch});
+      std::get<0>(matched.items).push_back({{c[0], c[1], c[2]}, face.order, face.piece, patch, id});
     } else {
-      std::get<1>(matched.items).push_back({c, face.order, face.part, patch});
+      std::get<1>(matched.items).push_back({c, face.order, face.piece, patch, id});
     }
   }
-  matched.patches = table.take();
+  for (mesh::Patch& patch : table.take()) {
+    matched.names.patches.push_back(std::move(patch.name));
+    matched.names.patch_types.push_back(patch.type);
+  }
+  matched.names.regions = regions;
+  name_faces(faces, matched.names);
   matched.unnamed = communicator.sum(matched.unnamed);
   matched.left_out = communicator.sum(meeting.left_out);
   return matched;

@@ -26,7 +26,7 @@ struct RawMesh {
   std::vector<std::string> regions;  ///< the same on every rank, one at least
 };
 
-/// Puts the shares together as a mesh with `parts` parts (0: of what suits its size), in the order of the
+/// Puts the shares together as a mesh of `parts` pieces (0: of what suits its size), in the order of the
 /// file: part k gets the k-th share of cells (tetrahedra first, then pyramids, then prisms) and owns the k-th
 /// share of vertices. repartition() makes compact parts. Cells whose corners come in mirrored order are
 /// turned over, faces turned out of the fluid; points that no cell uses are dropped; vertices are numbered in

@@ -92,4 +92,25 @@ std::vector<Row> gather_by_piece(const parallel::Communicator& communicator, con
   return table;
 }
 
+/// The place in mesh.pieces of a piece that lives on this rank.
+inline std::size_t position_of(const DistributedMesh& mesh, PieceId id) {
+  const auto found = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
+                                      [](const Piece& piece, PieceId wanted) { return piece.id < wanted; });
+  return static_cast<std::size_t>(found - mesh.pieces.begin());
+}
+
+/// What the pieces of lower id have of something together, per local piece; the total comes last. `counts` as
+/// rows of gather_by_piece. Collective.
+inline std::vector<GlobalIndex> first_by_piece(const parallel::Communicator& communicator,
+                                               const DistributedMesh& mesh,
+                                               const std::vector<GlobalIndex>& counts) {
+  std::vector<GlobalIndex> first(1, 0);
+  for (const GlobalIndex count : gather_by_piece(communicator, mesh, counts))
+    first.push_back(first.back() + count);
+  std::vector<GlobalIndex> result;
+  for (const Piece& piece : mesh.pieces) result.push_back(first[piece.id]);
+  result.push_back(first.back());
+  return result;
+}
+
 }  // namespace aeroloom::mesh

@@ -46,13 +46,17 @@ struct DistributedMesh : MeshFacts {
   FaceSides sides_of(std::int32_t face) const {
     return face >= 0 && static_cast<std::size_t>(face) < sides.size() ? sides[face] : FaceSides{};
   }
+  PatchType type_of_patch(std::int32_t patch) const {
+    return static_cast<std::size_t>(patch) < patch_types.size() ? patch_types[patch] : PatchType::wall;
+  }
   bool has_inner_faces() const {
     return std::any_of(sides.begin(), sides.end(), [](const FaceSides& s) { return s.is_inner(); });
   }
 };
 
 /// Global numbers, a function of pieces and tokens alone: vertices run by the id of the owning piece (the
-/// lowest that knows the vertex), then by local order; cells by piece id, then local order.
+/// lowest that knows the vertex), then by local order; cells by piece id, then local order. A mesh from a
+/// file may come with the file's numbers instead; those of vertices that a piece owns ascend by one.
 struct Numbering {
   std::vector<std::vector<GlobalIndex>>
       vertices;                                  ///< per local piece (order of mesh.pieces), per local vertex
@@ -61,24 +65,39 @@ struct Numbering {
   GlobalIndex vertex_count = 0, cell_count = 0;  ///< of the whole mesh
 };
 
+/// A mesh and its numbers.
+struct NumberedMesh {
+  DistributedMesh mesh;
+  Numbering numbering;
+};
+
+class SharedVertices;
 /// Collective. Pieces that share a token must agree on its coordinates bit for bit; a mismatch throws on all
-/// ranks.
+/// ranks. `shared` are those of the mesh (mesh/shared_vertices.hpp), where somebody has them.
 Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh);
+Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                      const SharedVertices& shared);
+
+/// The number of each local piece's first cell, and of all cells. Collective.
+void number_cells(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                  Numbering& numbering);
 
 /// Moves pieces so that piece p lives on rank owner[p]; `owner` is the same on every rank. Collective.
 void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
              const std::vector<parallel::Rank>& owner);
 
-/// Counts of the whole mesh: boundary triangles of the domain, and those of faces between two regions.
+/// Counts of the whole mesh: cells of all shapes, boundary triangles and quadrilaterals of the domain, and
+/// those of faces between two regions.
 struct MeshCounts {
   GlobalIndex vertices = 0, cells = 0, boundary_triangles = 0, inner_triangles = 0;
+  GlobalIndex pyramids = 0, prisms = 0, boundary_quads = 0, inner_quads = 0;
 };
 /// Collective.
 MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering);
 
 /// The 128-bit hash of the mesh as 32 hexadecimal digits: coordinate bits, cells, classification, patches and
-/// boundary triangles in global numbering, regions. Independent of ranks; flipping any one bit changes it.
+/// boundary faces in global numbering, regions. Independent of ranks; flipping any one bit changes it.
 /// Collective.
 std::string hash_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering);

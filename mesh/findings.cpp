@@ -1,8 +1,12 @@
 #include "mesh/findings.hpp"
 
+#include "mesh/piece_faces.hpp"
+
 #include <algorithm>
 #include <span>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,6 +22,7 @@ const char* rule_of(std::size_t violation) {
       "shared vertices whose coordinates differ between pieces",
       "orphan vertices, which no cell of their piece uses",
       "tetrahedra without positive volume",
+      "pyramids and prisms with a corner that is turned inside out",
       "degenerate triangles",
       "faces of more than two tetrahedra",
       "faces of one tetrahedron without a boundary triangle",
@@ -38,53 +43,86 @@ const char* rule_of(std::size_t violation) {
   return rules[violation];
 }
 
-const char* noun_of(Entity entity, CellKind kind) {
-  switch (entity) {
-    case Entity::vertex:
-      return "vertex";
-    case Entity::cell:
-    case Entity::cell_face:
-      return kind == CellKind::tetrahedron ? "tetrahedron" : "triangle";
-    default:
-      return kind == CellKind::tetrahedron ? "boundary triangle" : "triangle";
+/// The rule in words; those of meshes of tetrahedra hold for all cells and faces where there are others.
+std::string rule_in_words(std::size_t violation, bool is_mixed) {
+  std::string words = rule_of(violation);
+  if (!is_mixed) return words;
+  constexpr std::pair<std::string_view, std::string_view> wider[] = {
+      {"tetrahedra", "cells"}, {"tetrahedron", "cell"}, {"triangle", "face"}};
+  for (const auto& [narrow, wide] : wider) {
+    for (std::size_t at = 0; (at = words.find(narrow, at)) != std::string::npos;)
+      words.replace(at, narrow.size(), wide);
   }
+  return words;
 }
 
-std::int64_t items_per_entity(Entity entity) {
-  return entity == Entity::cell_face ? 4 : entity == Entity::triangle_edge ? 3 : 1;
-}
-
-geometry::Vec3 mean_point(const Piece& piece, const std::vector<LocalIndex>& vertices) {
+geometry::Vec3 mean_point(const Piece& piece, std::span<const LocalIndex> vertices) {
   geometry::Vec3 sum;
   for (const LocalIndex v : vertices) sum += piece.point(v);
   return sum / static_cast<double>(vertices.size());
 }
 
-/// The vertex itself, or the mean of the corners of a cell, face, triangle or edge.
-geometry::Vec3 place_of(const Piece& piece, const Offender& offender) {
-  const auto index = static_cast<LocalIndex>(offender.item / items_per_entity(offender.entity));
-  const auto part = offender.item % items_per_entity(offender.entity);
-  switch (offender.entity) {
-    case Entity::vertex:
-      return piece.point(index);
-    case Entity::cell: {
-      const LocalIndex* cell = piece.cell(index);
-      return mean_point(piece, {cell, cell + piece.vertices_per_cell()});
-    }
-    case Entity::cell_face: {
-      const LocalIndex* cell = piece.cell(index);
-      const auto& face = tetrahedron_faces[part];
-      return mean_point(piece, {cell[face[0]], cell[face[1]], cell[face[2]]});
-    }
-    case Entity::triangle: {
-      const LocalIndex* triangle = piece.boundary_triangle(index);
-      return mean_point(piece, {triangle, triangle + 3});
-    }
-    default: {
-      const LocalIndex* triangle = piece.boundary_triangle(index);
-      return mean_point(piece, {triangle[part], triangle[(part + 1) % 3]});
-    }
+/// What a sentence says of an offender: a vertex, cell or boundary face, its number among those of its shape,
+/// and the place of the vertex itself, or the mean of the corners of the cell, face or edge.
+struct Place {
+  enum class Noun : std::int32_t { vertex, triangle, tetrahedron, pyramid, prism, boundary_triangle, quad };
+  std::int32_t violation;
+  Noun noun;
+  std::int64_t number;
+  geometry::Vec3 point;
+
+  static constexpr auto fields() {
+    return std::tuple(&Place::violation, &Place::noun, &Place::number, &Place::point);
   }
+};
+
+const char* word_of(Place::Noun noun) {
+  static constexpr const char* words[] = {"vertex", "triangle",          "tetrahedron",           "pyramid",
+                                          "prism",  "boundary triangle", "boundary quadrilateral"};
+  return words[static_cast<std::size_t>(noun)];
+}
+
+Place place_of_cell(const Piece& piece, LocalIndex number) {
+  if (piece.kind == CellKind::triangle)
+    return {0, Place::Noun::triangle, number, mean_point(piece, corners_of_boundary(piece, number))};
+  const CellOfPiece cell = cell_of(piece, number);
+  const auto noun =
+      static_cast<Place::Noun>(static_cast<int>(Place::Noun::tetrahedron) + static_cast<int>(cell.shape));
+  const auto corners = static_cast<std::size_t>(corners_of(cell.shape));
+  return {0, noun, cell.index, mean_point(piece, {vertices_of(piece, cell), corners})};
+}
+
+Place place_of_face(const Piece& piece, LocalIndex face) {
+  const geometry::Vec3 middle = mean_point(piece, corners_of_boundary(piece, face));
+  if (face >= piece.boundary_count()) return {0, Place::Noun::quad, face - piece.boundary_count(), middle};
+  return {0, piece.kind == CellKind::triangle ? Place::Noun::triangle : Place::Noun::boundary_triangle, face,
+          middle};
+}
+
+Place place_of(const Piece& piece, const Offender& offender) {
+  const auto index = static_cast<LocalIndex>(offender.item);
+  if (offender.entity == Entity::vertex) return {0, Place::Noun::vertex, index, piece.point(index)};
+  if (offender.entity == Entity::cell) return place_of_cell(piece, index);
+  if (offender.entity == Entity::boundary_face) return place_of_face(piece, index);
+  std::array<LocalIndex, 4> corners;
+  std::size_t count = 0;
+  Place place;
+  if (offender.entity == Entity::cell_face) {
+    const SideOfCell side = cell_at_side(piece, static_cast<std::size_t>(offender.item));
+    place = place_of_cell(piece, side.cell);
+    for (const LocalIndex v : PieceFaces(piece).side(side.cell, side.side)) {
+      if (v >= 0) corners[count++] = v;
+    }
+  } else {
+    const EdgeOfFace edge = face_at_edge(piece, offender.item);
+    place = place_of_face(piece, edge.face);
+    const std::span<const LocalIndex> face = corners_of_boundary(piece, edge.face);
+    const auto k = static_cast<std::size_t>(edge.edge);
+    corners[count++] = face[k];
+    corners[count++] = face[(k + 1) % face.size()];
+  }
+  place.point = mean_point(piece, std::span(corners).first(count));
+  return place;
 }
 
 bool before(const Offender& a, const Offender& b) {
@@ -118,30 +156,28 @@ Findings::Table Findings::over_all_ranks(const parallel::Communicator& communica
 
 std::vector<std::string> Findings::sentences(const parallel::Communicator& communicator,
                                              const DistributedMesh& mesh) const {
-  struct Place {
-    std::int64_t violation;
-    geometry::Vec3 point;
-
-    static constexpr auto fields() { return std::tuple(&Place::violation, &Place::point); }
-  };
   const Table table = over_all_ranks(communicator);
   std::vector<Place> mine;
   for (std::size_t v = 0; v < violation_count; ++v) {
     const auto holder = std::find_if(mesh.pieces.begin(), mesh.pieces.end(),
                                      [&](const Piece& piece) { return piece.id == table[v].first.piece; });
     if (table[v].count == 0 || holder == mesh.pieces.end()) continue;
-    mine.push_back({static_cast<std::int64_t>(v), place_of(*holder, table[v].first)});
+    mine.push_back(place_of(*holder, table[v].first));
+    mine.back().violation = static_cast<std::int32_t>(v);
   }
+  const bool here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
+                                [](const Piece& piece) { return !piece.has_tetrahedra_alone(); });
+  const bool is_mixed = communicator.maximum(std::int64_t{here}) > 0;
   std::vector<Place> places = communicator.all_gather_items(std::span<const Place>(mine));
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.violation < b.violation; });
   std::vector<std::string> result;
   for (const Place& place : places) {
-    const auto& [count, first] = table[place.violation];
+    const auto& [count, first] = table[static_cast<std::size_t>(place.violation)];
     result.push_back(fmt::format("{}: {}, the first being {} {} of piece {} at ({:.9g}, {:.9g}, {:.9g})",
-                                 rule_of(place.violation), count, noun_of(first.entity, mesh.kind),
-                                 first.item / items_per_entity(first.entity), first.piece, place.point.x,
-                                 place.point.y, place.point.z));
+                                 rule_in_words(static_cast<std::size_t>(place.violation), is_mixed), count,
+                                 word_of(place.noun), place.number, first.piece, place.point.x, place.point.y,
+                                 place.point.z));
   }
   return result;
 }

@@ -17,6 +17,7 @@ enum class Violation : std::int32_t {
   shared_coordinates_differ,
   orphan_vertex,
   volume_not_positive,
+  corner_not_positive,
   degenerate_triangle,
   face_of_many_cells,
   face_without_partner,
@@ -37,9 +38,9 @@ enum class Violation : std::int32_t {
   count
 };
 
-/// What part of a piece an offender is; `item` counts vertices, cells, 4 * cell + face, boundary triangles,
-/// or 3 * boundary triangle + edge.
-enum class Entity : std::int32_t { vertex, cell, cell_face, triangle, triangle_edge };
+/// What part of a piece an offender is; `item` counts vertices, cells, sides of cells, boundary faces, or
+/// edges of these (mesh/piece_faces.hpp); the triangles of a triangle piece are its boundary faces.
+enum class Entity : std::int32_t { vertex, cell, cell_face, boundary_face, boundary_edge };
 
 struct Offender {
   std::array<GlobalIndex, 3> key{};  ///< lowest comes first: global numbers of what it is about

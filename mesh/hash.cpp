@@ -36,7 +36,11 @@ enum class ItemKind : std::uint64_t {
   region_name,
   face_sides,
   region_of_piece,
-  whole
+  whole,
+  pyramid,
+  prism,
+  quad,
+  region_run
 };
 
 /// Hashes one item word by word. The first lane is a bijection of each word given those before it, so a
@@ -65,8 +69,10 @@ void add_vertices(const Piece& piece, const std::vector<GlobalIndex>& numbers,
     if (!owned[v]) continue;
     ItemHash item(ItemKind::vertex, numbers[v]);
     for (int axis = 0; axis < 3; ++axis) item.add(piece.coordinates[3 * static_cast<std::size_t>(v) + axis]);
-    item.add_signed(piece.vertex_dimension[v]);
-    item.add_signed(piece.vertex_entity[v]);
+    if (!piece.vertex_dimension.empty()) {
+      item.add_signed(piece.vertex_dimension[v]);
+      item.add_signed(piece.vertex_entity[v]);
+    }
     sum.add(item.digest());
   }
 }
@@ -76,6 +82,31 @@ void add_cells(const Piece& piece, const std::vector<GlobalIndex>& numbers, Glob
   for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
     ItemHash item(ItemKind::cell, first + c);
     for (int k = 0; k < corners; ++k) item.add_signed(numbers[piece.cell(c)[k]]);
+    sum.add(item.digest());
+  }
+}
+
+/// Pyramids and prisms.
+void add_other_cells(const Piece& piece, const std::vector<GlobalIndex>& numbers, GlobalIndex first,
+                     Sum128& sum) {
+  first += piece.cell_count();
+  for (const CellShape shape : {CellShape::pyramid, CellShape::prism}) {
+    const std::span<const LocalIndex> corners = connectivity_of(piece, shape);
+    const auto n = static_cast<std::size_t>(corners_of(shape));
+    for (std::size_t c = 0; c < corners.size(); c += n) {
+      ItemHash item(shape == CellShape::pyramid ? ItemKind::pyramid : ItemKind::prism, first++);
+      for (std::size_t k = 0; k < n; ++k) item.add_signed(numbers[corners[c + k]]);
+      sum.add(item.digest());
+    }
+  }
+}
+
+void add_quads(const Piece& piece, const std::vector<GlobalIndex>& numbers, GlobalIndex first, Sum128& sum) {
+  for (std::size_t q = 0; q < piece.quad_face.size(); ++q) {
+    ItemHash item(ItemKind::quad, first + static_cast<GlobalIndex>(q));
+    for (std::size_t k = 0; k < 4; ++k) item.add_signed(numbers[piece.quads[4 * q + k]]);
+    item.add_signed(piece.quad_face[q]);
+    item.add_signed(piece.quad_patch[q]);
     sum.add(item.digest());
   }
 }
@@ -114,28 +145,31 @@ void add_regions(const DistributedMesh& mesh, Sum128& sum) {
     ItemHash item(ItemKind::region_of_piece, piece.id);
     item.add_signed(piece.region);
     sum.add(item.digest());
+    if (piece.runs.empty()) continue;
+    ItemHash runs(ItemKind::region_run, piece.id);
+    for (const RegionRun& run : piece.runs) {
+      runs.add_signed(run.region);
+      runs.add_signed(run.end);
+    }
+    sum.add(runs.digest());
   }
 }
 
-/// Global number of each local piece's first boundary triangle; the total comes last.
-std::vector<GlobalIndex> first_triangles(const parallel::Communicator& communicator,
-                                         const DistributedMesh& mesh) {
+/// Global number of each local piece's first boundary face of a shape; the total comes last.
+std::vector<GlobalIndex> first_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                                     FaceShape shape) {
   std::vector<GlobalIndex> counts;
-  for (const Piece& piece : mesh.pieces) counts.push_back(piece.boundary_count());
-  const std::vector<GlobalIndex> table = gather_by_piece(communicator, mesh, counts);
-  std::vector<GlobalIndex> offsets(table.size() + 1, 0);
-  for (std::size_t p = 0; p < table.size(); ++p) offsets[p + 1] = offsets[p] + table[p];
-  std::vector<GlobalIndex> first;
-  for (const Piece& piece : mesh.pieces) first.push_back(offsets[piece.id]);
-  first.push_back(offsets.back());
-  return first;
+  for (const Piece& piece : mesh.pieces)
+    counts.push_back(static_cast<GlobalIndex>(cad_faces_of(piece, shape).size()));
+  return first_by_piece(communicator, mesh, counts);
 }
 
 }  // namespace
 
 std::string hash_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering) {
-  const std::vector<GlobalIndex> first_triangle = first_triangles(communicator, mesh);
+  const std::vector<GlobalIndex> first_triangle = first_faces(communicator, mesh, FaceShape::triangle),
+                                 first_quad = first_faces(communicator, mesh, FaceShape::quadrilateral);
   Sum128 mine;
   if (mesh.kind == CellKind::tetrahedron) add_regions(mesh, mine);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -143,7 +177,9 @@ std::string hash_mesh(const parallel::Communicator& communicator, const Distribu
     add_vertices(piece, numbering.vertices[i], numbering.owned[i], mine);
     if (mesh.kind == CellKind::tetrahedron)
       add_cells(piece, numbering.vertices[i], numbering.first_cell[i], mine);
+    add_other_cells(piece, numbering.vertices[i], numbering.first_cell[i], mine);
     add_triangles(piece, numbering.vertices[i], first_triangle[i], mine);
+    add_quads(piece, numbering.vertices[i], first_quad[i], mine);
   }
   Sum128 sum;
   for (const Sum128& part : communicator.all_gather_items(std::span<const Sum128>(&mine, 1))) sum.add(part);
@@ -160,6 +196,7 @@ std::string hash_mesh(const parallel::Communicator& communicator, const Distribu
   whole.add(std::uint64_t{mesh.faces.size()});
   whole.add(std::uint64_t{mesh.regions.size()});
   whole.add(std::uint64_t{mesh.sides.size()});
+  if (first_quad.back() > 0) whole.add_signed(first_quad.back());
   whole.add(sum.low);
   whole.add(sum.high);
   const Sum128 digest = whole.digest();

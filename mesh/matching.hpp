@@ -37,9 +37,16 @@ struct Member {
 /// What the items of role 0 and 1 are called in the report.
 using RoleEntities = std::array<Entity, 2>;
 
-/// Sorts the vertices and returns whether that took an odd permutation.
+/// Sorts the vertices and returns whether that took an odd permutation. Of quadrilaterals: the lowest, that
+/// opposite, then its neighbours, ascending; odd where the way round leads to the higher one first.
 template <class Index, std::size_t N>
 bool sort_vertices(std::array<Index, N>& v) {
+  if constexpr (N == 4) {
+    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+    const bool odd = v[3] < v[1];
+    v = {v[0], v[2], std::min(v[1], v[3]), std::max(v[1], v[3])};
+    return odd;
+  }
   bool odd = false;
   const auto order = [&](std::size_t i, std::size_t j) {
     if (v[j] < v[i]) std::swap(v[i], v[j]), odd = !odd;
@@ -56,7 +63,7 @@ inline std::vector<std::uint8_t> mark_shared(const Piece& piece) {
   return marks;
 }
 
-/// Whether the faces of the tetrahedra are matched too, as items 4 * cell + face of this role.
+/// Whether the faces of the tetrahedra are matched too, as items 4 * cell + face (their sides) of this role.
 enum class CellFaces : std::uint8_t { left_out, matched };
 inline constexpr int cell_role = 0;
 
@@ -76,7 +83,8 @@ Matching(RoleEntities, Enumerate, Label, Judge) -> Matching<Enumerate, Label, Ju
 template <class Enumerate, class Label, class Judge>
 Matching(RoleEntities, Enumerate, Label, Judge, CellFaces) -> Matching<Enumerate, Label, Judge>;
 
-/// Matches the faces (N = 3) or edges (N = 2) of a mesh. Offenders go to `findings`. Collective.
+/// Matches the triangular faces (N = 3), quadrilateral ones (N = 4) or edges (N = 2) of a mesh. Offenders go
+/// to `findings`. Collective.
 template <std::size_t N, class Enumerate, class Label, class Judge>
 class Matcher {
 public:
@@ -173,6 +181,7 @@ private:
 
   /// Whether all that meet in a bucket are fine, and no more than two at a time.
   bool settle(const Piece& piece, std::span<const Inside> bucket) {
+    if constexpr (N == 4) return false;  // too long for a key of the table, and few
     const auto member = [&](std::uint32_t tag) {
       Member member{piece.id, tag, 0};
       member.label = _what.label(piece, member.role(), member.item());
@@ -230,9 +239,9 @@ private:
 
   /// The offender is the member of the lowest piece and item, whatever order they met in.
   void report(Violation violation, std::array<GlobalIndex, N> vertices) {
-    sort_vertices(vertices);
+    std::sort(vertices.begin(), vertices.end());
     Offender offender;
-    std::copy(vertices.begin(), vertices.end(), offender.key.begin());
+    std::copy(vertices.begin(), vertices.begin() + std::min<std::size_t>(N, 3), offender.key.begin());
     const Member& first =
         *std::min_element(_members.begin(), _members.end(), [](const Member& a, const Member& b) {
           return std::pair(a.piece, a.tag >> 1) < std::pair(b.piece, b.tag >> 1);
@@ -250,7 +259,7 @@ private:
   PairTable _pairs;
 };
 
-/// Matches and judges all faces (N = 3) or edges (N = 2). See Matcher. Collective.
+/// Matches and judges all faces (N = 3, 4) or edges (N = 2). See Matcher. Collective.
 template <std::size_t N, class Enumerate, class Label, class Judge>
 void match_all(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                const Numbering& numbering, const Matching<Enumerate, Label, Judge>& what,

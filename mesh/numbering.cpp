@@ -77,33 +77,17 @@ Numbering mark_owned(const DistributedMesh& mesh, const SharedVertices& shared) 
   return numbering;
 }
 
-/// The exclusive scan, in the order of piece ids.
+/// Vertices in turn, in the order of piece ids.
 void number_owned(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                   Numbering& numbering) {
-  struct Counts {
-    GlobalIndex vertices, cells;
-
-    static constexpr auto fields() { return std::tuple(&Counts::vertices, &Counts::cells); }
-  };
-  std::vector<Counts> counts;
+  std::vector<GlobalIndex> counts;
+  for (const auto& owned : numbering.owned) counts.push_back(std::count(owned.begin(), owned.end(), 1));
+  const std::vector<GlobalIndex> first = first_by_piece(communicator, mesh, counts);
+  numbering.vertex_count = first.back();
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    const auto owned = std::count(numbering.owned[i].begin(), numbering.owned[i].end(), 1);
-    counts.push_back({owned, mesh.pieces[i].cell_count()});
-  }
-  std::vector<Counts> first = gather_by_piece(communicator, mesh, counts);
-  Counts next{0, 0};
-  for (Counts& row : first) {
-    const Counts here = row;
-    row = next;
-    next.vertices += here.vertices, next.cells += here.cells;
-  }
-  numbering.vertex_count = next.vertices;
-  numbering.cell_count = next.cells;
-  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    Counts at = first[mesh.pieces[i].id];
-    numbering.first_cell.push_back(at.cells);
+    GlobalIndex next = first[i];
     for (std::size_t v = 0; v < numbering.owned[i].size(); ++v) {
-      if (numbering.owned[i][v]) numbering.vertices[i][v] = at.vertices++;
+      if (numbering.owned[i][v]) numbering.vertices[i][v] = next++;
     }
   }
 }
@@ -124,21 +108,43 @@ Numbering number_mesh(const parallel::Communicator& communicator, const Distribu
   parallel::agree(communicator, [&] {
     for (const Piece& piece : mesh.pieces) require_consistent_arrays(piece);
   });
-  const SharedVertices shared(communicator, mesh);
+  return number_mesh(communicator, mesh, SharedVertices(communicator, mesh));
+}
+
+Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                      const SharedVertices& shared) {
   require_agreement(communicator, mesh, shared);
   Numbering numbering = mark_owned(mesh, shared);
   number_owned(communicator, mesh, numbering);
+  number_cells(communicator, mesh, numbering);
   spread_numbers(shared, numbering);
   return numbering;
 }
 
+void number_cells(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                  Numbering& numbering) {
+  std::vector<GlobalIndex> counts;
+  for (const Piece& piece : mesh.pieces) counts.push_back(piece.total_cell_count());
+  numbering.first_cell = first_by_piece(communicator, mesh, counts);
+  numbering.cell_count = numbering.first_cell.back();
+  numbering.first_cell.pop_back();
+}
+
 MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                       const Numbering& numbering) {
-  std::int64_t boundary = 0, inner = 0;
+  MeshCounts mine{numbering.vertex_count, numbering.cell_count};
   for (const Piece& piece : mesh.pieces) {
-    for (const std::int32_t face : piece.triangle_face) ++(mesh.sides_of(face).is_inner() ? inner : boundary);
+    for (const std::int32_t face : piece.triangle_face)
+      ++(mesh.sides_of(face).is_inner() ? mine.inner_triangles : mine.boundary_triangles);
+    for (const std::int32_t face : piece.quad_face)
+      ++(mesh.sides_of(face).is_inner() ? mine.inner_quads : mine.boundary_quads);
+    mine.pyramids += static_cast<GlobalIndex>(piece.pyramids.size() / 5);
+    mine.prisms += static_cast<GlobalIndex>(piece.prisms.size() / 6);
   }
-  return {numbering.vertex_count, numbering.cell_count, communicator.sum(boundary), communicator.sum(inner)};
+  for (GlobalIndex* count : {&mine.boundary_triangles, &mine.inner_triangles, &mine.pyramids, &mine.prisms,
+                             &mine.boundary_quads, &mine.inner_quads})
+    *count = communicator.sum(*count);
+  return mine;
 }
 
 }  // namespace aeroloom::mesh

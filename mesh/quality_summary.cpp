@@ -1,5 +1,5 @@
-#include "mesh/bin_sums.hpp"
 #include "mesh/delivery.hpp"
+#include "mesh/distribution.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/tet_measures.hpp"
 
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -20,34 +19,8 @@ namespace {
 
 constexpr std::size_t worst_kept = 10;
 
-/// A measure's range, its fine bins per unit, and how many of those make a bin of the published histogram.
-struct Scale {
-  double high;
-  int bins_per_unit;
-  int merged;
-};
-constexpr Scale angle_scale{180, 100, 200};
-constexpr Scale ratio_scale{1, 10000, 200};
-
-enum Measure { min_angle, max_angle, shape, radii, measures };
+enum SummaryMeasure { min_angle, max_angle, shape, radii, measures };
 constexpr Scale scales[measures] = {angle_scale, angle_scale, ratio_scale, ratio_scale};
-
-/// One measure over the cells seen so far.
-struct Accumulated {
-  double minimum = std::numeric_limits<double>::infinity();
-  double maximum = -std::numeric_limits<double>::infinity();
-  std::vector<std::int64_t> bins;
-
-  explicit Accumulated(const Scale& scale)
-      : bins(static_cast<std::size_t>(scale.high * scale.bins_per_unit), 0) {}
-
-  void add(double value, const Scale& scale) {
-    minimum = std::min(minimum, value);
-    maximum = std::max(maximum, value);
-    const double bin = std::clamp(value * scale.bins_per_unit, 0.0, static_cast<double>(bins.size() - 1));
-    ++bins[static_cast<std::size_t>(bin)];
-  }
-};
 
 struct Values {
   double of[measures];
@@ -104,7 +77,7 @@ void keep_worst(std::vector<WorstCell>& worst) {
 
 /// What one rank knows of its pieces.
 struct LocalSummary {
-  std::vector<Accumulated> measure;
+  std::vector<Accumulator> measure;
   std::vector<Values> sums;  ///< per piece
   std::vector<WorstCell> worst;
 };
@@ -134,33 +107,17 @@ LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbe
   return local;
 }
 
-/// The lower end of the bin in which the cell at this fraction of all cells, counted from below, lies.
-double percentile(const std::vector<std::int64_t>& bins, const Scale& scale, GlobalIndex cells,
-                  int per_mille) {
-  const GlobalIndex wanted = std::max<GlobalIndex>(1, (cells * per_mille + 999) / 1000);
-  GlobalIndex seen = 0;
-  std::size_t bin = 0;
-  while (bin < bins.size() && (seen += bins[bin]) < wanted) ++bin;
-  return static_cast<double>(bin) / scale.bins_per_unit;
-}
-
-Distribution distribution_of(const parallel::Communicator& communicator, const Accumulated& local,
-                             const Scale& scale, double sum, GlobalIndex cells) {
-  const std::vector<std::int64_t> bins = sum_bins(communicator, local.bins);
+Distribution distribution_of(const parallel::Communicator& communicator, Accumulator& local,
+                             const Scale& scale, double sum) {
+  const BinnedValues values(communicator, local, scale);
   Distribution result;
-  result.minimum = communicator.minimum(local.minimum);
-  result.maximum = communicator.maximum(local.maximum);
+  result.minimum = values.minimum();
+  result.maximum = values.maximum();
   result.histogram.high = scale.high;
-  result.histogram.counts.assign(bins.size() / scale.merged, 0);
-  for (std::size_t b = 0; b < bins.size(); ++b) result.histogram.counts[b / scale.merged] += bins[b];
-  if (cells == 0) {
-    result.minimum = result.maximum = 0;
-    return result;
-  }
-  result.mean = sum / static_cast<double>(cells);
-  const auto at = [&](int per_mille) {
-    return std::max(result.minimum, percentile(bins, scale, cells, per_mille));
-  };
+  result.histogram.counts = values.histogram();
+  if (values.count() == 0) return result;
+  result.mean = sum / static_cast<double>(values.count());
+  const auto at = [&](int per_mille) { return std::max(result.minimum, values.percentile(per_mille)); };
   result.percentile_01 = at(1);
   result.percentile_1 = at(10);
   result.percentile_5 = at(50);
@@ -177,8 +134,8 @@ QualitySummary summarise_quality(const parallel::Communicator& communicator, con
   for (const Values& piece : gather_by_piece(communicator, mesh, local.sums)) {
     for (int m = 0; m < measures; ++m) sums.of[m] += piece.of[m];
   }
-  const auto distribution = [&](Measure m) {
-    return distribution_of(communicator, local.measure[m], scales[m], sums.of[m], numbering.cell_count);
+  const auto distribution = [&](SummaryMeasure m) {
+    return distribution_of(communicator, local.measure[m], scales[m], sums.of[m]);
   };
   QualitySummary summary;
   summary.min_dihedral = distribution(min_angle);

@@ -54,7 +54,7 @@ void add_triangles(const DistributedMesh& mesh, Side side, std::vector<BitTriang
 }
 
 Offender offender_of(const BitTriangle& triangle) {
-  return {{triangle.piece, triangle.triangle}, triangle.piece, Entity::triangle, triangle.triangle};
+  return {{triangle.piece, triangle.triangle}, triangle.piece, Entity::boundary_face, triangle.triangle};
 }
 
 /// Whether the surface has the triangles of the mesh one after the other, as boundary_mesh makes it.

@@ -34,7 +34,7 @@ void check_degenerate(const DistributedMesh& mesh, Findings& findings) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
       if (!is_degenerate(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]))) continue;
-      findings.add(Violation::degenerate_triangle, {{piece.id, t}, piece.id, Entity::triangle, t});
+      findings.add(Violation::degenerate_triangle, {{piece.id, t}, piece.id, Entity::boundary_face, t});
     }
   }
 }
@@ -52,7 +52,8 @@ void check_repeated(const parallel::Communicator& communicator, const Distribute
     return members.size() > 1 ? std::optional(Violation::repeated_triangle) : std::nullopt;
   };
   match_all<3>(communicator, mesh, numbering,
-               Matching{{Entity::triangle, Entity::triangle}, triangles, no_label, judge}, findings);
+               Matching{{Entity::boundary_face, Entity::boundary_face}, triangles, no_label, judge},
+               findings);
 }
 
 }  // namespace

@@ -12,19 +12,20 @@ namespace aeroloom::mesh {
 /// piece and coordinates of the first offender by global number.
 struct ValidityReport {
   std::vector<std::string> violations;
-  double volume = 0;                   ///< of all cells (tetrahedra), or enclosed by the surface (triangles)
-  double surface_volume = 0;           ///< by the divergence integral over the boundary triangles
+  double volume = 0;          ///< of all cells (volume meshes), or enclosed by the surface (triangles)
+  double surface_volume = 0;  ///< by the divergence integral over the boundary faces
   std::vector<double> region_volumes;  ///< `volume` by region
   bool valid() const { return violations.empty(); }
 };
 
-/// Checks a tetrahedral mesh: positive volumes, every face in one cell plus one triangle of an outer CAD face
-/// or in two cells, and there with one triangle of an inner CAD face exactly where the cells' regions differ,
-/// triangles between the regions their face lies between, a closed boundary around each region, no orphan
-/// vertices, identical coordinates of shared vertices, equal volumes of each region (1e-10), a patch and a
-/// CAD face for every boundary triangle, and, when `surface` is given, that the boundary triangles are
-/// exactly its triangles (by coordinate bits). Memory per rank is bounded by its share of the faces. Throws
-/// CollectiveError when arrays or numbering do not fit the mesh. Collective.
+/// Checks a volume mesh of any cells: positive volumes (tetrahedra exactly; pyramids and prisms by their
+/// bilinear volume, and exactly at their corners), every face in one cell plus one boundary face of an outer
+/// CAD face or in two cells, and there with one boundary face of an inner CAD face exactly where the cells'
+/// regions differ, boundary faces between the regions their CAD face lies between, a closed boundary around
+/// each region, no orphan vertices, identical coordinates of shared vertices, equal volumes of each region
+/// (1e-10), a patch and a CAD face for every boundary face, and, when `surface` is given, that the boundary
+/// triangles are exactly its triangles (by coordinate bits). Memory per rank is bounded by its share of the
+/// faces. Throws CollectiveError when arrays or numbering do not fit the mesh. Collective.
 ValidityReport check_volume_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                  const Numbering& numbering, const DistributedMesh* surface);
 

@@ -1,7 +1,9 @@
 #include "mesh/validity_checks.hpp"
 
+#include "mesh/cell_measures.hpp"
 #include "mesh/matching.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/piece_faces.hpp"
 #include "mesh/rendezvous.hpp"
 
 #include <algorithm>
@@ -66,17 +68,20 @@ bool has_known_regions(const DistributedMesh& mesh) {
          std::all_of(
              mesh.sides.begin(), mesh.sides.end(),
              [&](const FaceSides& s) { return known(s.front) && (known(s.back) || !s.is_inner()); }) &&
-         std::all_of(mesh.pieces.begin(), mesh.pieces.end(),
-                     [&](const Piece& piece) { return known(piece.region); });
+         std::all_of(mesh.pieces.begin(), mesh.pieces.end(), [&](const Piece& piece) {
+           return known(piece.region) && std::all_of(piece.runs.begin(), piece.runs.end(),
+                                                     [&](const auto& run) { return known(run.region); });
+         });
 }
 
-/// Calls visit(region, first, last, sign) for the runs [first, last) of a piece's boundary triangles that
-/// bound a region, seen from its outside (sign 1) or its inside (-1).
+/// Calls visit(region, first, last, sign) for the runs [first, last) of a piece's boundary faces that bound a
+/// region, seen from its outside (sign 1) or its inside (-1).
 template <class Visit>
 void for_each_run(const DistributedMesh& mesh, const Piece& piece, Visit&& visit) {
-  for (LocalIndex first = 0, last = 0; first < piece.boundary_count(); first = last) {
-    const std::int32_t face = piece.triangle_face[first];
-    while (last < piece.boundary_count() && piece.triangle_face[last] == face) ++last;
+  const LocalIndex count = boundary_face_count(piece);
+  for (LocalIndex first = 0, last = 0; first < count; first = last) {
+    const std::int32_t face = cad_face_of(piece, first);
+    while (last < count && cad_face_of(piece, last) == face) ++last;
     const FaceSides sides = mesh.sides_of(face);
     visit(sides.front, first, last, 1);
     if (sides.is_inner()) visit(sides.back, first, last, -1);
@@ -98,9 +103,8 @@ std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
     for_each_run(mesh, piece, [&](RegionId region, LocalIndex first, LocalIndex last, int) {
       geometry::Box& box = boxes[region];
       for (LocalIndex t = first; t < last; ++t) {
-        for (int k = 0; k < 3; ++k) {
-          const Vec3 p = piece.point(piece.boundary_triangle(t)[k]);
-          if (is_finite(p)) box.add(p);
+        for (const LocalIndex v : corners_of_boundary(piece, t)) {
+          if (is_finite(piece.point(v))) box.add(piece.point(v));
         }
       }
     });
@@ -118,10 +122,13 @@ std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
   return centers;
 }
 
-double cone_volume6(const Piece& piece, LocalIndex t, Vec3 apex) {
-  const LocalIndex* v = piece.boundary_triangle(t);
+double cone_volume6(const Piece& piece, LocalIndex face, Vec3 apex) {
+  const std::span<const LocalIndex> v = corners_of_boundary(piece, face);
   const Vec3 a = piece.point(v[0]) - apex, b = piece.point(v[1]) - apex, c = piece.point(v[2]) - apex;
-  return geometry::dot(a, geometry::cross(b, c));
+  const double triangle = geometry::dot(a, geometry::cross(b, c));
+  if (v.size() == 3) return triangle;
+  const Vec3 d = piece.point(v[3]) - apex;
+  return bilinear_cone_volume6(a, b, c, d);
 }
 
 }  // namespace
@@ -157,7 +164,9 @@ void check_orphans(const DistributedMesh& mesh, const Numbering& numbering, Find
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     used.assign(piece.vertex_count(), 0);
-    for (const LocalIndex v : piece.cells) used[v] = 1;
+    for (const auto* cells : {&piece.cells, &piece.pyramids, &piece.prisms}) {
+      for (const LocalIndex v : *cells) used[v] = 1;
+    }
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (used[v]) continue;
       findings.add(Violation::orphan_vertex, {{numbering.vertices[i][v]}, piece.id, Entity::vertex, v});
@@ -170,12 +179,10 @@ void check_labels(const DistributedMesh& mesh, Findings& findings) {
     return id >= 0 && static_cast<std::size_t>(id) < list.size();
   };
   for (const Piece& piece : mesh.pieces) {
-    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
-      const Offender offender{{piece.id, t}, piece.id, Entity::triangle, t};
-      if (!names(piece.triangle_patch[t], mesh.patches))
-        findings.add(Violation::triangle_without_patch, offender);
-      if (!names(piece.triangle_face[t], mesh.faces))
-        findings.add(Violation::triangle_without_face, offender);
+    for (LocalIndex f = 0; f < boundary_face_count(piece); ++f) {
+      const Offender offender{{piece.id, f}, piece.id, Entity::boundary_face, f};
+      if (!names(patch_of(piece, f), mesh.patches)) findings.add(Violation::triangle_without_patch, offender);
+      if (!names(cad_face_of(piece, f), mesh.faces)) findings.add(Violation::triangle_without_face, offender);
     }
   }
 }
@@ -205,23 +212,23 @@ void check_shared_coordinates(const parallel::Communicator& communicator, const 
 void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                           const Numbering& numbering, Findings& findings) {
   const auto edges = [&](const Piece& piece, const auto& sink) {
-    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
-      const LocalIndex* v = piece.boundary_triangle(t);
-      const bool inner = mesh.sides_of(piece.triangle_face[t]).is_inner();
-      for (int k = 0; k < 3; ++k) {
-        const auto item = static_cast<std::uint32_t>(3 * t + k);
-        const LocalIndex from = v[k], to = v[(k + 1) % 3];
+    std::uint32_t item = 0;
+    for (LocalIndex f = 0; f < boundary_face_count(piece); ++f) {
+      const std::span<const LocalIndex> v = corners_of_boundary(piece, f);
+      const bool inner = mesh.sides_of(cad_face_of(piece, f)).is_inner();
+      for (std::size_t k = 0; k < v.size(); ++k, ++item) {
+        const LocalIndex from = v[k], to = v[(k + 1) % v.size()];
         sink(std::array<LocalIndex, 2>{from, to}, front_role, item);
         if (inner) sink(std::array<LocalIndex, 2>{to, from}, back_role, item);
       }
     }
   };
   const auto region = [&](const Piece& piece, int role, std::int64_t item) {
-    const FaceSides sides = mesh.sides_of(piece.triangle_face[item / 3]);
+    const FaceSides sides = mesh.sides_of(cad_face_of(piece, face_at_edge(piece, item).face));
     return role == front_role ? sides.front : sides.back;
   };
   match_all<2>(communicator, mesh, numbering,
-               Matching{{Entity::triangle_edge, Entity::triangle_edge}, edges, region, judge_edge}, findings);
+               Matching{{Entity::boundary_edge, Entity::boundary_edge}, edges, region, judge_edge}, findings);
 }
 
 void CompensatedSum::add(double term) {

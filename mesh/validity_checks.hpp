@@ -18,15 +18,15 @@ void require_checkable(const parallel::Communicator& communicator, const Distrib
 
 /// Every coordinate is a finite number. Not collective.
 void check_finite_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
-/// Every vertex is used by a cell of its piece. Not collective.
+/// Every vertex is used by a cell of its piece, of whatever shape. Not collective.
 void check_orphans(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
-/// Every boundary triangle has one of the mesh's patches and CAD faces. Not collective.
+/// Every boundary face has one of the mesh's patches and CAD faces. Not collective.
 void check_labels(const DistributedMesh& mesh, Findings& findings);
 /// All pieces agree on the coordinate bits of the vertices they share. Collective.
 void check_shared_coordinates(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                               const Numbering& numbering, Findings& findings);
-/// The boundary of each region closes: its triangles pass each edge equally often in both directions.
-/// Collective.
+/// The boundary of each region closes: its triangles and quadrilaterals pass each edge equally often in both
+/// directions. Collective.
 void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                           const Numbering& numbering, Findings& findings);
 
@@ -55,10 +55,12 @@ struct RegionTerm {
     return std::tuple(&RegionTerm::region, &RegionTerm::piece, &RegionTerm::value);
   }
 };
-/// The sums by region, taken in piece order: the same bits whatever the ranks. Collective.
+/// The sums by region, taken in piece order: the same bits whatever the ranks. A piece has one term for a
+/// region at most. Collective.
 std::vector<double> sum_by_region(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                   const std::vector<RegionTerm>& terms);
-/// The volume that the boundary triangles around each region enclose, by the divergence integral. Collective.
+/// The volume that the boundary faces around each region enclose, by the divergence integral; quadrilaterals
+/// count as bilinear surfaces, as in cell_volume (mesh/cell_measures.hpp). Collective.
 std::vector<double> enclosed_volumes(const parallel::Communicator& communicator, const DistributedMesh& mesh);
 /// "region 'name': " where the mesh has several, for sentences about one; empty otherwise.
 std::string region_prefix(const DistributedMesh& mesh, RegionId region);

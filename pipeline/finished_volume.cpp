@@ -1,7 +1,7 @@
 #include "pipeline/finished_volume.hpp"
 
 #include "improve/pinned.hpp"
-#include "io/mixed_quality.hpp"
+#include "mesh/mixed_quality.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "pipeline/stage_log.hpp"
@@ -37,10 +37,10 @@ void list_pinned(const Communicator& communicator, const Case& input, const mesh
 }
 
 /// Measures that compare neighbours and edges. Collective.
-io::MixedQuality measure_cells(const Communicator& communicator, const mesh::DistributedMesh& volume,
-                               const mesh::Numbering& numbering) {
-  const io::FileMesh cells = io::file_mesh_of(communicator, volume, numbering);
-  return io::measure_quality(communicator, cells, io::link_faces(communicator, cells));
+mesh::MixedQuality measure_cells(const Communicator& communicator, const mesh::DistributedMesh& volume,
+                                 const mesh::Numbering& numbering) {
+  return mesh::measure_quality(communicator, volume, numbering,
+                               mesh::link_faces(communicator, volume, numbering));
 }
 
 }  // namespace

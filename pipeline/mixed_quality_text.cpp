@@ -10,10 +10,10 @@
 namespace aeroloom::pipeline {
 namespace {
 
-using io::CellShape;
-using io::Measure;
+using mesh::CellShape;
+using mesh::Measure;
 
-constexpr std::array<std::string_view, io::measure_count> titles = {
+constexpr std::array<std::string_view, mesh::measure_count> titles = {
     "smallest dihedral angle", "largest dihedral angle",      "mean ratio", "radius ratio", "scaled Jacobian",
     "longest / shortest edge", "volume ratio to a neighbour", "volume"};
 constexpr std::size_t most_bars = 15;
@@ -23,7 +23,7 @@ std::string_view title_of(Measure measure) {
   return titles[static_cast<std::size_t>(measure)];
 }
 
-std::string tables_of_names(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+std::string tables_of_names(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
   std::string text = fmt::format("\n{:<32} {:>13} {:>13} {:>13} {:>14}\n", "region", "tetrahedra", "pyramids",
                                  "prisms", "volume");
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
@@ -41,13 +41,13 @@ std::string tables_of_names(const io::FileMesh& mesh, const io::MixedQuality& qu
   return text;
 }
 
-std::string table_of_shape(CellShape shape, const io::MixedQuality& quality) {
-  std::string text = fmt::format("\n{:<27}{:>10}", io::name_of(shape), "min");
-  for (const int per_mille : io::percentiles_per_mille)
+std::string table_of_shape(CellShape shape, const mesh::MixedQuality& quality) {
+  std::string text = fmt::format("\n{:<27}{:>10}", mesh::name_of(shape), "min");
+  for (const int per_mille : mesh::percentiles_per_mille)
     text += fmt::format("{:>10}", fmt::format("{:g} %", per_mille / 10.0));
   text += fmt::format("{:>10}{:>10}\n", "max", "mean");
-  for (const Measure measure : io::all_measures) {
-    const io::MeasureDistribution& of = quality.distribution(shape, measure);
+  for (const Measure measure : mesh::all_measures) {
+    const mesh::MeasureDistribution& of = quality.distribution(shape, measure);
     if (of.cells == 0) continue;
     text += fmt::format("{:<27}{:>10.4g}", title_of(measure), of.minimum);
     for (const double value : of.percentiles) text += fmt::format("{:>10.4g}", value);
@@ -57,7 +57,7 @@ std::string table_of_shape(CellShape shape, const io::MixedQuality& quality) {
 }
 
 /// Bars over the bins that are not empty, several bins to a bar where there are many.
-std::string histogram_text(CellShape shape, Measure measure, const io::MeasureDistribution& of) {
+std::string histogram_text(CellShape shape, Measure measure, const mesh::MeasureDistribution& of) {
   const std::vector<std::int64_t>& counts = of.histogram.counts;
   std::size_t begin = 0, end = counts.size();
   while (begin < end && counts[begin] == 0) ++begin;
@@ -70,7 +70,7 @@ std::string histogram_text(CellShape shape, Measure measure, const io::MeasureDi
     bars.back() += counts[b];
   }
   const std::int64_t most = *std::max_element(bars.begin(), bars.end());
-  std::string text = fmt::format("\n{} of {}\n", title_of(measure), io::name_of(shape));
+  std::string text = fmt::format("\n{} of {}\n", title_of(measure), mesh::name_of(shape));
   for (std::size_t b = 0; b < bars.size(); ++b) {
     const double share = static_cast<double>(bars[b]) / static_cast<double>(most);
     const int length = bars[b] == 0 ? 0 : std::max(1, static_cast<int>(std::lround(share * longest_bar)));
@@ -82,21 +82,21 @@ std::string histogram_text(CellShape shape, Measure measure, const io::MeasureDi
   return text;
 }
 
-std::string worst_text(const io::MixedQuality& quality) {
+std::string worst_text(const mesh::MixedQuality& quality) {
   std::string text = "\nworst cells, with their middles\n";
-  for (const Measure measure : io::all_measures) {
+  for (const Measure measure : mesh::all_measures) {
     const auto& worst = quality.worst[static_cast<std::size_t>(measure)];
     if (worst.empty()) continue;
     text += fmt::format("{}\n", title_of(measure));
-    for (const io::WorstCellOfShape& cell : worst) {
+    for (const mesh::WorstCellOfShape& cell : worst) {
       text += fmt::format("{:>14.6g}  {:<10} {:>13} at ({:.6g}, {:.6g}, {:.6g})\n", cell.value,
-                          io::name_of(cell.shape), cell.cell, cell.center.x, cell.center.y, cell.center.z);
+                          mesh::name_of(cell.shape), cell.cell, cell.center.x, cell.center.y, cell.center.z);
     }
   }
   return text;
 }
 
-std::string defects_text(const io::LinkDefects& defects) {
+std::string defects_text(const mesh::LinkDefects& defects) {
   std::string text;
   const auto add = [&](mesh::GlobalIndex count, std::string_view what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
@@ -110,16 +110,16 @@ std::string defects_text(const io::LinkDefects& defects) {
 
 }  // namespace
 
-std::string quality_text(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+std::string quality_text(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
   std::string text = fmt::format("{} points, {} cells, volume {:.9g}; defects: {}\n", mesh.vertex_count,
                                  mesh.cell_count(), quality.volume, defects_text(quality.defects));
   text += tables_of_names(mesh, quality);
-  for (const CellShape shape : io::cell_shapes) {
+  for (const CellShape shape : mesh::cell_shapes) {
     if (mesh.cell_count(shape) > 0) text += table_of_shape(shape, quality);
   }
-  for (const CellShape shape : io::cell_shapes) {
-    for (const Measure measure : io::all_measures) {
-      const io::MeasureDistribution& of = quality.distribution(shape, measure);
+  for (const CellShape shape : mesh::cell_shapes) {
+    for (const Measure measure : mesh::all_measures) {
+      const mesh::MeasureDistribution& of = quality.distribution(shape, measure);
       if (of.cells > 0) text += histogram_text(shape, measure, of);
     }
   }

@@ -1,7 +1,7 @@
 #include "pipeline/quality_file.hpp"
 
-#include "io/mixed_quality.hpp"
 #include "io/read_mesh.hpp"
+#include "mesh/mixed_quality.hpp"
 #include "parallel/collective_error.hpp"
 #include "pipeline/mixed_quality_json.hpp"
 #include "pipeline/mixed_quality_text.hpp"
@@ -19,18 +19,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr int quality_schema_version = 1;
 
-Json mesh_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+Json mesh_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
   return {{"points", mesh.vertex_count},
           {"cells", mesh.cell_count()},
-          {"tetrahedra", mesh.cell_count(io::CellShape::tetrahedron)},
-          {"pyramids", mesh.cell_count(io::CellShape::pyramid)},
-          {"prisms", mesh.cell_count(io::CellShape::prism)},
-          {"boundary_triangles", mesh.boundary_count(io::FaceShape::triangle)},
-          {"boundary_quadrilaterals", mesh.boundary_count(io::FaceShape::quadrilateral)},
+          {"tetrahedra", mesh.cell_count(mesh::CellShape::tetrahedron)},
+          {"pyramids", mesh.cell_count(mesh::CellShape::pyramid)},
+          {"prisms", mesh.cell_count(mesh::CellShape::prism)},
+          {"boundary_triangles", mesh.boundary_count(mesh::FaceShape::triangle)},
+          {"boundary_quadrilaterals", mesh.boundary_count(mesh::FaceShape::quadrilateral)},
           {"volume", quality.volume}};
 }
 
-Json regions_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+Json regions_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
   Json json = Json::array();
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     json.push_back({{"name", mesh.regions[r]},
@@ -42,7 +42,7 @@ Json regions_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
   return json;
 }
 
-Json patches_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
+Json patches_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
   Json json = Json::array();
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     json.push_back({{"name", mesh.patches[p].name},
@@ -54,9 +54,9 @@ Json patches_json(const io::FileMesh& mesh, const io::MixedQuality& quality) {
   return json;
 }
 
-Json report_json(const std::string& path, const io::Assembled& file, const io::MixedQuality& quality,
+Json report_json(const std::string& path, const io::Assembled& file, const mesh::MixedQuality& quality,
                  const std::string& missed) {
-  const io::LinkDefects& defects = quality.defects;
+  const mesh::LinkDefects& defects = quality.defects;
   return {{"schema_version", quality_schema_version},
           {"file", path},
           {"mesh", mesh_json(file.mesh, quality)},
@@ -86,8 +86,10 @@ std::string dump(const Json& json) {
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
                          const QualityGate& gate) {
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
-  const io::MixedQuality quality =
-      io::measure_quality(communicator, file.mesh, io::link_faces(communicator, file.mesh));
+  const mesh::DistributedMesh& pieces = *file.mesh.pieces;
+  const mesh::Numbering& numbering = *file.mesh.numbering;
+  const mesh::MixedQuality quality = mesh::measure_quality(communicator, pieces, numbering,
+                                                           mesh::link_faces(communicator, pieces, numbering));
   std::string missed = missed_limits(gate, quality);
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;

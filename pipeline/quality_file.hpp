@@ -14,8 +14,8 @@ struct QualityRequest {
   std::string json_file;    ///< written where not empty
 };
 
-/// Reads a mesh (io/read_mesh.hpp), measures it (io/mixed_quality.hpp), prints what it found, writes it where
-/// asked for. Returns the limits of the gate that the mesh misses, the same on every rank; empty: none.
+/// Reads a mesh (io/read_mesh.hpp), measures it (mesh/mixed_quality.hpp), prints what it found, writes it
+/// where asked for. Returns the limits of the gate that the mesh misses, the same on every rank; empty: none.
 /// Collective. Throws CollectiveError.
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
                          const QualityGate& gate);

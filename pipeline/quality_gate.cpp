@@ -8,26 +8,26 @@ namespace aeroloom::pipeline {
 
 namespace {
 
-using io::Measure;
+using mesh::Measure;
 
 std::string line(const char* key, double value, double limit, const char* side) {
   return fmt::format("\n  improve.gate.{} is {:.4g}, not {:g} {}", key, value, limit, side);
 }
 
 /// The worst cell by a measure against its limit.
-std::string missed_limit(const io::MixedQuality& cells, Measure measure, const std::optional<double>& limit,
+std::string missed_limit(const mesh::MixedQuality& cells, Measure measure, const std::optional<double>& limit,
                          const char* key) {
   const auto& worst = cells.worst[static_cast<std::size_t>(measure)];
   if (!limit || worst.empty()) return {};
-  const io::WorstCellOfShape& cell = worst.front();
-  const bool at_most = io::larger_is_worse(measure);
+  const mesh::WorstCellOfShape& cell = worst.front();
+  const bool at_most = mesh::larger_is_worse(measure);
   if (at_most ? cell.value <= *limit : cell.value >= *limit) return {};
   return line(key, cell.value, *limit, at_most ? "at most" : "at least") +
-         fmt::format(" (cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", cell.cell, io::name_of(cell.shape),
+         fmt::format(" (cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", cell.cell, mesh::name_of(cell.shape),
                      cell.center.x, cell.center.y, cell.center.z);
 }
 
-std::string missed_ratios(const QualityGate& gate, const io::MixedQuality& cells) {
+std::string missed_ratios(const QualityGate& gate, const mesh::MixedQuality& cells) {
   return missed_limit(cells, Measure::volume_ratio, gate.largest_volume_ratio, "largest_volume_ratio") +
          missed_limit(cells, Measure::edge_ratio, gate.largest_edge_ratio, "largest_edge_ratio") +
          missed_limit(cells, Measure::scaled_jacobian, gate.min_scaled_jacobian, "min_scaled_jacobian");
@@ -44,7 +44,8 @@ std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gat
 }
 
 std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
-                                         const improve::PinnedReport& pinned, const io::MixedQuality* cells) {
+                                         const improve::PinnedReport& pinned,
+                                         const mesh::MixedQuality* cells) {
   std::vector<GateLimit> limits;
   const auto compare = [&](const char* key, const std::optional<double>& limit, double value,
                            bool at_most = false) {
@@ -53,7 +54,7 @@ std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::Qu
   const auto compare_cells = [&](const char* key, const std::optional<double>& limit, Measure measure) {
     if (cells == nullptr || cells->worst[static_cast<std::size_t>(measure)].empty()) return;
     compare(key, limit, cells->worst[static_cast<std::size_t>(measure)].front().value,
-            io::larger_is_worse(measure));
+            mesh::larger_is_worse(measure));
   };
   const bool some_pinned = pinned.tetrahedra > 0;
   compare("smallest_angle", gate.smallest_angle,
@@ -75,7 +76,7 @@ std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::Qu
 }
 
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
-                          const improve::PinnedReport& pinned, const io::MixedQuality* cells) {
+                          const improve::PinnedReport& pinned, const mesh::MixedQuality* cells) {
   std::string text = cells != nullptr ? missed_ratios(gate, *cells) : "";
   for (const GateLimit& limit : compare_with_gate(gate, quality, pinned, nullptr)) {
     if (!limit.met())
@@ -93,12 +94,13 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
          "\n  remedy: a larger improve.target_angle, smaller sizes there, or lower limits";
 }
 
-std::string missed_limits(const QualityGate& gate, const io::MixedQuality& cells) {
+std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells) {
   std::string text = missed_limit(cells, Measure::smallest_dihedral, gate.smallest_angle, "smallest_angle") +
                      missed_limit(cells, Measure::largest_dihedral, gate.largest_angle, "largest_angle");
-  const io::MeasureDistribution& angles =
-      cells.distribution(io::CellShape::tetrahedron, Measure::smallest_dihedral);
-  const io::MeasureDistribution& ratios = cells.distribution(io::CellShape::tetrahedron, Measure::mean_ratio);
+  const mesh::MeasureDistribution& angles =
+      cells.distribution(mesh::CellShape::tetrahedron, Measure::smallest_dihedral);
+  const mesh::MeasureDistribution& ratios =
+      cells.distribution(mesh::CellShape::tetrahedron, Measure::mean_ratio);
   const auto at_least = [&](const std::optional<double>& limit, double value, const char* key) {
     if (limit && angles.cells > 0 && value < *limit) text += line(key, value, *limit, "at least");
   };

@@ -3,7 +3,7 @@
 
 #include "improve/improve_options.hpp"
 #include "improve/pinned.hpp"
-#include "io/mixed_quality.hpp"
+#include "mesh/mixed_quality.hpp"
 #include "mesh/quality.hpp"
 
 #include <array>
@@ -22,7 +22,7 @@ struct QualityGate {
   std::optional<double> percentile_01, percentile_1, percentile_5;  ///< of the smallest angles
   std::optional<double> min_mean_ratio, mean_mean_ratio;
   std::optional<double> largest_volume_ratio, largest_edge_ratio,
-      min_scaled_jacobian;  ///< io/cell_measures.hpp
+      min_scaled_jacobian;  ///< mesh/cell_measures.hpp
 
   /// Whether io::measure_quality is needed.
   bool asks_for_cells() const { return largest_volume_ratio || largest_edge_ratio || min_scaled_jacobian; }
@@ -46,15 +46,16 @@ struct GateLimit {
 /// All limits that are asked for, in the order of their keys. `cells` may be null where the gate does not ask
 /// for them.
 std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
-                                         const improve::PinnedReport& pinned, const io::MixedQuality* cells);
+                                         const improve::PinnedReport& pinned,
+                                         const mesh::MixedQuality* cells);
 
 /// The limits that the mesh misses, with what it has and where the worst tetrahedron is; empty: none. `cells`
 /// may be null where the gate does not ask for them.
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
-                          const improve::PinnedReport& pinned, const io::MixedQuality* cells);
+                          const improve::PinnedReport& pinned, const mesh::MixedQuality* cells);
 
 /// The limits that a mesh from a file misses, a line each with what it has and where; empty: none. Angles
 /// count of cells of all shapes, percentiles and mean ratios of tetrahedra.
-std::string missed_limits(const QualityGate& gate, const io::MixedQuality& cells);
+std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells);
 
 }  // namespace aeroloom::pipeline

@@ -1,3 +1,4 @@
+#include "mesh/cell_measures.hpp"
 #include "pipeline/case_keys.hpp"
 
 #include <string>
@@ -26,11 +27,11 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
               {"Mean ratio of the worst tetrahedron, at least.", "none", "0.1"});
   keys.number("mean_mean_ratio", gate.mean_mean_ratio, ratio,
               {"Mean ratio of all tetrahedra on average, at least.", "none", "0.8"});
-  keys.number("largest_volume_ratio", gate.largest_volume_ratio, Range::between(1, io::largest_ratio),
+  keys.number("largest_volume_ratio", gate.largest_volume_ratio, Range::between(1, mesh::largest_ratio),
               {"The volume of no cell may be more than so many times that of a neighbour at a face "
                "([definitions](quality.md)).",
                "none", "20"});
-  keys.number("largest_edge_ratio", gate.largest_edge_ratio, Range::between(1, io::largest_ratio),
+  keys.number("largest_edge_ratio", gate.largest_edge_ratio, Range::between(1, mesh::largest_ratio),
               {"No cell may have a longest edge of more than so many times its shortest.", "none", "20"});
   keys.number("min_scaled_jacobian", gate.min_scaled_jacobian, Range::between(-1, 1),
               {"Scaled Jacobian of pyramids and prisms, at least; without any there is nothing to miss.",

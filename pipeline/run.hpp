@@ -4,7 +4,7 @@
 #include "cad/domain/domain.hpp"
 #include "improve/improver.hpp"
 #include "improve/pinned.hpp"
-#include "io/mixed_quality.hpp"
+#include "mesh/mixed_quality.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
 #include "parallel/communicator.hpp"
@@ -67,7 +67,7 @@ struct RunRecord {
   double mesh_volume = 0;
   std::string hash;
   std::optional<mesh::QualitySummary> surface_quality, quality;
-  std::optional<io::MixedQuality> cells;  ///< where the gate asks for what only this has
+  std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for what only this has
   std::vector<PatchRow> patches;
   std::vector<RegionRow> regions_filled;
   std::vector<Picture> pictures;

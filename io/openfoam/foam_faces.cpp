@@ -13,30 +13,34 @@ namespace aeroloom::io {
 
 namespace {
 
+using mesh::CellBehind;
+using mesh::FaceLinks;
 using mesh::GlobalIndex;
+using mesh::LinkDefects;
 using mesh::LocalIndex;
+using mesh::PieceLinks;
 
 std::size_t side_count(const FilePart& part, LocalIndex cell) {
-  return first_side(part, cell + 1) - first_side(part, cell);
+  return first_side(*part.piece, cell + 1) - first_side(*part.piece, cell);
 }
 
 /// Calls `visit(cell, side, behind, number)` for all faces whose other cell has a higher number in the whole
 /// mesh, by owner, then other cell; `number` counts them.
 template <class Visit>
-GlobalIndex for_owned_faces(const FilePart& part, const PartLinks& links, const Visit& visit) {
+GlobalIndex for_owned_faces(const FilePart& part, const PieceLinks& links, const Visit& visit) {
   GlobalIndex number = 0;
   std::vector<std::pair<const CellBehind*, std::int32_t>> upper;
   for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
-    const std::size_t first = first_side(part, cell), sides = side_count(part, cell);
+    const std::size_t first = first_side(*part.piece, cell), sides = side_count(part, cell);
     upper.clear();
     for (std::size_t side = 0; side < sides; ++side) {
       const CellBehind& behind = links.behind[first + side];
-      if (behind.exists() && std::tie(behind.part, behind.cell) > std::tie(part.id, cell))
+      if (behind.exists() && std::tie(behind.piece, behind.cell) > std::tie(part.id, cell))
         upper.emplace_back(&behind, static_cast<std::int32_t>(side));
     }
     std::sort(upper.begin(), upper.end(), [](const auto& a, const auto& b) {
-      return std::tie(a.first->part, a.first->cell, a.second) <
-             std::tie(b.first->part, b.first->cell, b.second);
+      return std::tie(a.first->piece, a.first->cell, a.second) <
+             std::tie(b.first->piece, b.first->cell, b.second);
     });
     for (const auto& [behind, side] : upper) visit(cell, side, *behind, number++);
   }
@@ -50,6 +54,11 @@ public:
   PatchPlaces(const FileMesh& mesh, const FilePart& part) : _part(part) {
     _triangles.resize(mesh.patches.size(), 0);
     for (const Run& run : part.faces[0].runs) _triangles[run.id] = run.end - run.begin;
+    for (std::size_t s = 0; s < face_shape_count; ++s) {
+      const std::vector<LocalIndex>& order = part.faces[s].order;
+      _place[s].resize(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i) _place[s][order[i]] = static_cast<LocalIndex>(i);
+    }
     for (const auto& counts : mesh.patch_faces) _all_triangles.push_back(counts[0]);
   }
 
@@ -58,10 +67,13 @@ public:
     LocalIndex in_part = 0;
     GlobalIndex in_mesh = 0;
   };
+  /// `face` is a boundary face of the piece.
   Place of(LocalIndex face) const {
     const bool is_triangle = face < _part.faces[0].count();
-    const Block& block = _part.faces[is_triangle ? 0 : 1];
+    const std::size_t s = is_triangle ? 0 : 1;
+    const Block& block = _part.faces[s];
     if (!is_triangle) face -= _part.faces[0].count();
+    if (!_place[s].empty()) face = _place[s][face];
     const auto run = std::upper_bound(block.runs.begin(), block.runs.end(), face,
                                       [](LocalIndex f, const Run& r) { return f < r.end; });
     const LocalIndex i = face - run->begin;
@@ -71,6 +83,7 @@ public:
 
 private:
   const FilePart& _part;
+  std::array<std::vector<LocalIndex>, face_shape_count> _place;  // in the part, of each face of the piece
   std::vector<LocalIndex> _triangles;
   std::vector<GlobalIndex> _all_triangles;
 };
@@ -101,7 +114,7 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const FilePart& part = mesh.parts[i];
     const GlobalIndex inner = for_owned_faces(
-        part, links.parts[i], [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {});
+        part, links.pieces[i], [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {});
     mine.push_back({part.id, communicator.rank(), part.cell_count(), inner});
   }
   std::vector<PartRow> rows = communicator.all_gather_items(std::span<const PartRow>(mine));
@@ -110,22 +123,22 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
 }
 
 /// What a part has to tell others about the faces between them.
-void add_notes(const FileMesh& mesh, const FilePart& part, const PartLinks& links,
+void add_notes(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
                const std::vector<PartRow>& rows, std::vector<FoamFaceNote>& notes) {
   const PatchPlaces places(mesh, part);
   const auto add = [&](LocalIndex cell, std::size_t side, const CellBehind& behind, GlobalIndex number) {
-    const LocalIndex face = links.boundary_face[first_side(part, cell) + side];
-    notes.push_back({behind.part, behind.cell, behind.side, face < 0 ? -1 : places.of(face).patch,
-                     rows[static_cast<std::size_t>(behind.part)].rank, number});
+    const LocalIndex face = links.boundary_face[first_side(*part.piece, cell) + side];
+    notes.push_back({behind.piece, behind.cell, behind.side, face < 0 ? -1 : places.of(face).patch,
+                     rows[static_cast<std::size_t>(behind.piece)].rank, number});
   };
   for_owned_faces(part, links,
                   [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
-                    if (behind.part != part.id) add(cell, static_cast<std::size_t>(side), behind, number);
+                    if (behind.piece != part.id) add(cell, static_cast<std::size_t>(side), behind, number);
                   });
   for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
     for (std::size_t side = 0; side < side_count(part, cell); ++side) {
-      const CellBehind& behind = links.behind[first_side(part, cell) + side];
-      if (behind.exists() && behind.part < part.id) add(cell, side, behind, -1);
+      const CellBehind& behind = links.behind[first_side(*part.piece, cell) + side];
+      if (behind.exists() && behind.piece < part.id) add(cell, side, behind, -1);
     }
   }
 }
@@ -141,7 +154,7 @@ struct ProcessorFace {
 /// Puts the faces of one part in order.
 class Sorter {
 public:
-  Sorter(const FileMesh& mesh, const FilePart& part, const PartLinks& links, const FoamPlan& plan)
+  Sorter(const FileMesh& mesh, const FilePart& part, const PieceLinks& links, const FoamPlan& plan)
       : _mesh(mesh), _part(part), _links(links), _plan(plan), _places(mesh, part) {}
 
   FoamFaces sort() {
@@ -154,7 +167,7 @@ public:
 
 private:
   std::int32_t zone_at(LocalIndex cell, std::size_t side) const {
-    const LocalIndex face = _links.boundary_face[first_side(_part, cell) + side];
+    const LocalIndex face = _links.boundary_face[first_side(*_part.piece, cell) + side];
     return face < 0 ? -1 : _places.of(face).patch;
   }
 
@@ -163,7 +176,7 @@ private:
     for_owned_faces(
         _part, _links, [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
           FoamFace face{cell, side, -1, zone_at(cell, static_cast<std::size_t>(side)), first + number, 0, 0};
-          if (behind.part == _part.id) {
+          if (behind.piece == _part.id) {
             face.neighbour = behind.cell;
             face.from_front = is_front(face) ? 1 : 0;
             _result.faces.push_back(face);
@@ -173,7 +186,7 @@ private:
           const FoamFaceNote& note = note_at(cell, side);
           face.from_front = face.zone >= 0 ? 1 : 0;
           face.zone = std::max(face.zone, note.zone);
-          _processors.push_back({behind.part, cell, side, face});
+          _processors.push_back({behind.piece, cell, side, face});
         });
     _result.inner = static_cast<LocalIndex>(_result.faces.size());
   }
@@ -182,13 +195,13 @@ private:
   /// reverse.
   bool is_front(const FoamFace& face) const {
     if (face.zone < 0) return false;
-    LocalIndex f = _links.boundary_face[first_side(_part, face.cell) + static_cast<std::size_t>(face.side)];
-    const bool is_triangle = f < _part.faces[0].count();
-    const Block& block = _part.faces[is_triangle ? 0 : 1];
-    const LocalIndex* item = block.item(is_triangle ? f : f - _part.faces[0].count());
+    const LocalIndex f =
+        _links.boundary_face[first_side(*_part.piece, face.cell) + static_cast<std::size_t>(face.side)];
+    const mesh::FaceKey<LocalIndex> corners = mesh::PieceFaces(*_part.piece).face(f);
     const FoamCorners mine = corners_of_face(_part, face);
-    const LocalIndex* at = std::find(item, item + block.corners, mine.corners[0]);
-    const LocalIndex next = item[(at - item + 1) % block.corners];
+    const LocalIndex* at = std::find(corners.begin(), corners.end(), mine.corners[0]);
+    const LocalIndex next =
+        corners[static_cast<std::size_t>(at - corners.begin() + 1) % static_cast<std::size_t>(mine.count)];
     return next == mine.corners[1];
   }
 
@@ -208,7 +221,7 @@ private:
     }
     _result.faces.resize(next);
     for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) {
-      const std::size_t first = first_side(_part, cell);
+      const std::size_t first = first_side(*_part.piece, cell);
       for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
         const LocalIndex face = _links.boundary_face[first + side];
         if (face < 0 || _links.behind[first + side].exists()) continue;
@@ -236,14 +249,14 @@ private:
   void add_lower_processors() {
     for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) {
       for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
-        const CellBehind& behind = _links.behind[first_side(_part, cell) + side];
-        if (!behind.exists() || behind.part >= _part.id) continue;
+        const CellBehind& behind = _links.behind[first_side(*_part.piece, cell) + side];
+        if (!behind.exists() || behind.piece >= _part.id) continue;
         const auto s = static_cast<std::int32_t>(side);
         const FoamFaceNote& note = note_at(cell, s);
         const std::int32_t zone = zone_at(cell, side);
         const GlobalIndex number =
-            _plan.first_inner_face[static_cast<std::size_t>(behind.part)] + note.number;
-        _processors.push_back({behind.part,
+            _plan.first_inner_face[static_cast<std::size_t>(behind.piece)] + note.number;
+        _processors.push_back({behind.piece,
                                behind.cell,
                                behind.side,
                                {cell, s, -1, std::max(zone, note.zone), number, 1,
@@ -266,7 +279,7 @@ private:
 
   const FileMesh& _mesh;
   const FilePart& _part;
-  const PartLinks& _links;
+  const PieceLinks& _links;
   const FoamPlan& _plan;
   PatchPlaces _places;
   FoamFaces _result;
@@ -276,8 +289,8 @@ private:
 }  // namespace
 
 FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
-  const CellOfPart cell = cell_of(part, face.cell);
-  const LocalIndex* v = part.cells[static_cast<std::size_t>(cell.shape)].item(cell.index);
+  const mesh::CellOfPiece cell = cell_of(*part.piece, face.cell);
+  const LocalIndex* v = vertices_of(*part.piece, cell);
   FoamCorners result;
   for (const std::int8_t corner : faces_of(cell.shape)[static_cast<std::size_t>(face.side)]) {
     if (corner >= 0) result.corners[static_cast<std::size_t>(result.count++)] = v[corner];
@@ -308,7 +321,7 @@ FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& 
   }
   std::vector<FoamFaceNote> notes;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
-    add_notes(mesh, mesh.parts[i], links.parts[i], rows, notes);
+    add_notes(mesh, mesh.parts[i], links.pieces[i], rows, notes);
   plan.notes = mesh::deliver(communicator, std::move(notes),
                              [](const FoamFaceNote& note) { return static_cast<parallel::Rank>(note.rank); });
   std::sort(plan.notes.begin(), plan.notes.end(), [](const FoamFaceNote& a, const FoamFaceNote& b) {
@@ -317,7 +330,7 @@ FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& 
   return plan;
 }
 
-FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const PartLinks& links,
+FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
                       const FoamPlan& plan) {
   return Sorter(mesh, part, links, plan).sort();
 }

@@ -1,7 +1,8 @@
 /// The faces of a part in OpenFOAM's order.
 #pragma once
 
-#include "io/face_links.hpp"
+#include "io/file_mesh.hpp"
+#include "mesh/face_links.hpp"
 
 #include <array>
 #include <cstdint>
@@ -67,10 +68,11 @@ struct FoamPlan {
 };
 
 /// Throws CollectiveError (input) where faces are left open or more than two cells meet. Collective.
-FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh, const FaceLinks& links);
+FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh,
+                    const mesh::FaceLinks& links);
 
 /// The faces of one part. Not collective.
-FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const PartLinks& links,
+FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const mesh::PieceLinks& links,
                       const FoamPlan& plan);
 
 }  // namespace aeroloom::io

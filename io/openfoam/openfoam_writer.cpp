@@ -297,7 +297,7 @@ int foam_label_bits(GlobalIndex cells, GlobalIndex faces, GlobalIndex points, Gl
 
 void write_openfoam(const parallel::Communicator& communicator, const FileMesh& mesh,
                     const std::string& folder, const OpenFoamOptions& options) {
-  const FaceLinks links = link_faces(communicator, mesh);
+  const mesh::FaceLinks links = mesh::link_faces(communicator, *mesh.pieces, *mesh.numbering);
   const FoamPlan plan = plan_faces(communicator, mesh, links);
   const FoamFormat format = format_of(communicator, mesh, plan, options);
   const FoamCase foam_case{folder, mesh.part_count};
@@ -309,7 +309,7 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
     parallel::agree(communicator, [&] {
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const FilePart& part = mesh.parts[i];
-        const FoamFaces order = order_faces(mesh, part, links.parts[i], plan);
+        const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
       }
       if (communicator.is_root()) write_dictionaries(foam_case);

@@ -1,6 +1,6 @@
 #include "io/vtk/cell_quality.hpp"
 
-#include "io/cell_measures.hpp"
+#include "mesh/cell_measures.hpp"
 #include "mesh/quality.hpp"
 
 #include <algorithm>
@@ -56,7 +56,8 @@ double mean_ratio(CellShape shape, std::span<const Vec3> corners) {
 double smallest_dihedral(CellShape shape, std::span<const Vec3> corners) {
   if (shape == CellShape::tetrahedron)
     return mesh::dihedral_range(corners[0], corners[1], corners[2], corners[3]).smallest;
-  return measure_cell(shape, corners.data())[static_cast<std::size_t>(Measure::smallest_dihedral)];
+  return mesh::measure_cell(shape,
+                            corners.data())[static_cast<std::size_t>(mesh::Measure::smallest_dihedral)];
 }
 
 }  // namespace aeroloom::io

@@ -16,7 +16,7 @@ namespace aeroloom::io {
 double mean_ratio(CellShape shape, std::span<const geometry::Vec3> corners);
 
 /// Smallest angle between neighbouring faces, degrees. Tetrahedra: mesh::dihedral_range; others as in
-/// io/cell_measures.hpp.
+/// mesh/cell_measures.hpp.
 double smallest_dihedral(CellShape shape, std::span<const geometry::Vec3> corners);
 
 }  // namespace aeroloom::io

@@ -120,8 +120,9 @@ struct PieceArrays {
   struct Items {
     Array<mesh::LocalIndex> connectivity;
     Array<Run> runs;
+    Array<mesh::LocalIndex> order;
 
-    static constexpr auto fields() { return std::tuple(&Items::connectivity, &Items::runs); }
+    static constexpr auto fields() { return std::tuple(&Items::connectivity, &Items::runs, &Items::order); }
   };
   std::int32_t id = 0;
   Array<double> coordinates;
@@ -146,7 +147,7 @@ PieceArrays<View> arrays_of(const PartPiece& piece) {
   arrays.coordinates = piece.part.coordinates;
   arrays.numbers = piece.part.numbers;
   const auto items_of = [](const Block& block) -> PieceArrays<View>::Items {
-    return {block.connectivity, block.runs};
+    return {block.connectivity, block.runs, block.order};
   };
   std::transform(piece.part.cells.begin(), piece.part.cells.end(), arrays.cells.begin(), items_of);
   std::transform(piece.part.faces.begin(), piece.part.faces.end(), arrays.faces.begin(), items_of);
@@ -167,13 +168,13 @@ PartPiece view(const BroughtPiece& brought) {
   piece.part.numbers = brought.numbers;
   for (const CellShape shape : cell_shapes) {
     const auto& items = brought.cells[static_cast<std::size_t>(shape)];
-    piece.part.cells[static_cast<std::size_t>(shape)] = {corners_of(shape), items.connectivity, items.runs,
-                                                         0};
+    piece.part.cells[static_cast<std::size_t>(shape)] = {
+        corners_of(shape), items.connectivity, items.runs, 0, items.order};
   }
   for (const FaceShape shape : face_shapes) {
     const auto& items = brought.faces[static_cast<std::size_t>(shape)];
-    piece.part.faces[static_cast<std::size_t>(shape)] = {corners_of(shape), items.connectivity, items.runs,
-                                                         0};
+    piece.part.faces[static_cast<std::size_t>(shape)] = {
+        corners_of(shape), items.connectivity, items.runs, 0, items.order};
   }
   piece.triangle_face = brought.triangle_face;
   piece.triangle_patch = brought.triangle_patch;

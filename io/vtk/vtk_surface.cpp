@@ -132,13 +132,15 @@ SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
       for (Run run : block.runs) {
         const bool between = mesh.patches[static_cast<std::size_t>(run.id)].type == mesh::PatchType::interior;
         if (between != (faces == SurfaceFaces::between_regions)) continue;
-        corners.insert(corners.end(), block.item(run.begin), block.item(run.end));
+        for (mesh::LocalIndex f = run.begin; f < run.end; ++f)
+          corners.insert(corners.end(), block.item(f), block.item(f) + block.corners);
         run.end -= run.begin;
         run.begin = static_cast<mesh::LocalIndex>(corners.size()) / block.corners - run.end;
         run.end += run.begin;
         runs.push_back(run);
       }
       block.connectivity = corners;
+      block.order.clear();
       block.runs = std::move(runs);
     }
   }

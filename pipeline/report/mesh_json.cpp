@@ -27,7 +27,7 @@ Json distribution_json(const mesh::Distribution& d) {
 
 Json gate_json(const Case& input, const RunRecord& record) {
   Json limits = Json::array();
-  const io::MixedQuality* cells = record.cells ? &*record.cells : nullptr;
+  const mesh::MixedQuality* cells = record.cells ? &*record.cells : nullptr;
   for (const GateLimit& row : compare_with_gate(input.gate, *record.quality, record.pinned, cells)) {
     limits.push_back({{"key", row.key},
                       {"limit", row.limit},

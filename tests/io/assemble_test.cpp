@@ -1,5 +1,5 @@
-#include "io/face_links.hpp"
 #include "io/raw_mesh.hpp"
+#include "mesh/face_links.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
@@ -54,7 +54,7 @@ RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
 }
 
 void expect_sound(const Communicator& world, const FileMesh& mesh) {
-  const LinkDefects defects = link_faces(world, mesh).defects;
+  const mesh::LinkDefects defects = mesh::link_faces(world, *mesh.pieces, *mesh.numbering).defects;
   EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
 }
 

@@ -1,10 +1,11 @@
 #include "io/file_mesh.hpp"
 
-#include "io/face_links.hpp"
+#include "mesh/face_links.hpp"
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/mesh/meshes.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -42,30 +43,6 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
   EXPECT_NEAR(world.sum(volume), 36 * determinant, 1e-9);
 }
 
-TEST(FileMesh, LinksAreMutualAndLeaveNothingOpen) {
-  const Communicator world = Communicator::world();
-  const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
-  const FaceLinks links = link_faces(world, mesh);
-  EXPECT_EQ(links.defects.crowded_faces + links.defects.stray_faces + links.defects.repeated_faces, 0);
-  EXPECT_EQ(links.defects.open_faces, 0);
-  GlobalIndex inner = 0, boundary = 0, both = 0;
-  for (const PartLinks& part : links.parts) {
-    for (std::size_t s = 0; s < part.behind.size(); ++s) {
-      const bool bounded = part.boundary_face[s] >= 0, linked = part.behind[s].exists();
-      EXPECT_TRUE(bounded || linked);
-      inner += linked ? 1 : 0;
-      boundary += bounded && !linked ? 1 : 0;
-      both += bounded && linked ? 1 : 0;
-    }
-  }
-  const GlobalIndex sides = 4 * mesh.cell_count(CellShape::tetrahedron) +
-                            5 * (mesh.cell_count(CellShape::pyramid) + mesh.cell_count(CellShape::prism));
-  EXPECT_EQ(world.sum(inner + boundary), sides);
-  EXPECT_EQ(world.sum(boundary),
-            mesh.boundary_count(FaceShape::triangle) + mesh.boundary_count(FaceShape::quadrilateral));
-  EXPECT_GE(world.sum(both), mesh.patch_faces[examples::MixedMesh::interface][0]);
-}
-
 TEST(FileMesh, PiecesBecomePartsWithoutCopies) {
   const Communicator world = Communicator::world();
   const mesh::DistributedMesh pieces = mesh::examples::two_tets(world);
@@ -83,15 +60,49 @@ TEST(FileMesh, PiecesBecomePartsWithoutCopies) {
   }
 }
 
-TEST(FileMesh, BrokenArraysAreRefusedEverywhere) {
+TEST(FileMesh, BrokenMeshesAreRefusedEverywhere) {
   const Communicator world = Communicator::world();
-  std::vector<OwnedPart> mine;
-  if (world.is_root()) {
-    mine.push_back({0, std::make_unique<PartArrays>()});
-    mine[0].arrays->cells[0] = {0, 1, 2, 3};
-    mine[0].arrays->cell_regions[0] = {0};
+  const auto expect_refused = [&](const auto& spoil) {
+    mesh::DistributedMesh pieces = mesh::examples::mixed_mesh(world, 2, 2);
+    mesh::Numbering numbering = mesh::number_mesh(world, pieces);
+    if (world.is_root()) spoil(pieces.pieces[0], numbering);
+    EXPECT_THROW(file_mesh_of(world, pieces, numbering), std::runtime_error);
+  };
+  using mesh::Numbering;
+  using mesh::Piece;
+  expect_refused([](Piece& piece, Numbering&) { piece.prisms.pop_back(); });
+  expect_refused([](Piece& piece, Numbering&) { piece.quad_patch[0] = 9; });
+  expect_refused([](Piece& piece, Numbering&) { piece.runs.back().region = 7; });
+  expect_refused(
+      [](Piece&, Numbering& numbering) { std::swap(numbering.vertices[0][0], numbering.vertices[0][1]); });
+  expect_refused([](Piece&, Numbering& numbering) { numbering.owned[0].pop_back(); });
+}
+
+TEST(FileMesh, FacesComeByPatchWhateverTheirOrder) {
+  const Communicator world = Communicator::world();
+  mesh::DistributedMesh pieces = mesh::examples::mixed_mesh(world, 3, 2);
+  for (mesh::Piece& piece : pieces.pieces) {  // the first one goes last
+    std::rotate(piece.quads.begin(), piece.quads.begin() + 4, piece.quads.end());
+    std::rotate(piece.quad_face.begin(), piece.quad_face.begin() + 1, piece.quad_face.end());
+    std::rotate(piece.quad_patch.begin(), piece.quad_patch.begin() + 1, piece.quad_patch.end());
   }
-  EXPECT_THROW(make_file_mesh(world, 1, std::move(mine), {}, {"fluid"}), std::runtime_error);
+  const mesh::Numbering numbering = mesh::number_mesh(world, pieces);
+  const FileMesh mesh = file_mesh_of(world, pieces, numbering);
+  const FileMesh plain = examples::mixed_mesh(world, 3, 2);
+  EXPECT_EQ(mesh.patch_faces, plain.patch_faces);
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    const mesh::Piece& piece = pieces.pieces[i];
+    const Block &block = mesh.parts[i].faces[1], &other = plain.parts[i].faces[1];
+    ASSERT_EQ(block.runs.size(), other.runs.size());
+    for (std::size_t r = 0; r < block.runs.size(); ++r) {
+      EXPECT_EQ(block.runs[r].id, other.runs[r].id);
+      EXPECT_EQ(block.runs[r].before, other.runs[r].before);
+      for (LocalIndex f = block.runs[r].begin; f < block.runs[r].end; ++f) {
+        const auto at = static_cast<std::size_t>(block.item(f) - piece.quads.data()) / 4;
+        EXPECT_EQ(piece.quad_patch[at], block.runs[r].id);
+      }
+    }
+  }
 }
 
 /// Volumes by region and shape.
@@ -113,15 +124,18 @@ std::vector<double> volumes(const Communicator& world, const FileMesh& mesh) {
 TEST(FileMesh, RepartitionedMeshIsTheSameMesh) {
   const Communicator world = Communicator::world();
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
-  for (const auto& [parts, by_region] : {std::pair(1, false), {2, false}, {7, false}, {4, true}}) {
-    const FileMesh cut = repartition(world, mesh, parts, by_region);
+  constexpr auto several = mesh::PieceRegions::several;
+  for (const auto& [parts, of_regions] :
+       {std::pair(1, several), {2, several}, {7, several}, {4, mesh::PieceRegions::one}}) {
+    const FileMesh cut = repartition(world, mesh, parts, of_regions);
+    const bool by_region = of_regions == mesh::PieceRegions::one;
     EXPECT_EQ(cut.part_count, parts);
     EXPECT_EQ(cut.vertex_count, mesh.vertex_count);
     EXPECT_EQ(cut.region_cells, mesh.region_cells);
     EXPECT_EQ(cut.patch_faces, mesh.patch_faces);
     const auto before = volumes(world, mesh), after = volumes(world, cut);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-9);
-    const FaceLinks links = link_faces(world, cut);
+    const mesh::FaceLinks links = mesh::link_faces(world, *cut.pieces, *cut.numbering);
     EXPECT_EQ(links.defects.open_faces + links.defects.stray_faces + links.defects.crowded_faces, 0);
     for (const FilePart& part : cut.parts) {
       EXPECT_NEAR(static_cast<double>(part.cell_count()), static_cast<double>(mesh.cell_count()) / parts,

@@ -1,8 +1,8 @@
-#include "io/face_links.hpp"
 #include "io/medit/medit_layout.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/medit/medit_reader.hpp"
 #include "io/medit/medit_writer.hpp"
+#include "mesh/face_links.hpp"
 #include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
@@ -23,7 +23,7 @@ using mesh::GlobalIndex;
 using parallel::Communicator;
 
 void expect_sound(const Communicator& world, const FileMesh& mesh) {
-  const LinkDefects defects = link_faces(world, mesh).defects;
+  const mesh::LinkDefects defects = mesh::link_faces(world, *mesh.pieces, *mesh.numbering).defects;
   EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
 }
 

@@ -29,11 +29,11 @@ struct OrderedPart {
 };
 
 std::vector<OrderedPart> order_all(const Communicator& communicator, const FileMesh& mesh, FoamPlan& plan) {
-  const FaceLinks links = link_faces(communicator, mesh);
+  const mesh::FaceLinks links = mesh::link_faces(communicator, *mesh.pieces, *mesh.numbering);
   plan = plan_faces(communicator, mesh, links);
   std::vector<OrderedPart> parts;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
-    parts.push_back({&mesh.parts[i], order_faces(mesh, mesh.parts[i], links.parts[i], plan)});
+    parts.push_back({&mesh.parts[i], order_faces(mesh, mesh.parts[i], links.pieces[i], plan)});
   return parts;
 }
 
@@ -102,7 +102,7 @@ TEST(FoamFaces, PartsAgreeOnWhatLiesBetweenThem) {
 
 TEST(FoamFaces, ZonesBetweenPartsAreKnownToBoth) {
   const Communicator world = Communicator::world();
-  const FileMesh mesh = repartition(world, examples::mixed_mesh(world, 4, 3), 4, true);
+  const FileMesh mesh = repartition(world, examples::mixed_mesh(world, 4, 3), 4, mesh::PieceRegions::one);
   FoamPlan plan;
   std::int64_t front = 0, back = 0;
   for (const auto& [part, order] : order_all(world, mesh, plan)) {
@@ -180,10 +180,12 @@ TEST_F(OpenFoam, DecompositionsOfOtherCountsAreOfUsersAlone) {
 }
 
 TEST_F(OpenFoam, OpenMeshesAreRefused) {
-  FileMesh mesh = examples::mixed_mesh(world, 2, 1);
-  for (FilePart& part : mesh.parts) part.faces[0] = {};
+  mesh::DistributedMesh open = mesh::examples::mixed_mesh(world, 2, 1);
+  for (mesh::Piece& piece : open.pieces)
+    piece.boundary = {}, piece.triangle_face = {}, piece.triangle_patch = {};
+  const mesh::Numbering numbering = mesh::number_mesh(world, open);
   try {
-    write_openfoam(world, mesh, path("case"));
+    write_openfoam(world, file_mesh_of(world, open, numbering), path("case"));
     ADD_FAILURE();
   } catch (const CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::input);

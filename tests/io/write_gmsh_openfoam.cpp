@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
     io::write_openfoam(world, mesh, folder + "/text", {false, 0});
     io::write_openfoam(world, mesh, folder + "/wide", {true, 64});
     io::write_openfoam(world, io::examples::mixed_mesh(world, 4, 1), folder + "/whole");
-    io::write_openfoam(world, io::repartition(world, mesh, 4, true), folder + "/regions");
+    io::write_openfoam(world, io::repartition(world, mesh, 4, mesh::PieceRegions::one), folder + "/regions");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

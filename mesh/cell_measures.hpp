@@ -2,23 +2,23 @@
 #pragma once
 
 #include "geometry/vec.hpp"
-#include "io/file_mesh.hpp"
+#include "mesh/shapes.hpp"
 
 #include <array>
 #include <cstdint>
 #include <string_view>
 
-namespace aeroloom::io {
+namespace aeroloom::mesh {
 
 /// What is measured of cells.
 enum class Measure : std::uint8_t {
   /// Degrees, between neighbouring faces inside the cell, 0 to 360: over 180 where the cell is folded or
   /// turned inside out. Of quadrilaterals the planes at both ends of the edge count, spanned there by the
-  /// edges of the face. Tetrahedra: mesh::dihedral_range, flat and inverted ones 0 and 180.
+  /// edges of the face. Tetrahedra: dihedral_range, flat and inverted ones 0 and 180.
   smallest_dihedral,
   largest_dihedral,
-  mean_ratio,    ///< of tetrahedra, mesh::mean_ratio
-  radius_ratio,  ///< of tetrahedra, mesh::radius_ratio
+  mean_ratio,    ///< of tetrahedra, mean_ratio()
+  radius_ratio,  ///< of tetrahedra, radius_ratio()
   /// Of pyramids and prisms: the smallest determinant of the three unit vectors along the edges at a corner
   /// (Knupp, Ernst, Thompson, Stimpson and Pebay, The Verdict Geometric Quality Library, SAND2007-1751,
   /// doi:10.2172/901967), times 2 / sqrt(3) for prisms, sqrt(2) for pyramids, 1 at most: 1 for equal edges,
@@ -53,8 +53,14 @@ inline constexpr double largest_ratio = 1e30;
 /// By Measure; those that a shape does not have, and the ratio of volumes, are 0.
 using CellValues = std::array<double, measure_count>;
 
-/// The corners are in the order of io/file_mesh.hpp. Positive where the cell is not inside out.
+/// The corners are in the order of mesh/shapes.hpp. Positive where the cell is not inside out.
 double cell_volume(CellShape shape, const geometry::Vec3* corners);
+/// Six times the volume of the cone over a bilinear quadrilateral from the origin; positive where it sees the
+/// corners counter-clockwise from outside.
+double bilinear_cone_volume6(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c, geometry::Vec3 d);
+/// Whether the edges of each corner (but a pyramid's apex) span a positive volume, exactly: where they do
+/// not, the cell is folded there whatever its volume. Tetrahedra: whether the volume is positive.
+bool has_positive_corners(CellShape shape, const geometry::Vec3* corners);
 CellValues measure_cell(CellShape shape, const geometry::Vec3* corners);
 /// Larger over smaller of two volumes; largest_ratio where one is not above zero.
 double volume_ratio(double a, double b);
@@ -62,4 +68,4 @@ double volume_ratio(double a, double b);
 /// Area of a triangle; of a quadrilateral the mean of both ways to cut it.
 double face_area(FaceShape shape, const geometry::Vec3* corners);
 
-}  // namespace aeroloom::io
+}  // namespace aeroloom::mesh

@@ -1,5 +1,7 @@
-#include "io/cell_measures.hpp"
+#include "mesh/cell_measures.hpp"
 
+#include "geometry/angle.hpp"
+#include "geometry/predicates.hpp"
 #include "mesh/quality.hpp"
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 #include <span>
 #include <stdexcept>
 
-namespace aeroloom::io {
+namespace aeroloom::mesh {
 
 using geometry::cross;
 using geometry::dot;
@@ -17,8 +19,6 @@ using geometry::norm;
 using geometry::Vec3;
 
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// A corner with the three that edges lead to, right-handed: the first two turn towards the third.
 struct Corner {
@@ -30,21 +30,27 @@ constexpr std::array<Corner, 4> pyramid_corners = {
 constexpr std::array<Corner, 6> prism_corners = {
     {{0, {1, 2, 3}}, {1, {2, 0, 4}}, {2, {0, 1, 5}}, {3, {5, 4, 0}}, {4, {3, 5, 1}}, {5, {4, 3, 2}}}};
 
+/// Of pyramids and prisms.
+std::span<const Corner> corners_with_three_edges(CellShape shape) {
+  if (shape == CellShape::prism) return prism_corners;
+  return pyramid_corners;
+}
+
 using Edge = std::array<int, 2>;
-constexpr std::array<Edge, 6> tetrahedron_edges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-constexpr std::array<Edge, 8> pyramid_edges = {
+constexpr std::array<Edge, 6> edges_of_tetrahedra = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+constexpr std::array<Edge, 8> edges_of_pyramids = {
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
-constexpr std::array<Edge, 9> prism_edges = {
+constexpr std::array<Edge, 9> edges_of_prisms = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
 
 std::span<const Edge> edges_of(CellShape shape) {
   switch (shape) {
     case CellShape::tetrahedron:
-      return tetrahedron_edges;
+      return edges_of_tetrahedra;
     case CellShape::pyramid:
-      return pyramid_edges;
+      return edges_of_pyramids;
     case CellShape::prism:
-      return prism_edges;
+      return edges_of_prisms;
   }
   throw std::logic_error("no such shape of a cell");
 }
@@ -55,17 +61,15 @@ double determinant(Vec3 a, Vec3 b, Vec3 c) {
 
 /// The angle at the edge `along`, turning from `from` to `to`, degrees, 0 to 360.
 double turn(Vec3 along, Vec3 from, Vec3 to) {
-  const double angle = degrees * std::atan2(determinant(along, from, to) * norm(along),
-                                            dot(cross(along, from), cross(along, to)));
+  const double angle = geometry::degrees_per_radian * std::atan2(determinant(along, from, to) * norm(along),
+                                                                 dot(cross(along, from), cross(along, to)));
   return angle < 0 ? angle + 360 : angle;
 }
 
 /// Angles and Jacobians of pyramids and prisms. The edges from a pyramid's apex lie between triangles, whose
 /// angle is the same at the other end.
 void measure_corners(CellShape shape, const Vec3* p, CellValues& values) {
-  const bool prism = shape == CellShape::prism;
-  const std::span<const Corner> corners =
-      prism ? std::span<const Corner>(prism_corners) : std::span<const Corner>(pyramid_corners);
+  const std::span<const Corner> corners = corners_with_three_edges(shape);
   double smallest = 360, largest = 0, jacobian = std::numeric_limits<double>::infinity();
   for (const Corner& corner : corners) {
     std::array<Vec3, 3> edge;
@@ -77,18 +81,18 @@ void measure_corners(CellShape shape, const Vec3* p, CellValues& values) {
     const double lengths = norm(edge[0]) * norm(edge[1]) * norm(edge[2]);
     jacobian = std::min(jacobian, lengths > 0 ? determinant(edge[0], edge[1], edge[2]) / lengths : 0);
   }
-  const double of_equal_edges = prism ? std::numbers::sqrt3 / 2 : 1 / std::numbers::sqrt2;
+  const double of_equal_edges = shape == CellShape::prism ? std::numbers::sqrt3 / 2 : 1 / std::numbers::sqrt2;
   values[static_cast<std::size_t>(Measure::smallest_dihedral)] = smallest;
   values[static_cast<std::size_t>(Measure::largest_dihedral)] = largest;
   values[static_cast<std::size_t>(Measure::scaled_jacobian)] = std::min(1.0, jacobian / of_equal_edges);
 }
 
 void measure_tetrahedron(const Vec3* p, CellValues& values) {
-  const mesh::DihedralRange range = mesh::dihedral_range(p[0], p[1], p[2], p[3]);
+  const DihedralRange range = dihedral_range(p[0], p[1], p[2], p[3]);
   values[static_cast<std::size_t>(Measure::smallest_dihedral)] = range.smallest;
   values[static_cast<std::size_t>(Measure::largest_dihedral)] = range.largest;
-  values[static_cast<std::size_t>(Measure::mean_ratio)] = mesh::mean_ratio(p[0], p[1], p[2], p[3]);
-  values[static_cast<std::size_t>(Measure::radius_ratio)] = mesh::radius_ratio(p[0], p[1], p[2], p[3]);
+  values[static_cast<std::size_t>(Measure::mean_ratio)] = mean_ratio(p[0], p[1], p[2], p[3]);
+  values[static_cast<std::size_t>(Measure::radius_ratio)] = radius_ratio(p[0], p[1], p[2], p[3]);
 }
 
 double edge_ratio(CellShape shape, const Vec3* p) {
@@ -130,11 +134,23 @@ double cell_volume(CellShape shape, const Vec3* p) {
     if (face[3] < 0) {
       volume12 += 2 * determinant(a, b, c);
     } else {
-      const Vec3 d = p[face[3]] - p[0];
-      volume12 += determinant(a, b, c) + determinant(a, c, d) + determinant(a, b, d) + determinant(b, c, d);
+      volume12 += 2 * bilinear_cone_volume6(a, b, c, p[face[3]] - p[0]);
     }
   }
   return volume12 / 12;
+}
+
+double bilinear_cone_volume6(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  return (determinant(a, b, c) + determinant(a, c, d) + determinant(a, b, d) + determinant(b, c, d)) / 2;
+}
+
+bool has_positive_corners(CellShape shape, const Vec3* p) {
+  if (shape == CellShape::tetrahedron) return geometry::has_positive_volume(p[0], p[1], p[2], p[3]);
+  const std::span<const Corner> corners = corners_with_three_edges(shape);
+  return std::all_of(corners.begin(), corners.end(), [&](const Corner& corner) {
+    return geometry::has_positive_volume(p[corner.at], p[corner.next[0]], p[corner.next[1]],
+                                         p[corner.next[2]]);
+  });
 }
 
 CellValues measure_cell(CellShape shape, const Vec3* corners) {
@@ -166,4 +182,4 @@ double face_area(FaceShape shape, const Vec3* p) {
          4;
 }
 
-}  // namespace aeroloom::io
+}  // namespace aeroloom::mesh

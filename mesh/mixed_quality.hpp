@@ -1,16 +1,15 @@
 /// How good the cells of a mesh of several shapes are.
 #pragma once
 
-#include "io/cell_measures.hpp"
-#include "io/face_links.hpp"
-#include "io/file_mesh.hpp"
+#include "mesh/cell_measures.hpp"
+#include "mesh/face_links.hpp"
 
 #include <array>
 #include <cstdint>
 #include <tuple>
 #include <vector>
 
-namespace aeroloom::io {
+namespace aeroloom::mesh {
 
 /// The parts of the cells, per mille, that percentiles are given for.
 inline constexpr std::array<int, 7> percentiles_per_mille = {1, 10, 50, 500, 950, 990, 999};
@@ -27,7 +26,7 @@ struct MeasureHistogram {
 
 /// Distribution of one measure over cells; all zero where none has it.
 struct MeasureDistribution {
-  mesh::GlobalIndex cells = 0;  ///< that have it; cells without a neighbour have no ratio of volumes
+  GlobalIndex cells = 0;  ///< that have it; cells without a neighbour have no ratio of volumes
   double minimum = 0, maximum = 0, mean = 0;
   /// The values that these parts of the cells do not exceed, rounded down: angles to 0.01 degrees, other
   /// linear measures to 0.0001, ratios by 0.25 %, volumes by 1.2 % at most; never outside of the range.
@@ -37,8 +36,8 @@ struct MeasureDistribution {
 
 struct WorstCellOfShape {
   double value = 0;
-  /// Number in the whole mesh: by part, in a part tetrahedra, then pyramids, then prisms.
-  mesh::GlobalIndex cell = 0;
+  /// Number in the whole mesh: by piece, in a piece tetrahedra, then pyramids, then prisms.
+  GlobalIndex cell = 0;
   CellShape shape = CellShape::tetrahedron;
   geometry::Vec3 center;  ///< mean of the corners
 
@@ -65,8 +64,8 @@ struct MixedQuality {
 };
 
 /// `links` are those of the mesh. Collective; the same on every rank and for any number of ranks (sums are
-/// taken in the order of parts).
-MixedQuality measure_quality(const parallel::Communicator& communicator, const FileMesh& mesh,
-                             const FaceLinks& links);
+/// taken in the order of pieces).
+MixedQuality measure_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                             const Numbering& numbering, const FaceLinks& links);
 
-}  // namespace aeroloom::io
+}  // namespace aeroloom::mesh

@@ -1,6 +1,6 @@
-#include "io/mixed_quality.hpp"
+#include "mesh/mixed_quality.hpp"
 
-#include "tests/io/mixed_mesh.hpp"
+#include "tests/mesh/mixed_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace aeroloom::io {
+namespace aeroloom::mesh {
 namespace {
 
 using geometry::Vec3;
@@ -86,6 +86,11 @@ TEST(CellMeasures, WarpedQuadrilateralsAddUp) {
   EXPECT_NEAR(cell_volume(CellShape::prism, c.data()) + cell_volume(CellShape::prism, d.data()), sum, 1e-14);
 }
 
+MixedQuality quality_of(const Communicator& communicator, const DistributedMesh& mesh) {
+  const Numbering numbering = number_mesh(communicator, mesh);
+  return measure_quality(communicator, mesh, numbering, link_faces(communicator, mesh, numbering));
+}
+
 /// Sums over all cells, whatever their shape.
 double sum_of(const MixedQuality& quality, Measure measure) {
   double sum = 0;
@@ -123,8 +128,8 @@ std::vector<double> ratios_of(const examples::MixedMesh& whole) {
 TEST(MixedQuality, WholeMesh) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(4, 3);
-  const FileMesh mesh = examples::distribute(world, whole, 3);
-  const MixedQuality quality = measure_quality(world, mesh, link_faces(world, mesh));
+  const DistributedMesh mesh = examples::distribute(world, whole, 3);
+  const MixedQuality quality = quality_of(world, mesh);
   const double determinant = 3.001953125;  // of the map of the mixed mesh
   EXPECT_NEAR(quality.volume, 36 * determinant, 1e-10);
   EXPECT_NEAR(quality.region_volumes[1], 16 * determinant, 1e-10);
@@ -132,7 +137,9 @@ TEST(MixedQuality, WholeMesh) {
   for (const CellShape shape : cell_shapes) {
     for (const Measure measure : all_measures) {
       const MeasureDistribution& of = quality.distribution(shape, measure);
-      EXPECT_EQ(of.cells, has_measure(shape, measure) ? mesh.cell_count(shape) : 0);
+      const auto cells = std::count_if(whole.cells.begin(), whole.cells.end(),
+                                       [&](const auto& cell) { return cell.shape == shape; });
+      EXPECT_EQ(of.cells, has_measure(shape, measure) ? cells : 0);
       EXPECT_EQ(std::accumulate(of.histogram.counts.begin(), of.histogram.counts.end(), std::int64_t{0}),
                 of.cells);
       if (of.cells == 0) continue;
@@ -177,29 +184,23 @@ void expect_same(const MixedQuality& a, const MixedQuality& b) {
 
 TEST(MixedQuality, TheSameForAnyNumberOfRanks) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  const FileMesh spread = examples::mixed_mesh(world, 4, 5), alone = examples::mixed_mesh(self, 4, 5);
-  expect_same(measure_quality(world, spread, link_faces(world, spread)),
-              measure_quality(self, alone, link_faces(self, alone)));
+  expect_same(quality_of(world, examples::mixed_mesh(world, 4, 5)),
+              quality_of(self, examples::mixed_mesh(self, 4, 5)));
 }
 
 TEST(MixedQuality, PercentilesOfKnownValues) {
   // Tetrahedra without neighbours, of volumes 1/6, 2/6 ... 1000/6.
   const Communicator world = Communicator::world();
-  auto arrays = std::make_unique<PartArrays>();
+  Piece piece;
   for (int i = 0; i < 1000; ++i) {
     const double x = 10.0 * i;
-    arrays->coordinates.insert(arrays->coordinates.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0, x, 0, i + 1.0});
-    for (int k = 0; k < 4; ++k) {
-      arrays->numbers.push_back(4 * i + k);
-      arrays->owned.push_back(1);
-      arrays->cells[0].push_back(4 * i + k);
-    }
-    arrays->cell_regions[0].push_back(0);
+    piece.coordinates.insert(piece.coordinates.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0, x, 0, i + 1.0});
+    for (int k = 0; k < 4; ++k) piece.cells.push_back(4 * i + k);
   }
-  std::vector<OwnedPart> parts;
-  if (world.is_root()) parts.push_back({0, std::move(arrays)});
-  const FileMesh mesh = make_file_mesh(world, 1, std::move(parts), {}, {"fluid"});
-  const MixedQuality quality = measure_quality(world, mesh, link_faces(world, mesh));
+  DistributedMesh mesh;
+  mesh.piece_count = 1;
+  if (world.is_root()) mesh.pieces.push_back(std::move(piece));
+  const MixedQuality quality = quality_of(world, mesh);
   const MeasureDistribution& volume = quality.distribution(CellShape::tetrahedron, Measure::volume);
   const std::array<double, 7> expected = {1, 10, 50, 500, 950, 990, 999};
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -215,4 +216,4 @@ TEST(MixedQuality, PercentilesOfKnownValues) {
 }
 
 }  // namespace
-}  // namespace aeroloom::io
+}  // namespace aeroloom::mesh

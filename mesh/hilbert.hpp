@@ -1,11 +1,11 @@
 /// Hilbert's curve through a cube of 2^21 cells along each side (Skilling, AIP Conference Proceedings 707,
-/// 2004, doi:10.1063/1.1751381). Internal to io/.
+/// 2004, doi:10.1063/1.1751381).
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-namespace aeroloom::io {
+namespace aeroloom::mesh {
 
 inline constexpr int hilbert_bits = 21;
 
@@ -38,4 +38,4 @@ inline std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   return key;
 }
 
-}  // namespace aeroloom::io
+}  // namespace aeroloom::mesh

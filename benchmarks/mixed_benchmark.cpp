@@ -1,0 +1,176 @@
+/// A mesh of tetrahedra, pyramids and prisms through all that a mesh goes through: mpirun -n N
+/// mixed_benchmark [SQUARES [FOLDER]] assembles the hand-made mesh of tests/mesh/mixed_mesh.hpp with so many
+/// squares along each side (353: a million cells), and prints one RESULT line with the seconds of each step
+/// and the hash, the same on any number of ranks. Every check must then find out a mesh that is broken on
+/// purpose; exit code 1 otherwise.
+#include "io/checkpoint_file.hpp"
+#include "io/raw_mesh.hpp"
+#include "mesh/face_links.hpp"
+#include "mesh/mixed_quality.hpp"
+#include "mesh/repartition.hpp"
+#include "mesh/validity.hpp"
+#include "parallel/collective_error.hpp"
+#include "parallel/environment.hpp"
+#include "parallel/timers.hpp"
+#include "tests/mesh/mixed_mesh.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+using namespace aeroloom;
+using mesh::examples::MixedMesh;
+using parallel::Communicator;
+
+namespace {
+
+constexpr mesh::GlobalIndex cells_per_piece = 60'000;
+
+/// Steps and what they took, slowest rank.
+class Steps {
+public:
+  explicit Steps(const Communicator& communicator) : _communicator(communicator) {}
+
+  template <class Work>
+  auto time(const char* step, const Work& work) {
+    _communicator.barrier();
+    const double begin = parallel::wall_seconds();
+    auto result = work();
+    const double seconds = _communicator.maximum(parallel::wall_seconds() - begin);
+    _text += fmt::format(" {}={:.3f}", step, seconds);
+    return result;
+  }
+  const std::string& text() const { return _text; }
+
+private:
+  const Communicator& _communicator;
+  std::string _text;
+};
+
+/// The columns of this rank, without boundary faces: those are found.
+io::RawMesh raw_share(const Communicator& communicator, int squares) {
+  const auto first_of = [&](int rank) { return rank * (squares + 1) / communicator.size(); };
+  const MixedMesh columns(squares, {first_of(communicator.rank()), first_of(communicator.rank() + 1)});
+  io::RawMesh raw;
+  raw.regions = columns.regions;
+  for (std::size_t v = 0; v < columns.points.size(); ++v) {
+    const geometry::Vec3 p = columns.points[v];
+    raw.point_ids.push_back(columns.id(static_cast<int>(v)));
+    raw.coordinates.insert(raw.coordinates.end(), {p.x, p.y, p.z});
+  }
+  for (const mesh::examples::WholeCell& cell : columns.cells) {
+    const auto s = static_cast<std::size_t>(cell.shape);
+    for (const int v : cell.corners) raw.cells[s].push_back(columns.id(v));
+    raw.cell_regions[s].push_back(cell.region);
+  }
+  return raw;
+}
+
+void require(bool condition, const char* what) {
+  if (!condition) throw std::runtime_error(what);
+}
+
+mesh::DistributedMesh through_checkpoint(const Communicator& communicator, const mesh::DistributedMesh& mesh,
+                                         const std::string& folder) {
+  const std::string path = (std::filesystem::path(folder) / "mixed.checkpoint").string();
+  io::CheckpointDraft draft;
+  for (const mesh::Piece& piece : mesh.pieces)
+    draft.items.push_back({piece.id, [&piece] { return mesh::pack_piece(piece); }});
+  io::write_checkpoint(communicator, path, {}, draft);
+  mesh::DistributedMesh result = mesh;
+  result.pieces.clear();
+  for (const io::CheckpointContent::Item& item : io::read_checkpoint(communicator, path).items)
+    result.pieces.push_back(mesh::unpack_piece(item.bytes));
+  communicator.barrier();
+  if (communicator.is_root()) std::filesystem::remove(path);
+  return result;
+}
+
+/// Breaks one cell, and wants hash, validity and quality to tell.
+void require_found_out(const Communicator& communicator, mesh::DistributedMesh mesh,
+                       const mesh::Numbering& numbering, const std::string& hash) {
+  for (mesh::Piece& piece : mesh.pieces) {
+    if (piece.id != 0) continue;
+    for (int k = 0; k < 3; ++k) std::swap(piece.prisms[k], piece.prisms[k + 3]);
+  }
+  require(mesh::hash_mesh(communicator, mesh, numbering) != hash, "the hash of a broken mesh is the same");
+  require(!mesh::check_volume_mesh(communicator, mesh, numbering, nullptr).valid(),
+          "a prism inside out counts as valid");
+  const mesh::MixedQuality quality =
+      mesh::measure_quality(communicator, mesh, numbering, mesh::link_faces(communicator, mesh, numbering));
+  require(quality.worst_of(mesh::Measure::volume, 0) < 0, "a prism inside out counts as good");
+  for (mesh::Piece& piece : mesh.pieces) {
+    if (piece.id == 0) piece.coordinates[3 * static_cast<std::size_t>(piece.shared_vertices.at(0))] += 1e-6;
+  }
+  bool refused = false;
+  try {
+    mesh::number_mesh(communicator, mesh);
+  } catch (const parallel::CollectiveError&) {
+    refused = true;
+  }
+  require(refused, "shared vertices that differ are numbered");
+}
+
+void run(const Communicator& communicator, int squares, const std::string& folder) {
+  Steps steps(communicator);
+  const io::Assembled file = steps.time(
+      "assemble", [&] { return io::assemble(communicator, raw_share(communicator, squares), "mixed", 0); });
+  const mesh::GlobalIndex cells = file.mesh.cell_count();
+  mesh::NumberedMesh cut = steps.time("repartition", [&] {
+    return mesh::repartition(communicator, *file.mesh.pieces, *file.mesh.numbering,
+                             static_cast<mesh::PieceId>(cells / cells_per_piece + 2));
+  });
+  const mesh::Numbering numbering =
+      steps.time("numbering", [&] { return mesh::number_mesh(communicator, cut.mesh); });
+  const std::string hash =
+      steps.time("hash", [&] { return mesh::hash_mesh(communicator, cut.mesh, numbering); });
+  const mesh::ValidityReport validity = steps.time(
+      "validity", [&] { return mesh::check_volume_mesh(communicator, cut.mesh, numbering, nullptr); });
+  require(validity.valid(), validity.valid() ? "" : validity.violations.front().c_str());
+  const mesh::MixedQuality quality = steps.time("quality", [&] {
+    return mesh::measure_quality(communicator, cut.mesh, numbering,
+                                 mesh::link_faces(communicator, cut.mesh, numbering));
+  });
+  require_found_out(communicator, cut.mesh, numbering, hash);
+  const auto same = [&](const mesh::DistributedMesh& other) {
+    return mesh::hash_mesh(communicator, other, mesh::number_mesh(communicator, other)) == hash;
+  };
+  std::vector<parallel::Rank> owner;
+  for (mesh::PieceId id = 0; id < cut.mesh.piece_count; ++id)
+    owner.push_back((5 * id + 1) % communicator.size());
+  steps.time("migration", [&] { return mesh::migrate(communicator, cut.mesh, owner), 0; });
+  require(same(cut.mesh), "migration has changed the mesh");
+  const mesh::DistributedMesh back =
+      steps.time("checkpoint", [&] { return through_checkpoint(communicator, cut.mesh, folder); });
+  require(same(back), "the checkpoint has changed the mesh");
+  std::int64_t bytes = 0;
+  for (const mesh::Piece& piece : back.pieces) bytes += mesh::bytes_at_rest(piece);
+  bytes = communicator.sum(bytes);
+  if (!communicator.is_root()) return;
+  std::printf(
+      "RESULT ranks=%d cells=%lld pieces=%d%s bytes_per_cell=%.1f volume=%.15g min_scaled_jacobian=%.6g "
+      "hash=%s\n",
+      communicator.size(), static_cast<long long>(cells), cut.mesh.piece_count, steps.text().c_str(),
+      static_cast<double>(bytes) / static_cast<double>(cells), quality.volume,
+      quality.worst_of(mesh::Measure::scaled_jacobian, 0), hash.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const parallel::Environment environment(argc, argv);
+  const Communicator communicator = Communicator::world();
+  try {
+    run(communicator, argc > 1 ? std::atoi(argv[1]) : 353, argc > 2 ? argv[2] : ".");
+  } catch (const std::exception& error) {
+    if (communicator.is_root()) std::fprintf(stderr, "%s\n", error.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
