@@ -81,12 +81,12 @@ mesh::DistributedMesh through_checkpoint(const Communicator& communicator, const
   const std::string path = (std::filesystem::path(folder) / "mixed.checkpoint").string();
   io::CheckpointDraft draft;
   for (const mesh::Piece& piece : mesh.pieces)
-    draft.items.push_back({piece.id, [&piece] { return mesh::pack_piece(piece); }});
+    draft.items.push_back({piece.id, [&piece] { return parallel::to_wire(piece); }});
   io::write_checkpoint(communicator, path, {}, draft);
   mesh::DistributedMesh result = mesh;
   result.pieces.clear();
   for (const io::CheckpointContent::Item& item : io::read_checkpoint(communicator, path).items)
-    result.pieces.push_back(mesh::unpack_piece(item.bytes));
+    result.pieces.push_back(parallel::from_wire<mesh::Piece>(item.bytes));
   communicator.barrier();
   if (communicator.is_root()) std::filesystem::remove(path);
   return result;

@@ -68,6 +68,8 @@ enum class Ownership : std::uint8_t {
 using PointTable = DistributedTable<std::array<double, 3>>;
 struct VertexClass {
   std::int32_t dimension, entity;
+
+  static constexpr auto fields() { return std::tuple(&VertexClass::dimension, &VertexClass::entity); }
 };
 using VertexClassTable = DistributedTable<VertexClass>;
 struct VertexTables {

@@ -5,6 +5,7 @@
 #include "mesh/piece_faces.hpp"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -15,6 +16,9 @@ struct CellBehind {
   LocalIndex cell = -1;    ///< of that piece, all shapes counted
   std::int32_t side = -1;  ///< of that cell
 
+  static constexpr auto fields() {
+    return std::tuple(&CellBehind::piece, &CellBehind::cell, &CellBehind::side);
+  }
   bool exists() const { return piece >= 0; }
 };
 

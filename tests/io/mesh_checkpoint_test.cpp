@@ -16,14 +16,14 @@ protected:
   void write(const mesh::DistributedMesh& mesh) {
     CheckpointDraft draft;
     for (const mesh::Piece& piece : mesh.pieces)
-      draft.items.push_back({piece.id, [&piece] { return mesh::pack_piece(piece); }});
+      draft.items.push_back({piece.id, [&piece] { return parallel::to_wire(piece); }});
     write_checkpoint(world, path("c"), {}, draft);
   }
 
   mesh::DistributedMesh read(mesh::DistributedMesh names) {
     names.pieces.clear();
     for (const CheckpointContent::Item& item : read_checkpoint(world, path("c")).items)
-      names.pieces.push_back(mesh::unpack_piece(item.bytes));
+      names.pieces.push_back(parallel::from_wire<mesh::Piece>(item.bytes));
     return names;
   }
 

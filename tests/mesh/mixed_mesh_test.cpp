@@ -121,7 +121,8 @@ TEST(MixedMesh, MigratesAndPacksBitForBit) {
     migrate(world, mesh, owner);
     for (const Piece& piece : mesh.pieces) {
       EXPECT_EQ(owner[piece.id], world.rank());
-      EXPECT_EQ(pack_piece(unpack_piece(pack_piece(piece))), pack_piece(piece));
+      EXPECT_EQ(parallel::to_wire(parallel::from_wire<Piece>(parallel::to_wire(piece))),
+                parallel::to_wire(piece));
       EXPECT_GE(
           bytes_at_rest(piece),
           static_cast<std::int64_t>(4 * (piece.pyramids.size() + piece.prisms.size() + piece.quads.size())));
