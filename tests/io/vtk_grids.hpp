@@ -53,7 +53,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> make_grid(const MixedMesh& whole, co
     return place[v];
   };
   for (const WholeCell& cell : whole.cells) {
-    if (choice.part >= 0 && cell.part != choice.part) continue;
+    if (choice.part >= 0 && cell.piece != choice.part) continue;
     const auto s = static_cast<std::size_t>(cell.shape);
     std::vector<vtkIdType> corners;
     for (std::size_t k = 0; k < cell.corners.size(); ++k) corners.push_back(use(cell.corners[to_vtk[s][k]]));
@@ -62,7 +62,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> make_grid(const MixedMesh& whole, co
   }
   for (const WholeFace& face : whole.faces) {
     const bool outside = face.patch != MixedMesh::interface;
-    if (!choice.with_faces || !outside || (choice.part >= 0 && whole.cells[face.cell].part != choice.part))
+    if (!choice.with_faces || !outside || (choice.part >= 0 && whole.cells[face.cell].piece != choice.part))
       continue;
     std::vector<vtkIdType> corners;
     for (const int v : face.corners) corners.push_back(use(v));

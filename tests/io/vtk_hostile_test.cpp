@@ -33,7 +33,7 @@ TEST_F(VtkHostile, DamagedGridsOfOthers) {
     for (const FileForm form : {FileForm::raw, FileForm::packed, FileForm::text}) {
       const std::string good = path(std::string("good_") + name);
       if (world.is_root())
-        write_grid(*make_grid(whole, {.label = "CellEntityIds", .with_ids = true}), good, form);
+        write_grid(*examples::make_grid(whole, {.label = "CellEntityIds", .with_ids = true}), good, form);
       world.barrier();
       ++options.seed;
       const damage::Outcome outcome = survive(examples::bytes_of(good), name, options);

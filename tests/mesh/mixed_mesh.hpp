@@ -112,10 +112,11 @@ private:
     }
   }
 
-  /// Three tetrahedra; diagonals rise from the point of the lower number, so that neighbours agree.
+  /// Three tetrahedra; diagonals rise from the point of the lower id, so that neighbours agree whatever other
+  /// columns there are.
   void add_cut_prism(std::array<int, 3> low, std::array<int, 3> high, int column) {
     std::array<int, 3> order = {0, 1, 2};
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return low[a] < low[b]; });
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return id(low[a]) < id(low[b]); });
     const auto [a, b, c] = order;
     for (std::vector<int> tet : {std::vector<int>{low[a], low[b], low[c], high[c]},
                                  {low[a], low[b], high[c], high[b]},
