@@ -14,13 +14,16 @@
 #include "parallel/timers.hpp"
 #include "tests/mesh/mixed_mesh.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -76,6 +79,18 @@ void require(bool condition, const char* what) {
   if (!condition) throw std::runtime_error(what);
 }
 
+/// Whether `work` ends in the error of all ranks.
+template <class Work>
+bool is_refused(const Work& work) {
+  try {
+    work();
+  } catch (const parallel::CollectiveError&) {
+    return true;
+  }
+  return false;
+}
+
+/// Writes a checkpoint and reads it; another time with one bit changed in the file, which must not be read.
 mesh::DistributedMesh through_checkpoint(const Communicator& communicator, const mesh::DistributedMesh& mesh,
                                          const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / "mixed.checkpoint").string();
@@ -87,6 +102,15 @@ mesh::DistributedMesh through_checkpoint(const Communicator& communicator, const
   result.pieces.clear();
   for (const io::CheckpointContent::Item& item : io::read_checkpoint(communicator, path).items)
     result.pieces.push_back(parallel::from_wire<mesh::Piece>(item.bytes));
+  communicator.barrier();
+  if (communicator.is_root()) {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const auto at = static_cast<std::streamoff>(std::filesystem::file_size(path) / 2);
+    const int byte = file.seekg(at).get();
+    file.seekp(at).put(static_cast<char>(byte ^ 4));
+  }
+  communicator.barrier();
+  require(is_refused([&] { io::read_checkpoint(communicator, path); }), "a damaged checkpoint is read");
   communicator.barrier();
   if (communicator.is_root()) std::filesystem::remove(path);
   return result;
@@ -108,13 +132,18 @@ void require_found_out(const Communicator& communicator, mesh::DistributedMesh m
   for (mesh::Piece& piece : mesh.pieces) {
     if (piece.id == 0) piece.coordinates[3 * static_cast<std::size_t>(piece.shared_vertices.at(0))] += 1e-6;
   }
-  bool refused = false;
-  try {
-    mesh::number_mesh(communicator, mesh);
-  } catch (const parallel::CollectiveError&) {
-    refused = true;
-  }
-  require(refused, "shared vertices that differ are numbered");
+  require(is_refused([&] { mesh::number_mesh(communicator, mesh); }),
+          "shared vertices that differ are numbered");
+}
+
+/// A piece that a migration loses, or takes along twice, is missed.
+void require_all_missed(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
+  mesh::DistributedMesh other = mesh;
+  std::erase_if(other.pieces, [](const mesh::Piece& piece) { return piece.id == 1; });
+  require(is_refused([&] { mesh::number_mesh(communicator, other); }), "a lost piece is not missed");
+  other = mesh;
+  for (mesh::Piece& piece : other.pieces) piece.id = std::max(piece.id, 1);
+  require(is_refused([&] { mesh::number_mesh(communicator, other); }), "a piece twice is not found");
 }
 
 void run(const Communicator& communicator, int squares, const std::string& folder) {
@@ -146,6 +175,7 @@ void run(const Communicator& communicator, int squares, const std::string& folde
     owner.push_back((5 * id + 1) % communicator.size());
   steps.time("migration", [&] { return mesh::migrate(communicator, cut.mesh, owner), 0; });
   require(same(cut.mesh), "migration has changed the mesh");
+  require_all_missed(communicator, cut.mesh);
   const mesh::DistributedMesh back =
       steps.time("checkpoint", [&] { return through_checkpoint(communicator, cut.mesh, folder); });
   require(same(back), "the checkpoint has changed the mesh");

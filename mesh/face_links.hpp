@@ -1,11 +1,15 @@
 /// What lies behind the faces of cells, across pieces and ranks.
 #pragma once
 
+#include "mesh/delivery.hpp"
 #include "mesh/distributed_mesh.hpp"
 #include "mesh/piece_faces.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -20,6 +24,7 @@ struct CellBehind {
     return std::tuple(&CellBehind::piece, &CellBehind::cell, &CellBehind::side);
   }
   bool exists() const { return piece >= 0; }
+  friend auto operator<=>(const CellBehind&, const CellBehind&) = default;
 };
 
 struct PieceLinks {
@@ -44,5 +49,26 @@ struct FaceLinks {
 /// their piece travel. Takes 16 bytes a side: the checks of mesh/validity.hpp do without. Collective.
 FaceLinks link_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                      const Numbering& numbering);
+
+/// Something that a cell, or its piece, is told.
+template <parallel::Flat T>
+struct Told {
+  CellBehind cell;
+  T what;
+
+  static constexpr auto fields() { return std::tuple(&Told::cell, &Told::what); }
+};
+/// Takes what cells are told to where they live. Returns what those of this rank are told, by cell and side.
+/// Collective.
+template <parallel::Flat T>
+std::vector<Told<T>> tell_cells(const parallel::Communicator& communicator, const DistributedMesh& mesh,
+                                std::vector<Told<T>> words) {
+  const std::vector<parallel::Rank> rank_of = gather_by_piece(
+      communicator, mesh, std::vector<parallel::Rank>(mesh.pieces.size(), communicator.rank()));
+  words = deliver(communicator, std::move(words),
+                  [&](const Told<T>& word) { return rank_of[static_cast<std::size_t>(word.cell.piece)]; });
+  std::sort(words.begin(), words.end(), [](const Told<T>& a, const Told<T>& b) { return a.cell < b.cell; });
+  return words;
+}
 
 }  // namespace aeroloom::mesh

@@ -1,6 +1,5 @@
 #include "io/openfoam/foam_faces.hpp"
 
-#include "mesh/delivery.hpp"
 #include "parallel/collective_error.hpp"
 
 #include <algorithm>
@@ -98,38 +97,33 @@ void require_closed(const LinkDefects& defects) {
           defects.crowded_faces, defects.stray_faces, defects.repeated_faces, defects.open_faces));
 }
 
-/// Which rank holds each part, where its cells begin and its faces.
+/// What a part has of the whole mesh's.
 struct PartRow {
-  std::int32_t part, rank;
-  GlobalIndex cells, inner;
+  GlobalIndex cells, inner_faces;
 
-  static constexpr auto fields() {
-    return std::tuple(&PartRow::part, &PartRow::rank, &PartRow::cells, &PartRow::inner);
-  }
+  static constexpr auto fields() { return std::tuple(&PartRow::cells, &PartRow::inner_faces); }
 };
 
+/// By part. Collective.
 std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, const FileMesh& mesh,
                                  const FaceLinks& links) {
   std::vector<PartRow> mine;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const FilePart& part = mesh.parts[i];
-    const GlobalIndex inner = for_owned_faces(
-        part, links.pieces[i], [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {});
-    mine.push_back({part.id, communicator.rank(), part.cell_count(), inner});
+    mine.push_back({part.cell_count(),
+                    for_owned_faces(part, links.pieces[i],
+                                    [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {})});
   }
-  std::vector<PartRow> rows = communicator.all_gather_items(std::span<const PartRow>(mine));
-  std::sort(rows.begin(), rows.end(), [](const PartRow& a, const PartRow& b) { return a.part < b.part; });
-  return rows;
+  return mesh::gather_by_piece(communicator, *mesh.pieces, mine);
 }
 
 /// What a part has to tell others about the faces between them.
 void add_notes(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
-               const std::vector<PartRow>& rows, std::vector<FoamFaceNote>& notes) {
+               std::vector<mesh::Told<FoamFaceNote>>& notes) {
   const PatchPlaces places(mesh, part);
   const auto add = [&](LocalIndex cell, std::size_t side, const CellBehind& behind, GlobalIndex number) {
     const LocalIndex face = links.boundary_face[first_side(*part.piece, cell) + side];
-    notes.push_back({behind.piece, behind.cell, behind.side, face < 0 ? -1 : places.of(face).patch,
-                     rows[static_cast<std::size_t>(behind.piece)].rank, number});
+    notes.push_back({behind, {face < 0 ? -1 : places.of(face).patch, number}});
   };
   for_owned_faces(part, links,
                   [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
@@ -239,10 +233,10 @@ private:
   }
 
   const FoamFaceNote& note_at(LocalIndex cell, std::int32_t side) const {
-    return *std::lower_bound(_plan.notes.begin(), _plan.notes.end(), std::tuple(_part.id, cell, side),
-                             [](const FoamFaceNote& note, const auto& key) {
-                               return std::tuple(note.part, note.cell, note.side) < key;
-                             });
+    const CellBehind key{_part.id, cell, side};
+    return std::lower_bound(_plan.notes.begin(), _plan.notes.end(), key,
+                            [](const auto& note, const CellBehind& wanted) { return note.cell < wanted; })
+        ->what;
   }
 
   /// Faces whose owner in the whole mesh is in another part.
@@ -306,27 +300,21 @@ FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
 FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh,
                     const FaceLinks& links) {
   require_closed(links.defects);
-  const std::vector<PartRow> rows = gather_rows(communicator, mesh, links);
   FoamPlan plan;
-  for (const PartRow& row : rows) {
+  for (const PartRow& row : gather_rows(communicator, mesh, links)) {
     plan.first_cell.push_back(plan.cells);
     plan.first_inner_face.push_back(plan.faces);
     plan.cells += row.cells;
-    plan.faces += row.inner;
+    plan.faces += row.inner_faces;
   }
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     plan.first_of_patch.push_back(plan.faces);
     if (mesh.patches[p].type != mesh::PatchType::interior)
       plan.faces += mesh.patch_faces[p][0] + mesh.patch_faces[p][1];
   }
-  std::vector<FoamFaceNote> notes;
-  for (std::size_t i = 0; i < mesh.parts.size(); ++i)
-    add_notes(mesh, mesh.parts[i], links.pieces[i], rows, notes);
-  plan.notes = mesh::deliver(communicator, std::move(notes),
-                             [](const FoamFaceNote& note) { return static_cast<parallel::Rank>(note.rank); });
-  std::sort(plan.notes.begin(), plan.notes.end(), [](const FoamFaceNote& a, const FoamFaceNote& b) {
-    return std::tie(a.part, a.cell, a.side) < std::tie(b.part, b.cell, b.side);
-  });
+  std::vector<mesh::Told<FoamFaceNote>> notes;
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) add_notes(mesh, mesh.parts[i], links.pieces[i], notes);
+  plan.notes = mesh::tell_cells(communicator, *mesh.pieces, std::move(notes));
   return plan;
 }
 

@@ -47,15 +47,10 @@ FoamCorners corners_of_face(const FilePart& part, const FoamFace& face);
 
 /// What the other part tells about a face between two.
 struct FoamFaceNote {
-  std::int32_t part = 0, cell = 0, side = 0;  ///< whose face it is
-  std::int32_t zone = -1;                     ///< if the other side has the boundary face
-  std::int32_t rank = 0;
+  std::int32_t zone = -1;         ///< if the other side has the boundary face
   mesh::GlobalIndex number = -1;  ///< among the inner faces of the part that tells, if its cell is the owner
 
-  static constexpr auto fields() {
-    return std::tuple(&FoamFaceNote::part, &FoamFaceNote::cell, &FoamFaceNote::side, &FoamFaceNote::zone,
-                      &FoamFaceNote::rank, &FoamFaceNote::number);
-  }
+  static constexpr auto fields() { return std::tuple(&FoamFaceNote::zone, &FoamFaceNote::number); }
 };
 
 /// Numbers of the whole mesh: cells part by part; faces as OpenFOAM orders them there.
@@ -64,7 +59,7 @@ struct FoamPlan {
   std::vector<mesh::GlobalIndex> first_inner_face;  ///< by part: of those whose owner lies there
   std::vector<mesh::GlobalIndex> first_of_patch;    ///< by patch
   mesh::GlobalIndex cells = 0, faces = 0;
-  std::vector<FoamFaceNote> notes;  ///< for the parts of this rank, by part, cell, side
+  std::vector<mesh::Told<FoamFaceNote>> notes;  ///< for the parts of this rank
 };
 
 /// Throws CollectiveError (input) where faces are left open or more than two cells meet. Collective.
