@@ -32,10 +32,9 @@ void write_run(SharedFile& file, const cgns::Section& section, const FilePart& p
                const Run& run) {
   ItemStream<Index> stream(
       file, section.offset + run.before * block.corners * static_cast<std::int64_t>(sizeof(Index)));
-  const auto corners = static_cast<std::size_t>(block.corners);
-  for (std::size_t k = static_cast<std::size_t>(run.begin) * corners;
-       k < static_cast<std::size_t>(run.end) * corners; ++k) {
-    stream.add(static_cast<Index>(part.numbers[static_cast<std::size_t>(block.connectivity[k])] + 1));
+  for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
+    for (int k = 0; k < block.corners; ++k)
+      stream.add(static_cast<Index>(part.numbers[static_cast<std::size_t>(block.item(i)[k])] + 1));
   }
   stream.flush();
 }

@@ -109,11 +109,13 @@ void add_partition(std::string& text, const FileMesh& mesh, const std::vector<Ms
 void grow(std::vector<MshBox>& boxes, std::size_t first, const FilePart& part, const Block& block) {
   for (const Run& run : block.runs) {
     MshBox& box = boxes[first + static_cast<std::size_t>(run.id)];
-    for (const mesh::LocalIndex* v = block.item(run.begin); v != block.item(run.end); ++v) {
-      const double* p = part.coordinates.data() + 3 * static_cast<std::size_t>(*v);
-      for (std::size_t k = 0; k < 3; ++k) {
-        box.least[k] = std::min(box.least[k], p[k]);
-        box.largest[k] = std::max(box.largest[k], p[k]);
+    for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
+      for (int corner = 0; corner < block.corners; ++corner) {
+        const double* p = part.coordinates.data() + 3 * static_cast<std::size_t>(block.item(i)[corner]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          box.least[k] = std::min(box.least[k], p[k]);
+          box.largest[k] = std::max(box.largest[k], p[k]);
+        }
       }
     }
   }

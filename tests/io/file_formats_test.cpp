@@ -5,7 +5,13 @@
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <numeric>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace aeroloom::io {
 namespace {
@@ -41,6 +47,50 @@ TEST_F(FileFormats, WhatIsReadIsTheMeshThatWasWritten) {
     for (const FaceShape shape : face_shapes)
       EXPECT_EQ(read.mesh.boundary_count(shape), mesh.boundary_count(shape)) << format.name;
   }
+}
+
+/// Faces by patch, the last patch first.
+void turn_patches_round(mesh::Piece& piece) {
+  const auto sort = [](int corners, std::vector<mesh::LocalIndex>& faces, std::vector<std::int32_t>& of_cad,
+                       std::vector<std::int32_t>& patches) {
+    std::vector<std::size_t> order(patches.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return patches[a] > patches[b]; });
+    const auto old = faces;
+    const auto old_of_cad = of_cad, old_patches = patches;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      std::copy_n(old.begin() + static_cast<std::ptrdiff_t>(order[i]) * corners, corners,
+                  faces.begin() + static_cast<std::ptrdiff_t>(i) * corners);
+      of_cad[i] = old_of_cad[order[i]];
+      patches[i] = old_patches[order[i]];
+    }
+  };
+  sort(3, piece.boundary, piece.triangle_face, piece.triangle_patch);
+  sort(4, piece.quads, piece.quad_face, piece.quad_patch);
+}
+
+TEST_F(FileFormats, PatchesOfAPieceStandInAnyOrder) {
+  const mesh::DistributedMesh straight = mesh::examples::mixed_mesh(world, 4, 3);
+  mesh::DistributedMesh turned = straight;
+  for (mesh::Piece& piece : turned.pieces) turn_patches_round(piece);
+  const mesh::Numbering numbering = mesh::number_mesh(world, straight);
+  for (const auto& [name, mesh] : {std::pair("straight", &straight), {"turned", &turned}}) {
+    const FileMesh layout = file_mesh_of(world, *mesh, numbering);
+    for (const FormatName& format : format_names) {
+      const std::filesystem::path to = folder / name / std::string(format.name);
+      if (world.is_root()) std::filesystem::create_directories(to);
+      world.barrier();
+      write_mesh(world, layout, format.format, (to / ("mesh" + std::string(format.extension))).string(),
+                 {.surface = true});
+    }
+  }
+  world.barrier();
+  const auto files = examples::files_below(folder / "straight"),
+             others = examples::files_below(folder / "turned");
+  EXPECT_GT(files.size(), 30U);
+  ASSERT_EQ(files.size(), others.size());
+  for (const auto& [file, bytes] : files) EXPECT_TRUE(others.at(file) == bytes) << file;
 }
 
 TEST_F(FileFormats, FilesHaveTheNameThatIsSaid) {
