@@ -118,7 +118,7 @@ public:
             "corner {} of the list of all corners is point {:.0f}, but there are {:.0f}", i, v, points));
     }
     if (vtkDataArray* ghosts = grid.GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()))
-      _ghosts = integers_of(*ghosts, count());
+      _ghosts = integers_of(*ghosts, count()).value_or(std::vector<std::int64_t>());
   }
   vtkIdType count() const { return _types.GetNumberOfTuples(); }
   int type(vtkIdType c) const { return _types.GetValue(c); }
@@ -132,13 +132,13 @@ public:
   /// A copy of a cell of another part, or one that was taken out.
   bool is_ghost(vtkIdType c) const {
     constexpr int copied_or_out = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-    return _ghosts && ((*_ghosts)[static_cast<std::size_t>(c)] & copied_or_out) != 0;
+    return !_ghosts.empty() && (_ghosts[static_cast<std::size_t>(c)] & copied_or_out) != 0;
   }
 
 private:
   vtkCellArray& _cells;
   vtkUnsignedCharArray& _types;
-  std::optional<std::vector<std::int64_t>> _ghosts;
+  std::vector<std::int64_t> _ghosts;  // empty: there are none
 };
 
 /// Where cells and faces stand in the file, by shape.

@@ -108,7 +108,7 @@ std::vector<PartPiece> pieces_of(const mesh::DistributedMesh& surface, const mes
     view.part.id = piece.id;
     view.part.coordinates = piece.coordinates;
     view.part.numbers = numbering.vertices[i];
-    view.part.faces[0] = {3, piece.cells, {}, 0};
+    view.part.faces[0] = {3, piece.cells, {}, 0, {}};
     view.triangle_face = piece.triangle_face;
     view.triangle_patch = piece.triangle_patch;
   }
