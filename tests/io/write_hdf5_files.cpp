@@ -1,6 +1,6 @@
 /// For programs that check files. write_hdf5_files vtkhdf|cgns|names FOLDER [SQUARES PARTS] writes the mixed
 /// mesh, `names` both files of it with names that are hard to hold;
-/// write_hdf5_files read FILE tells what the reader makes of a VTKHDF file, or why it refuses.
+/// write_hdf5_files read FILE... tells what the reader makes of each VTKHDF file, or why it refuses.
 #include "io/cgns/cgns_writer.hpp"
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
@@ -19,6 +19,7 @@ namespace {
 using namespace aeroloom;
 
 void tell(const parallel::Communicator& world, const std::string& path) {
+  if (world.is_root()) fmt::print("file {}\n", path);
   try {
     const io::Assembled read = io::assemble(world, io::read_vtkhdf(world, path), path, 2);
     if (!world.is_root()) return;
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
   }
   const std::string format = argv[1], folder = argv[2];
   if (format == "read") {
-    tell(world, folder);
+    for (int file = 2; file < argc; ++file) tell(world, argv[file]);
     return 0;
   }
   const int squares = argc > 3 ? std::stoi(argv[3]) : 4, parts = argc > 4 ? std::stoi(argv[4]) : 3;

@@ -1,13 +1,16 @@
 /// The whole stage: from a surface mesh and sizes to tetrahedra that fit together.
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
+#include "tests/references.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/filled.hpp"
 #include "volume/zones.hpp"
 
 #include <set>
+#include <string>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace aeroloom::volume {
@@ -136,18 +139,17 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   const auto& [name, surface, field, few, many, is_unique] = GetParam();
   const Filled filled(world, surface, field, in_zones_of(many));
   const std::string hash = mesh::hash_mesh(world, filled.mesh, filled.numbering);
-  std::vector<char> alone(hash.size());
-  if (world.is_root()) {
+  // The mesh and what is known of it.
+  const auto facts = [](const std::string& mesh, const Filled& of) {
+    return fmt::format("{} {} {} {} {}", mesh, of.decomposed.lattice_points, of.decomposed.blocks,
+                       of.report.overlap, of.decomposed.imbalance);
+  };
+  const std::string here = facts(hash, filled);
+  if (!world.is_root()) return;
+  EXPECT_EQ(here, references::of_one_rank(world, here, [&] {
     const Filled same(Communicator::self(), surface, field, in_zones_of(many));
-    const std::string text = mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering);
-    alone.assign(text.begin(), text.end());
-    EXPECT_EQ(filled.decomposed.lattice_points, same.decomposed.lattice_points);
-    EXPECT_EQ(filled.decomposed.blocks, same.decomposed.blocks);
-    EXPECT_EQ(filled.report.overlap, same.report.overlap);
-    EXPECT_EQ(filled.decomposed.imbalance, same.decomposed.imbalance);
-  }
-  world.broadcast_items(alone);
-  EXPECT_EQ(hash, std::string(alone.begin(), alone.end()));
+    return facts(mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering), same);
+  }));
 }
 
 INSTANTIATE_TEST_SUITE_P(all, SameMesh, testing::ValuesIn(all_shapes()),

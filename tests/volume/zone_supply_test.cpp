@@ -77,17 +77,32 @@ std::set<std::pair<BlockIndex, int>> leaves_known(const Divided& divided, ZoneIn
   return leaves;
 }
 
-/// Whether a box that lies in a block, or has its middle there, is as near to the zone as is asked for.
-bool is_near(const Divided& divided, ZoneIndex zone, const GridBox& box, BlockIndex b) {
-  const LatticeTree& tree = *divided.data.tree;
-  const double reach = divided.data.frame->grid_distance(
-      divided.problem.options.halo * largest_size_around(*divided.data.frame, tree, divided.data.table, b));
-  const std::vector<LeafOfBlock> leaves = all_leaves(tree);
-  return std::any_of(leaves.begin(), leaves.end(), [&](const LeafOfBlock& leaf) {
-    return divided.data.zones->of(leaf.block, leaf.child) == zone &&
-           GridBox::of(leaf.cell).gap_to(box) <= reach;
-  });
-}
+/// What is near a zone, by looking at each of its leaves.
+class Nearness {
+public:
+  Nearness(const Divided& divided, ZoneIndex zone) : _divided(divided) {
+    for (const LeafOfBlock& leaf : all_leaves(*divided.data.tree)) {
+      if (divided.data.zones->of(leaf.block, leaf.child) == zone) _leaves.push_back(GridBox::of(leaf.cell));
+    }
+  }
+  /// Whether a box that lies in a block, or has its middle there, is as near to the zone as is asked for.
+  bool holds(const GridBox& box, BlockIndex b) {
+    if (b != _block) {
+      _block = b;
+      _reach = _divided.data.frame->grid_distance(
+          _divided.problem.options.halo *
+          largest_size_around(*_divided.data.frame, *_divided.data.tree, _divided.data.table, b));
+    }
+    return std::any_of(_leaves.begin(), _leaves.end(),
+                       [&](const GridBox& leaf) { return leaf.gap_to(box) <= _reach; });
+  }
+
+private:
+  const Divided& _divided;
+  std::vector<GridBox> _leaves;
+  BlockIndex _block = -1;
+  double _reach = 0;  ///< of that block
+};
 
 TEST(PlanZones, is_the_same_on_every_rank_and_looks_at_each_zone_once) {
   const Communicator world = Communicator::world();
@@ -175,12 +190,13 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
   for (const ZoneContent& content : divided.supply_all()) {
     ++zones;
     const auto leaves = leaves_known(divided, content.zone);
+    Nearness nearness(divided, content.zone);
     std::size_t at = content.problem.surface_points();
     const std::size_t first = at;
     for (const Row& row : all) {
       const Leaf leaf = ZoneFinder::leaf_of_lattice(row.number);
       const Vec3 place = divided.data.frame->to_grid(row.point);
-      if (!is_near(divided, content.zone, {place, place}, leaf.block)) continue;
+      if (!nearness.holds({place, place}, leaf.block)) continue;
       EXPECT_TRUE(leaves.count({leaf.block, leaf.child}));
       ASSERT_LT(at, content.tokens.size());
       EXPECT_EQ(content.tokens[at],
@@ -214,10 +230,11 @@ TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
   for (const ZoneContent& content : divided.supply_all()) {
     std::size_t at = 0;
     std::set<mesh::GlobalIndex> vertices;
+    Nearness nearness(divided, content.zone);
     for (const SurfaceTriangle& t : all) {
       const GridBox box = grid_box(frame, t.points);
       const Vec3 middle = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
-      if (!is_near(divided, content.zone, box, divided.finder.leaf_of_place(middle).block)) continue;
+      if (!nearness.holds(box, divided.finder.leaf_of_place(middle).block)) continue;
       ASSERT_LT(at, content.problem.triangles.size());
       for (int k = 0; k < 3; ++k) {
         const auto v = content.problem.triangles[at][k];

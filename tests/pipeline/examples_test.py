@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+"""Every example of the help runs as it stands. usage: examples_test.py PROGRAM"""
+import re
+import sys
+
+from program import COARSE_TRANSPORT
+from shell import Shell
+
+
+def commands_of(shell):
+    code, text, _ = shell.run("--help")
+    assert code == 0
+    return re.findall(r"^  ([a-z-]+) {2,}\S", text.split("\nCommands:")[1].split("Examples:")[0], re.M)
+
+
+def check_examples(shell):
+    """Every example in every help runs as it stands."""
+    (shell.folder / "case.yaml").write_text(COARSE_TRANSPORT)
+    commands = commands_of(shell)
+    assert {"run", "check", "info", "improve", "quality", "convert", "export-cad", "completion", "init", "schema"} <= set(commands)
+    ran = set()
+    for command in ["", "run", "export-cad", "convert", *commands]:
+        code, text, _ = shell.run(f"{command} --help")
+        assert code == 0 and "Exit codes:" in text, text
+        examples = re.findall(r"^  ((?:mpirun -n \d+ )?aeroloom .*)$", text, re.M)
+        assert examples, f"{command}: no examples"
+        # The case first, for what others use; mesh.meshb is another program's mesh.
+        for example in sorted(examples, key=lambda line: "case.yaml" not in line):
+            assert len(example) <= 100, example
+            if example in ran:
+                continue
+            ran.add(example)
+            for wanted, source in (("mesh.meshb", "out/mesh.pvtu"), ("out/mesh.pvtu", None), ("wing.step", None)):
+                if wanted in example and not (shell.folder / wanted).exists():
+                    make = {"mesh.meshb": "aeroloom convert out/mesh.pvtu mesh.meshb",
+                            "out/mesh.pvtu": "aeroloom run case.yaml",
+                            "wing.step": "aeroloom export-cad case.yaml wing.step"}[wanted]
+                    if make != example and not example.startswith("aeroloom export-cad"):
+                        assert shell.type(make).returncode == 0, make
+            # What writes a case must not find one.
+            done = shell.type(f"mkdir new && cd new && {example}" if " init case" in example else example)
+            assert done.returncode == (6 if "--gate" in example and done.returncode == 6 else 0), \
+                f"{example}: exit {done.returncode}\n{done.stdout}{done.stderr}"
+    assert len(ran) >= 15, ran
+
+
+if __name__ == "__main__":
+    check_examples(Shell(sys.argv[1]))

@@ -1,0 +1,38 @@
+"""A folder to work in on the command line, for the end-to-end tests."""
+import os
+import pathlib
+import shlex
+import subprocess
+import tempfile
+
+from program import SOURCE
+
+LAUNCHER = str(SOURCE / "scripts" / "mpirun_local.sh")
+
+
+class Shell:
+    """A folder to work in, with the program called `aeroloom`."""
+
+    def __init__(self, program):
+        self.program = str(pathlib.Path(program).resolve())
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_line_"))
+
+    def run(self, line, ranks=0):
+        """Exit code, standard output and standard error of `aeroloom LINE`."""
+        command = ([LAUNCHER, str(ranks)] if ranks else []) + [self.program] + shlex.split(line)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=self.folder)
+        return done.returncode, done.stdout, done.stderr
+
+    def type(self, line):
+        """As a shell would run the line."""
+        bin_folder = self.folder / "bin"
+        bin_folder.mkdir(exist_ok=True)
+        for name, body in (("aeroloom", f'exec "{self.program}" "$@"'), ("mpirun", f'shift; exec "{LAUNCHER}" "$@"')):
+            (bin_folder / name).write_text(f"#!/bin/sh\n{body}\n")
+            (bin_folder / name).chmod(0o755)
+        # mpirun_local.sh must not find the name above.
+        real = os.environ["PATH"]
+        (bin_folder / "mpirun").write_text(f'#!/bin/sh\nshift; PATH="{real}"; export PATH\n'
+                                           f'ranks=$1; shift 2; exec "{LAUNCHER}" "$ranks" "{self.program}" "$@"\n')
+        return subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=300, cwd=self.folder,
+                              env={**os.environ, "PATH": f"{bin_folder}:{real}"})
