@@ -7,7 +7,7 @@ import re
 import shutil
 import sys
 
-from program import COARSE_TRANSPORT, shared_run
+from program import COARSE_TRANSPORT, COARSE_WING, shared_run
 from shell import Shell
 
 
@@ -55,9 +55,9 @@ def check_loudness(shell):
     assert shell.run("-q convert out/mesh.pvtu a.cgns")[1:] == ("", "")
     assert shell.run("convert out/mesh.pvtu a.cgns --quiet")[1:] == ("", "")
     assert "wrote" in shell.run("convert out/mesh.pvtu a.cgns")[1]
-    assert shell.run("run case.yaml -q")[1] == ""
-    normal = len(shell.run("run case.yaml")[1])
-    assert len(shell.run("-v run case.yaml")[1]) > normal
+    assert shell.run("run quick.yaml --set output.directory=quick -q")[1] == ""
+    normal = len(shell.run("run quick.yaml --set output.directory=quick")[1])
+    assert len(shell.run("-v run quick.yaml --set output.directory=quick")[1]) > normal
 
 
 def on_terminal(shell, line, **environment):
@@ -85,15 +85,15 @@ def on_terminal(shell, line, **environment):
 def check_progress(shell):
     """On a terminal one line that leaves nothing behind; plain lines, here too few to show, where that is asked for."""
     erase = "\r\x1b[K"
-    text = on_terminal(shell, "run case.yaml")
+    text = on_terminal(shell, "run quick.yaml --set output.directory=quick")
     assert re.search(re.escape(erase) + r"(sizing|surface|volume|improve) +\d+ %  \d+ [a-z ]+  \d+ MB  \d+\.\d s", text), text
     left = [line.split(erase)[-1] for line in text.split("\n")]
     assert not any(re.search(r" \d+ MB  ", line) for line in left), left
-    facts = [line for line in shell.run("run case.yaml")[1].split("\n") if re.match("(geometry|sizing|surface|hash):", line)]
+    facts = [line for line in shell.run("run quick.yaml --set output.directory=quick")[1].split("\n") if re.match("(geometry|sizing|surface|hash):", line)]
     assert [line for line in facts if "MB" not in line and line not in left] == [], left
     for how in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
-        assert "\x1b" not in on_terminal(shell, "run case.yaml", **how)
-    assert erase not in on_terminal(shell, "-q run case.yaml")
+        assert "\x1b" not in on_terminal(shell, "run quick.yaml --set output.directory=quick", **how)
+    assert erase not in on_terminal(shell, "-q run quick.yaml --set output.directory=quick")
 
 
 def check_version(shell):
@@ -149,6 +149,7 @@ def check_info(shell):
 def main():
     shell = Shell(sys.argv[1])
     (shell.folder / "case.yaml").write_text(COARSE_TRANSPORT)
+    (shell.folder / "quick.yaml").write_text(COARSE_WING + "output: {pictures: false}\n")
     shutil.copytree(shared_run(sys.argv[1]).output, shell.folder / "out")
     assert shell.run("export-cad case.yaml wing.step -q")[0] == 0
     check_version(shell)

@@ -3,7 +3,7 @@
 import re
 import sys
 
-from program import COARSE_TRANSPORT
+from program import COARSE_WING
 from shell import Shell
 
 
@@ -15,7 +15,7 @@ def commands_of(shell):
 
 def check_examples(shell):
     """Every example in every help runs as it stands."""
-    (shell.folder / "case.yaml").write_text(COARSE_TRANSPORT)
+    (shell.folder / "case.yaml").write_text(COARSE_WING)
     commands = commands_of(shell)
     assert {"run", "check", "info", "improve", "quality", "convert", "export-cad", "completion", "init", "schema"} <= set(commands)
     ran = set()

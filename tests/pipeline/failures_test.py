@@ -4,7 +4,7 @@ import pathlib
 import sys
 import tempfile
 
-from program import COARSE_TRANSPORT, SOURCE, Run
+from program import COARSE_WING, SOURCE, Run
 
 STEP_HEADER = """ISO-10303-21;
 HEADER;FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;
@@ -45,20 +45,20 @@ def main():
     checks = []
     for ranks in (1, 3):
         checks += [
-            expect("unknown key", Run(program, COARSE_TRANSPORT + "sizng: {minimum: 1}\n", ranks), 2, "sizng", "sizing",
+            expect("unknown key", Run(program, COARSE_WING + "sizng: {minimum: 1}\n", ranks), 2, "sizng", "sizing",
                    "case.yaml:5:"),
-            expect("retired key", Run(program, COARSE_TRANSPORT, ranks, ["volume.erase_interfaces=false"]), 2,
+            expect("retired key", Run(program, COARSE_WING, ranks, ["volume.erase_interfaces=false"]), 2,
                    "volume.erase_interfaces", "no longer needed"),
-            expect("size of zero", Run(program, COARSE_TRANSPORT, ranks, ["sizing.minimum=0"]), 2, "sizing.minimum"),
+            expect("size of zero", Run(program, COARSE_WING, ranks, ["sizing.minimum=0"]), 2, "sizing.minimum"),
             expect("missing file", Run(program, file_case(folder / "absent.step"), ranks), 7, "absent.step"),
             expect("corrupt file", Run(program, file_case(corrupt), ranks), 3, "corrupt.step"),
             expect("empty file", Run(program, file_case(empty), ranks), 3, "empty.step"),
             expect("open shell", Run(program, file_case(SOURCE / "tests/data/open_shell.step"), ranks), 3, "open"),
-            expect("abort in TetGen", Run(program, COARSE_TRANSPORT, ranks, ["volume.inject=aborts"]), 5, "SIGABRT"),
+            expect("abort in TetGen", Run(program, COARSE_WING, ranks, ["volume.inject=aborts"]), 5, "SIGABRT"),
         ]
-    checks.append(expect("far field cuts the body", Run(program, COARSE_TRANSPORT, 3, ["farfield.extent=0.4"]), 3,
+    checks.append(expect("far field cuts the body", Run(program, COARSE_WING, 3, ["farfield.extent=0.4"]), 3,
                          "far field"))
-    checks.append(expect("unwritable output", Run(program, COARSE_TRANSPORT, 2, ["output.directory=/proc/out"]), 7,
+    checks.append(expect("unwritable output", Run(program, COARSE_WING, 2, ["output.directory=/proc/out"]), 7,
                          reports=False))
     return 0 if all(checks) else 1
 

@@ -17,6 +17,13 @@ farfield: {shape: box, extent: 3}
 sizing: {minimum: 0.5, maximum: 20, surface_maximum: 4, curvature_angle: 30, growth: 1.8, proximity: 0}
 """
 
+# A wing on a body from a file, coarser: a second. For what is about the program, not about the mesh.
+COARSE_WING = f"""
+geometry: {{file: "{SOURCE}/tests/data/wing_body.step", trailing_edges: sharpen}}
+farfield: {{shape: box, extent: 3}}
+sizing: {{minimum: 0.5, feature_minimum: 0.5, maximum: 10, surface_maximum: 2, curvature_angle: 40, growth: 1.9, proximity: 0}}
+"""
+
 # What several tests look at once it is finished: in pieces, with a patch whose name is markup.
 HOSTILE = "<script>alert('&amp;')</script><img src=x onerror=alert(1)>"
 SHARED_CASE = COARSE_TRANSPORT + f"""

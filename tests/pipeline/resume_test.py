@@ -12,7 +12,7 @@ import tempfile
 from killed_run import command, run_and_kill
 from program import COARSE_TRANSPORT
 
-CASE = COARSE_TRANSPORT + "volume: {piece_tets: 10000}\nsurface: {piece_triangles: 500}\n"
+CASE = COARSE_TRANSPORT + "volume: {piece_tets: 10000}\nsurface: {piece_triangles: 500}\noutput: {pictures: false}\n"
 STAGES = ["geometry", "sizing", "surface", "volume", "improve"]
 KEPT = [stage for stage in STAGES if stage != "volume"]  # that goes when the improved one is there
 
