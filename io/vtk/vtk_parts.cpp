@@ -168,13 +168,13 @@ PartPiece view(const BroughtPiece& brought) {
   piece.part.numbers = brought.numbers;
   for (const CellShape shape : cell_shapes) {
     const auto& items = brought.cells[static_cast<std::size_t>(shape)];
-    piece.part.cells[static_cast<std::size_t>(shape)] = {
-        corners_of(shape), items.connectivity, items.runs, 0, items.order};
+    piece.part.cells[static_cast<std::size_t>(shape)] = {corners_of(shape), items.connectivity, items.runs, 0,
+                                                         items.order};
   }
   for (const FaceShape shape : face_shapes) {
     const auto& items = brought.faces[static_cast<std::size_t>(shape)];
-    piece.part.faces[static_cast<std::size_t>(shape)] = {
-        corners_of(shape), items.connectivity, items.runs, 0, items.order};
+    piece.part.faces[static_cast<std::size_t>(shape)] = {corners_of(shape), items.connectivity, items.runs, 0,
+                                                         items.order};
   }
   piece.triangle_face = brought.triangle_face;
   piece.triangle_patch = brought.triangle_patch;

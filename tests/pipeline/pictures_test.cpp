@@ -101,8 +101,8 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
   EXPECT_EQ(colours.size(), pictures[0].legend.size()) << "each patch has a colour of its own";
   EXPECT_TRUE(patches.count("fuselage") && !patches.count("farfield"));
   EXPECT_EQ(text_of(pictures), references::of_one_rank(world, text_of(pictures), [] {
-    return text_of(record_of(Communicator::self(), coarse_aircraft("b")).pictures);
-  }));
+              return text_of(record_of(Communicator::self(), coarse_aircraft("b")).pictures);
+            }));
 }
 
 TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {

@@ -79,9 +79,9 @@ TEST(Ladder, leads_to_the_same_mesh_on_any_number_of_ranks) {
     const std::string hash = mesh::hash_mesh(world, filled.mesh, filled.numbering);
     if (!world.is_root()) continue;
     EXPECT_EQ(hash, references::of_one_rank(world, hash, [&] {
-      const Filled same(Communicator::self(), body(), sizes(), options);
-      return mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering);
-    }));
+                const Filled same(Communicator::self(), body(), sizes(), options);
+                return mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering);
+              }));
   }
 }
 

@@ -147,9 +147,9 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   const std::string here = facts(hash, filled);
   if (!world.is_root()) return;
   EXPECT_EQ(here, references::of_one_rank(world, here, [&] {
-    const Filled same(Communicator::self(), surface, field, in_zones_of(many));
-    return facts(mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering), same);
-  }));
+              const Filled same(Communicator::self(), surface, field, in_zones_of(many));
+              return facts(mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering), same);
+            }));
 }
 
 INSTANTIATE_TEST_SUITE_P(all, SameMesh, testing::ValuesIn(all_shapes()),
