@@ -1,5 +1,6 @@
 #include "parallel/collective_error.hpp"
 
+#include "parallel/contained.hpp"
 #include "parallel/memory_limit.hpp"
 
 #include <filesystem>
@@ -39,6 +40,8 @@ std::optional<Failure> attempt(const std::function<void()>& work) {
     throw;
   } catch (const std::bad_alloc&) {
     return Failure{FailureKind::resources, out_of_memory_text()};
+  } catch (const ContainedInterrupted& error) {
+    return Failure{FailureKind::resources, error.what()};
   } catch (const std::logic_error& error) {
     return Failure{FailureKind::bug, error.what()};
   } catch (const std::ios_base::failure& error) {

@@ -116,6 +116,11 @@ Bytes read_output(const FileDescriptor& memory) {
   return output;
 }
 
+std::string describe_interruption(const std::string& task, const ContainedReply& reply) {
+  return "a child process (task '" + task + "') " + std::string(reply.message, reply.message_length) +
+         ", twice; is the machine short of memory? Remedy: fewer ranks on it, or --max-memory";
+}
+
 /// Runs a task in this process.
 ContainedResult run_uncontained(const RegisteredTask& task, std::span<const std::byte> input) {
   static bool warned = false;
@@ -201,8 +206,17 @@ ContainedResult run_contained(const std::string& name, std::span<const std::byte
   if (!write_all(input_memory.number(), input)) throw std::bad_alloc();
   return_free_memory();
   request.limits.address_space_bytes = allowed_for_child(limits.address_space_bytes);
-  send_request(server().socket.number(), request, input_memory, output_memory);
-  const ContainedReply reply = await_reply(server().socket.number());
+  const auto attempt = [&] {
+    send_request(server().socket.number(), request, input_memory, output_memory);
+    return await_reply(server().socket.number());
+  };
+  ContainedReply reply = attempt();
+  if (reply.interrupted) {
+    if (ftruncate(output_memory.number(), 0) != 0)
+      throw_system_error("emptying the output of a contained run");
+    reply = attempt();
+    if (reply.interrupted) throw ContainedInterrupted(describe_interruption(name, reply));
+  }
   const std::int64_t allowed = request.limits.address_space_bytes;
   ContainedResult result;
   // What asks for much at once has little of it in use.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 namespace aeroloom::parallel {
@@ -58,10 +59,19 @@ struct ContainedResult {
   bool short_of_memory = false;
 };
 
+/// A child was ended by the machine (short of memory, of processes) or by somebody on it, or stood still, and
+/// so was the one that was to do the same again: nothing is known of the task.
+class ContainedInterrupted : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Runs the task in a child of this rank's server and waits for it. Without a server the task runs here: what
 /// it throws is caught, but limits do not hold, and what aborts ends the program; the first such run warns.
-/// Not collective. Throws std::logic_error when the name is unknown and std::runtime_error when the server
-/// itself is gone; std::bad_alloc where it failed and was short of memory that the user's limit
+/// A child that is ended from outside is
+/// started once more as it was: what a task gives follows from its input alone. Not collective. Throws
+/// std::logic_error when the name is unknown and std::runtime_error when the server itself is gone;
+/// ContainedInterrupted; std::bad_alloc where it failed and was short of memory that the user's limit
 /// (memory_limit.hpp) kept from it: a result must not depend on that one.
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,
                               const ContainedLimits& limits);

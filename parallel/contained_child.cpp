@@ -1,6 +1,7 @@
 #include "parallel/contained_child.hpp"
 
 #include "parallel/file_descriptor.hpp"
+#include "parallel/termination.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,11 +75,11 @@ void limit_resources(const ContainedLimits& limits) {
 /// The input, mapped; empty for no input.
 std::span<const std::byte> map_input(int input) {
   struct stat facts {};
-  if (fstat(input, &facts) != 0) leave(ChildExit::out_of_memory);
+  if (fstat(input, &facts) != 0) leave(ChildExit::refused);
   const auto size = static_cast<std::size_t>(facts.st_size);
   if (size == 0) return {};
   const void* start = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, input, 0);
-  if (start == MAP_FAILED) leave(ChildExit::out_of_memory);
+  if (start == MAP_FAILED) leave(ChildExit::refused);
   return {static_cast<const std::byte*>(start), size};
 }
 
@@ -92,6 +93,7 @@ std::span<const std::byte> map_input(int input) {
 void run_child(const ContainedRequest& request, int input, int output, int printed) {
   dup2(printed, STDOUT_FILENO);
   dup2(printed, STDERR_FILENO);
+  release_termination_signals();  // the server lives as long as its rank
   const ContainedTask task = contained_tasks()[static_cast<std::size_t>(request.task)].run;
   const std::span<const std::byte> content = map_input(input);
   // Third-party code may swallow bad_alloc or be unable to pass it on: do not let it come to that.
@@ -101,7 +103,7 @@ void run_child(const ContainedRequest& request, int input, int output, int print
   try {
     const Bytes result = task(content);
     std::fflush(nullptr);
-    leave(write_all(output, result) ? ChildExit::ok : ChildExit::out_of_memory);
+    leave(write_all(output, result) ? ChildExit::ok : ChildExit::refused);
   } catch (const std::bad_alloc&) {
     leave(ChildExit::out_of_memory);
   } catch (const std::exception& error) {

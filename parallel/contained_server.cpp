@@ -125,7 +125,25 @@ double cpu_seconds_of(const rusage& usage) {
 struct Verdict {
   ContainedStatus status;
   std::string message;
+  bool interrupted = false;
 };
+
+/// Signals that say what a task did; the others come from outside.
+bool comes_of_the_task(int signal) {
+  switch (signal) {
+    case SIGSEGV:
+    case SIGABRT:
+    case SIGFPE:
+    case SIGILL:
+    case SIGSYS:
+    case SIGTRAP:
+    case SIGPIPE:
+    case SIGXFSZ:
+      return true;
+    default:
+      return false;
+  }
+}
 
 Verdict judge_exit(int code, int output) {
   switch (static_cast<ChildExit>(code)) {
@@ -133,6 +151,8 @@ Verdict judge_exit(int code, int output) {
       return {ContainedStatus::ok, ""};
     case ChildExit::out_of_memory:
       return {ContainedStatus::out_of_memory, "out of memory"};
+    case ChildExit::refused:
+      return {ContainedStatus::aborted, "found no room for its input or output", true};
     case ChildExit::threw: {
       char text[1024];
       const ssize_t count = pread(output, text, sizeof text, 0);
@@ -146,12 +166,13 @@ Verdict judge_exit(int code, int output) {
 Verdict judge_signal(int signal, const Ending& ending, const ContainedLimits& limits) {
   const std::string name = std::string("SIG") + sigabbrev_np(signal);
   const bool cpu_used_up = cpu_seconds_of(ending.usage) >= limits.cpu_seconds;
-  if (ending.overslept) return {ContainedStatus::out_of_time, "hung without using its CPU time"};
+  if (ending.overslept)
+    return {ContainedStatus::out_of_time, "was stopped, or hung without using its CPU time", true};
   if (signal == SIGXCPU || (signal == SIGKILL && cpu_used_up)) {
     return {ContainedStatus::out_of_time, "used up its CPU time"};
   }
-  if (signal == SIGKILL) return {ContainedStatus::out_of_memory, "killed by the system (" + name + ")"};
-  return {ContainedStatus::aborted, name};
+  if (comes_of_the_task(signal)) return {ContainedStatus::aborted, name};
+  return {ContainedStatus::aborted, "was ended from outside (" + name + ")", true};
 }
 
 Verdict judge(const Ending& ending, const Assignment& assignment) {
@@ -163,6 +184,7 @@ Verdict judge(const Ending& ending, const Assignment& assignment) {
 ContainedReply make_reply(const Verdict& verdict, const Ending& ending, const std::string& printed) {
   ContainedReply reply{};
   reply.status = verdict.status;
+  reply.interrupted = verdict.interrupted;
   reply.cpu_seconds = cpu_seconds_of(ending.usage);
   reply.peak_resident_bytes = 1024 * static_cast<std::int64_t>(ending.usage.ru_maxrss);
   std::string message = verdict.message;
@@ -175,11 +197,12 @@ ContainedReply make_reply(const Verdict& verdict, const Ending& ending, const st
 
 ContainedReply carry_out(const Assignment& assignment) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return make_reply({ContainedStatus::aborted, "no pipe to be had"}, {}, "");
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    return make_reply({ContainedStatus::aborted, "found no pipe", true}, {}, "");
   FileDescriptor printed_here(ends[0]), printed_there(ends[1]);
   const pid_t server = getpid();
   const pid_t child = fork();
-  if (child < 0) return make_reply({ContainedStatus::out_of_memory, "no process to be had"}, {}, "");
+  if (child < 0) return make_reply({ContainedStatus::aborted, "could not be started", true}, {}, "");
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != server) _exit(0);

@@ -26,6 +26,7 @@ struct ContainedRequest {
 struct ContainedReply {
   static constexpr std::size_t message_capacity = 8192;
   ContainedStatus status;
+  bool interrupted;  ///< by the machine or somebody on it: nothing is known of the task
   double cpu_seconds;
   std::int64_t peak_resident_bytes;
   std::uint32_t message_length;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 
+#include <fcntl.h>
 #include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -48,9 +49,17 @@ void return_large_arrays() {
 #endif
 }
 
+/// Descriptors 0 to 2 that whoever started us has closed: what is opened next would be taken for them.
+void open_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) != stream) _exit(exit_bug);
+  }
+}
+
 }  // namespace
 
 Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
+  open_standard_streams();
   if (!session::is_library_running() && !is_containment_ready())
     _server = std::make_unique<ContainedServer>();
   // Not in contained runs, whose memory goes with them.

@@ -42,15 +42,16 @@ public:
   void fact(const std::string& message, LogLevel from) {
     if (!speaks_at(from)) return;
     erase_line();
-    _facts->info(message);
+    _facts->info(printable(message));
   }
   void trouble(spdlog::level::level_enum severity, const char* word, const std::string& message) {
     if (!_configured) {
-      std::fprintf(stderr, "%s: %s\n", word, message.c_str());
+      std::fprintf(stderr, "%s: %s\n", word, printable(message).c_str());
       return;
     }
     erase_line();
-    _troubles->log(severity, "{}{}: {}", word, _ranks > 1 ? fmt::format(" (rank {})", _rank) : "", message);
+    _troubles->log(severity, "{}{}: {}", word, _ranks > 1 ? fmt::format(" (rank {})", _rank) : "",
+                   printable(message));
   }
   bool speaks_at(LogLevel level) const { return _configured && _rank == 0 && _level >= level; }
   bool rewrites() const { return _rewrites; }
@@ -80,6 +81,19 @@ Log& log() {
 }
 
 }  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  shown.reserve(text.size());
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    if ((code < 0x20 && letter != '\n' && letter != '\t') || code == 0x7f)
+      shown += fmt::format("\\x{:02x}", code);
+    else
+      shown += letter;
+  }
+  return shown;
+}
 
 void configure_log(const Communicator& communicator, LogLevel level) {
   log().configure(communicator, level);

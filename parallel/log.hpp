@@ -5,6 +5,7 @@
 #include "parallel/communicator.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace aeroloom::parallel {
 
@@ -14,6 +15,9 @@ enum class LogLevel { quiet, normal, verbose };
 /// Call once after start; before that, or where a host program never does, facts are not printed, and
 /// warnings and errors go to standard error of every rank.
 void configure_log(const Communicator& communicator, LogLevel level);
+/// The text with control characters written out (\x1b), all but newlines and tabs: names in files may hold
+/// what a terminal obeys.
+std::string printable(std::string_view text);
 /// Printed by rank 0 only.
 void log_info(const std::string& message);
 void log_verbose(const std::string& message);

@@ -38,7 +38,7 @@ void require_success(int code, const char* what, const std::string& path) {
   throw fs::filesystem_error(fmt::format("{} ({})", what, text.data()), path, std::make_error_code(reason));
 }
 
-/// An empty place, and a folder for it.
+/// An empty place beside the file, and a folder for it. What is there stays until the new one is whole.
 void prepare(const std::string& path, const std::string& unfinished) {
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty()) fs::create_directories(folder);
@@ -46,8 +46,7 @@ void prepare(const std::string& path, const std::string& unfinished) {
     throw fs::filesystem_error("this is no file that could be replaced", path,
                                std::make_error_code(std::errc::invalid_argument));
   }
-  fs::remove(path);
-  fs::remove(unfinished);
+  fs::remove(unfinished);  // a link too, not what it points to
 }
 
 /// Closes the file whatever happens. Collective.

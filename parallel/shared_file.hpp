@@ -37,7 +37,7 @@ enum class Named : bool { when_on_disk, when_written };
 
 /// Creates PATH.unfinished, and its folder where there is none, has every rank write what it has by `work`,
 /// and gives the file its name when all have succeeded. `work` calls no collectives.
-/// Whatever stood at PATH goes at the beginning, so that nothing is ever half old. Collective; throws
+/// Until then what stood at PATH stays; a link at PATH.unfinished is not followed. Collective; throws
 /// CollectiveError (files) on all ranks and removes the unfinished file where anything fails.
 void write_shared_file(const Communicator& communicator, const std::string& path,
                        const std::function<void(SharedFile&)>& work, Named named = Named::when_on_disk);

@@ -1,13 +1,39 @@
 /// The program aeroloom.
 #include "parallel/communicator.hpp"
 #include "parallel/environment.hpp"
+#include "parallel/termination.hpp"
 #include "pipeline/command_line.hpp"
+#include "pipeline/exit_code.hpp"
 #include "pipeline/load_domain.hpp"
 #include "volume/volume_mesher.hpp"
 
+#include <csignal>
+#include <cstdio>
+#include <system_error>
+
+namespace {
+
+using namespace aeroloom;
+
+int run(int argc, char** argv) {
+  const parallel::Environment environment(argc, argv);
+  const parallel::TerminationWatch watch;
+  return pipeline::run_command_line(parallel::Communicator::world(), argc, argv);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  aeroloom::volume::register_volume_tasks();
-  aeroloom::pipeline::register_geometry_tasks();
-  const aeroloom::parallel::Environment environment(argc, argv);
-  return aeroloom::pipeline::run_command_line(aeroloom::parallel::Communicator::world(), argc, argv);
+  volume::register_volume_tasks();
+  pipeline::register_geometry_tasks();
+  // A file that may not grow further is an error where it is written.
+  std::signal(SIGXFSZ, SIG_IGN);
+  parallel::hold_termination_signals();
+  try {
+    return run(argc, argv);
+  } catch (const std::system_error& error) {
+    // The system has no process or no memory for us: nothing has been started.
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(pipeline::ExitCode::resources);
+  }
 }

@@ -1,6 +1,31 @@
 #include "pipeline/stage.hpp"
 
+#include <mutex>
+#include <string>
+
 namespace aeroloom::pipeline {
+namespace {
+
+struct Stage {
+  std::mutex mutex;
+  std::string name = "start";
+};
+Stage& stage_under_way() {
+  static Stage stage;
+  return stage;
+}
+
+}  // namespace
+
+void set_current_stage(const std::string& name) {
+  const std::lock_guard guard(stage_under_way().mutex);
+  stage_under_way().name = name;
+}
+
+std::string current_stage() {
+  const std::lock_guard guard(stage_under_way().mutex);
+  return stage_under_way().name;
+}
 
 ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage) {
   switch (error.kind()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/collective_error.hpp"
+#include "parallel/contained.hpp"
 #include "parallel/memory_limit.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/run.hpp"
@@ -17,6 +18,10 @@ ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage);
 /// Runs `work` as stage `name`: opens and closes its clock, and turns what it throws into a StageFailure with
 /// `code`, or the code that the kind of failure demands. What is thrown here has been agreed on by all ranks
 /// or follows from data all ranks share.
+/// For what is said when the program is asked to end; may be called on another thread.
+void set_current_stage(const std::string& name);
+std::string current_stage();
+
 template <class Work>
 auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work work) {
   struct Clock {
@@ -24,6 +29,7 @@ auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work w
     ~Clock() { clock.end(); }
   };
   record.clock.begin(name);
+  set_current_stage(name);
   const Clock closes{record.clock};
   try {
     return work();
@@ -32,6 +38,8 @@ auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work w
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();
     throw StageFailure(name, ExitCode::resources, parallel::out_of_memory_text());
+  } catch (const parallel::ContainedInterrupted& error) {
+    throw StageFailure(name, ExitCode::resources, error.what());
   } catch (const std::invalid_argument& error) {
     throw StageFailure(name, ExitCode::usage, error.what());
   } catch (const std::logic_error& error) {

@@ -1,6 +1,7 @@
 #include "pipeline/commands/command.hpp"
 
 #include "parallel/collective_error.hpp"
+#include "parallel/contained.hpp"
 #include "parallel/log.hpp"
 #include "parallel/memory_limit.hpp"
 #include "pipeline/commands/help.hpp"
@@ -64,7 +65,8 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
                                      : read_case(arguments.file, arguments.overrides);
     });
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, ExitCode::usage, error.what());
+    const bool memory = error.kind() == parallel::FailureKind::resources;
+    return fail(communicator, memory ? ExitCode::resources : ExitCode::usage, error.what());
   }
   parallel::configure_log(communicator, loudness.level(input.output.log));
   return work(input);
@@ -72,7 +74,7 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
 
 void print(const Communicator& communicator, const std::string& text) {
   parallel::agree(communicator, [&] {
-    if (communicator.is_root()) print_text(text);
+    if (communicator.is_root()) print_text(parallel::printable(text));
   });
 }
 
@@ -91,6 +93,8 @@ int guarded(const Communicator& communicator, ExitCode otherwise, const std::fun
     return fail(communicator, ExitCode::usage, error.what());
   } catch (const parallel::CollectiveError& error) {
     return fail(communicator, code_of(error, otherwise), error.what());
+  } catch (const parallel::ContainedInterrupted& error) {
+    return fail(communicator, ExitCode::resources, error.what());
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();
     return fail(communicator, ExitCode::resources, parallel::out_of_memory_text());

@@ -64,6 +64,21 @@ Bytes doze(std::span<const std::byte>) {
   for (;;) sleep(1);
 }
 
+/// Dies of a signal where the file named by the input is not there yet, as a machine short of memory kills.
+Bytes die_once(std::span<const std::byte> input) {
+  const auto letters = from_bytes<char>(input);
+  const std::string file(letters.begin() + 1, letters.end());
+  if (access(file.c_str(), F_OK) == 0) return Bytes(1);
+  std::fclose(std::fopen(file.c_str(), "w"));
+  std::raise(letters.front());
+  return {};
+}
+
+Bytes die_always(std::span<const std::byte>) {
+  std::raise(SIGKILL);
+  return {};
+}
+
 Bytes allocate_without_end(std::span<const std::byte>) {
   std::vector<Bytes> hoard;
   for (;;) hoard.emplace_back(10'000'000, std::byte{1});
@@ -111,6 +126,8 @@ const bool registered = [] {
   register_contained_task("exit_early", exit_early);
   register_contained_task("spin", spin);
   register_contained_task("doze", doze);
+  register_contained_task("die_once", die_once);
+  register_contained_task("die_always", die_always);
   register_contained_task("allocate_without_end", allocate_without_end);
   register_contained_task("allocate_unchecked", allocate_unchecked);
   register_contained_task("allocate_and_swallow", allocate_and_swallow);
@@ -192,10 +209,32 @@ TEST(ContainedTest, EndsWhatSleeps) {
   limits.cpu_seconds = 0.05;
   limits.idle_seconds = 0.5;
   const double start = wall_seconds();
-  const auto result = run("doze", limits);
-  EXPECT_EQ(result.status, ContainedStatus::out_of_time);
-  EXPECT_GE(wall_seconds() - start, 1.0);
+  EXPECT_THROW(run("doze", limits), ContainedInterrupted);
+  EXPECT_GE(wall_seconds() - start, 2.0);
   EXPECT_LT(wall_seconds() - start, 20.0);
+  expect_still_working();
+}
+
+// What comes from outside says nothing of the task: it is done again, as it was.
+TEST(ContainedTest, StartsAgainWhatIsEndedFromOutside) {
+  for (const int signal : {SIGKILL, SIGTERM, SIGHUP, SIGBUS}) {
+    std::string input(1, static_cast<char>(signal));
+    const std::string file = testing::TempDir() + "contained_" + std::to_string(getpid());
+    input += file;
+    const auto result =
+        run_contained("die_once", std::as_bytes(std::span<const char>(input.data(), input.size())), {});
+    EXPECT_EQ(result.status, ContainedStatus::ok) << result.message;
+    EXPECT_EQ(result.output.size(), 1u);
+    std::remove(file.c_str());
+  }
+  try {
+    run("die_always");
+    FAIL() << "ended twice, and nobody said so";
+  } catch (const ContainedInterrupted& interrupted) {
+    const std::string text = interrupted.what();
+    EXPECT_NE(text.find("ended from outside (SIGKILL), twice"), std::string::npos) << text;
+    EXPECT_NE(text.find("--max-memory"), std::string::npos) << text;
+  }
   expect_still_working();
 }
 

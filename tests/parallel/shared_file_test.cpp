@@ -44,7 +44,7 @@ TEST(SharedFile, EveryRankWritesItsPlace) {
   if (world.is_root()) fs::remove_all(fs::path(path).parent_path());
 }
 
-TEST(SharedFile, WhatFailsAnywhereLeavesNothing) {
+TEST(SharedFile, WhatFailsAnywhereLeavesWhatWasThere) {
   const Communicator world = Communicator::world();
   const std::string path = scratch(world, "half");
   if (world.is_root()) {
@@ -58,7 +58,9 @@ TEST(SharedFile, WhatFailsAnywhereLeavesNothing) {
     if (world.rank() == world.size() - 1) throw fs::filesystem_error("full", std::error_code());
   };
   EXPECT_THROW(write_shared_file(world, path, work), CollectiveError);
-  EXPECT_FALSE(fs::exists(path));
+  std::string word;
+  EXPECT_TRUE(std::ifstream(path) >> word);
+  EXPECT_EQ(word, "old");
   EXPECT_FALSE(fs::exists(path + ".unfinished"));
   world.barrier();
   if (world.is_root()) fs::remove_all(fs::path(path).parent_path());
