@@ -2,6 +2,7 @@
 
 #include "pipeline/case_keys.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -52,12 +53,12 @@ void check_sizing(const KeyTable& keys, const SizingRequest& sizing) {
   check_order(keys, "sizing.minimum", sizing.minimum, "sizing.surface_maximum", sizing.surface_maximum);
 }
 
-/// Where the geometry is: seen from the working directory or else from the case.
+/// Where the geometry of a case file is: seen from its folder or else from the working directory.
 std::string locate(const std::string& geometry_file, const std::string& case_file) {
   namespace fs = std::filesystem;
-  std::error_code ignored;  // what cannot be looked at is not there
-  if (geometry_file.empty() || fs::exists(geometry_file, ignored)) return geometry_file;
+  if (geometry_file.empty() || fs::path(geometry_file).is_absolute()) return geometry_file;
   const fs::path beside_case = fs::path(case_file).parent_path() / geometry_file;
+  std::error_code ignored;  // what cannot be looked at is not there
   return fs::exists(beside_case, ignored) ? beside_case.string() : geometry_file;
 }
 
@@ -73,7 +74,10 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   check_sizing(keys, draft.result.sizing);
   Case result = draft.result;
   result.patches.assign(draft.patches.begin(), draft.patches.end());
-  result.domain.file = locate(result.domain.file, file);
+  const bool overridden = std::any_of(overrides.begin(), overrides.end(), [](const std::string& assignment) {
+    return assignment.starts_with("geometry.file=") || assignment.starts_with("geometry=");
+  });
+  if (!overridden) result.domain.file = locate(result.domain.file, file);
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   if (draft.far_field_given) result.domain.far_field = draft.far_field;
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);

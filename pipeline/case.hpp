@@ -9,7 +9,7 @@
 #include "pipeline/case_error.hpp"
 #include "pipeline/patch_rules.hpp"
 #include "pipeline/quality_gate.hpp"
-#include "sizing/feature_share.hpp"
+#include "sizing/choose_sizes.hpp"
 #include "surface/surface_options.hpp"
 #include "volume/volume_options.hpp"
 
@@ -20,20 +20,17 @@
 
 namespace aeroloom::pipeline {
 
-/// What the user said about sizes; what is left out comes from the preset. Lengths in the model's unit.
-struct SizingRequest {
-  std::optional<double> minimum, maximum;   ///< minimum <= maximum
-  std::optional<double> feature_minimum;    ///< smallest size at short edges, narrow faces, sharp corners
-  std::optional<double> surface_maximum;    ///< largest size on faces that are not far field
-  std::optional<double> curvature_angle;    ///< degrees
-  std::optional<double> chordal_deviation;  ///< of triangles from curved faces
-  std::optional<double> growth;             ///< ratio of neighbouring sizes
-  std::optional<double> proximity;          ///< elements across thin parts and gaps; 0: any
-  double target_tetrahedra = 1'000'000;     ///< what sizes chosen from the model aim at
+/// What the user said about sizes; what is left out is chosen from the model.
+struct SizingRequest : sizing::GivenSizes {
+  /// What the sizes that are chosen aim at; left out: default_target, or any where minimum and maximum are
+  /// given.
+  std::optional<double> target_tetrahedra;
   /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
   /// minimum come on top.
   double feature_budget = sizing::default_feature_budget;
 };
+
+inline constexpr double default_target = 1'000'000;
 
 /// What happens to faces narrower than the smallest size that go on smoothly in a neighbour.
 enum class NarrowFaces { join, keep };
@@ -72,9 +69,9 @@ struct Case {
 };
 
 /// Reads a case and overrides of the form "section.key=value" (the value is YAML; a later one wins). A
-/// relative geometry.file is sought in the working directory, then in the case file's folder; one found in
-/// neither stays as it is. Throws CaseError: unknown keys (with the nearest one), duplicates, wrong types,
-/// values out of range or at odds with each other, no geometry or two.
+/// relative geometry.file is sought in the case file's folder, then in the working directory; one found in
+/// neither, or given by an override, stays as it is. Throws CaseError: unknown keys (with the nearest one),
+/// duplicates, wrong types, values out of range or at odds with each other, no geometry or two.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides);
 
 /// A case from overrides alone, for commands that need no geometry. Throws CaseError as read_case.

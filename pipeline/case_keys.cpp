@@ -38,7 +38,7 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
       {"Distance of triangles from curved faces, at most. Sizes may fall to `feature_minimum` for it.", "any",
        "0.0001"});
   keys.number(
-      "growth", sizing.growth, Range::above(1, 3),
+      "growth", sizing.growth, Range::between(1.01, 3),
       common({"Ratio of the sizes of neighbouring elements, at most. Nearer to 1 makes the mesh smoother "
               "and larger.",
               shortest(preset.growth), shortest(preset.growth)}));
@@ -46,10 +46,13 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
       "proximity", sizing.proximity, Range::between(0, 20, "elements"),
       {"How many elements lie across a thin part of the body and across a gap, at least; 0: any number.",
        shortest(preset.proximity), shortest(preset.proximity)});
-  keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
-              common("How many tetrahedra the sizes chosen from the model aim at, features finer than the "
-                     "minimum left out. The first key to touch for a finer or coarser mesh. Sizes that are "
-                     "given stay as they are."));
+  keys.number(
+      "target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
+      common({"How many tetrahedra the sizes chosen from the model aim at, features finer than the "
+              "minimum left out unless their size is given. The first key to touch for a finer or "
+              "coarser mesh. Sizes that are given stay as they are, the others are chosen around them.",
+              shortest(default_target) + "; any where `minimum` and `maximum` are given",
+              shortest(default_target)}));
   keys.number(
       "feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
       "Features finer than the minimum, and after them gaps between walls, come on top of the target, "

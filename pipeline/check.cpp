@@ -33,6 +33,7 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined.changes;
   forecast.features = sized.features;
+  forecast.bounded = sized.bounded;
   forecast.counts =
       sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
@@ -110,6 +111,8 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
     text += "a run joins: " + line + "\n";
   const std::string features = forecast.features ? describe(*forecast.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
+  const std::string bounded = describe(forecast.bounded, forecast.sizes);
+  if (!bounded.empty()) text += "bounds: " + bounded + "\n";
   return text + fmt::format(
                     "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
                     "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
@@ -163,6 +166,7 @@ Json forecast_json(const Forecast& forecast) {
           {"piece_triangles", forecast.piece_triangles},
           {"piece_tets", forecast.piece_tets},
           {"features", forecast.features ? to_json(*forecast.features) : Json()},
+          {"bounded_by_minimum", to_json(forecast.bounded)},
           {"joined_faces", to_json(forecast.joined)}};
 }
 

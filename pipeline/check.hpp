@@ -3,6 +3,7 @@
 
 #include "cad/repair/diagnosis.hpp"
 #include "parallel/communicator.hpp"
+#include "pipeline/bounded_faces.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/unresolved_features.hpp"
@@ -26,7 +27,8 @@ struct FaceContact {
 struct Forecast {
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;
-  cad::Changes joined;  ///< narrow faces that would vanish in their neighbours
+  std::vector<NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
+  cad::Changes joined;              ///< narrow faces that would vanish in their neighbours
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together

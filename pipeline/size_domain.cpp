@@ -6,9 +6,12 @@
 #include "sizing/choose_sizes.hpp"
 #include "sizing/narrow_faces.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
-#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,7 +21,9 @@ namespace {
 /// Of the smallest size: how far the mesh may leave the surface where a narrow face vanishes.
 constexpr double join_tolerance = 0.05;
 /// Tetrahedra predicted over those aimed at, or the other way round, from which on a warning says so.
-constexpr double missed_target = 1.5;
+constexpr double missed_target = 1.25;
+/// Logarithm of what a key does to the count, from which on it is named.
+constexpr double telling_cost = 0.2;
 
 /// The model without faces narrower than `width`, where neighbours can take them in.
 std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
@@ -44,63 +49,66 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   return joined;
 }
 
-bool leaves_a_choice(const SizingRequest& request) {
-  return !request.minimum || !request.maximum;
+/// What the sizes that are not given are to meet; nothing where no question is left.
+std::optional<double> target_of(const SizingRequest& request) {
+  if (request.target_tetrahedra) return request.target_tetrahedra;
+  return request.minimum && request.maximum ? std::nullopt : std::optional(default_target);
 }
 
-/// What was chosen, overruled by what was asked for.
-sizing::SizingOptions overrule(const sizing::SizingOptions& chosen, const SizingRequest& request) {
-  sizing::SizingOptions sizes = chosen;
-  if (request.minimum) {
-    sizes.minimum = *request.minimum;
-    sizes.feature_minimum = sizes.strip_minimum = sizes.gap_minimum = 0;
+/// What each given key does to the count, those first that do most.
+std::string describe_costs(std::vector<sizing::BoundCost> costs) {
+  const auto weight = [](const sizing::BoundCost& cost) { return std::abs(std::log(cost.ratio)); };
+  std::stable_sort(costs.begin(), costs.end(),
+                   [&](const auto& a, const auto& b) { return weight(a) > weight(b); });
+  std::string text;
+  for (const sizing::BoundCost& cost : costs) {
+    if (weight(cost) < telling_cost) break;
+    text += text.empty() ? "" : ", ";
+    text += std::isinf(cost.ratio)
+                ? fmt::format("sizing.{} makes it far too many", cost.bound)
+                : fmt::format("sizing.{} makes it {:.2g} times as many", cost.bound, cost.ratio);
   }
-  if (request.feature_minimum) sizes.feature_minimum = *request.feature_minimum, sizes.strip_minimum = 0;
-  if (request.maximum) sizes.maximum = *request.maximum;
-  if (request.curvature_angle) sizes.curvature_angle = *request.curvature_angle;
-  if (request.chordal_deviation) sizes.chordal_deviation = *request.chordal_deviation;
-  if (request.proximity) sizes.proximity = *request.proximity;
-  if (request.growth) sizes.growth = *request.growth;
-  if (request.surface_maximum) sizes.surface_maximum = *request.surface_maximum;
-  if (sizes.minimum > sizes.maximum) {
-    throw std::invalid_argument(
-        fmt::format("sizing.minimum ({:.6g}) exceeds sizing.maximum ({:.6g}), one of which was chosen from "
-                    "the model. Remedy: give both",
-                    sizes.minimum, sizes.maximum));
-  }
-  return sizes;
+  return text;
 }
 
-/// Warns where no sizes come near what was aimed at.
-void tell_missed_target(const parallel::Communicator& communicator, const sizing::ChosenSizes& chosen,
-                        double target) {
+/// Warns where no sizes come near what was aimed at, with the keys that forbid it.
+void tell_missed_target(const sizing::ModelSampler& sampler, const parallel::Communicator& communicator,
+                        const sizing::ChosenSizes& chosen, const SizingRequest& request, double target) {
   const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
-  if (!communicator.is_root() || (ratio < missed_target && ratio > 1 / missed_target)) return;
-  parallel::log_warning(
-      fmt::format("sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted: {}",
-                  target, chosen.counts.tetrahedra,
-                  ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
-                              "sizes that are given make it fewer"
-                            : "sizes that are given (sizing.surface_maximum, sizing.maximum) make it more"));
+  if (ratio < missed_target && ratio > 1 / missed_target) return;
+  const std::string costs = describe_costs(sizing::costs_of_given(sampler, chosen, request));
+  if (!communicator.is_root()) return;
+  const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
+                                   "larger sizes make it fewer"
+                                 : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
+  parallel::log_warning(fmt::format(
+      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}: {}", target,
+      chosen.counts.tetrahedra, costs.empty() ? "" : "; ", costs, remedy));
 }
 
 /// The sized domain of the sampler's model, which stays as it is.
 SizedDomain finish(const parallel::Communicator& communicator, const sizing::ModelSampler& sampler,
                    const SizingRequest& request, const std::optional<sizing::SizingOptions>& near,
                    JoinedFaces joined) {
-  if (!leaves_a_choice(request)) {
-    const sizing::SizingOptions sizes = overrule({}, request);
-    return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
+  const std::optional<double> target = target_of(request);
+  if (!target) {
+    const sizing::SizingOptions sizes = sizing::with_given({}, request);
+    return {sampler.model(),
+            sizes,
+            sampler.build_field(sizes),
+            std::move(joined),
+            {},
+            {},
+            report_bounded_faces(sampler, sizes)};
   }
-  sizing::ChosenSizes chosen =
-      sizing::choose_sizes(sampler, request.target_tetrahedra, request.feature_budget, near);
-  const sizing::SizingOptions sizes = overrule(chosen.options, request);
-  if (sizes != chosen.options)
-    return {sampler.model(), sizes, sampler.build_field(sizes), std::move(joined), {}, {}};
-  tell_missed_target(communicator, chosen, request.target_tetrahedra);
-  FeatureReport features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
-  return {sampler.model(),   sizes,         std::move(chosen.field),
-          std::move(joined), chosen.counts, std::move(features)};
+  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, *target, request.feature_budget, near, request);
+  tell_missed_target(sampler, communicator, chosen, request, *target);
+  std::optional<FeatureReport> features;
+  if (!request.holds_features())
+    features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
+  std::vector<NamedBound> bounded = report_bounded_faces(sampler, chosen.options);
+  return {sampler.model(), chosen.options,      std::move(chosen.field), std::move(joined),
+          chosen.counts,   std::move(features), std::move(bounded)};
 }
 
 }  // namespace
@@ -108,13 +116,14 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
-  const auto fields = leaves_a_choice(request) ? sizing::Fields::several : sizing::Fields::one;
+  const std::optional<double> target = target_of(request);
+  const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
   if (narrow_faces == NarrowFaces::keep) return finish(communicator, sampler, request, {}, {});
   // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
   std::optional<sizing::SizingOptions> near;
-  if (leaves_a_choice(request)) near = sizing::estimate_sizes(sampler, request.target_tetrahedra);
-  const double width = overrule(near.value_or(sizing::SizingOptions{}), request).minimum;
+  if (target) near = sizing::estimate_sizes(sampler, *target, request);
+  const double width = near ? near->minimum : *request.minimum;
   JoinedFaces what;
   const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, what);
   if (!joined) return finish(communicator, sampler, request, near, {});

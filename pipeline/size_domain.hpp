@@ -5,6 +5,7 @@
 #include "cad/repair/change.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
+#include "pipeline/bounded_faces.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
@@ -30,6 +31,7 @@ struct SizedDomain {
   JoinedFaces joined;
   std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
   std::optional<FeatureReport> features;          ///< where sizes at features were chosen
+  std::vector<NamedBound> bounded;                ///< faces on which the minimum wins over curvature
 };
 
 /// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. What the user did not

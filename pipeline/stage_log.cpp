@@ -30,6 +30,8 @@ void log_sizing(const RunRecord& record) {
                   record.sizes.growth, record.size_field_leaves));
   if (const std::string text = record.features ? describe(*record.features) : std::string(); !text.empty())
     parallel::log_warning("sizing: " + text);
+  if (const std::string text = describe(record.bounded_faces, record.sizes); !text.empty())
+    log_info("sizing: " + text);
 }
 
 namespace {

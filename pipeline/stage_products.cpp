@@ -37,10 +37,11 @@ struct SizesRecord {
   JoinedFaces joined;
   std::optional<sizing::PredictedCounts> counts;
   std::optional<FeatureReport> features;
+  std::vector<NamedBound> bounded;
 
   static constexpr auto fields() {
     return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
-                      &SizesRecord::features);
+                      &SizesRecord::features, &SizesRecord::bounded);
   }
 };
 
@@ -92,7 +93,8 @@ cad::Domain unpack_domain_product(CheckpointContent content) {
 }
 
 CheckpointDraft pack_sizes(const SizedDomain& sized) {
-  return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features}),
+  return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features,
+                              sized.bounded}),
           {}};
 }
 
@@ -104,7 +106,8 @@ SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointC
                     sizing::SizeField::unpack(communicator, record.field),
                     std::move(record.joined),
                     record.counts,
-                    std::move(record.features)};
+                    std::move(record.features),
+                    std::move(record.bounded)};
   if (!sized.joined.groups.empty()) sized.model = cad::join_faces(domain, sized.joined.groups);
   return sized;
 }

@@ -3,8 +3,11 @@
 #include "parallel/log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,10 +59,14 @@ double usual_bias(double coarser) {
 
 struct Preset {
   double maximum, gap;
+
+  static Preset of(const cad::Model& model) {
+    return {model.bounds().diagonal() / domain_over_maximum, model.sewn_gap()};
+  }
 };
 
-/// Where no feature is finer than the minimum.
-SizingOptions sizes_for(double body_size, const Preset& preset) {
+/// Where no feature is finer than the minimum, unless that is given.
+SizingOptions sizes_for(double body_size, const Preset& preset, const GivenSizes& given) {
   SizingOptions options;
   options.minimum = std::max(body_size / body_size_over_minimum, size_over_gap * preset.gap);
   options.feature_minimum = options.minimum;
@@ -67,7 +74,7 @@ SizingOptions sizes_for(double body_size, const Preset& preset) {
   options.maximum = std::max(preset.maximum, options.surface_maximum);
   options.curvature_angle = preset_curvature_angle;
   options.growth = preset_growth;
-  return options;
+  return with_given(options, given);
 }
 
 double largest_extent(const geometry::Box& box) {
@@ -82,22 +89,23 @@ double first_size(const ModelSampler& sampler) {
 /// `share` times the elements that there would be without them.
 class Search {
 public:
-  Search(const ModelSampler& sampler, double target_tetrahedra, double coarser, const FeatureShare& features)
+  Search(const ModelSampler& sampler, double target_tetrahedra, double coarser, const FeatureShare& features,
+         const GivenSizes& given)
       : _sampler(sampler),
+        _given(given),
         _coarser(coarser),
         _features(features),
         _target(std::log(target_tetrahedra)),
         _most_leaves(leaves_for(target_tetrahedra * features.share)) {}
 
   void run(double first_size, double largest_error, int most_rounds) {
-    const cad::Model& model = _sampler.model();
-    const Preset preset{model.bounds().diagonal() / domain_over_maximum, model.sewn_gap()};
+    const Preset preset = Preset::of(_sampler.model());
     const double extent = largest_extent(_sampler.body_box());
     double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
     double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
     double slope = first_slope;
     for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
-      const double error = judge(sizes_for(std::exp(size), preset));
+      const double error = judge(std::exp(size), preset);
       if (round > 0 && last_error < 1e300 && error < 1e300) {
         const double measured = (error - last_error) / (size - last_size);
         const bool tells = measured <= flattest_slope || std::abs(size - last_size) >= least_telling_step;
@@ -108,24 +116,29 @@ public:
       size -= std::clamp(error / slope, -largest_step, largest_step);
       if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
     }
-    if (_error == 1e300) _options = sizes_for(std::exp(finest), preset);
+    if (_error == 1e300) {
+      _body_size = std::exp(finest);
+      _options = sizes_for(_body_size, preset, _given);
+    }
   }
 
   bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
   /// What came nearest to the target; the coarsest tried where all were far too fine.
   const SizingOptions& options() const { return _options; }
+  double body_size() const { return _body_size; }
   /// As options(), with the field: of a search by fields that are as fine as asked for.
   ChosenSizes best() {
-    if (_best) return {_options, std::move(_best->field), _best->counts, _features};
+    if (_best) return {_options, std::move(_best->field), _best->counts, _features, _body_size};
     SizeField field = _sampler.build_field(_options);
     const PredictedCounts counts = _sampler.predict(field);
-    return {_options, std::move(field), counts, _features};
+    return {_options, std::move(field), counts, _features, _body_size};
   }
 
 private:
   /// The logarithm of the count over the target; 1e300 where there are far too many. What comes nearest is
   /// kept.
-  double judge(SizingOptions options) {
+  double judge(double body_size, const Preset& preset) {
+    SizingOptions options = sizes_for(body_size, preset, _given);
     if (_features.floor > 0) set_feature_floor(options, _features.floor);
     if (_features.gap_floor > 0) set_gap_floor(options, _features.gap_floor);
     std::optional<Trial> trial;
@@ -135,27 +148,29 @@ private:
         : _coarser > 1 ? _sampler.estimate_tetrahedra(options, _coarser, _most_leaves)
                        : std::nullopt;
     if (!tetrahedra) {
-      parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", options.surface_maximum));
+      parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", body_size));
       return 1e300;
     }
     const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarser);
-    parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra",
-                                      options.surface_maximum, _coarser > 1 ? "about " : "", count));
+    parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra", body_size,
+                                      _coarser > 1 ? "about " : "", count));
     const double error = std::log(count / _features.share) - _target;
     if (std::abs(error) < std::abs(_error)) {
       _error = error;
       _options = options;
+      _body_size = body_size;
       _best = std::move(trial);
     }
     return error;
   }
 
   const ModelSampler& _sampler;
+  const GivenSizes& _given;
   double _coarser;
   FeatureShare _features;
   double _target;
   std::int64_t _most_leaves;
-  double _error = 1e300;
+  double _error = 1e300, _body_size = 0;
   SizingOptions _options;
   std::optional<Trial> _best;
 };
@@ -168,27 +183,90 @@ void check_target(double target_tetrahedra) {
 
 }  // namespace
 
-SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra) {
+SizingOptions with_given(const SizingOptions& options, const GivenSizes& given) {
+  if (given.minimum && given.maximum && *given.minimum > *given.maximum) {
+    throw std::invalid_argument(fmt::format("sizing: the minimum ({:.6g}) exceeds the maximum ({:.6g})",
+                                            *given.minimum, *given.maximum));
+  }
+  SizingOptions sizes = options;
+  sizes.chordal_deviation = given.chordal_deviation.value_or(sizes.chordal_deviation);
+  sizes.curvature_angle = given.curvature_angle.value_or(sizes.curvature_angle);
+  sizes.proximity = given.proximity.value_or(sizes.proximity);
+  sizes.growth = given.growth.value_or(sizes.growth);
+  sizes.surface_maximum = given.surface_maximum.value_or(sizes.surface_maximum);
+  sizes.maximum = given.maximum.value_or(std::max(sizes.maximum, given.minimum.value_or(0)));
+  const double largest =
+      sizes.surface_maximum > 0 ? std::min(sizes.maximum, sizes.surface_maximum) : sizes.maximum;
+  if (given.minimum) {
+    sizes.minimum = *given.minimum;
+    sizes.feature_minimum = sizes.strip_minimum = sizes.gap_minimum = 0;
+    if (!given.surface_maximum && sizes.surface_maximum > 0)
+      sizes.surface_maximum = std::max(sizes.surface_maximum, sizes.minimum);
+  } else if (sizes.minimum > largest) {
+    sizes.minimum = largest;
+    sizes.feature_minimum = std::min(sizes.feature_minimum, largest);
+  }
+  if (given.feature_minimum) sizes.feature_minimum = *given.feature_minimum, sizes.strip_minimum = 0;
+  return sizes;
+}
+
+SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given) {
   check_target(target_tetrahedra);
-  Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra), {});
+  Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra), {}, given);
   search.run(first_size(sampler), good_enough_to_start, most_rounds);
   return search.options();
 }
 
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
-                         const std::optional<SizingOptions>& near) {
+                         const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
   const double coarser = coarsening(target_tetrahedra);
-  Search base(sampler, target_tetrahedra, coarser, {});
-  const double start = near ? near->surface_maximum : first_size(sampler);
+  Search base(sampler, target_tetrahedra, coarser, {}, given);
+  const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(sampler);
   base.run(start, near ? near_enough : close_enough, most_rounds);
-  const FeatureShare features = share_of_features(sampler, base.options(), feature_budget, coarser,
-                                                  leaves_for(target_tetrahedra * feature_budget));
-  Search search(sampler, target_tetrahedra, 1, features);
-  search.run(base.options().surface_maximum,
-             features.share > little_share ? near_enough_with_features : near_enough,
+  FeatureShare features;
+  if (!given.holds_features()) {
+    features = share_of_features(sampler, base.options(), feature_budget, coarser,
+                                 leaves_for(target_tetrahedra * feature_budget));
+  }
+  Search search(sampler, target_tetrahedra, 1, features, given);
+  search.run(base.body_size(), features.share > little_share ? near_enough_with_features : near_enough,
              base.is_out_of_reach() ? rounds_out_of_reach : most_rounds);
   return search.best();
+}
+
+std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenSizes& chosen,
+                                      const GivenSizes& given) {
+  using Bound = std::optional<double> GivenSizes::*;
+  static constexpr std::array<std::pair<const char*, Bound>, 8> bounds{{
+      {"minimum", &GivenSizes::minimum},
+      {"feature_minimum", &GivenSizes::feature_minimum},
+      {"maximum", &GivenSizes::maximum},
+      {"surface_maximum", &GivenSizes::surface_maximum},
+      {"curvature_angle", &GivenSizes::curvature_angle},
+      {"chordal_deviation", &GivenSizes::chordal_deviation},
+      {"growth", &GivenSizes::growth},
+      {"proximity", &GivenSizes::proximity},
+  }};
+  const Preset preset = Preset::of(sampler.model());
+  const double coarser = coarsening(chosen.counts.tetrahedra);
+  const auto count = [&](const GivenSizes& these) {
+    const auto most = leaves_for(std::max(chosen.counts.tetrahedra, 1e7));
+    return sampler.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarser, most);
+  };
+  const std::optional<double> all = count(given);
+  std::vector<BoundCost> costs;
+  for (const auto& [name, bound] : bounds) {
+    if (!(given.*bound)) continue;
+    GivenSizes others = given;
+    (others.*bound).reset();
+    const std::optional<double> without = count(others);
+    const double ratio = all && without ? *all / std::max(1.0, *without)
+                         : without      ? std::numeric_limits<double>::infinity()
+                                        : 1.0;
+    costs.push_back({name, ratio});
+  }
+  return costs;
 }
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,

@@ -6,8 +6,30 @@
 #include "sizing/size_field.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace aeroloom::sizing {
+
+/// Bounds that are given, members of SizingOptions; the others are chosen around them. Lengths in the model's
+/// unit.
+struct GivenSizes {
+  std::optional<double> minimum, maximum;   ///< minimum <= maximum
+  std::optional<double> feature_minimum;    ///< smallest size at short edges, narrow faces, sharp corners
+  std::optional<double> surface_maximum;    ///< largest size on faces that are not far field
+  std::optional<double> curvature_angle;    ///< degrees
+  std::optional<double> chordal_deviation;  ///< of triangles from curved faces
+  std::optional<double> growth;             ///< ratio of neighbouring sizes
+  std::optional<double> proximity;          ///< elements across thin parts and gaps; 0: any
+
+  /// Whether the sizes of features finer than the minimum are given too.
+  bool holds_features() const { return minimum || feature_minimum; }
+};
+
+/// The options with what is given in place of their own; those of their bounds that contradict it follow. A
+/// minimum brings that of features along (SizingOptions). Throws std::invalid_argument where what is given
+/// contradicts itself.
+SizingOptions with_given(const SizingOptions& options, const GivenSizes& given);
 
 /// Sizes with the field they give and the counts that field predicts.
 struct ChosenSizes {
@@ -15,21 +37,35 @@ struct ChosenSizes {
   SizeField field;
   PredictedCounts counts;
   FeatureShare features;
+  double body_size;  ///< from which the bounds that are not given follow
 };
 
 /// Sizes that give the target within some twenty percent, by estimates alone
 /// (ModelSampler::estimate_tetrahedra), where no feature is finer than their minimum. Collective. Throws as
 /// choose_sizes().
-SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra);
+SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra,
+                             const GivenSizes& given = {});
 
-/// Searches the one size from which all bounds follow until the predicted count is within some percent of
-/// the target where no feature asks for less than the minimum. What finer features ask for comes on top, up
-/// to `feature_budget` times the target in all: the rest of the model has the sizes it would have without
-/// them. The search starts at `near`, sizes for a model that is almost the same, where there are such. The
-/// sampler must look for gaps as closely as the default options ask, or not at all. Collective. Throws
-/// std::invalid_argument for a target below one.
+/// Searches the one size from which all bounds that are not given follow until the predicted count is within
+/// some percent of the target where no feature asks for less than the minimum. What finer features ask for
+/// comes on top, up to `feature_budget` times the target in all: the rest of the model has the sizes it would
+/// have without them; where their sizes are given, the target is for all together. What comes nearest is
+/// chosen where the target is out of reach. The search starts at `near`, sizes for a model that is almost the
+/// same, where there are such. The sampler must look for gaps as closely as the options ask, or not at all.
+/// Collective. Throws std::invalid_argument for a target below one.
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
-                         const std::optional<SizingOptions>& near = {});
+                         const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
+
+/// What one of the given bounds does.
+struct BoundCost {
+  std::string bound;  ///< its name in SizingOptions
+  double ratio;  ///< predicted tetrahedra over those with what would be chosen in its place, about; infinite
+                 ///< where there are far too many
+};
+
+/// Of each that is given, by coarse fields. Collective.
+std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenSizes& chosen,
+                                      const GivenSizes& given);
 
 }  // namespace aeroloom::sizing

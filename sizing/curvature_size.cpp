@@ -9,8 +9,8 @@ namespace {
 
 /// A triangle with edges l leaves a surface of curvature k by k R^2 / 2 in its middle, R = l / sqrt(3); edges
 /// may be 1.4 times as long as the size.
-double size_for_deviation(double curvature, const SizingOptions& options) {
-  return std::max(std::sqrt(3 * options.chordal_deviation / curvature), smallest_feature_size(options));
+double size_for_deviation(double curvature, double deviation, const SizingOptions& options) {
+  return std::max(std::sqrt(3 * deviation / curvature), smallest_feature_size(options));
 }
 
 }  // namespace
@@ -26,10 +26,16 @@ double largest_size(bool far_field, const SizingOptions& options) {
                                                    : std::min(options.maximum, options.surface_maximum);
 }
 
-double size_for_curvature(double curvature, double angle, double largest, const SizingOptions& options) {
+CurvatureLimits curvature_limits(bool far_field, const SizingOptions& options) {
+  return {radians_per_element(far_field, options), far_field ? 0 : options.chordal_deviation};
+}
+
+double size_for_curvature(double curvature, const CurvatureLimits& limits, double largest,
+                          const SizingOptions& options) {
   const double k = std::abs(curvature);
-  const double size = k * largest > angle ? std::max(angle / k, options.minimum) : largest;
-  return options.chordal_deviation > 0 && k > 0 ? std::min(size, size_for_deviation(k, options)) : size;
+  const double size = k * largest > limits.angle ? std::max(limits.angle / k, options.minimum) : largest;
+  return limits.deviation > 0 && k > 0 ? std::min(size, size_for_deviation(k, limits.deviation, options))
+                                       : size;
 }
 
 }  // namespace aeroloom::sizing

@@ -15,11 +15,18 @@ inline constexpr int deepest_bisection = 40;
 
 double radians_per_element(bool far_field, const SizingOptions& options);
 
+/// What curvature asks for on the body, or on the far field, which turns slowly and has no shape to keep.
+struct CurvatureLimits {
+  double angle;      ///< an element turns by, at most; radians
+  double deviation;  ///< of triangles from the surface, at most; 0: any
+};
+CurvatureLimits curvature_limits(bool far_field, const SizingOptions& options);
+
 /// The largest size on a face of the body or of the far field.
 double largest_size(bool far_field, const SizingOptions& options);
 
-/// Of an element that turns by `angle` (radians) on a curve or surface of this curvature, and leaves it by no
-/// more than the options allow; `largest` where it is flat.
-double size_for_curvature(double curvature, double angle, double largest, const SizingOptions& options);
+/// Of an element within the limits on a curve or surface of this curvature; `largest` where it is flat.
+double size_for_curvature(double curvature, const CurvatureLimits& limits, double largest,
+                          const SizingOptions& options);
 
 }  // namespace aeroloom::sizing

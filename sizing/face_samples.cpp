@@ -1,9 +1,8 @@
 #include "sizing/face_samples.hpp"
 
-#include "sizing/curvature_size.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace aeroloom::sizing {
 namespace {
@@ -13,15 +12,18 @@ using geometry::Vec3;
 
 /// Distance of a sensible middle of two points from both, at most, over their distance.
 constexpr double farthest_middle = 0.9;
+/// The area of an equilateral triangle over the square of its edge.
+constexpr double triangle_over_square = 0.433;
+/// What is over a limit by less is on it.
+constexpr double within_rounding = 1.01;
 
 }  // namespace
 
 std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceId face,
                                              const cad::Facets& facets, bool far_field,
                                              const SizingOptions& options) {
-  Demand demand{
-      model, face, options, radians_per_element(far_field, options), largest_size(far_field, options),
-      {},    {}};
+  Demand demand{model, face, options, curvature_limits(far_field, options), largest_size(far_field, options),
+                {},    {}};
   if (_planar && demand.largest >= options.maximum) return {};
   if (_points.empty()) start(demand, facets);
   demand.sizes.resize(_points.size(), -1);
@@ -31,6 +33,32 @@ std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceI
     cover(static_cast<std::int32_t>(t), {a, b, c}, 0, demand);
   }
   return std::move(demand.sources);
+}
+
+FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId face,
+                                            const cad::Facets& facets, bool far_field,
+                                            const SizingOptions& options) {
+  Demand demand{model, face, options, curvature_limits(far_field, options), largest_size(far_field, options),
+                {},    {}};
+  if (_points.empty()) start(demand, facets);
+  Overview seen;
+  for (const auto& corners : facets.triangles) {
+    const auto& [a, b, c] = corners;
+    const Vec3 p = facets.points[a];
+    const double share = norm(cross(facets.points[b] - p, facets.points[c] - p)) / 6;  // of a corner
+    for (const auto corner : corners) {
+      const Point& point = _points[corner];
+      const double size = size_of(point, demand), turn = point.curvature * size;
+      seen.area += share;
+      seen.triangles += share / (triangle_over_square * size * size);
+      const bool deviates = demand.limits.deviation > 0 &&
+                            point.curvature * size * size > within_rounding * 3 * demand.limits.deviation;
+      if (turn <= within_rounding * demand.limits.angle && !deviates) continue;
+      seen.bounded_area += share;
+      seen.degrees = std::max(seen.degrees, turn * 180 / std::numbers::pi);
+    }
+  }
+  return seen;
 }
 
 void FaceSamples::start(const Demand& demand, const cad::Facets& facets) {
@@ -60,7 +88,7 @@ std::int32_t FaceSamples::add_between(const Demand& demand, std::int32_t a, std:
 
 double FaceSamples::size_of(const Point& point, const Demand& demand) const {
   if (point.like[0] >= 0) return std::min(demand.sizes[point.like[0]], demand.sizes[point.like[1]]);
-  return size_for_curvature(point.curvature, demand.angle, demand.largest, demand.options);
+  return size_for_curvature(point.curvature, demand.limits, demand.largest, demand.options);
 }
 
 void FaceSamples::ask(std::int32_t point, Demand& demand) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cad/model/model.hpp"
+#include "sizing/curvature_size.hpp"
 #include "sizing/sources.hpp"
 
 #include <array>
@@ -23,6 +24,17 @@ public:
   std::vector<SizeSource> sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
                                   bool far_field, const SizingOptions& options);
 
+  /// What is asked for, told by the corners of the facets alone.
+  struct Overview {
+    double triangles = 0;  ///< about
+    double area = 0;
+    double bounded_area = 0;  ///< where curvature asks for less than the smallest size
+    double degrees = 0;       ///< that an element turns there, at most
+  };
+  /// As sources().
+  Overview overview(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, bool far_field,
+                    const SizingOptions& options);
+
 private:
   /// Where the parameters jump between two points, the one in their middle asks for what they ask for.
   struct Point {
@@ -41,7 +53,8 @@ private:
     const cad::Model& model;
     cad::FaceId face;
     const SizingOptions& options;
-    double angle, largest;
+    CurvatureLimits limits;
+    double largest;
     std::vector<double> sizes;  // per point; -1 where none is asked for yet
     std::vector<SizeSource> sources;
   };

@@ -247,6 +247,7 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
 
 std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, double factor) const {
   check_options(options);
+  require_possible(options);
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);

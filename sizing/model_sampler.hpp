@@ -32,6 +32,17 @@ struct Strip {
   static constexpr auto fields() { return std::tuple(&Strip::face, &Strip::width, &Strip::place); }
 };
 
+/// A face on which a smallest size wins over curvature.
+struct BoundedFace {
+  cad::FaceId face;
+  double fraction;  ///< of its area
+  double degrees;   ///< that an element turns there, at most
+
+  static constexpr auto fields() {
+    return std::tuple(&BoundedFace::face, &BoundedFace::fraction, &BoundedFace::degrees);
+  }
+};
+
 /// Whether samples of faces are kept: those that serve once only are not worth their memory.
 enum class Fields : bool { one, several };
 
@@ -47,7 +58,8 @@ public:
   /// For the model with some faces joined: what belongs to all others is taken over. Collective.
   ModelSampler(ModelSampler&& before, const cad::Model& joined);
 
-  /// The field under these options. Collective.
+  /// The field under these options. Collective. This and what follows throw std::invalid_argument where the
+  /// memory of this node cannot hold a point for each triangle.
   SizeField build_field(const SizingOptions& options) const;
   /// As predict_counts. Collective.
   PredictedCounts predict(const SizeField& field) const;
@@ -59,6 +71,10 @@ public:
   /// Collective.
   std::optional<double> estimate_tetrahedra(const SizingOptions& options, double coarser,
                                             std::int64_t most_leaves) const;
+
+  /// Faces on which the smallest size keeps elements from turning as little, or being as near, as is asked
+  /// for; in the order of faces. Collective.
+  std::vector<BoundedFace> faces_bounded_by_minimum(const SizingOptions& options) const;
 
   /// One for each face with strips narrower than that, by width; widths below a hundredth of it count as
   /// that. `minimum` tells how far corners are closed. Collective.
@@ -99,6 +115,11 @@ private:
   void add_face(cad::FaceId id);
   void list_corners();
   void gather_triangles();
+  /// Before anything is sampled as finely as that: sizes of which no machine could hold the points are a
+  /// mistake. Collective. Throws std::invalid_argument.
+  void require_possible(const SizingOptions& options) const;
+  /// Of each face of this rank, by curvature.
+  std::vector<std::pair<cad::FaceId, FaceSamples::Overview>> look_over(const SizingOptions& options) const;
   void measure_gaps();
   /// In the open gaps of those faces; `widest` as they were looked for. Collective.
   void look_closer(const std::vector<OwnFace*>& faces, double widest);

@@ -27,7 +27,7 @@ struct EdgeSample {
 class EdgeSampler {
 public:
   EdgeSampler(const cad::Model& model, cad::EdgeId edge, bool far_field, const SizingOptions& options)
-      : _model(model), _edge(edge), _options(options), _angle(radians_per_element(far_field, options)) {}
+      : _model(model), _edge(edge), _options(options), _limits(curvature_limits(far_field, options)) {}
 
   std::vector<SizeSource> run() {
     const std::vector<double> breaks = _model.edge_breaks(_edge);
@@ -48,7 +48,7 @@ private:
   EdgeSample sample(double t) {
     const EdgeSample result{
         t, _model.edge_point(_edge, t),
-        size_for_curvature(_model.edge_curvature(_edge, t), _angle, _options.maximum, _options)};
+        size_for_curvature(_model.edge_curvature(_edge, t), _limits, _options.maximum, _options)};
     if (result.size < _options.maximum) _sources.push_back({result.point, result.size});
     return result;
   }
@@ -74,7 +74,8 @@ private:
   const cad::Model& _model;
   cad::EdgeId _edge;
   const SizingOptions& _options;
-  double _angle, _length = 0;
+  CurvatureLimits _limits;
+  double _length = 0;
   std::vector<SizeSource> _sources;
 };
 

@@ -211,7 +211,7 @@ TEST_F(CaseTest, ValuesOutOfRangeNameTheRange) {
   EXPECT_EQ(error_of(transport + "sizing: {minimum: 0}\n"),
             "case.yaml:2:19: 'sizing.minimum' is 0, but must be above 0 (length unit of the geometry)");
   EXPECT_EQ(error_of(transport + "sizing: {growth: 1}\n"),
-            "case.yaml:2:18: 'sizing.growth' is 1, but must be above 1 and at most 3");
+            "case.yaml:2:18: 'sizing.growth' is 1, but must be at least 1.01 and at most 3");
   EXPECT_EQ(error_of(transport + "sizing: {curvature_angle: 120}\n"),
             "case.yaml:2:27: 'sizing.curvature_angle' is 120, but must be at least 0.1 and at most 90 "
             "degrees per element");
@@ -329,7 +329,7 @@ TEST_F(CaseTest, FilesAreSoughtBesideTheCaseToo) {
   write("", "wing.step");
   const std::string found = read_case("sub/case.yaml", {}).domain.file;
   fs::current_path(before);
-  EXPECT_EQ(found, "wing.step");  // the working directory comes first
+  EXPECT_EQ(found, "sub/wing.step");  // not another one that happens to be called the same
   EXPECT_EQ(read_case(file, {"geometry.file=absent.step"}).domain.file, "absent.step");
   const std::string absolute = (folder / "sub/wing.step").string();
   EXPECT_EQ(read_case(file, {"geometry.file=" + absolute}).domain.file, absolute);

@@ -1,5 +1,6 @@
 #include "pipeline/size_domain.hpp"
 
+#include "parallel/warnings.hpp"
 #include "pipeline/stage_products.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
@@ -7,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,76 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   const double predicted = sizing::predict_counts(world, sized.model, sized.field, clock).tetrahedra;
   EXPECT_GT(predicted, 14'000);
   EXPECT_LT(predicted, 28'000);
+}
+
+// The search goes around what is given; where that forbids the target, a warning names the key and the count.
+TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
+  const Model model = cad::shapes::split_cylinder(0.5, 1.5);
+  parallel::StageClock clock;
+  const auto world = parallel::Communicator::world();
+  const std::vector<void (*)(SizingRequest&)> keys{
+      [](SizingRequest& request) { request.growth = 1.15; },
+      [](SizingRequest& request) { request.curvature_angle = 6; },
+      [](SizingRequest& request) { request.chordal_deviation = 0.002; },
+      [](SizingRequest& request) { request.minimum = 0.01; },
+      [](SizingRequest& request) { request.proximity = 3; },
+      [](SizingRequest& request) { request.maximum = 0.4; },
+  };
+  int met = 0;
+  for (unsigned chosen = 0; chosen < 1u << keys.size(); chosen += 3) {
+    SizingRequest request;
+    request.target_tetrahedra = 30'000;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (chosen >> k & 1) keys[k](request);
+    parallel::take_warnings(world);
+    const SizedDomain sized = size_domain(world, model, request, NarrowFaces::join, clock);
+    const parallel::Warnings warnings = parallel::take_warnings(world);
+    ASSERT_TRUE(sized.counts);
+    const double share = sized.features ? sized.features->share.share : 1;
+    const double error = std::log(sized.counts->tetrahedra / share / 30'000);
+    met += std::abs(error) < std::log(1.25);
+    if (std::abs(error) > std::log(1.25) && world.is_root()) {
+      EXPECT_GT(error, 0) << chosen;
+      ASSERT_FALSE(warnings.kept.empty()) << chosen;
+      EXPECT_NE(warnings.kept.back().message.find("makes it"), std::string::npos)
+          << warnings.kept.back().message;
+    }
+    EXPECT_EQ(sized.sizes, sizing::with_given(sized.sizes, request)) << chosen;
+  }
+  EXPECT_GE(met, 8);
+}
+
+// A target that a key forbids: which, and what it costs.
+TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
+  const Model model = cad::shapes::split_cylinder(0.5, 1.5);
+  parallel::StageClock clock;
+  const auto world = parallel::Communicator::world();
+  parallel::take_warnings(world);
+  SizingRequest request;
+  request.target_tetrahedra = 1000;
+  request.curvature_angle = 4;
+  request.minimum = 0.01;
+  const SizedDomain sized = size_domain(world, model, request, NarrowFaces::join, clock);
+  const parallel::Warnings warnings = parallel::take_warnings(world);
+  EXPECT_GT(sized.counts->tetrahedra, 2000);
+  if (!world.is_root()) return;
+  ASSERT_EQ(warnings.kept.size(), 1u);
+  EXPECT_NE(warnings.kept[0].message.find("sizing.curvature_angle makes it"), std::string::npos)
+      << warnings.kept[0].message;
+  EXPECT_EQ(warnings.kept[0].message.find("sizing.growth makes it"), std::string::npos)
+      << warnings.kept[0].message;
+}
+
+// Bounds that were chosen follow those that are given.
+TEST(SizeDomain, LetsChosenBoundsFollowGivenOnes) {
+  const Model model = cad::shapes::split_cylinder(0.5, 1.5);
+  parallel::StageClock clock;
+  SizingRequest request;
+  request.target_tetrahedra = 1000;
+  request.surface_maximum = 0.05;
+  const auto sized = size_domain(parallel::Communicator::world(), model, request, NarrowFaces::join, clock);
+  EXPECT_EQ(sized.sizes.surface_maximum, 0.05);
+  EXPECT_LE(sized.sizes.minimum, 0.05);
 }
 
 // What the budget cannot resolve is told with its face, width and place, and what it would take.

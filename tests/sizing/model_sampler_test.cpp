@@ -1,10 +1,15 @@
 #include "sizing/model_sampler.hpp"
 
 #include "cad/model/joined_faces.hpp"
+#include "sizing/curvature_size.hpp"
 #include "sizing/narrow_faces.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
+#include <numbers>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +59,54 @@ TEST(ModelSampler, LooksForGapsAnewBesideJoinedFaces) {
   SizingOptions options{0.02, 0.5, 15, 1.3, 0};
   options.proximity = 3;
   expect_same(model, joined, options, Fields::several, clock);
+}
+
+// Sizes of a circle of radius 1 that turn by so much are below the minimum; flat faces ask for nothing.
+TEST(ModelSampler, TellsOnWhichFacesTheMinimumWins) {
+  parallel::StageClock clock;
+  const Model model = cad::shapes::split_cylinder(3, 2);
+  SizingOptions options{0.5, 1, 5, 1.3, 0};
+  options.proximity = 0;
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::several);
+  const std::vector<BoundedFace> bounded = sampler.faces_bounded_by_minimum(options);
+  ASSERT_FALSE(bounded.empty());
+  for (const BoundedFace& each : bounded) {
+    EXPECT_FALSE(model.is_planar(each.face)) << model.face(each.face).name;
+    EXPECT_NEAR(each.fraction, 1, 1e-6);
+    EXPECT_NEAR(each.degrees, 0.5 * 180 / std::numbers::pi, 0.1);
+  }
+  options.curvature_angle = 60;
+  EXPECT_TRUE(sampler.faces_bounded_by_minimum(options).empty());
+}
+
+TEST(ModelSampler, RefusesSizesThatNoMachineHolds) {
+  parallel::StageClock clock;
+  const Model model = cad::shapes::split_cylinder(3, 2);
+  for (const Fields fields : {Fields::one, Fields::several}) {
+    const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, fields);
+    const auto refusal = [&](const SizingOptions& options) -> std::string {
+      try {
+        sampler.build_field(options);
+      } catch (const std::invalid_argument& error) {
+        return error.what();
+      }
+      return {};
+    };
+    EXPECT_NE(refusal({1e-7, 1e-7, 15, 1.3, 0}).find("triangles"), std::string::npos);
+    EXPECT_NE(refusal({1e-7, 1, 0.1, 1.3, 1e-7}).find("triangles"), std::string::npos);
+    EXPECT_NE(refusal({50, 60, 15, 1.3, 0}).find("only"), std::string::npos);
+    EXPECT_EQ(refusal({0.1, 1, 15, 1.3, 0}), "");
+  }
+}
+
+// The far field has no shape to keep.
+TEST(CurvatureLimits, LeaveTheFarFieldItsSizes) {
+  SizingOptions options{0.001, 10, 10, 1.3, 0};
+  options.chordal_deviation = 1e-4;
+  EXPECT_EQ(curvature_limits(true, options).deviation, 0);
+  const double body = size_for_curvature(0.01, curvature_limits(false, options), 10, options);
+  EXPECT_NEAR(0.01 * body * body / 3, 1e-4, 1e-12);
+  EXPECT_GT(size_for_curvature(0.01, curvature_limits(true, options), 10, options), 5 * body);
 }
 
 TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
