@@ -13,7 +13,12 @@ constexpr std::size_t write_buffer_size = std::size_t{1} << 20;
 
 }  // namespace
 
-LocalFile::LocalFile(std::string path) : _path(std::move(path)), _file(std::fopen(_path.c_str(), "wb")) {
+LocalFile::LocalFile(std::string path) : _path(std::move(path)) {
+  // Made anew: what is there may be a link to another file.
+  std::error_code ignored;
+  std::filesystem::remove(_path, ignored);
+  errno = 0;
+  _file.reset(std::fopen(_path.c_str(), "wbx"));
   if (!_file) fail("cannot create");
   std::setvbuf(_file.get(), nullptr, _IONBF, 0);
   _buffer.reserve(write_buffer_size);

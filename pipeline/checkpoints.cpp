@@ -3,9 +3,12 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,6 +33,7 @@ Case relevant_part(const Case& input, SavedStage stage) {
   if (!part.domain.file.empty()) part.domain.file = std::filesystem::path(input.domain.file).filename();
   if (stage >= SavedStage::sizing) {
     part.patches = input.patches;
+    for (PatchRule& rule : part.patches) rule.type.reset();  // what they are to a solver is for the output
     part.narrow_faces = input.narrow_faces;
     part.sizing = input.sizing;
   } else {
@@ -46,22 +50,46 @@ Case relevant_part(const Case& input, SavedStage stage) {
   return part;
 }
 
-/// The first line of two texts that differs, in words.
-std::string difference(const std::string& then, const std::string& now) {
-  std::istringstream old_lines(then), new_lines(now);
-  std::string before, after;
-  while (true) {
-    const bool more_before = static_cast<bool>(std::getline(old_lines, before));
-    const bool more_after = static_cast<bool>(std::getline(new_lines, after));
-    if (!more_before && !more_after) return "other keys";
-    if (more_before && more_after && before == after) continue;
-    const auto trimmed = [](bool there, const std::string& line) {
-      const std::size_t begin = line.find_first_not_of(' ');
-      return there && begin != std::string::npos ? fmt::format("'{}'", line.substr(begin))
-                                                 : std::string("nothing");
-    };
-    return fmt::format("{} where the case has {}", trimmed(more_before, before), trimmed(more_after, after));
+/// The keys of a resolved case with their values, in order: "improve.target_angle".
+std::vector<std::pair<std::string, std::string>> keys_of(const std::string& yaml) {
+  struct Section {
+    std::size_t indent;
+    std::string name;
+  };
+  std::vector<std::pair<std::string, std::string>> keys;
+  std::vector<Section> sections;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string::npos) continue;
+    while (!sections.empty() && sections.back().indent >= indent) sections.pop_back();
+    const std::size_t colon = std::min(line.find(": ", indent), line.size() - (line.back() == ':' ? 1 : 0));
+    std::string path;
+    for (const Section& section : sections) path += section.name + ".";
+    const std::string name = line.substr(indent, colon - indent);
+    if (colon + 1 < line.size())
+      keys.emplace_back(path + name, line.substr(colon + 2));
+    else
+      sections.push_back({indent, name});
   }
+  return keys;
+}
+
+/// The first key that differs, in words.
+std::string difference(const std::string& then, const std::string& now) {
+  const auto before = keys_of(then), after = keys_of(now);
+  const auto value_in = [](const auto& keys, const std::string& wanted) -> std::string {
+    const auto found =
+        std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.first == wanted; });
+    return found == keys.end() ? "not given" : found->second;
+  };
+  for (const auto* keys : {&before, &after}) {
+    for (const auto& [key, value] : *keys) {
+      const std::string old = value_in(before, key), own = value_in(after, key);
+      if (old != own) return fmt::format("{}: {}, in the case {}", key, old, own);
+    }
+  }
+  return "other keys";
 }
 
 }  // namespace

@@ -7,7 +7,11 @@
 #include "pipeline/stage_log.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <tuple>
+
+#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 
@@ -121,9 +125,38 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator,
   return patches;
 }
 
+namespace {
+
+/// What is said where the walls do not have the area of the CAD; empty where they have, or there is none.
+std::string missed_area(const QualityGate& gate, const RunRecord& record) {
+  double area = 0, cad = 0, most = 0;
+  const PatchRow* worst = nullptr;
+  for (const PatchRow& patch : record.patches) {
+    if (patch.type != mesh::PatchType::wall || patch.cad_area <= 0) continue;
+    area += patch.area;
+    cad += patch.cad_area;
+    const double missing = std::abs(patch.area - patch.cad_area);
+    if (missing > most) most = missing, worst = &patch;
+  }
+  if (worst == nullptr || std::abs(area - cad) <= gate.area_deviation * cad) return {};
+  return fmt::format(
+      "the mesh is not that of the body; it was written nevertheless:\n  improve.gate.area_deviation is "
+      "{:.3g}, "
+      "not {:g} at most: the walls have an area of {:.6g}, in the CAD {:.6g}; most is missed on '{}' ({:.6g} "
+      "for {:.6g})\n  remedy: smaller sizes (sizing.minimum {:.3g} and sizing.surface_maximum {:.3g} were "
+      "used); "
+      "sizes are in the unit of the file, which is {}",
+      std::abs(area / cad - 1), gate.area_deviation, area, cad, worst->name, worst->area, worst->cad_area,
+      record.sizes.minimum, record.sizes.surface_maximum, record.unit);
+}
+
+}  // namespace
+
 void require_quality(const QualityGate& gate, const RunRecord& record) {
-  const std::string missed =
+  std::string missed =
       missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
+  if (const std::string area = missed_area(gate, record); !area.empty())
+    missed += (missed.empty() ? "" : "\n") + area;
   if (!missed.empty()) throw StageFailure("quality gate", ExitCode::quality_gate, missed);
 }
 

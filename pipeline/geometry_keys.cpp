@@ -71,8 +71,9 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   using cad::DomainKind;
   keys.text(
       "file", draft.result.domain.file,
-      common({"The CAD file: STEP, IGES or BREP. Its path is relative to the working directory, or else "
-              "to the case's folder. Needed, unless `builtin` is given.",
+      common({"The CAD file: STEP, IGES or BREP. Its path is relative to the case's folder, or else to the "
+              "working directory; on the command line to the working directory. Needed, unless `builtin` is "
+              "given.",
               "", "aircraft.step"}));
   keys.choice<Builtin>(
       "builtin", draft.builtin, {{"transport", Builtin::transport}},

@@ -24,6 +24,9 @@ struct QualityGate {
   std::optional<double> largest_volume_ratio, largest_edge_ratio,
       min_scaled_jacobian;  ///< mesh/cell_measures.hpp
 
+  /// Of the area of all walls from that of their CAD faces, as a share of it; a run alone knows those.
+  double area_deviation = 0.1;
+
   /// Whether io::measure_quality is needed.
   bool asks_for_cells() const { return largest_volume_ratio || largest_edge_ratio || min_scaled_jacobian; }
 };

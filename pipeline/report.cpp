@@ -53,4 +53,12 @@ std::string write_report(const parallel::Communicator& communicator, const Case&
   return communicator.is_root() ? report_table(record, facts.stages, communicator.size()) : "";
 }
 
+void write_last_report(const Case& input, const RunOutcome& outcome, const ReportSubject& subject,
+                       int ranks) {
+  const std::string& folder = input.output.directory;
+  write_text(folder + "/report.json", report_json(input, {}, {outcome, subject, ranks, {}, {}, utc_now()}));
+  std::error_code ignored;  // a page of an earlier run that cannot go stays
+  std::filesystem::remove(folder + "/report.html", ignored);
+}
+
 }  // namespace aeroloom::pipeline

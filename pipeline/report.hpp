@@ -16,4 +16,8 @@ namespace aeroloom::pipeline {
 std::string write_report(const parallel::Communicator& communicator, const Case& input,
                          const RunRecord& record, const RunOutcome& outcome, const ReportSubject& subject);
 
+/// report.json of a run that was asked to end: its case and what became of it, nothing that ranks would have
+/// to agree on. On rank 0, on any thread. Throws std::ios_base::failure.
+void write_last_report(const Case& input, const RunOutcome& outcome, const ReportSubject& subject, int ranks);
+
 }  // namespace aeroloom::pipeline

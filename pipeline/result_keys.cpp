@@ -36,6 +36,9 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
   keys.number("min_scaled_jacobian", gate.min_scaled_jacobian, Range::between(-1, 1),
               {"Scaled Jacobian of pyramids and prisms, at least; without any there is nothing to miss.",
                "none", "0.1"});
+  keys.number("area_deviation", gate.area_deviation, Range::between(0, 1),
+              "By which share the area of all walls may miss that of the CAD: more means that elements are "
+              "too large for the body, or the unit is another.");
 }
 
 void declare_improve(KeyTable& keys, Case& result) {

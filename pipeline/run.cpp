@@ -87,9 +87,16 @@ private:
   // --- geometry
 
   cad::Model load_geometry() {
-    const RunIdentity identity = identify_run(_communicator, _input);
-    if (identity.is_known) _record.input_hash = identity.digest.text();
-    _checkpoints.emplace(_communicator, _input, identity);
+    _identity = identify_run(_communicator, _input);
+    if (_identity.is_known) {
+      _record.input_hash = _identity.digest.text();
+      _record.input_bytes = _identity.bytes;
+    }
+    _checkpoints.emplace(_communicator, _input, _identity);
+    if (!_input.domain.file.empty() && _identity.is_known) {
+      parallel::log_info(fmt::format("geometry: '{}', {} bytes, hash {}", _input.domain.file, _identity.bytes,
+                                     _record.input_hash));
+    }
     TypedPatches patches = apply_patch_rules(find_or_load_domain(), _input.patches);
     _record.patch_types = std::move(patches.types);
     describe(patches.model);
@@ -108,6 +115,7 @@ private:
     }
     cad::Model model =
         load_domain(_communicator, _input.domain, _record.clock, _record.domain, _input.geometry_sabotage);
+    require_same_file(_communicator, _identity, _input);
     _checkpoints->keep(SavedStage::geometry, [&] {
       return _communicator.is_root() ? pack_domain_product({model, _record.domain}) : io::CheckpointDraft();
     });
@@ -152,6 +160,7 @@ private:
       _record.face_names.push_back(sized.model.face(f).name);
     _record.joined_faces = sized.joined.changes;
     _record.features = sized.features;
+    _record.bounded_faces = sized.bounded;
     log_sizing(_record);
   }
 
@@ -335,6 +344,7 @@ private:
   const Communicator& _communicator;
   const Case& _input;
   RunRecord& _record;
+  RunIdentity _identity;
   std::optional<Checkpoints> _checkpoints;  // from the first stage on
 };
 

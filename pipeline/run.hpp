@@ -9,6 +9,7 @@
 #include "mesh/validity.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
+#include "pipeline/bounded_faces.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/picture.hpp"
@@ -45,6 +46,7 @@ struct RegionRow {
 /// rank except `domain` and `pictures`, which rank 0 alone holds.
 struct RunRecord {
   std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
+  std::int64_t input_bytes = 0;      ///< of that file
   std::vector<std::string> resumed;  ///< stages whose results came from an earlier run
   cad::DomainReport domain;
   std::string unit;
@@ -56,6 +58,7 @@ struct RunRecord {
   cad::Changes joined_faces;                 ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;
+  std::vector<NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
   volume::DecompositionReport decomposition;

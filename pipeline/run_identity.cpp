@@ -1,15 +1,18 @@
 #include "pipeline/run_identity.hpp"
 
+#include "parallel/collective_error.hpp"
 #include "pipeline/library_versions.hpp"
 
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 namespace aeroloom::pipeline {
 namespace {
 
-parallel::Digest digest_of_file(const std::string& path) {
+/// Also counts the bytes.
+parallel::Digest digest_of_file(const std::string& path, std::int64_t* bytes = nullptr) {
   parallel::Digester digester;
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> part(1 << 20);
@@ -17,6 +20,7 @@ parallel::Digest digest_of_file(const std::string& path) {
     stream.read(part.data(), static_cast<std::streamsize>(part.size()));
     digester.bytes(
         std::as_bytes(std::span<const char>(part.data(), static_cast<std::size_t>(stream.gcount()))));
+    if (bytes != nullptr) *bytes += stream.gcount();
   }
   return digester.result();
 }
@@ -35,14 +39,17 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const Case&
     identity.version.append(", ").append(library).append(" ").append(version);
   std::vector<parallel::Digest> digests(2);
   std::vector<std::uint8_t> known{1};
+  std::vector<std::int64_t> bytes{0};
   if (communicator.is_root()) {
     digests[0] = digest_of_file("/proc/self/exe");
     if (!input.domain.file.empty()) {
       known[0] = is_readable(input.domain.file) ? 1 : 0;
-      digests[1] = digest_of_file(input.domain.file);
+      if (known[0] != 0) digests[1] = digest_of_file(input.domain.file, &bytes[0]);
     }
   }
   communicator.broadcast_items(digests);
+  communicator.broadcast_items(bytes);
+  identity.bytes = bytes[0];
   communicator.broadcast_items(known);
   identity.is_known = known[0] != 0;
   identity.build = digests[0];
@@ -56,6 +63,16 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const Case&
     identity.digest = digests[1];
   }
   return identity;
+}
+
+void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
+                       const Case& input) {
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root() || input.domain.file.empty() || !identity.is_known) return;
+    if (is_readable(input.domain.file) && digest_of_file(input.domain.file) == identity.digest) return;
+    throw std::filesystem::filesystem_error("the file was changed while it was read", input.domain.file,
+                                            std::make_error_code(std::errc::interrupted));
+  });
 }
 
 }  // namespace aeroloom::pipeline

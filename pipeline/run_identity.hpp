@@ -5,6 +5,7 @@
 #include "parallel/digest.hpp"
 #include "pipeline/case.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace aeroloom::pipeline {
@@ -15,9 +16,15 @@ struct RunIdentity {
   std::string input;        ///< name of the geometry file, or of what is built in
   bool is_known = true;     ///< whether the geometry file can be read
   parallel::Digest digest;  ///< of the bytes of that file, or of the dimensions
+  std::int64_t bytes = 0;   ///< of that file
 };
 
 /// Rank 0 reads the files. That a geometry file cannot be read is for the reader to tell. Collective.
 RunIdentity identify_run(const parallel::Communicator& communicator, const Case& input);
+
+/// After the geometry was read: throws CollectiveError (files) where the file is no longer the one that was
+/// identified. Collective.
+void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
+                       const Case& input);
 
 }  // namespace aeroloom::pipeline

@@ -40,6 +40,7 @@ void write_text(const std::string& file, const std::string& text) {
   const fs::path target = linked ? fs::weakly_canonical(file, error) : fs::path(file);
   const bool replaced = !fs::exists(target, error) || fs::is_regular_file(target, error);
   const fs::path place = replaced ? fs::path(target.string() + ".unfinished") : target;
+  if (replaced) fs::remove(place, error);  // a link too, not what it points to
   errno = 0;
   std::ofstream stream(place, std::ios::binary);
   stream << text;

@@ -21,6 +21,27 @@ std::string path_of(const OutputOptions& output, io::FileFormat format) {
   return fmt::format("{}{}/mesh{}", output.directory, folder, name->extension);
 }
 
+EarlierFiles::EarlierFiles(const OutputOptions& output) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> places{output.directory + "/surface.pvtp", output.directory + "/interfaces.pvtp"};
+  for (const io::FormatName& known : io::format_names) places.emplace_back(path_of(output, known.format));
+  for (const fs::path& place : places) {
+    std::error_code ignored;  // what cannot be looked at is not there
+    const fs::file_time_type written = fs::last_write_time(place, ignored);
+    if (!ignored) _files.emplace_back(place, written);
+  }
+}
+
+std::vector<std::string> EarlierFiles::left() const {
+  std::vector<std::string> names;
+  for (const auto& [place, written] : _files) {
+    std::error_code ignored;
+    if (std::filesystem::last_write_time(place, ignored) == written && !ignored)
+      names.push_back(place.filename().string());
+  }
+  return names;
+}
+
 void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
                    const mesh::Numbering& numbering, const OutputOptions& output) {
   const io::FileMesh mesh = io::file_mesh_of(communicator, volume, numbering);

@@ -5,7 +5,10 @@
 #include "parallel/communicator.hpp"
 #include "pipeline/case.hpp"
 
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace aeroloom::pipeline {
 
@@ -19,6 +22,17 @@ void write_outputs(const parallel::Communicator& communicator, const mesh::Distr
 /// there is any. Collective; throws CollectiveError.
 void write_surfaces(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                     const mesh::Numbering& numbering, const OutputOptions& output);
+
+/// Files of meshes as runs name them, of any format, that are in the output directory now. Rank 0 calls it.
+class EarlierFiles {
+public:
+  explicit EarlierFiles(const OutputOptions& output);
+  /// Those that are still as they were: not of this run.
+  std::vector<std::string> left() const;
+
+private:
+  std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> _files;
+};
 
 bool wants_vtk(const OutputOptions& output);
 /// Where the mesh is in this format.

@@ -18,6 +18,9 @@ namespace aeroloom::pipeline {
 
 namespace {
 
+/// Names between dots; no key of any case has so many.
+constexpr std::size_t deepest_key = 20;
+
 std::string position(const YAML::Mark& mark) {
   return mark.is_null() ? "" : fmt::format(":{}:{}", mark.line + 1, mark.column + 1);
 }
@@ -188,6 +191,10 @@ void KeyTable::read_override(const std::string& assignment) {
     const std::size_t dot = std::min(assignment.find('.', start), equals);
     if (dot == start) throw CaseError(name + ": expected section.key=value, found an empty name");
     names.push_back(assignment.substr(start, dot - start));
+    if (names.size() > deepest_key) {
+      throw CaseError(fmt::format("--set {}...: no key has more than {} parts",
+                                  assignment.substr(0, std::min<std::size_t>(dot, 60)), deepest_key));
+    }
     start = dot + 1;
   }
   YAML::Node node = parse(assignment.substr(equals + 1), name, false);

@@ -10,8 +10,11 @@ namespace {
 
 /// Samples of a face are as dense as its curvature asks for: Newton's method starts within reach.
 constexpr double facet_angle = 20 * std::numbers::pi / 180;
-constexpr double facet_deflection = 0.01;  // of the model
-constexpr int samples_per_interval = 32;   // of a curve, where it is smooth
+constexpr double facet_deflection = 0.01;  // of the body
+/// The body counts as no smaller than this part of everything: a far field needs no more samples the farther
+/// it is.
+constexpr double least_body = 1.0 / 400;
+constexpr int samples_per_interval = 32;  // of a curve, where it is smooth
 /// Where sheets pass close to each other the nearest sample may lie on the other one.
 constexpr std::size_t most_starts = 8;
 constexpr int most_steps = 20;
@@ -38,7 +41,8 @@ PointLocator::PointLocator(const Model& model)
 void PointLocator::sample(FaceId id, FaceSamples& samples) const {
   samples.made = true;
   try {
-    Facets facets = _model.facets(id, facet_deflection * _model.body_bounds().diagonal(), facet_angle);
+    const double body = std::max(_model.body_bounds().diagonal(), least_body * _model.bounds().diagonal());
+    Facets facets = _model.facets(id, facet_deflection * body, facet_angle);
     samples.points = std::move(facets.points);
     samples.uv = std::move(facets.uv);
   } catch (const CadError&) {

@@ -1,13 +1,12 @@
 #include "io/vtk/vtk_parts.hpp"
 
+#include "io/local_file.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/progress.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -303,17 +302,16 @@ void write_index(const parallel::Communicator& communicator, const std::string& 
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     const std::string unfinished = path + ".unfinished";
-    errno = 0;
-    std::ofstream stream(unfinished, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-      const std::error_code reason(errno != 0 ? errno : EIO, std::generic_category());
+    try {
+      LocalFile file(unfinished);
+      file.text(text);
+      file.finish();
+      fs::rename(unfinished, path);
+    } catch (const fs::filesystem_error& error) {
       std::error_code ignored;
       fs::remove(unfinished, ignored);
-      throw fs::filesystem_error("cannot write", path, reason);
+      throw fs::filesystem_error("cannot write", path, error.code());
     }
-    fs::rename(unfinished, path);
   });
 }
 

@@ -1,7 +1,9 @@
 #include "pipeline/check.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/memory_option.hpp"
 
+#include <cstdint>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -11,9 +13,13 @@ namespace aeroloom::pipeline {
 Command add_check(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "check", "diagnose the geometry of a case and predict its mesh, without meshing");
-  const auto arguments = std::make_shared<CaseArguments>();
+  struct Arguments : CaseArguments {
+    std::int64_t memory = 0;  // bytes; 0: no limit
+  };
+  const auto arguments = std::make_shared<Arguments>();
   add_case_file(*app, *arguments);
   add_overrides(*app, *arguments);
+  add_memory_option(*app, arguments->memory);
   add_help_footer(
       *app,
       {{"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
@@ -21,7 +27,9 @@ Command add_check(CLI::App& program) {
       {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return with_case(communicator, *arguments, loudness, [&](const Case& input) {
-              return guarded(communicator, ExitCode::cad, [&] { return check_case(communicator, input); });
+              return within_memory(communicator, arguments->memory, [&] {
+                return guarded(communicator, ExitCode::cad, [&] { return check_case(communicator, input); });
+              });
             });
           }};
 }

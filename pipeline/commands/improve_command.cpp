@@ -3,12 +3,34 @@
 #include "pipeline/commands/memory_option.hpp"
 #include "pipeline/commands/staged_run.hpp"
 #include "pipeline/improve_file.hpp"
+#include "pipeline/write_outputs.hpp"
 
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
+
+namespace {
+
+/// Whether what is improved, or the report beside it, would be overwritten. Empty where not.
+std::string what_would_be_lost(const std::string& mesh, const OutputOptions& output) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  for (const io::FileFormat format : output.formats) {
+    if (fs::equivalent(mesh, path_of(output, format), ignored)) return "it is what is to be improved";
+  }
+  const fs::path folder = fs::absolute(mesh, ignored).parent_path();
+  if (fs::equivalent(folder, output.directory, ignored) && fs::exists(folder / "report.json", ignored))
+    return "the report there is that of the mesh to be improved";
+  return {};
+}
+
+}  // namespace
 
 Command add_improve(CLI::App& program) {
   struct Arguments : CaseArguments {
@@ -29,6 +51,12 @@ Command add_improve(CLI::App& program) {
                    ExitCode::resources, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+              const std::string lost = what_would_be_lost(arguments->mesh, input.output);
+              if (!lost.empty()) {
+                return fail(communicator, ExitCode::usage,
+                            fmt::format("'{}' is not overwritten: {}. Remedy: --set output.directory=FOLDER",
+                                        input.output.directory, lost));
+              }
               return within_memory(communicator, arguments->memory, [&] {
                 return run_stages(communicator, input, {"", arguments->mesh}, [&](RunRecord& record) {
                   improve_file(communicator, arguments->mesh, input, record);

@@ -4,6 +4,7 @@
 #include "pipeline/commands/help.hpp"
 #include "pipeline/text_file.hpp"
 
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -32,7 +33,21 @@ void require_ours(const std::string& schema_file) {
                   "--no-schema does without");
 }
 
+/// What is made of triangles is no CAD.
+void require_cad(const std::string& geometry) {
+  std::string extension = fs::path(geometry).extension().string();
+  for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  for (const char* faceted : {".stl", ".obj", ".ply", ".off", ".vtp", ".3mf"}) {
+    if (extension == faceted)
+      throw CaseError(
+          fmt::format("{}: {} files hold triangles, not CAD. Remedy: STEP, IGES or BREP from the "
+                      "program that made it",
+                      geometry, extension));
+  }
+}
+
 void write_template(const InitArguments& arguments) {
+  require_cad(arguments.geometry);
   if (fs::is_directory(arguments.file))
     throw CaseError(arguments.file + " is a folder; give the case a name, such as " +
                     (fs::path(arguments.file) / "case.yaml").string());

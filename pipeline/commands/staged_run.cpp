@@ -2,16 +2,23 @@
 
 #include "parallel/log.hpp"
 #include "parallel/memory_limit.hpp"
+#include "parallel/termination.hpp"
 #include "pipeline/commands/plain_words.hpp"
+#include "pipeline/output_lock.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 namespace aeroloom::pipeline {
@@ -24,6 +31,11 @@ namespace {
 void tell(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   parallel::log_info(text);
+}
+
+void tell_older(const std::vector<std::string>& files, const std::string& folder) {
+  if (files.empty()) return;
+  parallel::log_warning(fmt::format("in '{}', not of this run: {}", folder, fmt::join(files, ", ")));
 }
 
 /// Hours of meshing are not lost on a folder that was mistyped.
@@ -41,11 +53,24 @@ void require_writable_folder(const Communicator& communicator, const std::string
 
 int run_stages(const Communicator& communicator, const Case& input, const ReportSubject& subject,
                const std::function<void(RunRecord&)>& stages) {
+  std::optional<OutputLock> lock;
   try {
     require_writable_folder(communicator, input.output.directory);
+    lock.emplace(communicator, input.output.directory);
   } catch (const parallel::CollectiveError& error) {
     return fail(communicator, ExitCode::files, fmt::format("output.directory: {}", error.what()));
   }
+  const parallel::LastWords last_words([&, ranks = communicator.size()](int signal) {
+    const RunOutcome ended{
+        static_cast<ExitCode>(128 + signal), current_stage(),
+        fmt::format("ended by SIG{}; what checkpoints have kept is found by --resume", sigabbrev_np(signal))};
+    try {
+      write_last_report(input, ended, subject, ranks);
+    } catch (const std::exception& error) {
+      parallel::log_error(fmt::format("the report cannot be written: {}", error.what()));
+    }
+  });
+  const EarlierFiles earlier(input.output);
   RunRecord record;
   RunOutcome outcome;
   const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
@@ -56,6 +81,7 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
     outcome = {failure.code(), failure.stage(), plain_words(failure.what())};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
+  if (communicator.is_root()) tell_older(outcome.older_files = earlier.left(), input.output.directory);
   try {
     const std::string table = write_report(communicator, input, record, outcome, subject);
     if (outcome.code == ExitCode::ok) tell(table);

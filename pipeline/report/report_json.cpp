@@ -21,7 +21,9 @@ Json input_json(const Case& input, const RunRecord& record, const ReportSubject&
   const bool is_mesh = !subject.improved_file.empty();
   const std::string& file = is_mesh ? subject.improved_file : input.domain.file;
   std::error_code error;
-  const auto bytes = file.empty() ? 0 : std::filesystem::file_size(file, error);
+  const auto bytes = file.empty()                 ? 0
+                     : !record.input_hash.empty() ? static_cast<std::uintmax_t>(record.input_bytes)
+                                                  : std::filesystem::file_size(file, error);
   Json json;
   json["kind"] = is_mesh ? "mesh" : file.empty() ? "builtin" : "cad";
   json["file"] = file.empty() ? Json() : Json(file);
@@ -61,6 +63,7 @@ Json outcome_json(const Case& input, const RunRecord& record, const ReportFacts&
   json["input"] = input_json(input, record, facts.subject);
   json["configuration"] = resolved_yaml(input);
   json["resumed"] = record.resumed;
+  json["older_files"] = outcome.older_files;
   json["warnings"] = warnings_json(facts.warnings);
   json["warnings_left_out"] = facts.warnings.left_out;
   return json;

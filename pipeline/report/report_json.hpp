@@ -12,8 +12,9 @@ namespace aeroloom::pipeline {
 /// How a run ended, for the report.
 struct RunOutcome {
   ExitCode code = ExitCode::ok;
-  std::string stage;    ///< that failed; empty when none did
-  std::string message;  ///< of the failure
+  std::string stage;                          ///< that failed; empty when none did
+  std::string message;                        ///< of the failure
+  std::vector<std::string> older_files = {};  ///< of meshes in the output directory, not of this run
 };
 
 /// What was run.
