@@ -77,7 +77,7 @@ def check_descriptions(validator):
             visit(f"{path}.{name}", below)
     visit("", validator.schema)
     sizing = validator.schema["properties"]["sizing"]["properties"]
-    assert sizing["growth"]["exclusiveMinimum"] == 1 and sizing["growth"]["default"] == 1.3
+    assert sizing["growth"]["minimum"] == 1.01 and sizing["growth"]["default"] == 1.3
     assert "from the model" in sizing["minimum"]["description"]
     assert "interface_angle" not in json.dumps(validator.schema)
 

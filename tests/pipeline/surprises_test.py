@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Nothing is lost, and nothing is silently other than asked: other runs, ends from outside, odd files, absurd sizes.
+usage: surprises_test.py PROGRAM"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from program import COARSE_WING, SOURCE
+from shell import Shell
+
+CASE = COARSE_WING + "output: {pictures: false}\n"
+
+
+def start(shell, ranks, *words):
+    command = [SOURCE / "scripts" / "mpirun_local.sh", str(ranks), shell.program, *words]
+    return subprocess.Popen(command, cwd=shell.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def report(shell, folder="out"):
+    return json.loads((shell.folder / folder / "report.json").read_text())
+
+
+def wait_for(path, process):
+    while not path.exists():
+        assert process.poll() is None, process.stdout.read()
+        time.sleep(0.01)
+
+
+def check_one_run_at_a_time(shell):
+    """The second is told of the first; what a killed run leaves is no hindrance."""
+    lock = shell.folder / "out" / ".lock"
+    first = start(shell, 1, "run", "case.yaml", "--set", "sizing.surface_maximum=0.5")
+    wait_for(lock, first)
+    code, _, error = shell.run("run case.yaml")
+    assert code == 7 and "another run writes there (process" in error and "Remedy" in error, error
+    for process in lock.read_text().split()[1:2]:
+        os.kill(int(process), signal.SIGKILL)
+    first.wait()
+    assert lock.exists()
+    code, _, error = shell.run("run case.yaml")
+    assert code == 0 and not lock.exists(), error
+
+
+def check_end_from_outside(shell):
+    """A message, the code of shells, and a report that says so."""
+    for ranks in (1, 2):
+        run = start(shell, ranks, "run", "case.yaml", "--set", "sizing.minimum=0.02",
+                    "--set", "sizing.surface_maximum=0.04")
+        wait_for(shell.folder / "out" / ".lock", run)
+        time.sleep(1)
+        if ranks == 1:
+            os.kill(int((shell.folder / "out" / ".lock").read_text().split()[1]), signal.SIGTERM)
+        else:
+            run.terminate()
+        text = run.communicate(timeout=60)[0]
+        assert "ended by SIGTERM" in text, text
+        assert ranks == 2 or run.returncode == 128 + signal.SIGTERM, run.returncode
+        told = report(shell)
+        assert (told["status"], told["exit_code"]) == ("failed", 128 + signal.SIGTERM), told
+        assert "SIGTERM" in told["failure"]["message"] and told["failure"]["stage"], told["failure"]
+
+
+def check_older_files(shell):
+    code, _, error = shell.run("run case.yaml --set output.formats=[vtu,su2]")
+    assert code == 0, error
+    code, _, error = shell.run("run case.yaml")
+    assert code == 0 and "not of this run: mesh.su2" in error, error
+    assert report(shell)["older_files"] == ["mesh.su2"], report(shell)["older_files"]
+    before = (shell.folder / "out" / "mesh.pvtu").read_bytes()
+    code, _, error = shell.run("run case.yaml --set volume.inject=aborts")
+    assert code == 5, error
+    assert (shell.folder / "out" / "mesh.pvtu").read_bytes() == before
+    assert "mesh.pvtu" in report(shell)["older_files"], report(shell)["older_files"]
+    (shell.folder / "out" / "mesh.su2").unlink()
+    assert shell.run("run case.yaml")[0] == 0
+
+
+def check_input_is_kept(shell):
+    code, _, error = shell.run("improve out/mesh.pvtu")
+    assert code == 2 and "is not overwritten" in error and "output.directory" in error, error
+    assert report(shell)["status"] == "ok"
+
+
+def check_links(shell):
+    """What an unfinished file's name points to is nobody's business."""
+    precious = shell.folder / "precious"
+    names = ["report.json", "report.html", "mesh.pvtu", "mesh.su2", "mesh.cgns", "mesh.meshb", "mesh.msh", "mesh.vtkhdf"]
+    for name in names:
+        precious.write_text("precious")
+        (shell.folder / "out" / f"{name}.unfinished").symlink_to(precious)
+    code, _, error = shell.run("run case.yaml --set output.formats=[vtu,su2,cgns,meshb,msh,vtkhdf]")
+    assert code == 0, error
+    assert precious.read_text() == "precious"
+
+
+def check_closed_streams(shell):
+    for closed in (">&-", "2>&-", "<&- >&- 2>&-"):
+        done = subprocess.run(["bash", "-c", f'"{shell.program}" run case.yaml --set output.directory=closed {closed}'],
+                              cwd=shell.folder, capture_output=True, text=True, timeout=200)
+        assert done.returncode == 0, (closed, done.returncode, done.stderr)
+    assert report(shell, "closed")["mesh"]["hash"] == report(shell)["mesh"]["hash"]
+
+
+def check_odd_geometry(shell):
+    os.mkfifo(shell.folder / "pipe.step")
+    for file in ("pipe.step", "/dev/zero"):
+        for command in ("check", "run"):
+            code, _, error = shell.run(f"{command} case.yaml --set geometry.file={file}")
+            assert code == 7 and "a device or a pipe" in error, f"{command} {file}: {code} {error}"
+    code, _, error = shell.run("init new.yaml --geometry plane.STL")
+    assert code == 2 and "triangles, not CAD" in error and not (shell.folder / "new.yaml").exists(), error
+
+
+def check_absurd_sizes(shell):
+    for command in ("check", "run"):
+        code, _, error = shell.run(f"{command} case.yaml --set sizing.minimum=1e-6 --set sizing.maximum=1e-6 "
+                                   "--set sizing.surface_maximum=1e-6 --set sizing.feature_minimum=1e-6")
+        assert code == 2 and "triangles" in error and "Remedy" in error, f"{command}: {code} {error}"
+        code, _, error = shell.run(f"{command} case.yaml --set sizing.minimum=50 --set sizing.maximum=100 "
+                                   "--set sizing.surface_maximum=60")
+        assert code == 2 and "but the body is only" in error, f"{command}: {code} {error}"
+    code, _, error = shell.run("run case.yaml --set sizing.growth=1.0000000001")
+    assert code == 2 and "sizing.growth" in error, error
+    code, _, error = shell.run("check case.yaml --max-memory 1M")
+    assert code == 8 and "--max-memory" in error, error
+    start_of_dots = time.monotonic()
+    code, _, error = shell.run("run case.yaml --set " + "a." * 10000 + "b=1")
+    assert code == 2 and time.monotonic() - start_of_dots < 10 and len(error) < 300, error
+
+
+def check_bounds_are_told(shell):
+    code, text, error = shell.run("run case.yaml --set sizing.curvature_angle=2")
+    assert code == 0 and "wins over 2 degrees per element: on " in text, text + error
+    bounded = report(shell)["sizing"]["bounded_by_minimum"]
+    assert bounded and all(0 < face["fraction"] <= 1 and face["degrees"] > 2 for face in bounded), bounded
+
+
+def main():
+    shell = Shell(sys.argv[1])
+    (shell.folder / "case.yaml").write_text(CASE)
+    assert shell.run("run case.yaml")[0] == 0
+    for check in (check_closed_streams, check_one_run_at_a_time, check_older_files, check_input_is_kept, check_links,
+                  check_odd_geometry, check_absurd_sizes, check_bounds_are_told, check_end_from_outside):
+        check(shell)
+        print(check.__name__, "good", flush=True)
+
+
+if __name__ == "__main__":
+    main()
