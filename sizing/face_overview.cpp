@@ -16,7 +16,8 @@ using parallel::ScopedCpu;
 
 namespace {
 
-/// What the sizing and the surface take for each triangle, at least.
+/// What the sizing and the surface take for each triangle, at least (the built-in aircraft with 67,224: 1,540
+/// and 1,090).
 constexpr double bytes_per_triangle = 200;
 
 }  // namespace

@@ -70,7 +70,8 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
       parallel::log_error(fmt::format("the report cannot be written: {}", error.what()));
     }
   });
-  const EarlierFiles earlier(input.output);
+  std::optional<EarlierFiles> earlier;  // rank 0 looks at the folder
+  if (communicator.is_root()) earlier.emplace(input.output);
   RunRecord record;
   RunOutcome outcome;
   const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
@@ -81,7 +82,7 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
     outcome = {failure.code(), failure.stage(), plain_words(failure.what())};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
-  if (communicator.is_root()) tell_older(outcome.older_files = earlier.left(), input.output.directory);
+  if (earlier) tell_older(outcome.older_files = earlier->left(), input.output.directory);
   try {
     const std::string table = write_report(communicator, input, record, outcome, subject);
     if (outcome.code == ExitCode::ok) tell(table);
