@@ -3,22 +3,25 @@
 #include "parallel/environment.hpp"
 #include "parallel/session.hpp"
 
-#include <atomic>
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
+#include <poll.h>
 #include <pthread.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
 
 namespace aeroloom::parallel {
 namespace {
-
-/// How often the thread looks whether it is still wanted.
-constexpr long look_up_nanoseconds = 200'000'000;
 
 sigset_t termination_signals() {
   sigset_t signals;
@@ -49,15 +52,33 @@ void release_termination_signals() {
 }
 
 struct TerminationWatch::State {
-  std::atomic<bool> over = false;
+  /// A descriptor that is closed at the end of its life.
+  class Descriptor {
+  public:
+    explicit Descriptor(int number) : _number(number) {
+      if (number < 0) throw std::system_error(errno, std::generic_category(), "watching for signals");
+    }
+    ~Descriptor() { ::close(_number); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return _number; }
+
+  private:
+    int _number;
+  };
+
+  sigset_t watched = termination_signals();
+  Descriptor signals{::signalfd(-1, &watched, SFD_CLOEXEC)};
+  Descriptor over{::eventfd(0, EFD_CLOEXEC)};  // readable once nobody needs the watch
   std::thread thread;
 
-  void watch() {
-    const sigset_t signals = termination_signals();
-    const timespec patience{0, look_up_nanoseconds};
-    while (!over) {
-      const int signal = sigtimedwait(&signals, nullptr, &patience);
-      if (signal > 0) end(signal);
+  void watch() const {
+    std::array<pollfd, 2> awaited{pollfd{signals.number(), POLLIN, 0}, pollfd{over.number(), POLLIN, 0}};
+    while (awaited[1].revents == 0) {
+      if (::poll(awaited.data(), awaited.size(), -1) < 0) continue;
+      signalfd_siginfo came{};
+      if (awaited[0].revents != 0 && ::read(signals.number(), &came, sizeof(came)) == sizeof(came))
+        end(static_cast<int>(came.ssi_signo));
     }
   }
 
@@ -76,7 +97,7 @@ TerminationWatch::TerminationWatch() : _state(std::make_unique<State>()) {
 }
 
 TerminationWatch::~TerminationWatch() {
-  _state->over = true;
+  ::eventfd_write(_state->over.number(), 1);
   _state->thread.join();
 }
 

@@ -108,6 +108,12 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
 TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   const Communicator world = Communicator::world();
   Case input = coarse_aircraft("c");
+  input.sizing.target_tetrahedra.reset();
+  input.sizing.minimum = 0.5;
+  input.sizing.maximum = 20;
+  input.sizing.surface_maximum = 4;
+  input.sizing.growth = 1.8;
+  input.volume.retries = 1;
   input.volume.sabotage = parallel::Sabotage::throws;
   const std::vector<std::string> expected{"body", "views", "leading_edge", "junction"};
   EXPECT_EQ(names_of(record_of(world, input).pictures),

@@ -17,9 +17,9 @@ class Shell:
         self.program = str(pathlib.Path(program).resolve())
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_line_"))
 
-    def run(self, line, ranks=0):
+    def run(self, line, ranks=1):
         """Exit code, standard output and standard error of `aeroloom LINE`."""
-        command = ([LAUNCHER, str(ranks)] if ranks else []) + [self.program] + shlex.split(line)
+        command = [LAUNCHER, str(ranks), self.program] + shlex.split(line)
         done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=self.folder)
         return done.returncode, done.stdout, done.stderr
 
