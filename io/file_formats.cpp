@@ -4,9 +4,12 @@
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/medit/medit_writer.hpp"
 #include "io/openfoam/openfoam_writer.hpp"
+#include "io/staged_files.hpp"
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "parallel/shared_file.hpp"
 
 #include <algorithm>
@@ -15,6 +18,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace aeroloom::io {
 
@@ -39,6 +43,11 @@ std::string without(const std::string& path, std::string_view end) {
   return path.ends_with(end) ? path.substr(0, path.size() - end.size()) : path;
 }
 
+/// NAME.msh for NAME_1.msh, which the first of its parts is called.
+std::string msh_name(const std::string& path) {
+  return without(written_path(FileFormat::msh_parts, path), "_1.msh") + ".msh";
+}
+
 void write_vtu(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
                const WriteOptions& options) {
   const fs::path file = without(written_path(FileFormat::vtu, path), ".pvtu");
@@ -53,6 +62,31 @@ void write_vtu(const parallel::Communicator& communicator, const FileMesh& mesh,
     write_surface(communicator, mesh, folder, name + "_interfaces", options.compression,
                   SurfaceFaces::between_regions);
   }
+}
+
+/// Says what of the mesh the format has no place for.
+void warn_of_losses(const FileMesh& mesh, FileFormat format, const std::string& file) {
+  const bool is_su2 = format == FileFormat::su2 || format == FileFormat::su2b;
+  const bool is_ugrid = format == FileFormat::ugrid || format == FileFormat::ugrid64;
+  if (!is_su2 && !is_ugrid && format != FileFormat::cgns) return;
+  std::vector<std::string> between;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    if (mesh.patches[p].type == mesh::PatchType::interior &&
+        mesh.patch_faces[p][0] + mesh.patch_faces[p][1] > 0)
+      between.push_back("'" + mesh.patches[p].name + "'");
+  }
+  const bool has_regions = format != FileFormat::cgns && mesh.regions.size() > 1;
+  if (between.empty() && !has_regions) return;
+  constexpr std::size_t shown = 5;
+  const std::size_t all = between.size();
+  between.resize(std::min(all, shown));
+  std::string lost = has_regions ? fmt::format("its {} regions", mesh.regions.size()) : "";
+  if (all > 0) {
+    lost += fmt::format("{}{} patch(es) between regions: {}{}", has_regions ? " and " : "", all,
+                        fmt::join(between, ", "), all > shown ? ", ..." : "");
+  }
+  parallel::log_warning(fmt::format(
+      "'{}' has no place for {}: left out; msh, meshb, openfoam and vtkhdf keep {}", file, lost, "them"));
 }
 
 /// The case is the folder of the file, which viewers open and which holds nothing.
@@ -84,9 +118,9 @@ void write_parts_as_they_are(const parallel::Communicator& communicator, const F
     case FileFormat::msh:
       return write_msh(communicator, mesh, path);
     case FileFormat::msh_parts:
-      return write_msh_parts(communicator, mesh, without(written_path(format, path), "_1.msh") + ".msh");
+      return write_msh_parts(communicator, mesh, msh_name(path));
     case FileFormat::openfoam:
-      return write_foam(communicator, mesh, path);
+      break;
   }
 }
 
@@ -128,8 +162,21 @@ void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh
                 const std::string& path, const WriteOptions& options) {
   const std::int32_t parts = options.parts > 0 ? options.parts : mesh.part_count;
   const bool cut = has_parts(format) && (parts != mesh.part_count || (options.recut && parts > 1));
-  if (!cut) return write_parts_as_they_are(communicator, mesh, format, path, options);
-  write_parts_as_they_are(communicator, repartition(communicator, mesh, parts), format, path, options);
+  if (cut) {
+    WriteOptions as_they_are = options;
+    as_they_are.recut = false;
+    return write_mesh(communicator, repartition(communicator, mesh, parts), format, path, as_they_are);
+  }
+  // A case is a folder with files of its user.
+  if (format == FileFormat::openfoam) return write_foam(communicator, mesh, path);
+  const fs::path file = written_path(format, path);
+  if (communicator.is_root()) warn_of_losses(mesh, format, file.filename().string());
+  write_together(communicator, file.parent_path().string(), file.filename().string(),
+                 [&](const std::string& staging) {
+                   write_parts_as_they_are(communicator, mesh, format,
+                                           (fs::path(staging) / file.filename()).string(), options);
+                 });
+  if (format == FileFormat::msh_parts) remove_later_msh_parts(communicator, msh_name(path), mesh.part_count);
 }
 
 }  // namespace aeroloom::io

@@ -69,10 +69,13 @@ struct WriteOptions {
 };
 
 /// Writes a mesh to written_path(format, path); what lies beside it (`.mapbc`, folders of
-/// parts, surfaces for viewers) takes its name from there. Formats in parts get as many as asked for, cut
-/// anew by repartition() where the mesh has others. Never gathers; the files depend on the parts, not on
-/// ranks. Collective; throws CollectiveError (files) where something cannot be written, (input) where the
-/// format cannot hold the mesh.
+/// parts, surfaces for viewers) takes its name from there, and appears together with it or not at all
+/// (write_together; OpenFOAM: its mesh does). Formats in parts get as many as asked for, cut anew by
+/// repartition() where the mesh has others. Never gathers; the files depend on the parts, not on ranks.
+/// Collective; throws CollectiveError (files) where something cannot be written, (input) where the format
+/// cannot hold the mesh.
+void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
+                const std::string& path, const WriteOptions& options);
 void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
                 const std::string& path, const WriteOptions& options);
 

@@ -1,6 +1,7 @@
 /// Points and changes of the geometry as the project's JSON files have them.
 #pragma once
 
+#include "cad/model/face_place.hpp"
 #include "cad/repair/change.hpp"
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,16 @@ namespace aeroloom::pipeline {
 
 inline nlohmann::ordered_json to_json(geometry::Vec3 p) {
   return nlohmann::ordered_json::array({p.x, p.y, p.z});
+}
+
+inline nlohmann::ordered_json to_json(const geometry::Box& box) {
+  return nlohmann::ordered_json::array({to_json(box.low), to_json(box.high)});
+}
+
+/// The beginning of a row that tells of a face.
+inline nlohmann::ordered_json face_row(const std::string& name, const cad::FacePlace& place) {
+  return {
+      {"name", name}, {"area", place.area}, {"centre", to_json(place.centre)}, {"box", to_json(place.box)}};
 }
 
 inline nlohmann::ordered_json to_json(const cad::Changes& changes) {

@@ -1,6 +1,7 @@
 #include "pipeline/check.hpp"
 
 #include "parallel/collective_error.hpp"
+#include "parallel/log.hpp"
 #include "pipeline/change_json.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/load_domain.hpp"
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <ios>
 #include <utility>
 
 #include <fmt/format.h>
@@ -153,6 +156,13 @@ Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& 
                                {"faces", sums[p].faces},
                                {"area", sums[p].area}});
   }
+  json["faces"] = Json::array();
+  for (cad::FaceId f = 0; f < domain.model.face_count(); ++f) {
+    const cad::Face& face = domain.model.face(f);
+    Json row = face_row(face.name, domain.model.face_place(f));
+    row["patch"] = domain.model.patches()[static_cast<std::size_t>(face.patch)];
+    json["faces"].push_back(std::move(row));
+  }
   return json;
 }
 
@@ -236,7 +246,14 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     print_record(input, record, communicator.size());
-    write_record(input, record);
+    // What was asked is answered: no file is a reason to say that the case is not fit.
+    try {
+      write_record(input, record);
+    } catch (const std::ios_base::failure& error) {
+      parallel::log_warning(fmt::format("check.json is not written: {}", error.what()));
+    } catch (const std::filesystem::filesystem_error& error) {
+      parallel::log_warning(fmt::format("check.json is not written: {}", error.what()));
+    }
   });
   return meshable ? ExitCode::ok : ExitCode::cad;
 }

@@ -125,7 +125,34 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator,
   return patches;
 }
 
+void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions) {
+  for (cad::RegionId r = 0; r < model.region_count(); ++r)
+    regions.at(static_cast<std::size_t>(r)).cad_volume = model.region_volume(r);
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.is_far_field(f)) regions.at(static_cast<std::size_t>(model.face(f).front)).in_far_field = true;
+  }
+}
+
 namespace {
+
+/// What is said where a region does not have the volume of the CAD's; a far field may be coarse.
+std::string missed_volume(const QualityGate& gate, const RunRecord& record) {
+  const RegionRow* worst = nullptr;
+  double most = gate.area_deviation;
+  for (const RegionRow& region : record.regions_filled) {
+    if (region.in_far_field || region.cad_volume <= 0) continue;
+    const double deviation = std::abs(region.volume / region.cad_volume - 1);
+    if (deviation > most) most = deviation, worst = &region;
+  }
+  if (worst == nullptr) return {};
+  return fmt::format(
+      "improve.gate.area_deviation: region '{}' has a volume of {:.6g}, in the CAD {:.6g}, {:.3g} of it "
+      "apart, not "
+      "{:g} at most; remedy: smaller sizes (sizing.minimum {:.3g} and sizing.surface_maximum {:.3g} were "
+      "used)",
+      worst->name, worst->volume, worst->cad_volume, most, gate.area_deviation, record.sizes.minimum,
+      record.sizes.surface_maximum);
+}
 
 /// What is said where the walls do not have the area of the CAD; empty where they have, or there is none.
 std::string missed_area(const QualityGate& gate, const RunRecord& record) {
@@ -157,6 +184,8 @@ void require_quality(const QualityGate& gate, const RunRecord& record) {
       missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
   if (const std::string area = missed_area(gate, record); !area.empty())
     missed += (missed.empty() ? "" : "\n") + area;
+  if (const std::string volume = missed_volume(gate, record); !volume.empty())
+    missed += (missed.empty() ? "" : "\n") + volume;
   if (!missed.empty()) throw StageFailure("quality gate", ExitCode::quality_gate, missed);
 }
 

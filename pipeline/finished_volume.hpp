@@ -1,6 +1,7 @@
 /// What is done with a volume mesh once it is there: improvement, checks, figures.
 #pragma once
 
+#include "cad/model/model.hpp"
 #include "parallel/communicator.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/run.hpp"
@@ -24,6 +25,9 @@ void improve_volume(const parallel::Communicator& communicator, const Case& inpu
 void inspect_volume(const parallel::Communicator& communicator, const Case& input,
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
                     const mesh::DistributedMesh* surface, RunRecord& record);
+
+/// What the regions of the model hold, for comparison.
+void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions);
 
 /// Triangles and areas of the patches of a mesh from a file; there is no CAD to compare them with.
 /// Collective.

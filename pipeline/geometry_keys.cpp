@@ -1,7 +1,9 @@
 #include "pipeline/case_keys.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -143,11 +145,14 @@ void declare_patches(KeyTable& root, CaseDraft& draft) {
           {"A patch of the mesh, of a name that you choose. The first patch of the list that a face matches "
            "has it.",
            "", "wing"}),
-      [&draft](const std::string& name, KeyTable& keys) {
-        const auto known = std::find_if(draft.patches.begin(), draft.patches.end(),
-                                        [&](const PatchRule& rule) { return rule.name == name; });
+      [&draft, places = std::unordered_map<std::string, std::size_t>()](const std::string& name,
+                                                                        KeyTable& keys) mutable {
+        if (places.size() != draft.patches.size()) {
+          for (std::size_t p = 0; p < draft.patches.size(); ++p) places.try_emplace(draft.patches[p].name, p);
+        }
+        const auto [place, is_new] = places.try_emplace(name, draft.patches.size());
         PatchRule& rule =
-            known != draft.patches.end() ? *known : draft.patches.emplace_back(PatchRule{name, {}, {}});
+            is_new ? draft.patches.emplace_back(PatchRule{name, {}, {}}) : draft.patches[place->second];
         keys.texts("faces", rule.faces,
                    common({"List of patterns of faces' or patches' names (`*` any letters, `?` one): these "
                            "faces become this patch. A pattern without any match is an error that lists the "

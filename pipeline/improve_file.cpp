@@ -26,11 +26,12 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
     return finished;
   });
   run_stage(record, "output", ExitCode::files, [&] {
-    write_outputs(communicator, volume, numbering, input.output);
-    if (!wants_vtk(input.output) && !input.output.pictures) return;
+    if (!wants_vtk(input.output) && !input.output.pictures)
+      return write_outputs(communicator, volume, numbering, nullptr, input.output);
     const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
     const mesh::Numbering surface_numbers = mesh::number_mesh(communicator, surface);
-    if (wants_vtk(input.output)) write_surfaces(communicator, surface, surface_numbers, input.output);
+    const SurfaceView view{surface, surface_numbers};
+    write_outputs(communicator, volume, numbering, &view, input.output);
     if (!input.output.pictures) return;
     record.pictures =
         pictures_or_warning(communicator, &volume, {surface, surface_numbers, volume.patch_types, ""});

@@ -17,10 +17,6 @@ using Json = nlohmann::ordered_json;
 /// Names shown of a kind; `--json` has all.
 constexpr std::size_t shown_names = 20;
 
-Json box_json(const geometry::Box& box) {
-  return {to_json(box.low), to_json(box.high)};
-}
-
 std::string box_text(const geometry::Box& box) {
   const geometry::Vec3 size = box.size();
   return fmt::format("{} to {}, {:.6g} x {:.6g} x {:.6g}", place(box.low), place(box.high), size.x, size.y,
@@ -51,6 +47,33 @@ std::string names_text(const char* what, const std::vector<cad::NamedFaces>& lis
   return text + "\n";
 }
 
+Json faces_json(const std::vector<cad::FaceFacts>& faces) {
+  Json json = Json::array();
+  for (const cad::FaceFacts& face : faces) {
+    Json row = face_row(face.name, face.place);
+    for (const auto& [key, value] :
+         {std::pair("part", face.part), {"layer", face.layer}, {"colour", face.colour}}) {
+      if (!value.empty()) row[key] = value;
+    }
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
+std::string faces_text(const std::vector<cad::FaceFacts>& faces) {
+  const std::size_t shown = faces.size() <= shown_names + 1 ? faces.size() : shown_names;
+  std::size_t width = 4;
+  for (std::size_t i = 0; i < shown; ++i) width = std::max(width, faces[i].name.size());
+  std::string text = fmt::format("{:<{}}  {:>10}  {:<32}  box\n", "face", width, "area", "centre");
+  for (std::size_t i = 0; i < shown; ++i) {
+    const cad::FacePlace& at = faces[i].place;
+    text += fmt::format("{:<{}}  {:>10.4g}  {:<32}  {} to {}\n", faces[i].name, width, at.area,
+                        place(at.centre), place(at.box.low), place(at.box.high));
+  }
+  if (faces.size() > shown) text += fmt::format("and {} more: --json has all\n", faces.size() - shown);
+  return text;
+}
+
 }  // namespace
 
 Json info_json(const io::Assembled& file, const MeshFacts& facts) {
@@ -63,7 +86,7 @@ Json info_json(const io::Assembled& file, const MeshFacts& facts) {
                {"tetrahedra", mesh.cell_count(io::CellShape::tetrahedron)},
                {"pyramids", mesh.cell_count(io::CellShape::pyramid)},
                {"prisms", mesh.cell_count(io::CellShape::prism)},
-               {"bounds", box_json(facts.bounds)}};
+               {"bounds", to_json(facts.bounds)}};
   json["regions"] = Json::array();
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& cells = mesh.region_cells[r];
@@ -109,8 +132,8 @@ Json info_json(const cad::CadFacts& facts) {
           {"format", facts.format},
           {"unit", declared ? Json(facts.unit_name) : Json()},
           {"unit_in_metres", declared ? Json(facts.unit_in_metres) : Json()},
-          {"bounds", box_json(facts.bounds)},
-          {"bounds_in_metres", declared ? box_json(scaled(facts.bounds, facts.unit_in_metres)) : Json()},
+          {"bounds", to_json(facts.bounds)},
+          {"bounds_in_metres", declared ? to_json(scaled(facts.bounds, facts.unit_in_metres)) : Json()},
           {"solids", facts.solids},
           {"shells", facts.shells},
           {"faces", facts.faces},
@@ -118,7 +141,8 @@ Json info_json(const cad::CadFacts& facts) {
           {"parts", names_json(facts.parts)},
           {"face_names", names_json(facts.face_names)},
           {"layers", names_json(facts.layers)},
-          {"colours", names_json(facts.colours)}};
+          {"colours", names_json(facts.colours)},
+          {"face_table", faces_json(facts.face_table)}};
 }
 
 std::string info_text(const cad::CadFacts& facts) {
@@ -131,7 +155,8 @@ std::string info_text(const cad::CadFacts& facts) {
   text += fmt::format("solids {}, shells {}, faces {}, edges {}\n", facts.solids, facts.shells, facts.faces,
                       facts.edges);
   return text + names_text("parts", facts.parts) + names_text("names of faces", facts.face_names) +
-         names_text("layers", facts.layers) + names_text("colours", facts.colours);
+         names_text("layers", facts.layers) + names_text("colours", facts.colours) +
+         faces_text(facts.face_table);
 }
 
 }  // namespace aeroloom::pipeline

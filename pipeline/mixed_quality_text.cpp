@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, mesh::measure_count> titles = {
     "longest / shortest edge", "volume ratio to a neighbour", "volume"};
 constexpr std::size_t most_bars = 15;
 constexpr int longest_bar = 60;
+/// Patches shown; `--json` has all.
+constexpr std::size_t shown_patches = 30;
 
 std::string_view title_of(Measure measure) {
   return titles[static_cast<std::size_t>(measure)];
@@ -33,11 +35,14 @@ std::string tables_of_names(const io::FileMesh& mesh, const mesh::MixedQuality& 
   }
   text +=
       fmt::format("\n{:<32} {:>13} {:>13} {:>13} {:>14}\n", "patch", "type", "triangles", "quads", "area");
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+  // "And 1 more" would be no shorter than the one.
+  const std::size_t all = mesh.patches.size(), shown = all <= shown_patches + 1 ? all : shown_patches;
+  for (std::size_t p = 0; p < shown; ++p) {
     text += fmt::format("{:<32} {:>13} {:>13} {:>13} {:>14.7g}\n", mesh.patches[p].name,
                         name_of(mesh.patches[p].type), mesh.patch_faces[p][0], mesh.patch_faces[p][1],
                         quality.patch_areas[p]);
   }
+  if (all > shown) text += fmt::format("and {} more: --json has all\n", all - shown);
   return text;
 }
 

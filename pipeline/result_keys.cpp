@@ -37,8 +37,9 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
               {"Scaled Jacobian of pyramids and prisms, at least; without any there is nothing to miss.",
                "none", "0.1"});
   keys.number("area_deviation", gate.area_deviation, Range::between(0, 1),
-              "By which share the area of all walls may miss that of the CAD: more means that elements are "
-              "too large for the body, or the unit is another.");
+              "By which share the area of all walls, and the volume of a region without far field, may miss "
+              "that of the CAD: more means that elements are too large for the body, or the unit is "
+              "another.");
 }
 
 void declare_improve(KeyTable& keys, Case& result) {

@@ -329,6 +329,7 @@ private:
     if (_record.improve.changed_triangles > 0)
       adopt_boundary(_communicator, model, volume, numbering, surface, _record);
     inspect_volume(_communicator, _input, volume, numbering, &surface.mesh, _record);
+    add_cad_volumes(model, _record.regions_filled);
     const parallel::ScopedCpu check(_record.clock, parallel::ScopedCpu::As::check);
     _record.conformity = measure_conformity(_communicator, volume, surface.field);
     return numbering;
@@ -336,9 +337,8 @@ private:
 
   void write(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
              const FinishedSurface& surface) {
-    write_outputs(_communicator, volume, numbering, _input.output);
-    if (wants_vtk(_input.output))
-      write_surfaces(_communicator, surface.mesh, surface.numbering, _input.output);
+    const SurfaceView view{surface.mesh, surface.numbering};
+    write_outputs(_communicator, volume, numbering, &view, _input.output);
   }
 
   const Communicator& _communicator;

@@ -40,6 +40,8 @@ struct RegionRow {
   std::string name;
   double volume = 0;
   std::int64_t tetrahedra = 0;
+  double cad_volume = 0;      ///< of the CAD's region; 0 where there is no CAD
+  bool in_far_field = false;  ///< bounded by a far field, which is as coarse as it likes
 };
 
 /// Everything a run has found out, filled stage by stage; what a report is written from. The same on every

@@ -44,8 +44,10 @@ std::string describe(const FeatureReport& report) {
   if (report.strips.size() > shown_strips)
     text += fmt::format(" and {} more;", report.strips.size() - shown_strips);
   return text +
-         " remedies: a larger sizing.feature_budget; a larger sizing.target_tetrahedra; or edges that are "
-         "sharp, or thicker, in the CAD";
+         " remedies: geometry.trailing_edges: sharpen, where they are blunt trailing edges; a larger "
+         "sizing.feature_budget; a larger sizing.target_tetrahedra; or edges that are sharp, or thicker, in "
+         "the "
+         "CAD";
 }
 
 nlohmann::ordered_json to_json(const FeatureReport& report) {

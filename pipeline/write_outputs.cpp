@@ -1,5 +1,7 @@
 #include "pipeline/write_outputs.hpp"
 
+#include "io/gmsh/gmsh_writer.hpp"
+#include "io/staged_files.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "parallel/log.hpp"
 #include "parallel/timers.hpp"
@@ -10,8 +12,12 @@
 
 namespace aeroloom::pipeline {
 
+bool wants(const OutputOptions& output, io::FileFormat format) {
+  return std::find(output.formats.begin(), output.formats.end(), format) != output.formats.end();
+}
+
 bool wants_vtk(const OutputOptions& output) {
-  return std::find(output.formats.begin(), output.formats.end(), io::FileFormat::vtu) != output.formats.end();
+  return wants(output, io::FileFormat::vtu);
 }
 
 std::string path_of(const OutputOptions& output, io::FileFormat format) {
@@ -42,30 +48,58 @@ std::vector<std::string> EarlierFiles::left() const {
   return names;
 }
 
-void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
-                   const mesh::Numbering& numbering, const OutputOptions& output) {
-  const io::FileMesh mesh = io::file_mesh_of(communicator, volume, numbering);
-  for (const io::FileFormat format : output.formats) {
-    const double begin = parallel::wall_seconds();
-    const std::string path = path_of(output, format);
-    io::write_mesh(communicator, mesh, format, path,
-                   {static_cast<std::int32_t>(output.parts), output.compression});
-    if (communicator.is_root() && output.formats.size() > 1)
-      parallel::log_info(fmt::format("wrote '{}' in {:.2f} s", path, parallel::wall_seconds() - begin));
+namespace {
+
+void write_volume(const parallel::Communicator& communicator, const io::FileMesh& mesh, io::FileFormat format,
+                  const OutputOptions& output, const std::string& path) {
+  const double begin = parallel::wall_seconds();
+  io::write_mesh(communicator, mesh, format, path,
+                 {static_cast<std::int32_t>(output.parts), output.compression});
+  if (communicator.is_root() && output.formats.size() > 1) {
+    parallel::log_info(
+        fmt::format("wrote '{}' in {:.2f} s", path_of(output, format), parallel::wall_seconds() - begin));
   }
 }
 
-void write_surfaces(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                    const mesh::Numbering& numbering, const OutputOptions& output) {
-  if (!surface.has_inner_faces()) {
-    io::write_surface(communicator, surface, numbering, output.directory, "surface", output.compression);
+/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions.
+void write_surfaces(const parallel::Communicator& communicator, const SurfaceView& surface,
+                    const std::string& folder, io::Compression compression) {
+  if (!surface.mesh.has_inner_faces()) {
+    io::write_surface(communicator, surface.mesh, surface.numbering, folder, "surface", compression);
     return;
   }
   for (const bool inner : {false, true}) {
     const mesh::DistributedMesh part = mesh::part_of_surface(
-        surface, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside);
-    io::write_surface(communicator, part, mesh::number_mesh(communicator, part), output.directory,
-                      inner ? "interfaces" : "surface", output.compression);
+        surface.mesh, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside);
+    io::write_surface(communicator, part, mesh::number_mesh(communicator, part), folder,
+                      inner ? "interfaces" : "surface", compression);
+  }
+}
+
+}  // namespace
+
+void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
+                   const mesh::Numbering& numbering, const SurfaceView* surface,
+                   const OutputOptions& output) {
+  const io::FileMesh mesh = io::file_mesh_of(communicator, volume, numbering);
+  io::write_together(communicator, output.directory, "mesh", [&](const std::string& staging) {
+    OutputOptions staged = output;
+    staged.directory = staging;
+    for (const io::FileFormat format : output.formats) {
+      if (format != io::FileFormat::openfoam)
+        write_volume(communicator, mesh, format, output, path_of(staged, format));
+    }
+    if (surface != nullptr && wants_vtk(output))
+      write_surfaces(communicator, *surface, staging, output.compression);
+    // Last, for what may fail has not: its folder is its user's, too.
+    if (wants(output, io::FileFormat::openfoam)) {
+      write_volume(communicator, mesh, io::FileFormat::openfoam, output,
+                   path_of(output, io::FileFormat::openfoam));
+    }
+  });
+  if (wants(output, io::FileFormat::msh_parts)) {
+    const auto parts = static_cast<std::int32_t>(output.parts > 0 ? output.parts : mesh.part_count);
+    io::remove_later_msh_parts(communicator, output.directory + "/mesh.msh", parts);
   }
 }
 

@@ -12,16 +12,18 @@
 
 namespace aeroloom::pipeline {
 
-/// Writes the volume as `mesh` with its extension to the output directory, in all formats of the case one
-/// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. Collective; throws
-/// CollectiveError.
-void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
-                   const mesh::Numbering& numbering, const OutputOptions& output);
+/// A surface and its numbers.
+struct SurfaceView {
+  const mesh::DistributedMesh& mesh;
+  const mesh::Numbering& numbering;
+};
 
-/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions where
-/// there is any. Collective; throws CollectiveError.
-void write_surfaces(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                    const mesh::Numbering& numbering, const OutputOptions& output);
+/// Writes the volume as `mesh` with its extension to the output directory, in all formats of the case one
+/// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. With VTK files,
+/// and where a surface is given: surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies
+/// between regions where there is any. All appear together, or none does. Collective; throws CollectiveError.
+void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
+                   const mesh::Numbering& numbering, const SurfaceView* surface, const OutputOptions& output);
 
 /// Files of meshes as runs name them, of any format, that are in the output directory now. Rank 0 calls it.
 class EarlierFiles {
@@ -34,6 +36,7 @@ private:
   std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> _files;
 };
 
+bool wants(const OutputOptions& output, io::FileFormat format);
 bool wants_vtk(const OutputOptions& output);
 /// Where the mesh is in this format.
 std::string path_of(const OutputOptions& output, io::FileFormat format);

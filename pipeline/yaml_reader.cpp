@@ -71,6 +71,7 @@ KeyTable::Entry& KeyTable::add(const std::string& name, KeyKind kind, const KeyD
   entry.info.path = path_of(name);
   entry.info.kind = kind;
   entry.info.doc = doc;
+  _places.try_emplace(name, _entries.size());
   _entries.push_back(std::move(entry));
   return _entries.back();
 }
@@ -252,9 +253,8 @@ bool KeyTable::read_entry(Entry& entry, const YAML::Node& node, const Source& so
 }
 
 KeyTable::Entry* KeyTable::find(const std::string& name) {
-  const auto found =
-      std::find_if(_entries.begin(), _entries.end(), [&](const Entry& e) { return e.name == name; });
-  return found == _entries.end() ? nullptr : &*found;
+  const auto found = _places.find(name);
+  return found == _places.end() ? nullptr : &_entries[found->second];
 }
 
 std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) const {

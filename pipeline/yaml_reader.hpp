@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -105,6 +106,7 @@ private:
 
   std::string _path;  // of the section; empty at the top
   std::vector<Entry> _entries;
+  std::unordered_map<std::string, std::size_t> _places;  // of the entries, by name: the first of each
   std::function<void(const std::string&, KeyTable&)> _declare_named;  // where keys are names made up
   KeyDoc _doc_of_named = "";
 };

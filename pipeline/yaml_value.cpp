@@ -126,6 +126,8 @@ bool YamlValue::flag() const {
 
 std::string YamlValue::text() const {
   if (!_node.IsScalar() || _node.Scalar().empty()) refuse("a text");
+  // What the system would take for the end: another file would be opened than the one that was named.
+  if (_node.Scalar().find('\0') != std::string::npos) refuse("a text without NUL");
   return _node.Scalar();
 }
 
@@ -134,7 +136,8 @@ std::vector<std::string> YamlValue::texts() const {
   if (!_node.IsSequence() || _node.size() == 0) refuse("a list of texts");
   std::vector<std::string> all;
   for (const auto& item : _node) {
-    if (!item.IsScalar() || item.Scalar().empty()) refuse("a list of texts");
+    if (!item.IsScalar() || item.Scalar().empty() || item.Scalar().find('\0') != std::string::npos)
+      refuse("a list of texts");
     all.push_back(item.Scalar());
   }
   return all;

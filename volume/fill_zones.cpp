@@ -34,6 +34,10 @@ constexpr double wider = 1.5;  // the halo, each time
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
 
+/// How often zones are filled again on average, and in any case, before that is given up: a real aircraft
+/// takes less than one in all.
+constexpr std::size_t most_fillings_again = 10, few_fillings = 50;
+
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
 public:
@@ -56,11 +60,26 @@ public:
       std::vector<ZoneIndex> pending = change_failed();
       if (pending.empty()) pending = settle_disputes();
       if (pending.empty()) return assemble();
+      require_progress(pending.size());
       fill(plan(pending));
     }
   }
 
 private:
+  /// Zones that know too little of their neighbours disagree nearly everywhere, and so do those that are made
+  /// of them.
+  void require_progress(std::size_t pending) {
+    _filled_again += pending;
+    const std::size_t zones = _changes_of.size();
+    if (_filled_again <= most_fillings_again * zones + few_fillings) return;
+    throw parallel::CollectiveError(
+        parallel::FailureKind::input,
+        fmt::format("{} zones were filled {} times again in {} rounds, and their tetrahedra still do not fit "
+                    "together: what they know of each other is too little. Remedy: a wider volume.halo "
+                    "({:g}), or larger pieces (volume.piece_tets)",
+                    zones, _filled_again, _report.rounds, _input.options.halo));
+  }
+
   // --- one round of filling
 
   void fill(ZonePlan plan) {
@@ -382,6 +401,7 @@ private:
   std::vector<int> _changes_of;  // per zone: rungs climbed since it was merged last
   std::vector<std::uint8_t> _merged;
   int _rounds_of_giving = 0;
+  std::size_t _filled_again = 0;             // zones, by all ranks
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   std::vector<ZoneFailure> _failures;        // of this rank in this round

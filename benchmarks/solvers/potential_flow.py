@@ -73,7 +73,7 @@ snGradSchemes { default corrected; }
 
 
 def run(command, folder, log):
-    environment = os.environ | {"WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam")}
+    environment = os.environ | {"PWD": str(folder), "WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam")}
     with open(folder / log, "w", encoding="utf-8") as out:
         code = subprocess.run([str(word) for word in command], cwd=folder, env=environment, stdout=out,
                               stderr=subprocess.STDOUT, check=False).returncode

@@ -153,11 +153,18 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
   TopExp::MapShapes(domain.shape, TopAbs_FACE, faces);
   const Box all = kind == DomainKind::fluid ? tight_box(domain.shape) : Box{};
   const std::vector<std::vector<int>> solids = solids_around_faces(domain.shape);
+  bool is_numbered = false;
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const FaceLabel* const found = domain.labels.Seek(faces(i));
+    is_numbered = is_numbered || (found != nullptr && found->number >= 0);
+  }
   std::vector<FaceTag> tags;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const FaceLabel* found = domain.labels.Seek(faces(i));
     const FaceLabel label = found ? *found : FaceLabel{};
-    FaceTag tag{label.name, label.far_field ? std::string("farfield") : label.name, label.far_field};
+    FaceTag tag{shown_name(label), label.far_field ? std::string("farfield") : label.name, label.far_field};
+    // Numbers are those of the file: what was made here has none.
+    if (tag.name.empty() && is_numbered) tag.name = fmt::format("new_face_{}", i - 1);
     if (label.symmetry) tag.patch = "symmetry";
     const bool fluid = kind == DomainKind::fluid;
     const std::vector<int>& around = solids[i - 1];

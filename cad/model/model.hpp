@@ -4,6 +4,7 @@
 /// in radians. A model is immutable; every rank builds its own from the same bytes, so ids agree everywhere.
 #pragma once
 
+#include "cad/model/face_place.hpp"
 #include "geometry/vec.hpp"
 
 #include <array>
@@ -51,7 +52,8 @@ struct Edge {
 struct Face {
   std::vector<std::vector<EdgeUse>> loops;  ///< material on the left, seen against the outward normal
   std::int32_t patch = 0;                   ///< index into patches()
-  std::string name;                         ///< as in the file; "face_<id>" where it has none
+  /// As in the file; where it has none there, "face_<number>" with its number in the file, from 0.
+  std::string name;
   /// Region on the inner side of the oriented face and beyond it; `back` is no_entity on the domain's
   /// boundary.
   RegionId front = no_entity, back = no_entity;
@@ -164,6 +166,10 @@ public:
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
   /// Area by adaptive Gauss integration, to about 1e-4 of itself. Computed once.
   double face_area(FaceId id) const;
+  /// Of the geometry, as precise as the areas of its faces.
+  double region_volume(RegionId id) const;
+  /// How large the face is, and where. Computed anew each time.
+  FacePlace face_place(FaceId id) const;
 
   /// Triangulates one face so that neighbouring facets turn by at most `angle` (radians) and stay within
   /// `deflection` of the surface. A function of the face and the arguments alone: never of what else was

@@ -43,6 +43,9 @@ Box tight_box(const TopoDS_Shape& shape);
 /// Of all of them: faces within the box of the others' edges and faces cost next to nothing.
 Box tight_box(const std::vector<TopoDS_Shape>& shapes);
 
+/// Area and centre to a thousandth, the box as above.
+FacePlace place_of(const TopoDS_Face& face);
+
 /// The parameter curve of one passage along an edge.
 struct UseCurve {
   EdgeUse use;
@@ -86,7 +89,8 @@ struct FaceEvaluator {
   ParameterRange u, v;
   Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
   std::vector<UseCurve> uses;  ///< by (edge, use)
-  mutable double area = -1;    ///< computed on demand
+  mutable double area = -1;    ///< computed on demand, and with it
+  mutable double flux = 0;     ///< what it adds to a volume it bounds, seen from the middle of the model
   mutable std::shared_ptr<const KeptFacets> kept;
 
   const UseCurve& use(const EdgeUse& wanted) const;
@@ -117,6 +121,9 @@ struct ClosedEdges;
 struct JoinedFaces;
 
 struct Model::Data {
+  /// The face with its area and flux, computed once.
+  const FaceEvaluator& integrated(FaceId id) const;
+
   std::vector<std::byte> bytes;
   TopoDS_Shape shape;
   std::vector<Vec3> vertices;

@@ -269,12 +269,33 @@ double Model::face_area(FaceId id) const {
     for (const Sheet& sheet : joined->faces.at(id).sheets) area += joined->base.face_area(sheet.face);
     return area;
   }
-  const FaceEvaluator& face = _data->face_evaluators.at(id);
-  if (face.area < 0) {
-    face.area = guarded("integrating the area of " + _data->describe_face(id),
-                        [&] { return std::abs(integrate_face(face.shape, face.surface, {}).area); });
+  return _data->integrated(id).area;
+}
+
+double Model::region_volume(RegionId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) return joined->base.region_volume(id);
+  double volume = 0;
+  for (FaceId f = 0; f < face_count(); ++f) {
+    const Face& face = _data->faces[f];
+    if (face.front != id && face.back != id) continue;
+    const FaceEvaluator& evaluator = _data->integrated(f);
+    // The flux is along du x dv; the normal points out of the front region.
+    const double out_of_front = evaluator.reversed ? -evaluator.flux : evaluator.flux;
+    if (face.front == id) volume += out_of_front;
+    if (face.back == id) volume -= out_of_front;
   }
-  return face.area;
+  return volume;
+}
+
+const FaceEvaluator& Model::Data::integrated(FaceId id) const {
+  const FaceEvaluator& face = face_evaluators.at(id);
+  if (face.area >= 0) return face;
+  guarded("integrating the area of " + describe_face(id), [&] {
+    const FaceIntegrals found = integrate_face(face.shape, face.surface, bounds.center());
+    face.flux = found.flux;
+    face.area = std::abs(found.area);
+  });
+  return face;
 }
 
 }  // namespace aeroloom::cad

@@ -20,7 +20,14 @@ struct FaceLabel {
   std::string solid;   ///< name of the solid (part, product) the face belongs to
   bool far_field = false;
   bool symmetry = false;  ///< on the plane of symmetry of a half model
+  int number = -1;        ///< of the face in its file, from 0; -1 where it is not from one
 };
+
+/// The name by which users know the face: "face_<number>" where its file gives none; empty where it has
+/// neither.
+inline std::string shown_name(const FaceLabel& label) {
+  return label.name.empty() && label.number >= 0 ? "face_" + std::to_string(label.number) : label.name;
+}
 
 /// Labels by face; the orientation of the face does not matter. Look up only: iteration follows addresses.
 using FaceLabels = NCollection_DataMap<TopoDS_Shape, FaceLabel, TopTools_ShapeMapHasher>;

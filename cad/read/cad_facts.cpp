@@ -9,6 +9,7 @@
 
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
 
 namespace aeroloom::cad {
 namespace {
@@ -34,6 +35,8 @@ void list_labels(const NamedShape& named, CadFacts& facts) {
     ++names[label->name];
     ++layers[label->layer];
     ++colours[label->colour];
+    facts.face_table.push_back(
+        {shown_name(*label), label->solid, label->layer, label->colour, place_of(TopoDS::Face(faces(i)))});
   }
   facts.parts = listed(parts);
   facts.face_names = listed(names);

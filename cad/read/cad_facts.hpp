@@ -1,6 +1,7 @@
 /// What a CAD file holds, as it stands there: for a look, without any repair.
 #pragma once
 
+#include "cad/model/face_place.hpp"
 #include "geometry/vec.hpp"
 
 #include <cstdint>
@@ -18,6 +19,18 @@ struct NamedFaces {
   static constexpr auto fields() { return std::tuple(&NamedFaces::name, &NamedFaces::faces); }
 };
 
+/// What users may know a face by, and where it is.
+struct FaceFacts {
+  std::string name;  ///< "face_<number>" where the file gives none, as rules for patches know it
+  std::string part, layer, colour;
+  FacePlace place;
+
+  static constexpr auto fields() {
+    return std::tuple(&FaceFacts::name, &FaceFacts::part, &FaceFacts::layer, &FaceFacts::colour,
+                      &FaceFacts::place);
+  }
+};
+
 struct CadFacts {
   std::string format;         ///< "STEP", "IGES" or "BREP"
   std::string unit_name;      ///< of length; empty where the file declares none
@@ -27,10 +40,13 @@ struct CadFacts {
   /// By name, each once: of solids (parts, products), of faces, of layers, and colours ("#rrggbb").
   std::vector<NamedFaces> parts, face_names, layers, colours;
 
+  std::vector<FaceFacts> face_table;  ///< all faces, in the order of the file
+
   static constexpr auto fields() {
     return std::tuple(&CadFacts::format, &CadFacts::unit_name, &CadFacts::unit_in_metres, &CadFacts::bounds,
                       &CadFacts::solids, &CadFacts::shells, &CadFacts::faces, &CadFacts::edges,
-                      &CadFacts::parts, &CadFacts::face_names, &CadFacts::layers, &CadFacts::colours);
+                      &CadFacts::parts, &CadFacts::face_names, &CadFacts::layers, &CadFacts::colours,
+                      &CadFacts::face_table);
   }
 };
 

@@ -14,6 +14,8 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -177,6 +179,16 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
   refuse(file, ends);
 }
 
+/// In the order of the file, which no repair, cut or far field changes.
+void number_faces(NamedShape& named) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    if (!named.labels.IsBound(faces(i))) named.labels.Bind(faces(i), FaceLabel{});
+    named.labels.ChangeFind(faces(i)).number = i - 1;
+  }
+}
+
 }  // namespace
 
 std::string format_of_cad_file(const std::string& file) {
@@ -198,7 +210,11 @@ NamedShape read_cad_file(const std::string& file) {
   const Ends ends = read_ends(file);
   require(!trimmed(ends.head).empty(), file, "the file is empty");
   tell_step("reading the file");
-  return guarded(fmt::format("reading '{}'", file), [&] { return read_by_content(file, ends); });
+  return guarded(fmt::format("reading '{}'", file), [&] {
+    NamedShape named = read_by_content(file, ends);
+    number_faces(named);
+    return named;
+  });
 }
 
 }  // namespace aeroloom::cad

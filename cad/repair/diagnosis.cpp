@@ -63,7 +63,8 @@ void find_short_edges(const TopoDS_Shape& shape, double diagonal, Diagnosis& dia
 
 std::string name_of(const NamedShape& named, const TopoDS_Shape& face, int index) {
   const FaceLabel* label = named.labels.Seek(face);
-  return label != nullptr && !label->name.empty() ? label->name : fmt::format("face_{}", index);
+  const std::string shown = label != nullptr ? shown_name(*label) : std::string();
+  return shown.empty() ? fmt::format("face_{}", index) : shown;
 }
 
 /// Relative error of areas. Without one the CAD library takes the most points its rules have in every span of

@@ -146,13 +146,6 @@ struct PartNames {
   std::string unfinished(std::int32_t part) const { return path(part) + ".unfinished"; }
 };
 
-void clear_parts(const PartNames& names, std::int32_t parts) {
-  if (!names.folder.empty()) fs::create_directories(names.folder);
-  // Those of an earlier run follow each other; other files of such names are not ours.
-  for (std::int32_t part = 0; part < parts || fs::exists(names.path(part)); ++part)
-    fs::remove(names.path(part));
-}
-
 void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks& blocks,
                      const std::vector<MshBox>& boxes, const std::string& path) {
   std::set<std::int32_t> patches, regions;
@@ -221,7 +214,7 @@ void write_msh_parts(const parallel::Communicator& communicator, const FileMesh&
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   parallel::agree(communicator, [&] {
     require_small_tags(mesh);
-    if (communicator.is_root()) clear_parts(names, mesh.part_count);
+    if (communicator.is_root() && !names.folder.empty()) fs::create_directories(names.folder);
   });
   try {
     parallel::agree(communicator, [&] {
@@ -235,6 +228,16 @@ void write_msh_parts(const parallel::Communicator& communicator, const FileMesh&
   }
   parallel::agree(communicator, [&] {
     for (const FilePart& part : mesh.parts) fs::rename(names.unfinished(part.id), names.path(part.id));
+  });
+  remove_later_msh_parts(communicator, path, mesh.part_count);
+}
+
+void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,
+                            std::int32_t parts) {
+  const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    for (std::int32_t part = parts; fs::remove(names.path(part));) ++part;
   });
 }
 

@@ -11,6 +11,7 @@
 
 #include "io/file_mesh.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace aeroloom::io {
@@ -25,5 +26,9 @@ void write_msh(const parallel::Communicator& communicator, const FileMesh& mesh,
 /// throws CollectiveError (files) with the path.
 void write_msh_parts(const parallel::Communicator& communicator, const FileMesh& mesh,
                      const std::string& path);
+/// Removes STEM_(parts + 1).msh and those that follow it without a gap; other files of such names are not
+/// ours. write_msh_parts() does it where it writes. Collective; throws CollectiveError.
+void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,
+                            std::int32_t parts);
 
 }  // namespace aeroloom::io

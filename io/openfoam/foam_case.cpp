@@ -2,13 +2,17 @@
 
 #include "io/distinct_names.hpp"
 #include "io/local_file.hpp"
+#include "io/openfoam/foam_settings.hpp"
 #include "parallel/log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -51,9 +55,58 @@ void remove_if_empty(const fs::path& folder) {
   if (fs::is_directory(folder) && fs::is_empty(folder)) fs::remove(folder);
 }
 
-/// Whether there is more in a processor folder than a mesh.
+/// Empty where there is no such file, or it is too large for a dictionary.
+std::string text_of(const fs::path& path) {
+  constexpr std::uintmax_t largest = 1 << 20;
+  if (!fs::is_regular_file(path) || fs::file_size(path) > largest) return {};
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Whether the file refers to a field in 0.orig/ and is as it was written here.
+bool is_own_field(const fs::path& file) {
+  const std::string text = text_of(file);
+  for (const std::string_view up : {"../", "../../"}) {
+    for (const FoamField& field : foam_fields(up)) {
+      if (file.filename() == field.name && text == field.link) return true;
+    }
+  }
+  return false;
+}
+
+/// Removes what write_fields left in a time folder 0, as long as it is as it was.
+void remove_own_fields(const fs::path& start) {
+  if (!fs::is_directory(start)) return;
+  std::vector<fs::path> own;
+  for (const auto& entry : fs::directory_iterator(start)) {
+    if (is_own_field(entry.path())) own.push_back(entry.path());
+  }
+  for (const fs::path& file : own) fs::remove(file);
+  remove_if_empty(start);
+}
+
+/// The processor folders of a case, with their numbers.
+std::vector<std::pair<fs::path, std::int64_t>> processors_of(const FoamCase& foam_case) {
+  std::vector<std::pair<fs::path, std::int64_t>> found;
+  for (const auto& entry : fs::directory_iterator(foam_case.folder)) {
+    const std::int64_t number = processor_of(entry.path().filename().string());
+    if (number >= 0 && entry.is_directory()) found.emplace_back(entry.path(), number);
+  }
+  return found;
+}
+
+/// Whether a time folder 0 has nothing but what write_fields left there.
+bool is_own_start(const fs::path& start) {
+  for (const auto& entry : fs::directory_iterator(start)) {
+    if (!is_own_field(entry.path())) return false;
+  }
+  return true;
+}
+
+/// Whether there is more in a processor folder than a mesh, and what write_fields left there.
 bool holds_results(const fs::path& processor) {
   for (const auto& entry : fs::directory_iterator(processor)) {
+    if (entry.path().filename() == "0" && entry.is_directory() && is_own_start(entry.path())) continue;
     if (entry.path().filename() != "constant") return true;
     for (const auto& inner : fs::directory_iterator(entry.path())) {
       const fs::path name = inner.path().filename();
@@ -61,26 +114,6 @@ bool holds_results(const fs::path& processor) {
     }
   }
   return false;
-}
-
-std::string dictionary(const std::string& name, const std::string& content) {
-  return fmt::format(
-      "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n    location "
-      "   "
-      "\"system\";\n    object      {};\n}}\n\n{}",
-      name, content);
-}
-
-std::string decomposition(std::int64_t parts) {
-  return fmt::format("numberOfSubdomains {};\nmethod          scotch;\n", parts);
-}
-
-/// Empty where there is no such file, or it is too large for a dictionary.
-std::string text_of(const fs::path& path) {
-  constexpr std::uintmax_t largest = 1 << 20;
-  if (!fs::is_regular_file(path) || fs::file_size(path) > largest) return {};
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// What a decomposeParDict says; 0: nothing.
@@ -93,109 +126,23 @@ std::int64_t subdomains_of(const fs::path& path) {
   return rest >> count ? count : 0;
 }
 
-constexpr char control[] = R"foam(application     simpleFoam;
-startFrom       latestTime;
-startTime       0;
-stopAt          endTime;
-endTime         1000;
-deltaT          1;
-writeControl    timeStep;
-writeInterval   100;
-writeFormat     binary;
-writePrecision  12;
-timeFormat      general;
-runTimeModifiable true;
-)foam";
-
-// Schemes for tetrahedra: limited corrections for faces that are not orthogonal.
-constexpr char schemes[] = R"foam(ddtSchemes      { default steadyState; }
-gradSchemes     { default leastSquares; grad(U) cellLimited leastSquares 1; }
-divSchemes
-{
-    default         bounded Gauss upwind;
-    div(phi,U)      bounded Gauss linearUpwind grad(U);
-    div((nuEff*dev2(T(grad(U))))) Gauss linear;
-    div(div(phi,U)) Gauss linear;
-}
-laplacianSchemes { default Gauss linear limited 0.777; }
-interpolationSchemes { default linear; }
-snGradSchemes   { default limited 0.777; }
-wallDist        { method meshWave; }
-)foam";
-
-constexpr char solution[] = R"foam(solvers
-{
-    "(p|Phi)"
-    {
-        solver          GAMG;
-        smoother        GaussSeidel;
-        tolerance       1e-8;
-        relTol          0.01;
-    }
-    "(U|k|omega|epsilon|nuTilda)"
-    {
-        solver          smoothSolver;
-        smoother        symGaussSeidel;
-        tolerance       1e-9;
-        relTol          0.1;
-    }
-}
-potentialFlow   { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; pRefCell 0; pRefValue 0; }
-SIMPLE          { nNonOrthogonalCorrectors 1; consistent yes; pRefCell 0; pRefValue 0; }
-relaxationFactors { equations { U 0.7; ".*" 0.7; } }
-)foam";
-
-}  // namespace
-
-fs::path FoamCase::constant(std::int32_t part) const {
-  return parts == 1 ? folder / "constant" : folder / fmt::format("processor{}", part) / "constant";
+/// Written whole or not at all, and only where nothing is.
+void write_once(const fs::path& path, const std::string& text) {
+  if (fs::exists(path)) return;
+  fs::create_directories(path.parent_path());
+  const fs::path unfinished = path.string() + ".unfinished";
+  LocalFile file(unfinished.string());
+  file.text(text);
+  file.finish();
+  fs::rename(unfinished, path);
 }
 
-void clear_case(const FoamCase& foam_case) {
-  fs::create_directories(foam_case.folder);
-  std::vector<fs::path> processors;
-  for (const auto& entry : fs::directory_iterator(foam_case.folder)) {
-    const std::int64_t number = processor_of(entry.path().filename().string());
-    if (number < 0 || !entry.is_directory()) continue;
-    processors.push_back(entry.path());
-    const bool is_beyond = foam_case.parts == 1 || number >= foam_case.parts;
-    if (is_beyond && holds_results(entry.path())) {
-      throw fs::filesystem_error(
-          fmt::format("the mesh has {} part(s), this folder holds results of more: remove it",
-                      foam_case.parts),
-          entry.path(), std::make_error_code(std::errc::directory_not_empty));
-    }
-  }
-  processors.push_back(foam_case.folder);
-  for (const fs::path& place : processors) {
-    fs::remove_all(place / "constant" / "polyMesh");
-    fs::remove_all(place / "constant" / "polyMesh.unfinished");
-    if (place == foam_case.folder) continue;
-    remove_if_empty(place / "constant");
-    remove_if_empty(place);
-  }
-}
-
-void write_dictionaries(const FoamCase& foam_case) {
-  const fs::path system = foam_case.folder / "system";
-  fs::create_directories(system);
-  const auto write = [&](const char* name, const std::string& content) {
-    const fs::path path = system / name;
-    if (fs::exists(path)) return;
-    const fs::path unfinished = path.string() + ".unfinished";
-    LocalFile file(unfinished.string());
-    file.text(dictionary(name, content));
-    file.finish();
-    fs::rename(unfinished, path);
-  };
-  write("controlDict", control);
-  write("fvSchemes", schemes);
-  write("fvSolution", solution);
+void write_decomposition(const FoamCase& foam_case) {
   if (foam_case.parts == 1) return;
-  const fs::path old = system / "decomposeParDict";
+  const fs::path old = foam_case.folder / "system" / "decomposeParDict";
   const std::int64_t subdomains = subdomains_of(old);
   if (subdomains > 0 && subdomains != foam_case.parts) {
-    if (text_of(old) == dictionary("decomposeParDict", decomposition(subdomains))) {
+    if (text_of(old) == foam_decomposition(subdomains)) {
       fs::remove(old);
     } else {
       parallel::log_warning(
@@ -203,7 +150,92 @@ void write_dictionaries(const FoamCase& foam_case) {
                       subdomains, foam_case.parts));
     }
   }
-  write("decomposeParDict", decomposition(foam_case.parts));
+  write_once(old, foam_decomposition(foam_case.parts));
+}
+
+/// From the time folder 0 of a part to the case.
+std::string_view way_up(const FoamCase& foam_case) {
+  return foam_case.parts == 1 ? "../" : "../../";
+}
+
+}  // namespace
+
+fs::path FoamCase::root(std::int32_t part) const {
+  return parts == 1 ? folder : folder / fmt::format("processor{}", part);
+}
+
+void prepare_case(const FoamCase& foam_case) {
+  fs::create_directories(foam_case.folder);
+  for (const auto& [processor, number] : processors_of(foam_case)) {
+    fs::remove_all(processor / "constant" / "polyMesh.unfinished");
+    const bool is_beyond = foam_case.parts == 1 || number >= foam_case.parts;
+    if (is_beyond && holds_results(processor)) {
+      throw fs::filesystem_error(
+          fmt::format("the mesh has {} part(s), this folder holds results of more: remove it",
+                      foam_case.parts),
+          processor, std::make_error_code(std::errc::directory_not_empty));
+    }
+  }
+  fs::remove_all(foam_case.folder / "constant" / "polyMesh.unfinished");
+}
+
+void retire_meshes(const FoamCase& foam_case) {
+  const auto retire = [](const fs::path& place) {
+    remove_own_fields(place / "0");
+    fs::remove_all(place / "constant" / "polyMesh");
+  };
+  for (const auto& [processor, number] : processors_of(foam_case)) {
+    retire(processor);
+    remove_if_empty(processor / "constant");
+    remove_if_empty(processor);
+  }
+  retire(foam_case.folder);
+}
+
+bool write_settings(const FoamCase& foam_case, bool is_external) {
+  for (const FoamSetting& setting : foam_dictionaries())
+    write_once(foam_case.folder / setting.path, setting.text);
+  write_decomposition(foam_case);
+  // Whoever has fields of an undivided case, divides them himself.
+  const fs::path own = foam_case.folder / "0";
+  remove_own_fields(own);
+  if (foam_case.parts > 1 && fs::exists(own)) {
+    parallel::log_warning(fmt::format(
+        "'{}' holds fields: they are not given to the parts, decomposePar -fields does that", own.string()));
+    return false;
+  }
+  const FoamSetting conditions = foam_conditions(is_external);
+  write_once(foam_case.folder / conditions.path, conditions.text);
+  for (const FoamField& field : foam_fields(way_up(foam_case)))
+    write_once(foam_case.folder / "0.orig" / field.name, field.text);
+  return true;
+}
+
+void write_fields(const FoamCase& foam_case, std::int32_t part) {
+  for (const FoamField& field : foam_fields(way_up(foam_case)))
+    write_once(foam_case.root(part) / "0" / field.name, field.link);
+}
+
+FoamPatches foam_patches(const std::vector<mesh::Patch>& patches) {
+  std::array<int, mesh::patch_type_names.size()> of_type{};
+  for (const mesh::Patch& patch : patches) ++of_type[static_cast<std::size_t>(patch.type)];
+  std::vector<std::string> names;
+  std::vector<bool> speaks_for_type;
+  for (const mesh::Patch& patch : patches) {
+    names.push_back(patch.name);
+    const std::optional<mesh::PatchType> meant = mesh::patch_type_of(word_of(patch.name));
+    const bool is_free =
+        !meant || *meant == mesh::PatchType::interior || patch.type == mesh::PatchType::interior;
+    // OpenFOAM puts walls and symmetries into groups of these names by itself.
+    const bool has_own_group = patch.type == mesh::PatchType::wall || patch.type == mesh::PatchType::symmetry;
+    speaks_for_type.push_back(!is_free && patch.type == *meant && !has_own_group &&
+                              of_type[static_cast<std::size_t>(patch.type)] == 1);
+    if (!is_free && !speaks_for_type.back()) names.back() += "_patch";
+  }
+  FoamPatches made{foam_words(names), {}};
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    made.groups.emplace_back(speaks_for_type[p] ? "" : mesh::name_of(patches[p].type));
+  return made;
 }
 
 std::vector<std::string> foam_words(const std::vector<std::string>& names) {

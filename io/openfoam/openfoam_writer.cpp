@@ -22,22 +22,9 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
 struct Names {
-  std::vector<std::string> patches, regions, groups;  ///< groups: by patch, empty where there is none
+  FoamPatches patches;
+  std::vector<std::string> regions;
 };
-
-Names names_of(const FileMesh& mesh) {
-  Names names;
-  for (const mesh::Patch& patch : mesh.patches) names.patches.push_back(patch.name);
-  names.patches = foam_words(names.patches);
-  names.regions = foam_words(mesh.regions);
-  // A group must not have the name of a patch.
-  for (const mesh::Patch& patch : mesh.patches) {
-    const std::string group(mesh::name_of(patch.type));
-    const bool is_taken = std::find(names.patches.begin(), names.patches.end(), group) != names.patches.end();
-    names.groups.push_back(is_taken ? "" : group);
-  }
-  return names;
-}
 
 const char* type_of(mesh::PatchType type) {
   switch (type) {
@@ -163,10 +150,10 @@ private:
     std::int64_t start = _order.inner;
     for (std::size_t p = 0; p < _mesh.patches.size(); ++p) {
       if (!is_boundary(_mesh.patches[p])) continue;
-      file.text(fmt::format("    {}\n    {{\n        type            {};\n", _names.patches[p],
+      file.text(fmt::format("    {}\n    {{\n        type            {};\n", _names.patches.names[p],
                             type_of(_mesh.patches[p].type)));
-      if (!_names.groups[p].empty())
-        file.text(fmt::format("        inGroups        1({});\n", _names.groups[p]));
+      if (!_names.patches.groups[p].empty())
+        file.text(fmt::format("        inGroups        1({});\n", _names.patches.groups[p]));
       file.text(fmt::format("        nFaces          {};\n        startFace       {};\n    }}\n",
                             _order.of_patch[p], start));
       start += _order.of_patch[p];
@@ -224,7 +211,8 @@ private:
     file.text(fmt::format("{}\n(\n", inner));
     for (std::size_t p = 0; p < zones.size(); ++p) {
       if (is_boundary(_mesh.patches[p])) continue;
-      file.text(fmt::format("{}\n{{\n    type faceZone;\n    faceLabels List<label> ", _names.patches[p]));
+      file.text(
+          fmt::format("{}\n{{\n    type faceZone;\n    faceLabels List<label> ", _names.patches.names[p]));
       const auto count = static_cast<std::int64_t>(zones[p].size());
       FoamList labels(file, _format, count);
       for (const LocalIndex f : zones[p]) labels.label(f);
@@ -301,9 +289,12 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
   const FoamPlan plan = plan_faces(communicator, mesh, links);
   const FoamFormat format = format_of(communicator, mesh, plan, options);
   const FoamCase foam_case{folder, mesh.part_count};
-  const Names names = names_of(mesh);
+  const Names names{foam_patches(mesh.patches), foam_words(mesh.regions)};
+  const bool is_external =
+      std::any_of(mesh.patches.begin(), mesh.patches.end(),
+                  [](const mesh::Patch& patch) { return patch.type == mesh::PatchType::farfield; });
   parallel::agree(communicator, [&] {
-    if (communicator.is_root()) clear_case(foam_case);
+    if (communicator.is_root()) prepare_case(foam_case);
   });
   try {
     parallel::agree(communicator, [&] {
@@ -312,16 +303,24 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
       }
-      if (communicator.is_root()) write_dictionaries(foam_case);
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;
     for (const FilePart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
     throw;
   }
+  bool has_fields = true;
   parallel::agree(communicator, [&] {
-    for (const FilePart& part : mesh.parts)
+    if (!communicator.is_root()) return;
+    has_fields = write_settings(foam_case, is_external);
+    retire_meshes(foam_case);
+  });
+  has_fields = communicator.maximum(std::int64_t{has_fields ? 0 : 1}) == 0;
+  parallel::agree(communicator, [&] {
+    for (const FilePart& part : mesh.parts) {
+      if (has_fields) write_fields(foam_case, part.id);
       fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
+    }
   });
 }
 

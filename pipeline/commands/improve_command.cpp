@@ -30,6 +30,15 @@ std::string what_would_be_lost(const std::string& mesh, const OutputOptions& out
   return {};
 }
 
+/// The first of the settings that says nothing to this command; empty where there is none.
+std::string setting_without_effect(const std::vector<std::string>& overrides) {
+  for (const std::string& setting : overrides) {
+    const std::string key = setting.substr(0, setting.find('='));
+    if (!key.starts_with("improve") && !key.starts_with("output") && key != "volume.piece_tets") return key;
+  }
+  return {};
+}
+
 }  // namespace
 
 Command add_improve(CLI::App& program) {
@@ -51,6 +60,14 @@ Command add_improve(CLI::App& program) {
                    ExitCode::resources, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+              const std::string idle = setting_without_effect(arguments->overrides);
+              if (!idle.empty()) {
+                return fail(
+                    communicator, ExitCode::usage,
+                    fmt::format("'{}' says nothing to improve, which takes a mesh as it is: improve.*, "
+                                "output.* and volume.piece_tets do",
+                                idle));
+              }
               const std::string lost = what_would_be_lost(arguments->mesh, input.output);
               if (!lost.empty()) {
                 return fail(communicator, ExitCode::usage,

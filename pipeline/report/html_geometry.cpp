@@ -76,10 +76,17 @@ std::string deviation(const Json& patch) {
 }
 
 std::string regions_table(const Json& regions) {
-  Table table({{"region"}, {"tetrahedra", Align::right}, {"volume", Align::right}});
-  for (const Json& region : regions)
-    table.add(
-        {name(find(region, "/name")), count(find(region, "/tetrahedra")), quantity(find(region, "/volume"))});
+  Table table({{"region"},
+               {"tetrahedra", Align::right},
+               {"volume", Align::right},
+               {"volume of the CAD", Align::right},
+               {"deviation", Align::right, "of the volume of the tetrahedra from that of the CAD"}});
+  for (const Json& region : regions) {
+    const double volume = number(find(region, "/volume")), cad = number(find(region, "/cad_volume"));
+    table.add({name(find(region, "/name")), count(find(region, "/tetrahedra")),
+               quantity(find(region, "/volume")), cad > 0 ? quantity(find(region, "/cad_volume")) : "–",
+               cad > 0 ? percent(volume / cad - 1) : "–"});
+  }
   return part("Regions", table.html());
 }
 

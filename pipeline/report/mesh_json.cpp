@@ -66,7 +66,7 @@ Json patches_json(const RunRecord& record) {
     json.push_back({{"name", patch.name},
                     {"type", mesh::name_of(patch.type)},
                     {"area", patch.area},
-                    {"cad_area", patch.cad_area},
+                    {"cad_area", patch.cad_area > 0 ? Json(patch.cad_area) : Json()},
                     {"triangles", patch.triangles},
                     {"inner", patch.inner}});
   }
@@ -76,7 +76,10 @@ Json patches_json(const RunRecord& record) {
 Json regions_json(const RunRecord& record) {
   Json json = Json::array();
   for (const RegionRow& region : record.regions_filled) {
-    json.push_back({{"name", region.name}, {"volume", region.volume}, {"tetrahedra", region.tetrahedra}});
+    json.push_back({{"name", region.name},
+                    {"volume", region.volume},
+                    {"cad_volume", region.cad_volume > 0 ? Json(region.cad_volume) : Json()},
+                    {"tetrahedra", region.tetrahedra}});
   }
   return json;
 }

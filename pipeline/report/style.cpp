@@ -34,7 +34,7 @@ nav a { margin-right: 12px; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fill, minmax(165px, 1fr)); gap: 10px; margin: 14px 0 8px; }
 .tile { background: var(--panel); border: 1px solid var(--line); border-radius: 6px; padding: 8px 12px; }
 .tile span { display: block; color: var(--quiet); font-size: 13px; }
-.tile b { font-size: 18px; white-space: nowrap; font-variant-numeric: tabular-nums; }
+.tile b { font-size: 18px; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
 .badge { display: inline-block; padding: 0 8px; border: 1px solid currentColor; border-radius: 10px; font-size: 13px;
   font-weight: 600; white-space: nowrap; vertical-align: 2px; }
 h1 .badge { font-size: 15px; }

@@ -28,8 +28,10 @@ std::string report_table(const RunRecord& record, const std::vector<parallel::St
   text +=
       fmt::format("{:<28} {:<9} {:>10} {:>14} {:>14}\n", "patch", "type", "triangles", "area", "CAD area");
   for (const PatchRow& p : record.patches) {
-    text += fmt::format("{:<28} {:<9} {:>10} {:>14.8g} {:>14.8g}\n", p.name, mesh::name_of(p.type),
-                        p.triangles, p.area, p.cad_area);
+    // A mesh from a file has none.
+    const std::string cad = p.cad_area > 0 ? fmt::format("{:.8g}", p.cad_area) : "-";
+    text += fmt::format("{:<28} {:<9} {:>10} {:>14.8g} {:>14}\n", p.name, mesh::name_of(p.type), p.triangles,
+                        p.area, cad);
   }
   return text;
 }

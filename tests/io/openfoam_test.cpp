@@ -123,7 +123,9 @@ TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
     write_openfoam(self, examples::mixed_mesh(self, 3, 4), path("one"), {binary, 0});
     const auto files = examples::files_below(folder / "all");
     EXPECT_EQ(files, examples::files_below(folder / "one"));
-    EXPECT_EQ(files.size(), 4U * 11 + 4);
+    // Of each part the mesh and what refers to fields; dictionaries in system/ and constant/; fields with
+    // their numbers.
+    EXPECT_EQ(files.size(), 4U * (11 + 6) + 4 + 2 + 7);
     const std::string boundary = files.at("processor2/constant/polyMesh/boundary");
     for (const char* expected : {"wing___lower_side", "inGroups        1(wall);", "far_field",
                                  "procBoundary2to1", "type            symmetry;"})
@@ -166,6 +168,33 @@ TEST_F(OpenFoam, FilesOfUsersStay) {
   EXPECT_FALSE(fs::exists(path("case/processor0")));
 }
 
+TEST_F(OpenFoam, FieldsStandOnceAndThoseOfUsersStay) {
+  write_openfoam(world, examples::mixed_mesh(world, 4, 3), path("case"));
+  EXPECT_NE(examples::bytes_of(path("case/0.orig/U")).find("farfield    { type freestreamVelocity"),
+            std::string::npos);
+  EXPECT_NE(examples::bytes_of(path("case/processor2/0/U")).find("#include \"../../0.orig/U\""),
+            std::string::npos);
+  // There is a far field: what flows starts as it does there.
+  EXPECT_NE(examples::bytes_of(path("case/0.orig/conditions")).find("$velocity"), std::string::npos);
+  examples::put_bytes(world, path("case/0.orig/p"), "my pressure");
+  examples::put_bytes(world, path("case/processor1/0/p"), "my pressure there");
+  write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+  EXPECT_EQ(examples::bytes_of(path("case/0.orig/p")), "my pressure");
+  EXPECT_EQ(examples::bytes_of(path("case/processor1/0/p")), "my pressure there");
+  EXPECT_FALSE(fs::exists(path("case/processor2")));
+  world.barrier();
+  if (world.is_root()) fs::remove_all(path("case/processor1/0"));
+  world.barrier();
+  write_openfoam(world, examples::mixed_mesh(world, 4, 1), path("case"));
+  EXPECT_NE(examples::bytes_of(path("case/0/U")).find("#include \"../0.orig/U\""), std::string::npos);
+  // An undivided case has fields of its own: parts get none beside them.
+  examples::put_bytes(world, path("case/0/k"), "my turbulence");
+  write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+  EXPECT_EQ(examples::bytes_of(path("case/0/k")), "my turbulence");
+  EXPECT_FALSE(fs::exists(path("case/0/U")));
+  EXPECT_FALSE(fs::exists(path("case/processor0/0")));
+}
+
 TEST_F(OpenFoam, DecompositionsOfOtherCountsAreOfUsersAlone) {
   const std::string dictionary = path("case/system/decomposeParDict");
   for (const int parts : {4, 3, 2}) {
@@ -197,6 +226,20 @@ TEST(FoamNames, AreWordsAndDistinct) {
   EXPECT_EQ(foam_words({"wing/left", "wing left", "wing_left", "1st", "", "procBoundary0to1", "Flügel"}),
             (std::vector<std::string>{"wing_left_2", "wing_left_3", "wing_left", "_1st", "unnamed",
                                       "_procBoundary0to1", "Flügel"}));
+}
+
+TEST(FoamPatches, HaveNoNameOfAnotherGroup) {
+  using enum mesh::PatchType;
+  // The only far field may be called so; OpenFOAM has groups of walls and symmetries by itself.
+  FoamPatches made =
+      foam_patches({{"farfield", farfield}, {"symmetry", symmetry}, {"wing", wall}, {"hub", interior}});
+  EXPECT_EQ(made.names, (std::vector<std::string>{"farfield", "symmetry_patch", "wing", "hub"}));
+  EXPECT_EQ(made.groups[0], "");
+  EXPECT_EQ(made.groups[1], "symmetry");
+  EXPECT_EQ(made.groups[2], "wall");
+  made = foam_patches({{"inlet", inlet}, {"inlet 2", inlet}, {"wall", slip}, {"wall_patch", wall}});
+  EXPECT_EQ(made.names, (std::vector<std::string>{"inlet_patch", "inlet_2", "wall_patch", "wall_patch_2"}));
+  EXPECT_EQ(made.groups, (std::vector<std::string>{"inlet", "inlet", "slip", "wall"}));
 }
 
 TEST(FoamLabels, GrowWithTheMesh) {
