@@ -53,7 +53,8 @@ snGradSchemes   { default limited 0.5; }
 wallDist        { method meshWave; }
 )foam";
 
-constexpr std::string_view solution = R"foam(// Residuals are relative to sums over all cells, and those of a far field
+constexpr std::string_view solution =
+    R"foam(// Residuals are relative to sums over all cells, and those of a far field
 // are huge: what is left of them says little about the body, so pressure is
 // solved well in each step.
 solvers
