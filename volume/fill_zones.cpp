@@ -4,6 +4,7 @@
 #include "volume/agreement.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
+#include "volume/filling_limits.hpp"
 #include "volume/zone_piece.hpp"
 
 #include <algorithm>
@@ -19,24 +20,8 @@ namespace {
 
 using parallel::ScopedCpu;
 
-/// A rung of the ladder: what is done differently to get a stubborn zone filled. Each makes its halo wider.
-struct Rung {
-  const char* name;
-  bool other_points;     ///< or only this zone is filled again, and the mesh stays what it was to be
-  std::uint8_t farther;  ///< see BlockChange
-};
-constexpr Rung ladder[] = {
-    {"a wider halo", false, 0},
-    {"a wider halo, other perturbations of its points", true, 0},
-    {"a wider halo, points farther off the surface", true, 1},
-};
-constexpr double wider = 1.5;  // the halo, each time
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
-
-/// How often zones are filled again on average, and in any case, before that is given up: a real aircraft
-/// takes less than one in all.
-constexpr std::size_t most_fillings_again = 10, few_fillings = 50;
 
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
@@ -60,26 +45,12 @@ public:
       std::vector<ZoneIndex> pending = change_failed();
       if (pending.empty()) pending = settle_disputes();
       if (pending.empty()) return assemble();
-      require_progress(pending.size());
+      _budget.spend(pending.size(), _report.rounds, _input.options.halo);
       fill(plan(pending));
     }
   }
 
 private:
-  /// Zones that know too little of their neighbours disagree nearly everywhere, and so do those that are made
-  /// of them.
-  void require_progress(std::size_t pending) {
-    _filled_again += pending;
-    const std::size_t zones = _changes_of.size();
-    if (_filled_again <= most_fillings_again * zones + few_fillings) return;
-    throw parallel::CollectiveError(
-        parallel::FailureKind::input,
-        fmt::format("{} zones were filled {} times again in {} rounds, and their tetrahedra still do not fit "
-                    "together: what they know of each other is too little. Remedy: a wider volume.halo "
-                    "({:g}), or larger pieces (volume.piece_tets)",
-                    zones, _filled_again, _report.rounds, _input.options.halo));
-  }
-
   // --- one round of filling
 
   void fill(ZonePlan plan) {
@@ -297,10 +268,10 @@ private:
   [[noreturn]] void throw_dispute(geometry::Vec3 where) const {
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
-        fmt::format("the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) do not fit together, in any way that was "
-                    "tried. Use "
-                    "other sizes there, or another piece size (VolumeOptions::piece_tets)",
-                    where.x, where.y, where.z));
+        fmt::format(
+            "the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) fit together in no way that was tried. Use other "
+            "sizes there, or another piece size (VolumeOptions::piece_tets)",
+            where.x, where.y, where.z));
   }
 
   /// The middle of a place's first leaf; of the zone's, where none of the vertices there has one.
@@ -401,7 +372,7 @@ private:
   std::vector<int> _changes_of;  // per zone: rungs climbed since it was merged last
   std::vector<std::uint8_t> _merged;
   int _rounds_of_giving = 0;
-  std::size_t _filled_again = 0;             // zones, by all ranks
+  FillingBudget _budget{_changes_of.size()};
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   std::vector<ZoneFailure> _failures;        // of this rank in this round
