@@ -25,7 +25,7 @@ CASE = f"""
 geometry: {{file: "{ROOT}/tests/data/wing_body.step", trailing_edges: sharpen}}
 farfield: {{shape: box, extent: 3}}
 sizing: {{minimum: 0.1, maximum: 10, surface_maximum: 0.4, curvature_angle: 20, growth: 1.6, proximity: 0}}
-volume: {{piece_tets: 5000, base_cpu_seconds: 2}}
+volume: {{piece_tets: 5000}}
 output: {{pictures: false, formats: [su2b]}}
 """
 
