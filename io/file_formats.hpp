@@ -76,7 +76,5 @@ struct WriteOptions {
 /// cannot hold the mesh.
 void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
                 const std::string& path, const WriteOptions& options);
-void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
-                const std::string& path, const WriteOptions& options);
 
 }  // namespace aeroloom::io

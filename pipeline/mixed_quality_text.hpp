@@ -1,6 +1,7 @@
 /// The quality of a mesh of several shapes for people to read.
 #pragma once
 
+#include "io/file_mesh.hpp"
 #include "mesh/mixed_quality.hpp"
 
 #include <string>

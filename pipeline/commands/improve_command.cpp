@@ -33,7 +33,7 @@ std::string what_would_be_lost(const std::string& mesh, const OutputOptions& out
 /// The first of the settings that says nothing to this command; empty where there is none.
 std::string setting_without_effect(const std::vector<std::string>& overrides) {
   for (const std::string& setting : overrides) {
-    const std::string key = setting.substr(0, setting.find('='));
+    std::string key = setting.substr(0, setting.find('='));
     if (!key.starts_with("improve") && !key.starts_with("output") && key != "volume.piece_tets") return key;
   }
   return {};
