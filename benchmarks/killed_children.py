@@ -62,7 +62,7 @@ def main():
     for index in range(options.runs):
         ranks, output = 1 + index % 3, folder / f"run_{index}"
         how = random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGSTOP, signal.SIGTERM])
-        patience = random.uniform(0, 4)
+        patience = random.uniform(0, 2)
         began = time.monotonic()
         run = subprocess.Popen(command(options.program, case, output, ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                text=True)

@@ -170,9 +170,8 @@ def check_names_stay(shell):
     assert whole >= 1, "no face lies on one side"
 
 
-def check_losses_are_told(shell):
-    """What a format has no place for, settings without effect, a folder that takes no check.json, a text that would be cut."""
-    (shell.folder / "two.yaml").write_text(f'geometry: {{file: "{SOURCE}/tests/data/boxes.step", domain: fluid}}\n')
+def check_small_ones(shell):
+    """Settings without effect, a folder that takes no check.json, a text that would be cut."""
     code, _, error = shell.run("improve out/mesh.pvtu --set output.directory=better --set sizing.minimum=0.1")
     assert code == 2 and "'sizing.minimum' says nothing to improve" in error, error
     code, text, error = shell.run("check case.yaml --set output.directory=/proc/nowhere")
@@ -193,7 +192,7 @@ def main():
     assert shell.run("run case.yaml")[0] == 0
     for check in (check_closed_streams, check_one_run_at_a_time, check_older_files, check_input_is_kept, check_links,
                   check_odd_geometry, check_absurd_sizes, check_bounds_are_told, check_names_stay,
-                  check_losses_are_told, check_end_from_outside):
+                  check_small_ones, check_end_from_outside):
         check(shell)
         print(check.__name__, "good", flush=True)
 
