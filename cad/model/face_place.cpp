@@ -11,14 +11,6 @@
 
 namespace aeroloom::cad {
 
-namespace {
-
-/// Relative error of areas. Without one the CAD library takes the most points its rules have in every span of
-/// a spline, ten times as long.
-constexpr double area_precision = 1e-3;
-
-}  // namespace
-
 FacePlace place_of(const TopoDS_Face& face) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties, area_precision);

@@ -67,10 +67,6 @@ std::string name_of(const NamedShape& named, const TopoDS_Shape& face, int index
   return shown.empty() ? fmt::format("face_{}", index) : shown;
 }
 
-/// Relative error of areas. Without one the CAD library takes the most points its rules have in every span of
-/// a spline, ten times as long.
-constexpr double area_precision = 1e-3;
-
 void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
