@@ -37,11 +37,17 @@ def parent_of(process):
         return -1
 
 
+def is_launcher(process):
+    try:
+        return b"mpirun" in pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")[0]
+    except OSError:
+        return True  # it is gone
+
+
 def children_of(output):
     """A child is started by the server of a rank, which that rank has started."""
     ours = {process: parent_of(process) for process in processes_of(output)}
-    programs = {p for p in ours if b"mpirun" not in pathlib.Path(f"/proc/{p}/cmdline").read_bytes().split(b"\0")[0]
-                } if ours else set()
+    programs = {process for process in ours if not is_launcher(process)}
     return [p for p in programs if ours[p] in programs and ours.get(ours[p]) in programs]
 
 

@@ -296,6 +296,7 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) prepare_case(foam_case);
   });
+  bool has_fields = true;
   try {
     parallel::agree(communicator, [&] {
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
@@ -303,17 +304,15 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
       }
+      if (communicator.is_root()) has_fields = write_settings(foam_case, is_external);
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;
     for (const FilePart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
     throw;
   }
-  bool has_fields = true;
   parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    has_fields = write_settings(foam_case, is_external);
-    retire_meshes(foam_case);
+    if (communicator.is_root()) retire_meshes(foam_case);
   });
   has_fields = communicator.maximum(std::int64_t{has_fields ? 0 : 1}) == 0;
   parallel::agree(communicator, [&] {
