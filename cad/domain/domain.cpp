@@ -7,6 +7,7 @@
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/repair/shells.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -39,6 +40,13 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
   if (options.kind != DomainKind::automatic) return {options.kind, "as requested"};
   if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
+  const std::vector<TopoDS_Solid> all = solids_of(solids.shape);
+  if (const int nested = all.size() > 1 ? count_in_cavities(all, volumes) : 0) {
+    return {DomainKind::fluid,
+            fmt::format("taken as the regions to mesh: {} of its {} solids lie in cavities of others and would "
+                        "not meet a fluid around them",
+                        nested, all.size())};
+  }
   hull = compare(solids, volumes);
   return decide_kind(*hull);
 }

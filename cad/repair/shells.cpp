@@ -2,9 +2,13 @@
 
 #include "cad/model/model_data.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepClass3d.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
@@ -15,6 +19,7 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <gp_Pnt.hxx>
 
 namespace aeroloom::cad {
 namespace {
@@ -29,19 +34,42 @@ bool box_inside(const Box& inner, const Box& outer) {
   return outer.contains(inner.low) && outer.contains(inner.high);
 }
 
-/// Whether one body lies inside another that it does not cross: the first of its vertices not on the other's
-/// surface decides.
-bool lies_inside(const Body& inner, const Body& outer, double tolerance) {
-  if (!box_inside(inner.box, outer.box)) return false;
-  BRepClass3d_SolidClassifier classifier(outer.solid);
-  TopTools_IndexedMapOfShape vertices;
-  TopExp::MapShapes(inner.solid, TopAbs_VERTEX, vertices);
-  for (int i = 1; i <= vertices.Extent(); ++i) {
-    classifier.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertices(i))), tolerance);
-    if (classifier.State() == TopAbs_IN) return true;
-    if (classifier.State() == TopAbs_OUT) return false;
+/// Points of a shape's edges, evenly among them: their ends and three between.
+std::vector<gp_Pnt> points_on_edges(const TopoDS_Shape& shape) {
+  constexpr int most_edges = 40, steps = 4;
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const int stride = std::max(1, edges.Extent() / most_edges);
+  std::vector<gp_Pnt> points;
+  for (int i = 1; i <= edges.Extent(); i += stride) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const BRepAdaptor_Curve curve(edge);
+    const double first = curve.FirstParameter(), last = curve.LastParameter();
+    for (int k = 0; k <= steps; ++k) points.push_back(curve.Value(first + (last - first) * k / steps));
   }
-  return false;
+  return points;
+}
+
+enum class Place { inside, outside, on_surface };
+
+/// Where a body lies that does not cross the solid: most of its points not on the solid's surface decide. One
+/// alone does not: the classifier's rays err where they graze an edge of large tolerance.
+Place place_of(const TopoDS_Shape& body, const TopoDS_Solid& solid, double tolerance) {
+  constexpr int lead = 4;
+  BRepClass3d_SolidClassifier classifier(solid);
+  int balance = 0;
+  for (const gp_Pnt& point : points_on_edges(body)) {
+    classifier.Perform(point, tolerance);
+    balance += (classifier.State() == TopAbs_IN) - (classifier.State() == TopAbs_OUT);
+    if (std::abs(balance) >= lead) break;
+  }
+  if (balance == 0) return Place::on_surface;
+  return balance > 0 ? Place::inside : Place::outside;
+}
+
+bool lies_inside(const Body& inner, const Body& outer, double tolerance) {
+  return box_inside(inner.box, outer.box) && place_of(inner.solid, outer.solid, tolerance) == Place::inside;
 }
 
 TopoDS_Shell shell_of(const TopoDS_Solid& solid) {
@@ -101,6 +129,27 @@ std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, V
     solids.push_back(solid);
   }
   return solids;
+}
+
+int count_in_cavities(const std::vector<TopoDS_Solid>& solids, Volumes& volumes) {
+  std::vector<Body> outlines;
+  Box all;
+  for (const TopoDS_Solid& solid : solids) {
+    const TopoDS_Shell outer = BRepClass3d::OuterShell(solid);
+    outlines.push_back({outer.IsNull() ? solid : solid_of(outer, volumes), tight_box(solid)});
+    all.add(outlines.back().box);
+  }
+  const double tolerance = 1e-9 * all.diagonal();
+  int count = 0;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = 0; j < solids.size(); ++j) {
+      if (i == j || !lies_inside(outlines[i], outlines[j], tolerance)) continue;
+      if (place_of(solids[i], solids[j], tolerance) == Place::inside) continue;
+      ++count;
+      break;
+    }
+  }
+  return count;
 }
 
 }  // namespace aeroloom::cad

@@ -20,4 +20,8 @@ TopoDS_Solid solid_of(const TopoDS_Shell& shell, Volumes& volumes);
 /// become its voids.
 std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, Volumes& volumes);
 
+/// How many of the solids lie within another's outer shell but not in its material: in a cavity, whether they
+/// fill it or not.
+int count_in_cavities(const std::vector<TopoDS_Solid>& solids, Volumes& volumes);
+
 }  // namespace aeroloom::cad
