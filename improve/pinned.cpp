@@ -39,18 +39,20 @@ double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {
 class PinnedSearch {
 public:
   PinnedSearch(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-               const mesh::Numbering& numbering, double target, const mesh::CellsBeyond& suspects)
+               const mesh::Numbering& numbering, double target, const mesh::CellsBeyond& suspects,
+               bool surface_may_change)
       : _communicator(communicator),
         _mesh(mesh),
         _numbering(numbering),
         _suspects(suspects),
         _target(target),
+        _surface_may_change(surface_may_change),
         _measure(target),
         _vertex_faces(communicator, mesh),
         _walls(_vertex_faces) {
     _report.smallest_angle = target;
     _report.largest_angle = largest_allowed(target);
-    _report.pinned = _report.at_features = _report.rest = {0, target, largest_allowed(target)};
+    _report.pinned = _report.at_features = _report.held = _report.rest = {0, target, largest_allowed(target)};
   }
 
   PinnedReport run() {
@@ -87,6 +89,7 @@ private:
   std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
   bool pinned_by_wedge(std::size_t piece, const BadTet& bad, const WallPair& walls);
   bool is_at_strip(std::size_t piece, const BadTet& bad);
+  bool is_held(const Piece& piece, const BadTet& bad) const;
   bool is_in_gap(std::size_t piece, const BadTet& bad, const WallPair& walls);
   MissedTarget& kind_of(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
@@ -100,6 +103,7 @@ private:
   const mesh::Numbering& _numbering;
   const mesh::CellsBeyond& _suspects;
   double _target;
+  bool _surface_may_change;
   TetQuality _measure;
   VertexFaces _vertex_faces;
   WallFinder _walls;
@@ -263,6 +267,12 @@ bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
   return true;
 }
 
+bool PinnedSearch::is_held(const Piece& piece, const BadTet& bad) const {
+  if (_surface_may_change) return false;
+  const LocalIndex* c = piece.cell(bad.tet);
+  return std::count_if(c, c + 4, [&](LocalIndex v) { return piece.vertex_dimension[v] <= on_face; }) >= 3;
+}
+
 void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) {
   ++kind.tetrahedra;
   kind.smallest_angle = std::min(kind.smallest_angle, angles.smallest);
@@ -275,6 +285,7 @@ MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
   const std::optional<WallPair> walls = _walls.find(_mesh.pieces[i], bad.tet);
   if (walls && pinned_by_wedge(i, bad, *walls)) return _report.pinned;
   if (is_at_strip(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
+  if (is_held(_mesh.pieces[i], bad)) return _report.held;
   return _report.rest;
 }
 
@@ -328,11 +339,14 @@ PinnedReport PinnedSearch::merge() {
     known.smallest_dihedral = std::min(known.smallest_dihedral, entity.smallest_dihedral);
   }
   merge_features();
-  for (MissedTarget* kind : {&_report.pinned, &_report.at_features, &_report.rest}) total(*kind);
+  for (MissedTarget* kind : {&_report.pinned, &_report.at_features, &_report.held, &_report.rest})
+    total(*kind);
   _report.tetrahedra = _report.pinned.tetrahedra;
-  _report.others = _report.at_features.tetrahedra + _report.rest.tetrahedra;
-  _report.smallest_angle = std::min(_report.at_features.smallest_angle, _report.rest.smallest_angle);
-  _report.largest_angle = std::max(_report.at_features.largest_angle, _report.rest.largest_angle);
+  for (const MissedTarget* kind : {&_report.at_features, &_report.held, &_report.rest}) {
+    _report.others += kind->tetrahedra;
+    _report.smallest_angle = std::min(_report.smallest_angle, kind->smallest_angle);
+    _report.largest_angle = std::max(_report.largest_angle, kind->largest_angle);
+  }
   return std::move(_report);
 }
 
@@ -344,8 +358,8 @@ mesh::DihedralRange suspect_angles(double target_angle) {
 
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,
-                         const mesh::CellsBeyond& suspects) {
-  return PinnedSearch(communicator, mesh, numbering, target_angle, suspects).run();
+                         const mesh::CellsBeyond& suspects, bool surface_may_change) {
+  return PinnedSearch(communicator, mesh, numbering, target_angle, suspects, surface_may_change).run();
 }
 
 }  // namespace aeroloom::improve

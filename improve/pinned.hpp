@@ -1,6 +1,6 @@
 /// Tetrahedra that miss the target, told apart: pinned ones, which cannot reach it because the CAD has an
-/// angle smaller than it; those at features of the CAD that are finer than the elements; and the rest, which
-/// improvement is to answer for.
+/// angle smaller than it; those at features of the CAD that are finer than the elements; those held by a
+/// surface that improvement was not to touch; and the rest, which improvement is to answer for.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -63,6 +63,7 @@ struct PinnedReport {
   std::vector<UnresolvedFeature> features;  ///< by faces
   MissedTarget pinned;                      ///< forced by an angle of the CAD
   MissedTarget at_features;                 ///< not pinned, across such a strip or gap
+  MissedTarget held;  ///< neither, with a side or all corners on a surface that may not change
   MissedTarget rest;
   std::int64_t tetrahedra = 0;  ///< those pinned
   std::int64_t others = 0;      ///< those that are not pinned
@@ -78,10 +79,11 @@ mesh::DihedralRange suspect_angles(double target_angle);
 /// the same two faces, as narrow as the wedge is at their distance and no flatter, both to a factor of two;
 /// and those on a boundary triangle that fills a corner of less than the target between two curves. Of the
 /// others, those with an edge across a strip that is finer than its elements, or that reach across a gap
-/// between two faces which is, are at that feature. `suspects` are those beyond the angles above,
-/// as mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
+/// between two faces which is, are at that feature. Where the surface was to stay as it is, others with three
+/// or four corners on it are held by it. `suspects` are those beyond the angles above, as
+/// mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,
-                         const mesh::CellsBeyond& suspects);
+                         const mesh::CellsBeyond& suspects, bool surface_may_change);
 
 }  // namespace aeroloom::improve

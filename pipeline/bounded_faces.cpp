@@ -10,6 +10,11 @@ namespace {
 constexpr std::size_t shown_faces = 4;
 constexpr double least_fraction = 0.01;  // of a face's area, to be told in a line
 
+std::string degrees_text(double degrees) {
+  if (degrees >= 180) return "180 degrees and more";
+  return degrees < 10 ? fmt::format("{:.2g} degrees", degrees) : fmt::format("{:.0f} degrees", degrees);
+}
+
 }  // namespace
 
 std::vector<NamedBound> report_bounded_faces(const sizing::ModelSampler& sampler,
@@ -31,8 +36,8 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
       ++left_out;
       continue;
     }
-    text += fmt::format("{} on {:.2g} % of '{}' elements turn by up to {:.2g} degrees", told++ > 0 ? "," : "",
-                        100 * each.fraction, each.face, each.degrees);
+    text += fmt::format("{} on {:.0f} % of '{}' elements turn by up to {}", told++ > 0 ? "," : "",
+                        100 * each.fraction, each.face, degrees_text(each.degrees));
   }
   if (text.empty()) return text;
   if (left_out > 0) text += fmt::format(", and on {} more", left_out);

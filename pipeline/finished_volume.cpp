@@ -36,7 +36,8 @@ std::vector<RegionRow> table_of_regions(const Communicator& communicator, const 
 /// Tells the elements that the CAD forces from those that improvement could not mend.
 void list_pinned(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
                  const mesh::Numbering& numbering, const mesh::CellsBeyond& suspects, RunRecord& record) {
-  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle, suspects);
+  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle, suspects,
+                                       input.improve.boundary_may_change);
   log_pinned(record);
 }
 

@@ -124,11 +124,14 @@ void log_pinned(const RunRecord& record) {
     if (kind.tetrahedra == 0) return std::string("0");
     return fmt::format("{} (from {:.3g} degrees)", kind.tetrahedra, kind.smallest_angle);
   };
-  log_info(
-      fmt::format("improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
-                  "are at {} strips and gaps that are finer than their elements, {} are neither",
-                  part(report.pinned), report.entities.size(), part(report.at_features),
-                  report.features.size(), part(report.rest)));
+  log_info(fmt::format(
+      "improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
+      "are at {} strips and gaps that are finer than their elements, {}{} are neither",
+      part(report.pinned), report.entities.size(), part(report.at_features), report.features.size(),
+      report.held.tetrahedra == 0
+          ? ""
+          : part(report.held) + " have a side or all corners on the surface, which stays as it is, ",
+      part(report.rest)));
 }
 
 }  // namespace aeroloom::pipeline

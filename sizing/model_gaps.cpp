@@ -30,7 +30,7 @@ double finest_facet(double extent, double area) {
 
 }  // namespace
 
-void ModelSampler::measure_gaps() {
+void ModelSampler::measure_gaps(Notes notes) {
   const geometry::Vec3 size = _body_box.size();
   const double extent = std::max({size.x, size.y, size.z}), widest = extent / narrow_gap;
   std::vector<OwnFace*> looked_at;
@@ -38,7 +38,7 @@ void ModelSampler::measure_gaps() {
     double area = 0;
     for (FaceId f = 0; f < _model.face_count(); ++f) area += _model.is_far_field(f) ? 0 : _areas[f];
     const double finest = finest_facet(extent, area);
-    if (_layers > 0 && finest > 1.5 * extent / finest_gap) {
+    if (notes == Notes::tell && _layers > 0 && finest > 1.5 * extent / finest_gap) {
       parallel::log_info(
           fmt::format("sizing: gaps are looked for every {:.3g} of the surface; finer looking would take too "
                       "many rays",

@@ -111,7 +111,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
     list_corners();
   });
   gather_triangles();
-  measure_gaps();
+  measure_gaps(Notes::tell);
 }
 
 ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
@@ -138,7 +138,7 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
     take_faces(std::move(before._faces), number);
     list_corners();
   });
-  measure_gaps();
+  measure_gaps(Notes::were_told);
 }
 
 void ModelSampler::add_face(FaceId id) {

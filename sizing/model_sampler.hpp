@@ -120,7 +120,8 @@ private:
   void require_possible(const SizingOptions& options) const;
   /// Of each face of this rank, by curvature.
   std::vector<std::pair<cad::FaceId, FaceSamples::Overview>> look_over(const SizingOptions& options) const;
-  void measure_gaps();
+  enum class Notes { tell, were_told };
+  void measure_gaps(Notes notes);
   /// In the open gaps of those faces; `widest` as they were looked for. Collective.
   void look_closer(const std::vector<OwnFace*>& faces, double widest);
   /// What the faces and edges of this rank ask for.

@@ -42,10 +42,11 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
   const std::vector<TopoDS_Solid> all = solids_of(solids.shape);
   if (const int nested = all.size() > 1 ? count_in_cavities(all, volumes) : 0) {
-    return {DomainKind::fluid,
-            fmt::format("taken as the regions to mesh: {} of its {} solids lie in cavities of others and would "
-                        "not meet a fluid around them",
-                        nested, all.size())};
+    return {
+        DomainKind::fluid,
+        fmt::format("taken as the regions to mesh: {} of its {} solids lie in cavities of others and would "
+                    "not meet a fluid around them",
+                    nested, all.size())};
   }
   hull = compare(solids, volumes);
   return decide_kind(*hull);

@@ -93,6 +93,7 @@ Json improve_json(const Case& input, const RunRecord& record) {
           {"below_target",
            {{"pinned", missed_target_json(record.pinned.pinned)},
             {"unresolved_features", missed_target_json(record.pinned.at_features)},
+            {"held_by_surface", missed_target_json(record.pinned.held)},
             {"rest", missed_target_json(record.pinned.rest)}}}};
 }
 

@@ -131,12 +131,12 @@ DistributedMesh make_walls(const parallel::Communicator& communicator, double an
   return mesh;
 }
 
-PinnedReport find(const DistributedMesh& mesh, double target) {
+PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_change = true) {
   const auto world = parallel::Communicator::world();
   const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
   mesh::CellsBeyond suspects{suspect_angles(target), {}};
   mesh::summarise_quality(world, mesh, numbering, &suspects);
-  return find_pinned(world, mesh, numbering, target, suspects);
+  return find_pinned(world, mesh, numbering, target, suspects, surface_may_change);
 }
 
 PinnedReport find(double angle, int tets, int dimension, double target) {
@@ -195,6 +195,19 @@ TEST(Pinned, DoesNotExcuseTrianglesBetweenVerticesOfOneCurve) {
   EXPECT_TRUE(report.features.empty());
   EXPECT_EQ(report.rest.tetrahedra, 8);
   EXPECT_LT(report.rest.smallest_angle, 15);
+}
+
+TEST(Pinned, TellsWhatASurfaceHoldsThatMayNotChange) {
+  const auto world = parallel::Communicator::world();
+  const PinnedReport report = find(make_strip(world, 0.1, 4, 1), 28, false);
+  EXPECT_EQ(report.held.tetrahedra, 8);
+  EXPECT_LT(report.held.smallest_angle, 15);
+  EXPECT_EQ(report.rest.tetrahedra, 0);
+  EXPECT_EQ(report.others, 8);
+  EXPECT_EQ(report.smallest_angle, report.held.smallest_angle);
+  // What the CAD explains stays explained by it.
+  EXPECT_EQ(find(make_strip(world, 0.1, 4, 2), 28, false).at_features.tetrahedra, 8);
+  EXPECT_EQ(find(make_walls(world, 4, true, 1, 1), 28, false).pinned.tetrahedra, 2);
 }
 
 TEST(Pinned, DoesNotExcuseShortSidesOnCurves) {
