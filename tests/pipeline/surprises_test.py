@@ -50,7 +50,7 @@ def check_end_from_outside(shell):
     """A message, the code of shells, and a report that says so."""
     for ranks in (1, 2):
         run = start(shell, ranks, "run", "case.yaml", "--set", "sizing.minimum=0.02",
-                    "--set", "sizing.surface_maximum=0.04")
+                    "--set", f"sizing.surface_maximum={0.04 / ranks}")
         wait_for(shell.folder / "out" / ".lock", run)
         time.sleep(1)
         if ranks == 1:
