@@ -12,7 +12,7 @@ constexpr double least_fraction = 0.01;  // of a face's area, to be told in a li
 
 std::string degrees_text(double degrees) {
   if (degrees >= 180) return "180 degrees and more";
-  return degrees < 10 ? fmt::format("{:.2g} degrees", degrees) : fmt::format("{:.0f} degrees", degrees);
+  return degrees < 10 ? fmt::format("up to {:.2g} degrees", degrees) : fmt::format("up to {:.0f} degrees", degrees);
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
       ++left_out;
       continue;
     }
-    text += fmt::format("{} on {:.0f} % of '{}' elements turn by up to {}", told++ > 0 ? "," : "",
+    text += fmt::format("{} on {:.0f} % of '{}' elements turn by {}", told++ > 0 ? "," : "",
                         100 * each.fraction, each.face, degrees_text(each.degrees));
   }
   if (text.empty()) return text;

@@ -55,6 +55,25 @@ std::optional<double> target_of(const SizingRequest& request) {
   return request.minimum && request.maximum ? std::nullopt : std::optional(default_target);
 }
 
+std::string describe(const sizing::BoundCost& cost) {
+  const std::string what = cost.bound == sizing::of_features
+                               ? "features finer than sizing.minimum (bounded by sizing.feature_minimum)"
+                               : "sizing." + cost.bound;
+  const char* verb = cost.bound == sizing::of_features ? "make" : "makes";
+  return std::isinf(cost.ratio) ? fmt::format("{} {} it far too many", what, verb)
+                                : fmt::format("{} {} it {:.2g} times as many", what, verb, cost.ratio);
+}
+
+/// Which given keys leave no room, where none does so alone.
+std::string describe_all(const std::vector<sizing::BoundCost>& costs) {
+  std::string names;
+  for (const sizing::BoundCost& cost : costs) {
+    if (cost.bound == sizing::of_features) continue;
+    names += (names.empty() ? "sizing." : ", sizing.") + cost.bound;
+  }
+  return names.empty() ? "" : "what is given leaves no other choice (" + names + ")";
+}
+
 /// What each given key does to the count, those first that do most.
 std::string describe_costs(std::vector<sizing::BoundCost> costs) {
   const auto weight = [](const sizing::BoundCost& cost) { return std::abs(std::log(cost.ratio)); };
@@ -63,12 +82,9 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
   std::string text;
   for (const sizing::BoundCost& cost : costs) {
     if (weight(cost) < telling_cost) break;
-    text += text.empty() ? "" : ", ";
-    text += std::isinf(cost.ratio)
-                ? fmt::format("sizing.{} makes it far too many", cost.bound)
-                : fmt::format("sizing.{} makes it {:.2g} times as many", cost.bound, cost.ratio);
+    text += (text.empty() ? "" : ", ") + describe(cost);
   }
-  return text;
+  return text.empty() ? describe_all(costs) : text;
 }
 
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.

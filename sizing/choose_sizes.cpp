@@ -255,16 +255,21 @@ std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenS
     return sampler.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarser, most);
   };
   const std::optional<double> all = count(given);
+  const auto over = [&](const std::optional<double>& without) {
+    if (!without) return 1.0;
+    return all ? *all / std::max(1.0, *without) : std::numeric_limits<double>::infinity();
+  };
   std::vector<BoundCost> costs;
+  if (given.minimum && !given.feature_minimum) {
+    GivenSizes bound = given;
+    bound.feature_minimum = given.minimum;
+    costs.push_back({of_features, over(count(bound))});
+  }
   for (const auto& [name, bound] : bounds) {
     if (!(given.*bound)) continue;
     GivenSizes others = given;
     (others.*bound).reset();
-    const std::optional<double> without = count(others);
-    const double ratio = all && without ? *all / std::max(1.0, *without)
-                         : without      ? std::numeric_limits<double>::infinity()
-                                        : 1.0;
-    costs.push_back({name, ratio});
+    costs.push_back({name, over(count(others))});
   }
   return costs;
 }

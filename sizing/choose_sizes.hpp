@@ -57,9 +57,12 @@ ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
 
+/// Where the minimum is given and does not bind them.
+inline constexpr const char* of_features = "features";
+
 /// What one of the given bounds does.
 struct BoundCost {
-  std::string bound;  ///< its name in SizingOptions
+  std::string bound;  ///< its name in SizingOptions; of_features for what features finer than the minimum do
   double ratio;  ///< predicted tetrahedra over those with what would be chosen in its place, about; infinite
                  ///< where there are far too many
 };

@@ -10,6 +10,7 @@
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -71,6 +72,24 @@ double largest_extent(Vec3 size) {
   return std::max({size.x, size.y, size.z});
 }
 
+/// The CAD library knows points to `exactness`, whatever the unit: far from the origin numbers are further
+/// apart.
+void require_representable(const Box& box) {
+  constexpr double exactness = 1e-7, bearable = 10;
+  double farthest = 0;
+  for (const Vec3& corner : {box.low, box.high})
+    farthest = std::max({farthest, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+  const double spacing = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
+  if (spacing <= bearable * exactness) return;
+  throw CadError(
+      fmt::format("the domain reaches out to {:.3g} in the file's unit, where numbers of the computer are "
+                  "{:.2g} apart, but "
+                  "the CAD library tells points {:.0g} apart. Remedy: a larger unit, a model near the "
+                  "origin, or a far field "
+                  "that is nearer (farfield.extent)",
+                  farthest, spacing, exactness));
+}
+
 /// Triangulates every face coarsely, where nobody did: what the CAD library cannot triangulate is found here,
 /// where a crash is contained.
 void try_facets(const Model& model) {
@@ -91,6 +110,7 @@ Domain prepare(const DomainOptions& options) {
                     : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
                                           volumes, report.changes);
   model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
+  require_representable(model.bounds());
   if (!hull) try_facets(model);
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};

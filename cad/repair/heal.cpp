@@ -112,11 +112,10 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
     const double volume = volumes.of(solids[i]);
     if (volume > 1e-9 * std::pow(box.diagonal(), 3)) continue;
     const Vec3 at = box.center();
-    throw CadError(
-        fmt::format("solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses no volume ({:.3g} in a box of "
-                    "diagonal {:.6g}): a sheet "
-                    "is no body",
-                    i, at.x, at.y, at.z, volume, box.diagonal()));
+    throw CadError(fmt::format(
+        "solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses next to no volume ({:.3g} in a box of "
+        "diagonal {:.6g}): what is as thin as that, a sheet or a wire, cannot be meshed as a body",
+        i, at.x, at.y, at.z, volume, box.diagonal()));
   }
 }
 
