@@ -1,6 +1,7 @@
 #include "pipeline/bounded_faces.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -12,16 +13,41 @@ constexpr double least_fraction = 0.01;  // of a face's area, to be told in a li
 
 std::string degrees_text(double degrees) {
   if (degrees >= 180) return "180 degrees and more";
-  return degrees < 10 ? fmt::format("up to {:.2g} degrees", degrees) : fmt::format("up to {:.0f} degrees", degrees);
+  return degrees < 10 ? fmt::format("up to {:.2g} degrees", degrees)
+                      : fmt::format("up to {:.0f} degrees", degrees);
+}
+
+double share_of_body(const std::vector<NamedBound>& faces) {
+  double share = 0;
+  for (const NamedBound& each : faces) share += each.share_of_body;
+  return share;
 }
 
 }  // namespace
 
 std::vector<NamedBound> report_bounded_faces(const sizing::ModelSampler& sampler,
                                              const sizing::SizingOptions& sizes) {
+  const cad::Model& model = sampler.model();
+  std::map<std::string, NamedBound> by_name;
+  for (const sizing::BoundedFace& each : sampler.faces_bounded_by_minimum(sizes)) {
+    NamedBound& bound = by_name[model.face(each.face).name];
+    bound.share_of_body += each.fraction * sampler.area(each.face);
+    bound.degrees = std::max(bound.degrees, std::min(each.degrees, 180.0));
+  }
+  std::map<std::string, double> areas;
+  double body = 0;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.is_far_field(f)) continue;
+    areas[model.face(f).name] += sampler.area(f);
+    body += sampler.area(f);
+  }
   std::vector<NamedBound> faces;
-  for (const sizing::BoundedFace& each : sampler.faces_bounded_by_minimum(sizes))
-    faces.push_back({sampler.model().face(each.face).name, each.fraction, each.degrees});
+  for (auto& [name, bound] : by_name) {
+    bound.face = name;
+    bound.fraction = std::min(1.0, bound.share_of_body / areas[name]);
+    bound.share_of_body /= body;
+    faces.push_back(bound);
+  }
   std::stable_sort(faces.begin(), faces.end(),
                    [](const NamedBound& a, const NamedBound& b) { return a.fraction > b.fraction; });
   return faces;
@@ -41,15 +67,30 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
   }
   if (text.empty()) return text;
   if (left_out > 0) text += fmt::format(", and on {} more", left_out);
-  return fmt::format("the smallest size ({:.3g}) wins over {:.3g} degrees per element{}:{}", sizes.minimum,
+  text = fmt::format("the smallest size ({:.3g}) wins over {:.3g} degrees per element{}:{}", sizes.minimum,
                      sizes.curvature_angle, sizes.chordal_deviation > 0 ? " and the deviation asked for" : "",
                      text);
+  if (is_much_of_body(faces))
+    text += fmt::format(
+        ". That is {:.0f} % of the body. Remedy: sizes in the unit of the model; a smaller "
+        "sizing.minimum, or a larger sizing.target_tetrahedra where it was chosen; or a larger "
+        "sizing.curvature_angle, which takes fewer elements elsewhere",
+        100 * share_of_body(faces));
+  return text;
+}
+
+bool is_much_of_body(const std::vector<NamedBound>& faces) {
+  constexpr double much = 0.1;
+  return share_of_body(faces) > much;
 }
 
 nlohmann::ordered_json to_json(const std::vector<NamedBound>& faces) {
   auto json = nlohmann::ordered_json::array();
   for (const NamedBound& each : faces)
-    json.push_back({{"face", each.face}, {"fraction", each.fraction}, {"degrees", each.degrees}});
+    json.push_back({{"face", each.face},
+                    {"fraction", each.fraction},
+                    {"degrees", each.degrees},
+                    {"share_of_body", each.share_of_body}});
   return json;
 }
 

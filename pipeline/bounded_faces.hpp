@@ -11,14 +11,16 @@
 
 namespace aeroloom::pipeline {
 
-/// A face on which elements turn further, or lie farther off, than was asked for.
+/// Faces of one name on which elements turn further, or lie farther off, than was asked for.
 struct NamedBound {
   std::string face;
-  double fraction;  ///< of its area
-  double degrees;   ///< that an element turns there, at most
+  double fraction;       ///< of their area
+  double degrees;        ///< that an element turns there, at most; 180 where it would turn further
+  double share_of_body;  ///< the area in question over that of the whole body
 
   static constexpr auto fields() {
-    return std::tuple(&NamedBound::face, &NamedBound::fraction, &NamedBound::degrees);
+    return std::tuple(&NamedBound::face, &NamedBound::fraction, &NamedBound::degrees,
+                      &NamedBound::share_of_body);
   }
 };
 
@@ -28,6 +30,9 @@ std::vector<NamedBound> report_bounded_faces(const sizing::ModelSampler& sampler
 
 /// One line of a few of them; empty where there are none of any extent.
 std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes);
+
+/// Whether that is so on much of the body: its shape is lost, or what was asked for has little effect.
+bool is_much_of_body(const std::vector<NamedBound>& faces);
 
 nlohmann::ordered_json to_json(const std::vector<NamedBound>& faces);
 

@@ -27,12 +27,12 @@ void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
 void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   const sizing::SizingOptions preset;
   declare_bounds(keys, sizing);
-  keys.number(
-      "curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
-      common({"How far an element may turn on curved faces and edges: less makes leading edges finer.",
-              "15 where sizes are chosen from the model, " + shortest(preset.curvature_angle) +
-                  " where `minimum` and `maximum` are given",
-              shortest(preset.curvature_angle)}));
+  keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
+              common({"How far an element may turn on curved faces and edges: less makes leading edges "
+                      "finer, and where a target is to be met, the rest coarser.",
+                      "15 where sizes are chosen from the model, " + shortest(preset.curvature_angle) +
+                          " where `minimum` and `maximum` are given",
+                      shortest(preset.curvature_angle)}));
   keys.number(
       "chordal_deviation", sizing.chordal_deviation, Range::above(0, length_unit),
       {"Distance of triangles from curved faces, at most. Sizes may fall to `feature_minimum` for it.", "any",

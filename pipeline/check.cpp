@@ -114,6 +114,8 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
     text += "a run joins: " + line + "\n";
   const std::string features = forecast.features ? describe(*forecast.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
+  const std::string share = forecast.features ? describe_share(*forecast.features) : std::string();
+  if (!share.empty()) text += "features: " + share + "\n";
   const std::string bounded = describe(forecast.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
   return text + fmt::format(
@@ -235,6 +237,8 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
         apply_patch_rules(share_model(communicator, std::move(bytes), clock), input.patches);
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;
+    if (communicator.is_root())
+      for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
     record.forecast = forecast_run(communicator, model, input);

@@ -85,6 +85,28 @@ PatchType default_type(const cad::Model& model, std::int32_t patch) {
       .value_or(far ? PatchType::farfield : PatchType::wall);
 }
 
+/// Says of a rule what it does not get, and what it gets besides.
+void warn(TypedPatches& patches, const PatchRule& rule, const std::vector<char>& taken) {
+  const cad::Model& model = patches.model;
+  int inner = 0, left = 0;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.patches()[model.face(f).patch] != rule.name) continue;
+    inner += model.face(f).back != cad::no_entity ? 1 : 0;
+    left += taken[f] ? 0 : 1;
+  }
+  if (inner > 0 && rule.type && *rule.type != PatchType::interior)
+    patches.warnings.push_back(
+        fmt::format("patches.{}: {} of its faces lie between two regions and have no condition: the type "
+                    "'{}' is not theirs",
+                    rule.name, inner, mesh::name_of(*rule.type)));
+  if (left > 0)
+    patches.warnings.push_back(
+        fmt::format("patches.{}: the model has a patch of this name, and its faces that no rule takes ({}) "
+                    "stay in it, too. "
+                    "Remedy: another name",
+                    rule.name, left));
+}
+
 }  // namespace
 
 TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules) {
@@ -93,7 +115,7 @@ TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchR
   for (cad::FaceId f = 0; f < model.face_count(); ++f)
     patch_of_face[f] = model.patches()[model.face(f).patch];
   for (const PatchRule& rule : rules) take_faces(model, rule, patch_of_face, taken);
-  TypedPatches result{rules.empty() ? model : cad::with_patches(model, patch_of_face), {}};
+  TypedPatches result{rules.empty() ? model : cad::with_patches(model, patch_of_face), {}, {}};
   const std::vector<std::string>& patches = result.model.patches();
   for (std::size_t p = 0; p < patches.size(); ++p) {
     PatchType type = default_type(result.model, static_cast<std::int32_t>(p));
@@ -102,6 +124,7 @@ TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchR
     }
     result.types.push_back(type);
   }
+  for (const PatchRule& rule : rules) warn(result, rule, taken);
   return result;
 }
 

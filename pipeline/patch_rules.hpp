@@ -22,6 +22,7 @@ struct PatchRule {
 struct TypedPatches {
   cad::Model model;
   std::vector<mesh::PatchType> types;  ///< by patch of the model
+  std::vector<std::string> warnings;   ///< what the rules ask for and do not get, or get and may not expect
 };
 
 /// Joins faces into patches by the first rule that one of its names matches; others keep their patch. By

@@ -99,6 +99,8 @@ private:
     }
     TypedPatches patches = apply_patch_rules(find_or_load_domain(), _input.patches);
     _record.patch_types = std::move(patches.types);
+    if (_communicator.is_root())
+      for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     describe(patches.model);
     return std::move(patches.model);
   }
@@ -162,6 +164,7 @@ private:
     _record.features = sized.features;
     _record.bounded_faces = sized.bounded;
     log_sizing(_record);
+    if (_communicator.is_root()) warn_of_sizes(_record);
   }
 
   // --- surface
@@ -339,6 +342,7 @@ private:
              const FinishedSurface& surface) {
     const SurfaceView view{surface.mesh, surface.numbering};
     write_outputs(_communicator, volume, numbering, &view, _input.output);
+    if (_communicator.is_root()) warn_of_units(_record, _input.output);
   }
 
   const Communicator& _communicator;

@@ -28,10 +28,29 @@ void log_sizing(const RunRecord& record) {
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
                   record.sizes.growth, record.size_field_leaves));
+  if (record.features) {
+    if (const std::string text = describe_share(*record.features); !text.empty()) log_info("sizing: " + text);
+  }
+  const std::string bounds = describe(record.bounded_faces, record.sizes);
+  if (!bounds.empty() && !is_much_of_body(record.bounded_faces)) log_info("sizing: " + bounds);
+}
+
+void warn_of_sizes(const RunRecord& record) {
   if (const std::string text = record.features ? describe(*record.features) : std::string(); !text.empty())
     parallel::log_warning("sizing: " + text);
-  if (const std::string text = describe(record.bounded_faces, record.sizes); !text.empty())
-    log_info("sizing: " + text);
+  if (is_much_of_body(record.bounded_faces))
+    parallel::log_warning("sizing: " + describe(record.bounded_faces, record.sizes));
+}
+
+void warn_of_units(const RunRecord& record, const OutputOptions& output) {
+  const auto& formats = output.formats;
+  if (std::find(formats.begin(), formats.end(), io::FileFormat::openfoam) == formats.end()) return;
+  if (record.unit.empty() || record.unit_in_metres == 1) return;
+  parallel::log_warning(
+      fmt::format("output: lengths of the OpenFOAM case are in {}, its velocities and viscosity in metres "
+                  "and seconds. Remedy: "
+                  "transformPoints -scale '({:g} {:g} {:g})' in the case, with -parallel where it has parts",
+                  record.unit, record.unit_in_metres, record.unit_in_metres, record.unit_in_metres));
 }
 
 namespace {
@@ -86,10 +105,10 @@ void log_needles(const RunRecord& record) {
                     forced, surface::needle_degrees, forced_groups, least));
   }
   if (others > 0) {
-    parallel::log_warning(
-        fmt::format("surface: {} triangles below {:g} degrees that the CAD does not force{}{}", others,
-                    surface::needle_degrees, places,
-                    listed > shown ? "; and more, see surface.needles[] of the report" : ""));
+    parallel::log_warning(fmt::format(
+        "surface: before improvement {} triangles are below {:g} degrees that the CAD does not force{}{}",
+        others, surface::needle_degrees, places,
+        listed > shown ? "; and more, see surface.needles[] of the report" : ""));
   }
 }
 

@@ -13,6 +13,10 @@ namespace aeroloom::pipeline {
 
 void log_geometry(const cad::Model& model, const RunRecord& record);
 void log_sizing(const RunRecord& record);
+/// Strips that are not resolved, sizes that lose the shape of the body. By one rank.
+void warn_of_sizes(const RunRecord& record);
+/// Formats that know one unit alone, where the model has another. By one rank.
+void warn_of_units(const RunRecord& record, const OutputOptions& output);
 void log_surface(const RunRecord& record);
 void log_needles(const RunRecord& record);
 /// Joined faces could not be meshed: it is done again without.

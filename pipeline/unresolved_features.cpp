@@ -29,6 +29,15 @@ double FeatureReport::wanted_tetrahedra() const {
   return tetrahedra * share.gap_share * share.resolved_share / share.share;
 }
 
+std::string describe_share(const FeatureReport& report) {
+  constexpr double telling = 1.25;
+  if (report.share.share < telling) return {};
+  return fmt::format(
+      "features finer than the smallest size make it {:.2g} times as many: about {:.2g} "
+      "tetrahedra (sizing.feature_budget, sizing.feature_minimum bound them)",
+      report.share.share, report.tetrahedra);
+}
+
 std::string describe(const FeatureReport& report) {
   if (report.strips.empty()) return {};
   std::string text = fmt::format(

@@ -44,6 +44,9 @@ FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing:
 /// What is not resolved, what it would take, what to expect, and the remedies; empty where there is nothing.
 std::string describe(const FeatureReport& report);
 
+/// What features finer than the smallest size add to the count; empty where it is little.
+std::string describe_share(const FeatureReport& report);
+
 nlohmann::ordered_json to_json(const FeatureReport& report);
 
 }  // namespace aeroloom::pipeline

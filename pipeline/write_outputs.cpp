@@ -7,8 +7,10 @@
 #include "parallel/timers.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace aeroloom::pipeline {
 
@@ -36,14 +38,22 @@ EarlierFiles::EarlierFiles(const OutputOptions& output) {
     const fs::file_time_type written = fs::last_write_time(place, ignored);
     if (!ignored) _files.emplace_back(place, written);
   }
+  std::ifstream report(output.directory + "/report.json");
+  const auto told = nlohmann::json::parse(report, nullptr, false);
+  if (!told.is_object() || !told.contains("mesh") || !told["mesh"].is_object()) return;
+  _hash = told["mesh"].value("hash", "");
+  for (const auto& name : told.value("older_files", nlohmann::json::array()))
+    if (name.is_string()) _of_others.insert(name.get<std::string>());
 }
 
-std::vector<std::string> EarlierFiles::left() const {
+std::vector<std::string> EarlierFiles::left(const std::string& hash) const {
   std::vector<std::string> names;
   for (const auto& [place, written] : _files) {
     std::error_code ignored;
-    if (std::filesystem::last_write_time(place, ignored) == written && !ignored)
-      names.push_back(place.filename().string());
+    if (std::filesystem::last_write_time(place, ignored) != written || ignored) continue;
+    const std::string name = place.filename().string();
+    const bool is_this_mesh = !hash.empty() && hash == _hash && _of_others.count(name) == 0;
+    if (!is_this_mesh) names.push_back(name);
   }
   return names;
 }

@@ -6,6 +6,7 @@
 #include "pipeline/case.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,10 +30,13 @@ void write_outputs(const parallel::Communicator& communicator, const mesh::Distr
 class EarlierFiles {
 public:
   explicit EarlierFiles(const OutputOptions& output);
-  /// Those that are still as they were: not of this run.
-  std::vector<std::string> left() const;
+  /// Those that are still as they were, and not of a mesh with this hash as far as the report beside them
+  /// tells: not of this run.
+  std::vector<std::string> left(const std::string& hash = {}) const;
 
 private:
+  std::string _hash;                 // of the mesh that the report beside them tells of
+  std::set<std::string> _of_others;  // that it names as older
   std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> _files;
 };
 

@@ -76,6 +76,9 @@ public:
   /// for; in the order of faces. Collective.
   std::vector<BoundedFace> faces_bounded_by_minimum(const SizingOptions& options) const;
 
+  /// Of the face, as its facets have it.
+  double area(cad::FaceId face) const { return _areas[face]; }
+
   /// One for each face with strips narrower than that, by width; widths below a hundredth of it count as
   /// that. `minimum` tells how far corners are closed. Collective.
   std::vector<Strip> strips_narrower_than(double width, double minimum) const;

@@ -153,6 +153,27 @@ void write_decomposition(const FoamCase& foam_case) {
   write_once(old, foam_decomposition(foam_case.parts));
 }
 
+/// What a solver left in the time folders stays: it is its user's.
+void warn_of_fields(const FoamCase& foam_case) {
+  const auto is_time = [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return entry.is_directory() && name.find_first_not_of("0123456789.e-+") == std::string::npos &&
+           is_digit(name.front()) && !fs::is_empty(entry.path());
+  };
+  for (std::int32_t part = 0; part < foam_case.parts; ++part) {
+    if (!fs::is_directory(foam_case.root(part))) continue;
+    for (const auto& entry : fs::directory_iterator(foam_case.root(part))) {
+      if (!is_time(entry)) continue;
+      parallel::log_warning(
+          fmt::format("'{}' holds fields of another mesh, which fit no mesh of other cells. Remedy: remove "
+                      "the time folders of "
+                      "the case, or map them (mapFields)",
+                      entry.path().string()));
+      return;
+    }
+  }
+}
+
 /// From the time folder 0 of a part to the case.
 std::string_view way_up(const FoamCase& foam_case) {
   return foam_case.parts == 1 ? "../" : "../../";
@@ -190,6 +211,7 @@ void retire_meshes(const FoamCase& foam_case) {
     remove_if_empty(processor);
   }
   retire(foam_case.folder);
+  warn_of_fields(foam_case);
 }
 
 bool write_settings(const FoamCase& foam_case, bool is_external) {

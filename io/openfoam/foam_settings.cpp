@@ -23,7 +23,7 @@ stopAt          endTime;
 endTime         1000;
 deltaT          1;
 writeControl    timeStep;
-writeInterval   100;
+writeInterval   50;
 writeFormat     binary;
 writePrecision  12;
 timeFormat      general;

@@ -60,18 +60,21 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
   } catch (const parallel::CollectiveError& error) {
     return fail(communicator, ExitCode::files, fmt::format("output.directory: {}", error.what()));
   }
+  std::optional<EarlierFiles> earlier;  // rank 0 looks at the folder
+  if (communicator.is_root()) earlier.emplace(input.output);
   const parallel::LastWords last_words([&, ranks = communicator.size()](int signal) {
-    const RunOutcome ended{
-        static_cast<ExitCode>(128 + signal), current_stage(),
-        fmt::format("ended by SIG{}; what checkpoints have kept is found by --resume", sigabbrev_np(signal))};
+    const bool keeps = input.output.checkpoints != CheckpointUse::none;
+    RunOutcome ended{static_cast<ExitCode>(128 + signal), current_stage(),
+                     fmt::format("ended by SIG{}; {}", sigabbrev_np(signal),
+                                 keeps ? "what checkpoints have kept is found by --resume"
+                                       : "nothing is kept for another run (--checkpoints does that)")};
     try {
+      if (earlier) tell_older(ended.older_files = earlier->left(), input.output.directory);
       write_last_report(input, ended, subject, ranks);
     } catch (const std::exception& error) {
       parallel::log_error(fmt::format("the report cannot be written: {}", error.what()));
     }
   });
-  std::optional<EarlierFiles> earlier;  // rank 0 looks at the folder
-  if (communicator.is_root()) earlier.emplace(input.output);
   RunRecord record;
   RunOutcome outcome;
   const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
@@ -82,7 +85,7 @@ int run_stages(const Communicator& communicator, const Case& input, const Report
     outcome = {failure.code(), failure.stage(), plain_words(failure.what())};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
-  if (earlier) tell_older(outcome.older_files = earlier->left(), input.output.directory);
+  if (earlier) tell_older(outcome.older_files = earlier->left(record.hash), input.output.directory);
   try {
     const std::string table = write_report(communicator, input, record, outcome, subject);
     if (outcome.code == ExitCode::ok) tell(table);

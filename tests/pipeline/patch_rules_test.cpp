@@ -49,6 +49,14 @@ TEST(PatchRules, APlaneOfSymmetryIsNoFarField) {
   EXPECT_EQ(type_of(patches, "fuselage"), PatchType::wall);
 }
 
+TEST(PatchRules, SaysWhatARuleGetsBesides) {
+  const TypedPatches patches = apply_patch_rules(transport(), {{"farfield", {"*wing*"}, PatchType::wall}});
+  ASSERT_EQ(patches.warnings.size(), 1U);
+  EXPECT_NE(patches.warnings[0].find("patches.farfield: the model has a patch of this name"), std::string::npos)
+      << patches.warnings[0];
+  EXPECT_TRUE(apply_patch_rules(transport(), {{"farfield", {}, PatchType::outlet}}).warnings.empty());
+}
+
 TEST(PatchRules, PatternsJoinFacesAndTheFirstRuleHolds) {
   const TypedPatches patches = apply_patch_rules(
       transport(), {{"lifting", {"*wing*", "*tail*"}, PatchType::slip}, {"rest", {"*"}, {}}});

@@ -69,7 +69,10 @@ def check_end_from_outside(shell):
 def check_older_files(shell):
     code, _, error = shell.run("run case.yaml --set output.formats=[vtu,su2]")
     assert code == 0, error
+    # Of the same mesh, which was made again without it.
     code, _, error = shell.run("run case.yaml")
+    assert code == 0 and "not of this run" not in error, error
+    code, _, error = shell.run("run case.yaml --set sizing.minimum=0.45")
     assert code == 0 and "not of this run: mesh.su2" in error, error
     assert report(shell)["older_files"] == ["mesh.su2"], report(shell)["older_files"]
     before = (shell.folder / "out" / "mesh.pvtu").read_bytes()
@@ -136,9 +139,26 @@ def check_absurd_sizes(shell):
 
 def check_bounds_are_told(shell):
     code, text, error = shell.run("run case.yaml --set sizing.curvature_angle=2")
-    assert code == 0 and "wins over 2 degrees per element: on " in text, text + error
+    assert code == 0 and "wins over 2 degrees per element: on " in text + error, text + error
     bounded = report(shell)["sizing"]["bounded_by_minimum"]
     assert bounded and all(0 < face["fraction"] <= 1 and face["degrees"] > 2 for face in bounded), bounded
+    assert sum(face["share_of_body"] for face in bounded) > 0.1 and "% of the body. Remedy" in error, error
+
+
+def check_openfoam_is_warned_of(shell):
+    """A case in metres and seconds made of lengths that are not, over results of another mesh."""
+    words = (f'run /dev/null --set geometry.file={SOURCE}/tests/data/bracket.igs --set output.directory=foam '
+             "--set output.formats=[openfoam] --set output.parts=1 --set farfield.extent=3 --set output.pictures=false "
+             "--set sizing.target_tetrahedra=")
+    code, _, error = shell.run(words + "20000")
+    assert code == 0 and "are in mm" in error and "transformPoints -scale '(0.001 0.001 0.001)'" in error, error
+    assert "fields of another mesh" not in error, error
+    results = shell.folder / "foam" / "openfoam" / "50"
+    results.mkdir()
+    (results / "U").write_text("results\n")
+    code, _, error = shell.run(words + "25000")
+    assert code == 0 and "50' holds fields of another mesh" in error, error
+    assert (results / "U").exists()
 
 
 def check_names_stay(shell):
@@ -191,7 +211,7 @@ def main():
     (shell.folder / "case.yaml").write_text(CASE)
     assert shell.run("run case.yaml")[0] == 0
     for check in (check_closed_streams, check_one_run_at_a_time, check_older_files, check_input_is_kept, check_links,
-                  check_odd_geometry, check_absurd_sizes, check_bounds_are_told, check_names_stay,
+                  check_odd_geometry, check_absurd_sizes, check_bounds_are_told, check_openfoam_is_warned_of, check_names_stay,
                   check_small_ones, check_end_from_outside):
         check(shell)
         print(check.__name__, "good", flush=True)
