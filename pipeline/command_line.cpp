@@ -51,7 +51,7 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   add_loudness(program, loudness);
   std::vector<Command> commands;
   for (const auto add : {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad,
-                         add_completion, add_init, add_schema}) {
+                         add_completion, add_init, add_schema, add_scaling}) {
     commands.push_back(add(program));
     commands.back().app->group("Commands");
     add_loudness(*commands.back().app, loudness);

@@ -26,7 +26,9 @@ ALLOWED = {
     "io": {"geometry", "parallel", "mesh"},
     "picture": {"geometry", "parallel", "mesh"},
     "foreign": {"geometry", "parallel", "mesh", "partition", "io"},
-    "pipeline": STAGE | {"surface", "volume", "improve", "io", "picture", "foreign"},
+    "report": set(),
+    "study": {"parallel", "report"},
+    "pipeline": STAGE | {"surface", "volume", "improve", "io", "picture", "foreign", "report", "study"},
 }
 
 # Third-party headers: pattern, folders that may include them, how many files may.

@@ -16,5 +16,6 @@ Command add_export_cad(CLI::App& program);
 Command add_completion(CLI::App& program);
 Command add_init(CLI::App& program);
 Command add_schema(CLI::App& program);
+Command add_scaling(CLI::App& program);
 
 }  // namespace aeroloom::pipeline

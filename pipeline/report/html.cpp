@@ -1,9 +1,9 @@
 #include "pipeline/report/html.hpp"
 
-#include "pipeline/report/base64.hpp"
 #include "pipeline/report/html_sections.hpp"
-#include "pipeline/report/html_table.hpp"
-#include "pipeline/report/style.hpp"
+#include "report/base64.hpp"
+#include "report/html_table.hpp"
+#include "report/style.hpp"
 
 #include <cctype>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "pipeline/exit_code.hpp"
 #include "pipeline/report/html_sections.hpp"
-#include "pipeline/report/html_table.hpp"
+#include "report/html_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #include "pipeline/report/html_sections.hpp"
-#include "pipeline/report/html_table.hpp"
+#include "report/html_table.hpp"
 
 #include <cmath>
 #include <map>

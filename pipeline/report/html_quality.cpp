@@ -1,7 +1,7 @@
 #include "pipeline/exit_code.hpp"
 #include "pipeline/report/html_sections.hpp"
-#include "pipeline/report/html_table.hpp"
-#include "pipeline/report/svg.hpp"
+#include "report/html_table.hpp"
+#include "report/svg.hpp"
 
 #include <array>
 #include <utility>

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "pipeline/picture.hpp"
-#include "pipeline/report/html_text.hpp"
+#include "report/html_text.hpp"
 
 #include <string>
 #include <vector>
 
 namespace aeroloom::pipeline::html {
+
+using namespace report;  // what pages are made of
 
 /// What was run, how it ended, the figures that people ask for first.
 std::string headline(const Json& report);

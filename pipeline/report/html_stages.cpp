@@ -1,6 +1,6 @@
 #include "pipeline/report/html_sections.hpp"
-#include "pipeline/report/html_table.hpp"
-#include "pipeline/report/svg.hpp"
+#include "report/html_table.hpp"
+#include "report/svg.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The page of a report: whatever is in report.json, it is a page, complete in itself and below its limit.
-#include "pipeline/report/base64.hpp"
+#include "report/base64.hpp"
 #include "pipeline/report/html.hpp"
-#include "pipeline/report/html_text.hpp"
+#include "report/html_text.hpp"
 #include "pipeline/report/report_json.hpp"
 
 #include <functional>

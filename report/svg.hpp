@@ -1,12 +1,12 @@
-/// Charts of report.html, drawn as SVG. Colours are those of the style sheet.
+/// Charts of a page, drawn as SVG. Colours are those of the style sheet.
 #pragma once
 
-#include "pipeline/report/html_text.hpp"
+#include "report/html_text.hpp"
 
 #include <string>
 #include <vector>
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 
 /// A vertical line in a chart.
 struct Mark {
@@ -35,4 +35,4 @@ std::string small_histogram(const Json& counts);
 std::string load_chart(const std::vector<std::string>& stages,
                        const std::vector<std::vector<double>>& seconds);
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

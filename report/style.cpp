@@ -1,18 +1,18 @@
-#include "pipeline/report/style.hpp"
+#include "report/style.hpp"
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 
 std::string_view style_sheet() {
   return R"css(
 :root {
   color-scheme: light dark;
   --paper: #ffffff; --panel: #f4f6f8; --ink: #17202a; --quiet: #5b6773; --line: #d5dbe1; --link: #0b5cad;
-  --bar: #3b76b5; --beyond: #b3261e; --good: #1b6e3c; --fair: #8a5a00; --poor: #b3261e;
+  --bar: #3b76b5; --second: #b3261e; --beyond: #b3261e; --good: #1b6e3c; --fair: #8a5a00; --poor: #b3261e;
 }
 @media screen and (prefers-color-scheme: dark) {
   :root {
     --paper: #14181d; --panel: #1e242b; --ink: #e6eaee; --quiet: #9aa6b2; --line: #37414b; --link: #7db8f5;
-    --bar: #6fa8dc; --beyond: #ff8a80; --good: #6fd396; --fair: #f0bb55; --poor: #ff8a80;
+    --bar: #6fa8dc; --second: #ff8a80; --beyond: #ff8a80; --good: #6fd396; --fair: #f0bb55; --poor: #ff8a80;
   }
 }
 * { box-sizing: border-box; }
@@ -74,6 +74,13 @@ svg .trough { fill: var(--line); }
 .stage0 { fill: #555f69; } .stage1 { fill: #9fc6e8; } .stage2 { fill: #7a4f9a; } .stage3 { fill: #e3b04b; }
 .stage4 { fill: #2f7f86; } .stage5 { fill: #3b6fb5; } .stage6 { fill: #f0997a; } .stage7 { fill: #8a2f4a; }
 .stage8 { fill: #a9c77b; } .stage9 { fill: #2b3a67; }
+svg .ideal { fill: none; stroke: var(--quiet); stroke-width: 1.2; stroke-dasharray: 2 3; }
+svg .stroke0, svg .stroke1, svg .stroke2, svg .stroke3 { fill: none; stroke: var(--bar); stroke-width: 1.8; }
+svg .stroke1 { stroke: var(--second); stroke-dasharray: 7 3; } svg .stroke2 { stroke: var(--good); stroke-dasharray: 2 2; }
+svg .stroke3 { stroke: var(--fair); stroke-dasharray: 7 3 2 3; }
+svg .line0 { fill: var(--bar); } svg .line1 { fill: var(--second); }
+svg .line2 { fill: var(--good); } svg .line3 { fill: var(--fair); }
+.piles rect { stroke: var(--paper); stroke-width: 1; }
 .loads rect, .legend rect, .swatch rect { stroke: var(--paper); stroke-width: 1; }
 .swatch, .legend svg { width: 12px; height: 12px; margin-right: 6px; vertical-align: -1px; }
 .legend { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 0; margin: 6px 0; font-size: 13px; }
@@ -92,7 +99,7 @@ summary { cursor: pointer; }
 }
 @media print {
   @page { size: A4; margin: 14mm; }
-  :root { --bar: #4a4a4a; --beyond: #ffffff; }
+  :root { --bar: #4a4a4a; --second: #000000; --beyond: #ffffff; }
   body { font-size: 10pt; }
   main, footer { max-width: none; padding: 0; }
   nav { display: none; }
@@ -101,7 +108,7 @@ summary { cursor: pointer; }
   dl { grid-template-columns: 1fr 1fr; }
   table { max-width: 100%; font-size: 8pt; }
   th, td { padding-right: 6px; min-width: 0; }
-  .place, .number { white-space: normal; }
+  .place, .number { white-space: normal; overflow-wrap: normal; }
   thead { display: table-header-group; }
   tr, figure, .tile, .chart, .part > h3, li { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
@@ -116,4 +123,4 @@ summary { cursor: pointer; }
 )css";
 }
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-namespace aeroloom::pipeline {
+namespace aeroloom::report {
 
 /// Base64 with padding (RFC 4648).
 std::string base64(std::span<const std::uint8_t> bytes);
 
-}  // namespace aeroloom::pipeline
+}  // namespace aeroloom::report

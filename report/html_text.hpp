@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 
 using Json = nlohmann::ordered_json;
 
@@ -42,4 +42,4 @@ std::string place(const Json& point);     ///< (36.21, -0.02782, 6.727), HTML
 /// "1 limit", "2 limits"; `plural` where an s does not make it.
 std::string counted(const Json& value, const std::string& noun, const std::string& plural = "");
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

@@ -1,4 +1,4 @@
-#include "pipeline/report/svg.hpp"
+#include "report/svg.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 namespace {
 
 constexpr double width = 480, height = 230;
@@ -166,11 +166,11 @@ std::string load_chart(const std::vector<std::string>& stages,
         text += fmt::format(
             "<rect class=\"stage{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\"><title>{}: "
             "{}</title></rect>\n",
-            s % 10, x, y + 2, size, escaped(stages.at(s)), html::seconds(seconds[r][s]));
+            s % 10, x, y + 2, size, escaped(stages.at(s)), report::seconds(seconds[r][s]));
       x += size;
       sum += seconds[r][s];
     }
-    text += label(x + 4, y + 13, "start", html::seconds(sum));
+    text += label(x + 4, y + 13, "start", report::seconds(sum));
   }
   std::string legend;
   for (std::size_t s = 0; s < stages.size(); ++s) {
@@ -190,4 +190,4 @@ std::string load_chart(const std::vector<std::string>& stages,
       wide, row * static_cast<double>(seconds.size()), text, legend);
 }
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

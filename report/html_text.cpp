@@ -1,4 +1,4 @@
-#include "pipeline/report/html_text.hpp"
+#include "report/html_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 namespace {
 
 constexpr const char* dash = "–";
@@ -168,4 +168,4 @@ std::string counted(const Json& value, const std::string& noun, const std::strin
   return count(value) + " " + (number(value) == 1 ? noun : many);
 }
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

@@ -1,9 +1,9 @@
-#include "pipeline/report/base64.hpp"
+#include "report/base64.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-namespace aeroloom::pipeline {
+namespace aeroloom::report {
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -18,4 +18,4 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-}  // namespace aeroloom::pipeline
+}  // namespace aeroloom::report

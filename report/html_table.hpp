@@ -1,4 +1,4 @@
-/// Elements of report.html.
+/// Elements of a page.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 
 enum class Align { left, right };
 
@@ -16,10 +16,11 @@ struct Column {
   std::string hint = {};  ///< plain text that explains the heading
 };
 
-/// A table whose first rows are shown; of the others it says how many there are and where.
+/// A table whose first rows are shown; of the others it says how many there are and in which file.
 class Table {
 public:
-  explicit Table(std::vector<Column> columns) : _columns(std::move(columns)) {}
+  explicit Table(std::vector<Column> columns, std::string file = "report.json")
+      : _columns(std::move(columns)), _file(std::move(file)) {}
   /// Cells are HTML.
   void add(const std::vector<std::string>& cells);
   bool empty() const { return _rows == 0; }
@@ -27,6 +28,7 @@ public:
 
 private:
   std::vector<Column> _columns;
+  std::string _file;
   std::string _shown;
   std::size_t _rows = 0;
 };
@@ -43,4 +45,4 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& rows);
 /// A bar that is filled to this part, 0 to 1.
 std::string bar(double part);
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

@@ -1,13 +1,13 @@
-#include "pipeline/report/html_table.hpp"
+#include "report/html_table.hpp"
 
-#include "pipeline/report/html_text.hpp"
+#include "report/html_text.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
 
-namespace aeroloom::pipeline::html {
+namespace aeroloom::report {
 namespace {
 
 constexpr std::size_t most_rows = 50;
@@ -35,8 +35,8 @@ std::string Table::html() const {
   }
   std::string more;
   if (_rows > most_rows)
-    more = fmt::format("<p class=\"more\">and {} more, see report.json</p>\n",
-                       count(static_cast<std::int64_t>(_rows - most_rows)));
+    more = fmt::format("<p class=\"more\">and {} more, see {}</p>\n",
+                       count(static_cast<std::int64_t>(_rows - most_rows)), _file);
   return fmt::format(
       "<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n{}",
       heads, _shown, more);
@@ -77,4 +77,4 @@ std::string bar(double part) {
       100 * filled);
 }
 
-}  // namespace aeroloom::pipeline::html
+}  // namespace aeroloom::report

@@ -1,0 +1,274 @@
+#include "parallel/termination.hpp"
+#include "pipeline/commands/commands.hpp"
+#include "pipeline/commands/help.hpp"
+#include "pipeline/library_versions.hpp"
+#include "pipeline/output_lock.hpp"
+#include "pipeline/text_file.hpp"
+#include "study/jobs.hpp"
+#include "study/page.hpp"
+#include "study/results.hpp"
+#include "study/series.hpp"
+#include "study/table.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScalingArguments : CaseArguments {
+  std::vector<int> ranks{1, 2};
+  std::vector<std::string> series{"strong"};
+  int repeats = 3, ranks_per_node = 0;
+  std::string launcher, jobs, header, collected;
+  std::vector<std::string> compared;
+  bool keep = false, without_serial = false;
+};
+
+/// Where the program itself is.
+std::string own_path() {
+  return fs::read_symlink("/proc/self/exe").string();
+}
+
+std::string versions_line() {
+  std::string line = "aeroloom " + program_version();
+  for (const auto& [name, version] : library_versions()) line += fmt::format(", {} {}", name, version);
+  return line;
+}
+
+/// The case without what says where its results go.
+std::string subject_of(const Case& input) {
+  std::istringstream lines(resolved_yaml(input));
+  std::string text;
+  bool is_output = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.front() != ' ') is_output = line.starts_with("output:");
+    if (!is_output) text += line + '\n';
+  }
+  return text;
+}
+
+study::CaseSize size_of(const SizingRequest& request) {
+  study::CaseSize size;
+  if (!request.minimum || !request.maximum || request.target_tetrahedra) {
+    size.target = request.target_tetrahedra.value_or(default_target);
+    return size;
+  }
+  const auto add = [&](const char* key, const std::optional<double>& length) {
+    if (length && *length > 0) size.lengths.emplace_back(fmt::format("sizing.{}", key), *length);
+  };
+  add("minimum", request.minimum);
+  add("feature_minimum", request.feature_minimum);
+  add("maximum", request.maximum);
+  add("surface_maximum", request.surface_maximum);
+  add("chordal_deviation", request.chordal_deviation);
+  return size;
+}
+
+void tell_progress(const std::string& text) {
+  parallel::log_info("scaling: " + text);
+}
+
+study::StudyRecord make_record(const ScalingArguments& arguments, const Case& input) {
+  study::StudyRecord record;
+  study::StudyOptions& options = record.options;
+  options.program = own_path();
+  options.case_file = fs::absolute(arguments.file).string();
+  options.overrides = arguments.overrides;
+  options.directory = fs::absolute(input.output.directory).lexically_normal();
+  options.ranks = arguments.ranks;
+  std::sort(options.ranks.begin(), options.ranks.end());
+  options.ranks.erase(std::unique(options.ranks.begin(), options.ranks.end()), options.ranks.end());
+  const auto wants = [&](const char* name) {
+    return std::find(arguments.series.begin(), arguments.series.end(), name) != arguments.series.end();
+  };
+  options.strong = wants("strong");
+  options.weak = wants("weak");
+  options.serial = options.strong && !arguments.without_serial;
+  options.repeats = arguments.repeats;
+  options.ranks_per_node = arguments.ranks_per_node;
+  record.subject = subject_of(input);
+  record.versions = versions_line();
+  return record;
+}
+
+/// Runs of an earlier call that this one does not ask for stay in the study.
+void add_earlier_runs(study::StudyRecord& record) {
+  if (!study::holds_study(record.options.directory)) return;
+  const study::StudyRecord earlier = study::load_study(record.options.directory);
+  study::require_same_subject(earlier, record);
+  for (const study::RunSpec& run : earlier.runs) {
+    const auto same = [&](const study::RunSpec& other) { return other.name() == run.name(); };
+    if (std::none_of(record.runs.begin(), record.runs.end(), same)) record.runs.push_back(run);
+  }
+}
+
+/// Tables, page, and the exit code: that of the first run that failed.
+ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs) {
+  study::require_equal_meshes(runs);
+  const study::Machine machine = study::this_machine();
+  const std::vector<study::Row> rows = study::make_rows(record, runs, machine);
+  const std::string json = study::study_json(record, runs, rows, machine).dump(1) + "\n";
+  const fs::path& folder = record.options.directory;
+  write_text((folder / "scaling.json").string(), json);
+  write_text((folder / "scaling.csv").string(), study::study_csv(runs));
+  write_text((folder / "scaling.html").string(), study::study_page(json));
+  print_text(study::study_text(rows));
+  tell_progress((folder / "scaling.html").string());
+  for (const study::RunResult& run : runs)
+    if (run.marks.state == study::RunState::failed) return static_cast<ExitCode>(std::max(1, run.marks.code));
+  return ExitCode::ok;
+}
+
+ExitCode carry_out_study(const ScalingArguments& arguments, const Case& input) {
+  study::StudyRecord record = make_record(arguments, input);
+  const study::Launcher launcher = study::make_launcher(arguments.launcher);
+  std::vector<study::WeakScale> weak;
+  if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), tell_progress);
+  record.runs = study::plan_runs(record.options, weak);
+  add_earlier_runs(record);
+  study::save(record);
+  const parallel::LastWords last_words([](int) { study::end_line(); });
+  study::carry_out(record, launcher, arguments.keep, tell_progress);
+  return write_study(record, study::collect_runs(record));
+}
+
+ExitCode write_study_jobs(const ScalingArguments& arguments, const Case& input) {
+  study::StudyRecord record = make_record(arguments, input);
+  std::vector<study::WeakScale> weak;
+  if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), tell_progress);
+  record.runs = study::plan_runs(record.options, weak);
+  add_earlier_runs(record);
+  study::save(record);
+  study::JobOptions jobs{fs::absolute(arguments.jobs).lexically_normal(), {}, arguments.launcher};
+  if (!arguments.header.empty()) jobs.header = read_text(arguments.header);
+  if (!jobs.header.empty() && !jobs.header.ends_with('\n')) jobs.header += '\n';
+  study::write_jobs(record, jobs, [&](const std::vector<std::string>& settings) {
+    return study::forecast_case(record.options, settings);
+  });
+  tell_progress(fmt::format("{} jobs are in {}: submit.sh there submits them", record.runs.size(),
+                            jobs.folder.string()));
+  return ExitCode::ok;
+}
+
+ExitCode collect_study(const ScalingArguments& arguments) {
+  const fs::path jobs = fs::absolute(arguments.collected).lexically_normal();
+  const study::StudyRecord record = study::load_study(study::results_of_jobs(jobs));
+  const std::vector<study::RunResult> runs = study::collect_runs(record, study::ask_queue(jobs));
+  for (const study::RunResult& run : runs)
+    if (run.figures && !arguments.keep)
+      study::remove_meshes(study::folder_of(record.options.directory, run.spec));
+  return write_study(record, runs);
+}
+
+ExitCode compare_studies(const ScalingArguments& arguments) {
+  const auto json_of = [](const std::string& place) {
+    return read_text(fs::is_directory(place) ? place + "/scaling.json" : place);
+  };
+  print_text(study::compare_text(json_of(arguments.compared[0]), json_of(arguments.compared[1])));
+  return ExitCode::ok;
+}
+
+void add_options(CLI::App& app, ScalingArguments& arguments) {
+  app.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
+      ->type_name(file_kind::of_case);
+  add_overrides(app, arguments);
+  app.add_option("--ranks", arguments.ranks, "numbers of ranks, as 1,2,4,8")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N,...");
+  app.add_option("--series", arguments.series,
+                 "strong: one mesh by more ranks; weak: a mesh that grows with them; or both")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"strong", "weak"}))
+      ->type_name("{strong,weak}");
+  app.add_option("--repeats", arguments.repeats, "runs of each kind; medians count")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  app.add_option("--launcher", arguments.launcher,
+                 "how runs are started: a shell line with {ranks}, {nodes}, {command}")
+      ->type_name("LINE");
+  app.add_option("--ranks-per-node", arguments.ranks_per_node, "ranks on one node; all on one by default")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  app.add_flag("--no-serial", arguments.without_serial,
+               "leave out one rank in one piece, where one node does not hold the mesh");
+  app.add_flag("--keep", arguments.keep, "keep the meshes; by default a mesh goes once its hash is known");
+  CLI::Option* jobs =
+      app.add_option("--write-jobs", arguments.jobs, "write job scripts into a folder instead of running")
+          ->type_name("DIR");
+  app.add_option("--job-header", arguments.header, "lines for every job script: account, partition, modules")
+      ->needs(jobs)
+      ->type_name(file_kind::any);
+  CLI::Option* collect =
+      app.add_option("--collect", arguments.collected, "read what jobs of that folder have left")
+          ->type_name("DIR");
+  CLI::Option* compare = app.add_option("--compare", arguments.compared, "two studies side by side")
+                             ->expected(2)
+                             ->type_name("OLD NEW");
+  jobs->excludes(collect);
+  compare->excludes(jobs)->excludes(collect);
+}
+
+int run_scaling(const parallel::Communicator& communicator, const ScalingArguments& arguments,
+                const Loudness& loudness) {
+  if (communicator.size() > 1)
+    return fail(communicator, ExitCode::usage,
+                "scaling starts the ranks of its runs itself. Remedy: call it without a launcher");
+  const auto guard = [&](const std::function<ExitCode()>& work) {
+    return guarded(communicator, ExitCode::files, [&] {
+      try {
+        return work();
+      } catch (const std::ios_base::failure&) {
+        throw;
+      } catch (const std::runtime_error& error) {
+        throw parallel::CollectiveError(parallel::FailureKind::files, error.what());
+      }
+    });
+  };
+  parallel::configure_log(communicator, loudness.level());
+  if (!arguments.compared.empty()) return guard([&] { return compare_studies(arguments); });
+  if (!arguments.collected.empty()) return guard([&] { return collect_study(arguments); });
+  if (arguments.file.empty())
+    return fail(communicator, ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
+  return with_case(communicator, arguments, loudness, [&](const Case& input) {
+    return guard([&] {
+      fs::create_directories(input.output.directory);
+      const OutputLock lock(communicator, input.output.directory);
+      return arguments.jobs.empty() ? carry_out_study(arguments, input) : write_study_jobs(arguments, input);
+    });
+  });
+}
+
+}  // namespace
+
+Command add_scaling(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("scaling", "how a case scales: a series of runs, its tables and its page");
+  const auto arguments = std::make_shared<ScalingArguments>();
+  add_options(*app, *arguments);
+  add_help_footer(
+      *app,
+      {{"aeroloom scaling case.yaml --ranks 1,2,4", "three runs of each; the page is out/scaling.html"},
+       {"aeroloom scaling case.yaml --ranks 1,2,4 --series strong,weak --repeats 5", "two series"},
+       {"aeroloom scaling case.yaml --ranks 64,128,256 --ranks-per-node 64 --write-jobs jobs --job-header "
+        "account.txt",
+        "scripts for a queue; sh jobs/submit.sh submits them"},
+       {"aeroloom scaling --collect jobs", "what they have left so far"},
+       {"aeroloom scaling --compare before/out after/out", "two studies side by side"}},
+      {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
+            return run_scaling(communicator, *arguments, loudness);
+          }};
+}
+
+}  // namespace aeroloom::pipeline
