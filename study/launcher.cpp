@@ -1,5 +1,6 @@
 #include "study/launcher.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -9,8 +10,10 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -30,6 +33,23 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
     text.replace(at, what.size(), by);
 }
 
+/// What a launcher told this process of its own place, or how a process without a launcher starts: not for
+/// others.
+bool is_of_this_process(const std::string& variable) {
+  constexpr std::array<std::string_view, 9> beginnings{"OMPI_COMM_WORLD_",
+                                                       "OMPI_UNIVERSE_",
+                                                       "OMPI_MCA_ess_",
+                                                       "OMPI_MCA_orte_ess_",
+                                                       "OMPI_MCA_orte_hnp_uri=",
+                                                       "OMPI_MCA_orte_local_daemon_uri=",
+                                                       "PMI_",
+                                                       "PMIX_",
+                                                       "OMPI_MCA_orte_create_session_dirs="};
+  if (variable.starts_with("PMIX_MCA_")) return false;
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](std::string_view beginning) { return variable.starts_with(beginning); });
+}
+
 /// As the system gave it to this process; libraries that run since have added to what getenv tells.
 std::vector<std::string> first_environment() {
   std::ifstream file("/proc/self/environ", std::ios::binary);
@@ -37,7 +57,8 @@ std::vector<std::string> first_environment() {
   std::vector<std::string> variables;
   for (std::size_t begin = 0; begin < all.size();) {
     const std::size_t end = std::min(all.find('\0', begin), all.size());
-    if (end > begin) variables.push_back(all.substr(begin, end - begin));
+    std::string variable = all.substr(begin, end - begin);
+    if (end > begin && !is_of_this_process(variable)) variables.push_back(std::move(variable));
     begin = end + 1;
   }
   return variables;

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Scaling studies: series that are killed and go on, tables and page, job scripts and what they leave, refusals.
+usage: scaling_test.py PROGRAM"""
+import csv
+import json
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import time
+
+from program import COARSE_WING, SOURCE
+from shell import Shell
+
+CASE = COARSE_WING + "output: {pictures: false}\n"
+LAUNCHER = SOURCE / "scripts" / "mpirun_local.sh"
+
+
+def study(shell, folder="out"):
+    return json.loads((shell.folder / folder / "scaling.json").read_text())
+
+
+def processes_in(folder):
+    found = []
+    for entry in os.listdir("/proc"):
+        try:
+            words = open(f"/proc/{entry}/cmdline", "rb").read() if entry.isdigit() else b""
+        except OSError:
+            continue
+        if f"{folder}/out/runs".encode() in words:
+            found.append(int(entry))
+    return found
+
+
+def check_series(shell):
+    """Ended from outside, then killed, it goes on where it stopped; nothing runs on."""
+    line = "scaling case.yaml --ranks 1,2 --repeats 1 --series strong,weak"
+    for killed_by, awaited in ((signal.SIGTERM, "serial_1_1"), (signal.SIGKILL, "strong_2_1")):
+        run = subprocess.Popen([shell.program, *shlex.split(line)], cwd=shell.folder, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
+        while not (shell.folder / "out" / "runs" / awaited / "marks").exists():
+            assert run.poll() is None, run.stdout.read()
+            time.sleep(0.01)
+        run.send_signal(killed_by)
+        run.communicate(timeout=60)
+        assert run.returncode != 0
+        if killed_by == signal.SIGTERM:
+            assert not processes_in(shell.folder), processes_in(shell.folder)
+    code, text, error = shell.run(line)
+    assert code == 0 and "done before" in text, text + error
+    assert not processes_in(shell.folder)
+    told = study(shell)
+    rows = {(row["series"], row["ranks"]): row for row in told["rows"]}
+    assert set(rows) == {("serial", 1), ("strong", 1), ("strong", 2), ("weak", 1), ("weak", 2)}, rows.keys()
+    assert all(row["ended"] == 1 and row["failed"] == 0 for row in rows.values()), rows
+    assert rows["strong", 1]["hash"] == rows["strong", 2]["hash"] == rows["weak", 1]["hash"]
+    assert rows["strong", 2]["speedup"] > 0 and rows["strong", 1]["speedup_of_series"] == 1
+    # The case gives sizes: they are scaled until as many are forecast for each rank, roughly for so coarse a mesh.
+    assert 0.6 < rows["weak", 2]["tetrahedra"] / 2 / rows["weak", 1]["tetrahedra"] < 1.5, rows
+    assert max(run["attempts"] for run in told["runs"]) >= 2, told["runs"]
+    for run in told["runs"]:
+        left = {path.name for path in (shell.folder / "out" / "runs" / run["name"]).iterdir()}
+        assert {"report.json", "marks", "log"} <= left and not any(name.startswith("mesh") for name in left), left
+    with open(shell.folder / "out" / "scaling.csv", newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert len(lines) == 5 and all(float(row["volume_wall_seconds"]) > 0 for row in lines), lines
+    page = (shell.folder / "out" / "scaling.html").read_text()
+    assert "Speed-up of the strong series" in page and "://" not in page
+    began = time.monotonic()
+    code, text, _ = shell.run(line)
+    assert code == 0 and text.count("done before") == 5 and time.monotonic() - began < 30, text
+
+
+def check_comparison(shell):
+    code, text, error = shell.run("scaling --compare out out/scaling.json")
+    assert code == 0 and text.count("the same") == 5 and "1.000" in text, text + error
+
+
+def check_refusals(shell):
+    for line, code, words in (
+            ("scaling case.yaml --ranks 1 --set sizing.maximum=9", 2, "holds a study of another case"),
+            ("scaling case.yaml --launcher true", 2, "lacks {ranks}"),
+            ("scaling", 2, "needs a case"),
+            ("scaling case.yaml --job-header x", 2, "--write-jobs"),
+            ("scaling --collect nowhere", 7, "nowhere")):
+        ended, text, error = shell.run(line)
+        assert ended == code and words in error, (line, ended, error)
+    ended, _, error = shell.run("scaling case.yaml", ranks=2)
+    assert ended == 2 and "without a launcher" in error, error
+
+
+def check_failures_are_shown(shell):
+    code, text, error = shell.run("scaling case.yaml --ranks 1 --repeats 1 --no-serial --set output.directory=bad "
+                                  "--set volume.inject=aborts")
+    assert code == 5 and "failed with code 5" in text, (code, text + error)
+    run, = study(shell, "bad")["runs"]
+    assert run["state"] == "failed" and run["exit_code"] == 5 and run["said"].startswith("stage volume"), run
+    assert "stage volume" in (shell.folder / "bad" / "scaling.html").read_text()
+
+
+def check_jobs(shell):
+    """Scripts are run here as a queue would run them; one is not, and is shown as planned."""
+    code, text, error = shell.run(f"scaling case.yaml --ranks 1,2 --repeats 1 --set output.directory=of_jobs --write-jobs jobs "
+                                  f"--launcher '{LAUNCHER} {{ranks}} {{command}}'")
+    assert code == 0, text + error
+    for name in ("serial_1_1", "strong_2_1"):
+        done = subprocess.run(["bash", shell.folder / "jobs" / f"{name}.slurm"], capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stdout + done.stderr
+    code, text, error = shell.run("scaling --collect jobs")
+    assert code == 0, text + error
+    states = {run["name"]: run["state"] for run in study(shell, "of_jobs")["runs"]}
+    assert states == {"serial_1_1": "ended", "strong_1_1": "planned", "strong_2_1": "ended"}, states
+    rows = {(row["series"], row["ranks"]): row for row in study(shell, "of_jobs")["rows"]}
+    mesh = {(row["series"], row["ranks"]): row for row in study(shell)["rows"]}["strong", 2]["hash"]
+    assert rows["strong", 2]["hash"] == mesh, (rows, mesh)
+    assert not (shell.folder / "of_jobs" / "runs" / "strong_2_1" / "checkpoint").exists()
+
+
+def main():
+    shell = Shell(sys.argv[1])
+    (shell.folder / "case.yaml").write_text(CASE)
+    for check in (check_series, check_comparison, check_refusals, check_failures_are_shown, check_jobs):
+        check(shell)
+        print(check.__name__, "good", flush=True)
+
+
+if __name__ == "__main__":
+    main()
