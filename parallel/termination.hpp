@@ -6,8 +6,9 @@
 
 namespace aeroloom::parallel {
 
-/// Keeps SIGTERM, SIGINT and SIGHUP from ending this process without a word, until a TerminationWatch takes
-/// them. To be called before there are other threads: they inherit it.
+/// Keeps SIGTERM, SIGINT, SIGHUP and SIGUSR1 (by which queues tell that time is nearly over) from ending this
+/// process without a word, until a TerminationWatch takes them. To be called before there are other threads:
+/// they inherit it.
 void hold_termination_signals();
 /// Lets them through again, in a process that was forked meanwhile.
 void release_termination_signals();

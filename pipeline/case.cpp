@@ -62,6 +62,19 @@ std::string locate(const std::string& geometry_file, const std::string& case_fil
   return fs::exists(beside_case, ignored) ? beside_case.string() : geometry_file;
 }
 
+/// What was read, once it fits together.
+Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& name) {
+  check_geometry(keys, draft, name);
+  check_sizing(keys, draft.result.sizing);
+  Case result = draft.result;
+  result.patches.assign(draft.patches.begin(), draft.patches.end());
+  if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
+  if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
+  result.domain.smallest_size = result.sizing.minimum.value_or(0);
+  return result;
+}
+
 }  // namespace
 
 Case read_case(const std::string& file, const std::vector<std::string>& overrides) {
@@ -70,19 +83,20 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   declare_case_keys(keys, draft);
   keys.read_file(file);
   for (const std::string& assignment : overrides) keys.read_override(assignment);
-  check_geometry(keys, draft, file);
-  check_sizing(keys, draft.result.sizing);
-  Case result = draft.result;
-  result.patches.assign(draft.patches.begin(), draft.patches.end());
+  Case result = finish(keys, draft, file);
   const bool overridden = std::any_of(overrides.begin(), overrides.end(), [](const std::string& assignment) {
     return assignment.starts_with("geometry.file=") || assignment.starts_with("geometry=");
   });
   if (!overridden) result.domain.file = locate(result.domain.file, file);
-  if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
-  if (draft.far_field_given) result.domain.far_field = draft.far_field;
-  result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
-  result.domain.smallest_size = result.sizing.minimum.value_or(0);
   return result;
+}
+
+Case case_of_resolved(const std::string& yaml) {
+  CaseDraft draft;
+  KeyTable keys;
+  declare_case_keys(keys, draft);
+  keys.read_text(yaml, "the resolved case");
+  return finish(keys, draft, "the resolved case");
 }
 
 Case case_of_overrides(const std::vector<std::string>& overrides) {

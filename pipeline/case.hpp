@@ -74,6 +74,9 @@ struct Case {
 /// duplicates, wrong types, values out of range or at odds with each other, no geometry or two.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides);
 
+/// What resolved_yaml() has made, on a rank that does not look at the file itself.
+Case case_of_resolved(const std::string& yaml);
+
 /// A case from overrides alone, for commands that need no geometry. Throws CaseError as read_case.
 Case case_of_overrides(const std::vector<std::string>& overrides);
 

@@ -180,7 +180,11 @@ void KeyTable::read_file(const std::string& file) {
   }
   require_no_cad(file);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  read(parse(text, file, true), {file, true, *this});
+  read_text(text, file);
+}
+
+void KeyTable::read_text(const std::string& text, const std::string& name) {
+  read(parse(text, name, true), {name, true, *this});
 }
 
 void KeyTable::read_override(const std::string& assignment) {

@@ -64,6 +64,8 @@ public:
 
   /// Reads a file, later "a.b=value" overrides. Only what is given is assigned. Throws CaseError.
   void read_file(const std::string& file);
+  /// As read_file, of a text; `name` is told in messages.
+  void read_text(const std::string& text, const std::string& name);
   void read_override(const std::string& assignment);
   /// Where the key of this path ("sizing.minimum") was given last; empty when it was not.
   std::string where(const std::string& path) const;

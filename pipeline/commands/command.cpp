@@ -59,10 +59,18 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
   parallel::configure_log(communicator, loudness.level());
   Case input;
   try {
-    // Every rank reads the case: it is small, and all learn of an error together.
+    // Rank 0 alone looks at the file; all learn of an error together.
+    std::string resolved;
     parallel::agree(communicator, [&] {
-      input = arguments.file.empty() ? case_of_overrides(arguments.overrides)
-                                     : read_case(arguments.file, arguments.overrides);
+      if (arguments.file.empty())
+        input = case_of_overrides(arguments.overrides);
+      else if (communicator.is_root())
+        input = read_case(arguments.file, arguments.overrides);
+      if (communicator.is_root() && !arguments.file.empty()) resolved = resolved_yaml(input);
+    });
+    communicator.broadcast_value(resolved);
+    parallel::agree(communicator, [&] {
+      if (!communicator.is_root() && !resolved.empty()) input = case_of_resolved(resolved);
     });
   } catch (const parallel::CollectiveError& error) {
     const bool memory = error.kind() == parallel::FailureKind::resources;

@@ -41,7 +41,7 @@ void add_mesh_file(CLI::App& command, const std::string& name, std::string& file
 /// `--set`.
 void add_overrides(CLI::App& command, CaseArguments& arguments);
 
-/// Reads the case, on every rank, lets the log speak as the line or else the case asks for, and does the
+/// Reads the case, by rank 0, lets the log speak as the line or else the case asks for, and does the
 /// work, which returns the exit code; a case that cannot be read is a usage error. Collective.
 int with_case(const parallel::Communicator& communicator, const CaseArguments& arguments,
               const Loudness& loudness, const std::function<int(const Case&)>& work);

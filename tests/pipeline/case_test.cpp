@@ -130,6 +130,7 @@ TEST_F(CaseTest, ResolvedCaseReadsBackTheSame) {
             "sizing: {minimum: 1e-7, growth: 1.1}\nimprove: {enabled: false}\nvolume: {inject: hangs}\n")}) {
     const std::string resolved = resolved_yaml(read(yaml));
     EXPECT_EQ(resolved_yaml(read(resolved)), resolved);
+    EXPECT_EQ(resolved_yaml(case_of_resolved(resolved)), resolved);
     EXPECT_NE(resolved.find("halo: 1.2"), std::string::npos) << resolved;
     EXPECT_EQ(resolved.find("piece_tets"), std::string::npos) << resolved;
   }

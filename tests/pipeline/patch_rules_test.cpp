@@ -52,7 +52,8 @@ TEST(PatchRules, APlaneOfSymmetryIsNoFarField) {
 TEST(PatchRules, SaysWhatARuleGetsBesides) {
   const TypedPatches patches = apply_patch_rules(transport(), {{"farfield", {"*wing*"}, PatchType::wall}});
   ASSERT_EQ(patches.warnings.size(), 1U);
-  EXPECT_NE(patches.warnings[0].find("patches.farfield: the model has a patch of this name"), std::string::npos)
+  EXPECT_NE(patches.warnings[0].find("patches.farfield: the model has a patch of this name"),
+            std::string::npos)
       << patches.warnings[0];
   EXPECT_TRUE(apply_patch_rules(transport(), {{"farfield", {}, PatchType::outlet}}).warnings.empty());
 }

@@ -1,8 +1,8 @@
 // The page of a report: whatever is in report.json, it is a page, complete in itself and below its limit.
-#include "report/base64.hpp"
 #include "pipeline/report/html.hpp"
-#include "report/html_text.hpp"
 #include "pipeline/report/report_json.hpp"
+#include "report/base64.hpp"
+#include "report/html_text.hpp"
 
 #include <functional>
 #include <string>
@@ -13,7 +13,9 @@
 namespace aeroloom::pipeline {
 namespace {
 
+namespace html = report;
 using html::Json;
+using report::base64;
 
 constexpr const char* hostile = "</td></table></style><script>alert(1)</script><a href='http://x'>&\"\x01";
 constexpr std::size_t limit = 5'000'000;
