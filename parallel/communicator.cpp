@@ -1,5 +1,6 @@
 #include "parallel/communicator.hpp"
 
+#include "parallel/message_counting.hpp"
 #include "parallel/session.hpp"
 #include "parallel/transfers.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 void broadcast_content(const CommunicatorHandle& handle, std::span<std::byte> bytes, Rank root) {
   for_each_part(bytes.size(), [&](std::size_t offset, int count) {
     check(MPI_Bcast(bytes.data() + offset, count, MPI_BYTE, root, handle.communicator), "broadcasting");
+    session::count_broadcast(handle, root, static_cast<std::uint64_t>(count));
   });
 }
 
@@ -24,6 +26,7 @@ T reduce(const CommunicatorHandle& handle, T value, MPI_Datatype type, MPI_Op op
   const session::MessageScope timed;
   T result{};
   check(MPI_Allreduce(&value, &result, 1, type, operation, handle.communicator), "reducing");
+  session::count_reduction(handle, sizeof(T));
   return result;
 }
 
@@ -32,6 +35,7 @@ template <class T>
 std::vector<T> all_values(const CommunicatorHandle& handle, T value, MPI_Datatype type) {
   std::vector<T> values(static_cast<std::size_t>(handle.size));
   check(MPI_Allgather(&value, 1, type, values.data(), 1, type, handle.communicator), "gathering values");
+  session::count_all_gather_of_equals(handle, sizeof(T));
   return values;
 }
 
@@ -47,6 +51,7 @@ void all_gather_small(const CommunicatorHandle& handle, std::span<const std::byt
   check(MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_BYTE, to, counts.data(), starts.data(),
                        MPI_BYTE, handle.communicator),
         "gathering on all ranks");
+  session::count_all_gather(handle, sizes);
 }
 
 /// Of any size: every rank broadcasts in turn.
@@ -83,6 +88,7 @@ std::vector<Parcel> announce(const CommunicatorHandle& handle, int tag, const st
     check(MPI_Issend(&sizes.back(), 1, MPI_UINT64_T, parcel.rank, tag, handle.communicator,
                      &sends.emplace_back(MPI_REQUEST_NULL)),
           "announcing a parcel");
+    if (parcel.rank != handle.rank) session::count_message(&MessageCounts::rendezvous, sizeof sizes.back());
   }
   std::vector<Parcel> incoming;
   MPI_Request barrier = MPI_REQUEST_NULL;
@@ -107,6 +113,7 @@ std::vector<Parcel> announce(const CommunicatorHandle& handle, int tag, const st
           "testing announcements");
     if (sent) {
       check(MPI_Ibarrier(handle.communicator, &barrier), "entering the barrier");
+      session::count_consensus(handle);
       in_barrier = true;
     }
   }
@@ -142,7 +149,9 @@ int Communicator::size() const {
 
 void Communicator::barrier() const {
   const session::MessageScope timed;
-  check(MPI_Barrier(usable_handle().communicator), "waiting at a barrier");
+  const CommunicatorHandle& handle = usable_handle();
+  check(MPI_Barrier(handle.communicator), "waiting at a barrier");
+  session::count_barrier(handle);
 }
 
 void Communicator::broadcast(Bytes& bytes, Rank root) const {
@@ -150,6 +159,7 @@ void Communicator::broadcast(Bytes& bytes, Rank root) const {
   const CommunicatorHandle& handle = usable_handle();
   std::uint64_t size = bytes.size();
   check(MPI_Bcast(&size, 1, MPI_UINT64_T, root, handle.communicator), "broadcasting a size");
+  session::count_broadcast(handle, root, sizeof size);
   bytes.resize(size);
   broadcast_content(handle, bytes, root);
 }
@@ -189,7 +199,8 @@ std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {
   std::vector<std::uint64_t> sizes(receives ? static_cast<std::size_t>(handle.size) : 0);
   check(MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, root, handle.communicator),
         "gathering sizes");
-  Transfers transfers(handle.communicator, tag_content);
+  session::count_gather(handle, root, sizeof size);
+  Transfers transfers(handle.communicator, tag_content, &MessageCounts::collective);
   std::vector<Bytes> all(sizes.size());
   if (receives) {
     for (Rank r = 0; r < handle.size; ++r) {
@@ -216,7 +227,7 @@ std::vector<Parcel> Communicator::exchange(std::vector<Parcel> outgoing) const {
   // one, but nobody can be two ahead: two alternating tags keep them apart.
   const int tag = tag_consensus + static_cast<int>(_handle->exchanges++ % 2);
   std::vector<Parcel> incoming = announce(handle, tag, outgoing);
-  Transfers transfers(handle.communicator, tag_content);
+  Transfers transfers(handle.communicator, tag_content, &MessageCounts::rendezvous);
   for (Parcel& parcel : incoming) {
     if (parcel.rank != handle.rank) transfers.receive(parcel.content, parcel.rank);
   }
@@ -250,6 +261,7 @@ std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
   const CommunicatorHandle& handle = usable_handle();
   std::int64_t before = 0;
   check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, handle.communicator), "scanning");
+  session::count_scan(handle, sizeof value);
   return handle.rank == 0 ? 0 : before;  // the library leaves it undefined there
 }
 

@@ -67,6 +67,16 @@ void require_same_stages(const Communicator& communicator, const std::vector<Sta
   }
 }
 
+void add_messages(StageSummary& summary, const Communicator& communicator, const MessageCounts& mine) {
+  const auto of_ranks =
+      communicator.all_gather_items<MessageCounts>(std::span<const MessageCounts>(&mine, 1));
+  for (const MessageCounts& of_a_rank : of_ranks) {
+    summary.collective.add(of_a_rank.collective);
+    summary.neighbour.add(of_a_rank.neighbour);
+    summary.rendezvous.add(of_a_rank.rendezvous);
+  }
+}
+
 }  // namespace
 
 double cpu_seconds() {
@@ -122,6 +132,7 @@ void StageClock::begin(const std::string& name) {
   _scoped_start = _scoped_cpu;
   _message_wall_start = session::message_time().wall_seconds;
   _message_cpu_start = session::message_time().cpu_seconds;
+  _messages_at_start = message_counts();
   _shared_at_start = shared_bytes();
   stage_begins(name);
 }
@@ -134,6 +145,8 @@ void StageClock::end() {
   cost.waiting_seconds += messages.wall_seconds - _message_wall_start;
   const double known = _scoped_cpu - _scoped_start + messages.cpu_seconds - _message_cpu_start;
   cost.other_cpu_seconds += std::max(0.0, cpu_seconds() - _cpu_start - known);
+  cost.messages += message_counts();
+  cost.messages -= _messages_at_start;
   const std::int64_t peak = status_bytes("VmHWM");
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, peak);
   // What was shared at the peak is not known: the least that it may have been leaves the most for the rest.
@@ -199,6 +212,7 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.peak_resident_bytes_sum = communicator.sum(cost.peak_resident_bytes);
     summary.peak_own_bytes_max = communicator.maximum(cost.peak_own_bytes);
     summary.peak_own_bytes_sum = communicator.sum(cost.peak_own_bytes);
+    add_messages(summary, communicator, cost.messages);
     summaries.push_back(summary);
   }
   return summaries;

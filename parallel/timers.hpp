@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/communicator.hpp"
+#include "parallel/message_counts.hpp"
 
 #include <cstdint>
 #include <string>
@@ -49,6 +50,7 @@ struct StageCost {
   /// As that, at most; of pages that several processes have in memory (program, libraries, arrays held once
   /// per node) this rank's share alone.
   std::int64_t peak_own_bytes = 0;
+  MessageCounts messages = {};  ///< sent by this rank
 };
 
 /// A stage's cost over all ranks, the same on every rank.
@@ -63,7 +65,8 @@ struct StageSummary {
   std::int64_t pieces = 0;                                   ///< sum over ranks
   std::int64_t peak_resident_bytes_max = 0, peak_resident_bytes_sum = 0;
   std::int64_t peak_own_bytes_max = 0, peak_own_bytes_sum = 0;
-  std::vector<double> cpu_seconds_of_ranks;  ///< of tasks, as min, mean and max are
+  MessageSummary collective, neighbour, rendezvous;  ///< messages, by kind
+  std::vector<double> cpu_seconds_of_ranks;          ///< of tasks, as min, mean and max are
 };
 
 /// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
@@ -102,6 +105,7 @@ private:
   double _scoped_cpu = 0;  // of the calling thread that stands on a clock, since the start of the program
   double _scoped_start = 0;
   double _message_wall_start = 0, _message_cpu_start = 0;
+  MessageCounts _messages_at_start;
   std::int64_t _shared_at_start = 0;  // resident bytes that other processes may have in memory too
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel/communicator.hpp"
+#include "parallel/message_counting.hpp"
 #include "parallel/session.hpp"
 
 #include <algorithm>
@@ -32,12 +33,15 @@ void for_each_part(std::size_t total, Transfer transfer) {
 /// received, must live until wait() returns.
 class Transfers {
 public:
-  Transfers(MPI_Comm communicator, int tag) : _communicator(communicator), _tag(tag) {}
+  /// What is sent counts as messages of `kind`.
+  Transfers(MPI_Comm communicator, int tag, Messages MessageCounts::*kind)
+      : _communicator(communicator), _tag(tag), _kind(kind) {}
 
   void send(std::span<const std::byte> bytes, Rank to) {
     for_each_part(bytes.size(), [&](std::size_t offset, int count) {
       session::check(MPI_Isend(bytes.data() + offset, count, MPI_BYTE, to, _tag, _communicator, &add()),
                      "sending");
+      session::count_message(_kind, static_cast<std::uint64_t>(count));
     });
   }
   void receive(std::span<std::byte> bytes, Rank from) {
@@ -57,6 +61,7 @@ private:
 
   MPI_Comm _communicator;
   int _tag;
+  Messages MessageCounts::*_kind;
   std::vector<MPI_Request> _requests;
 };
 

@@ -20,6 +20,13 @@ std::string imbalance(const Json& stage) {
   return mean < 0.01 ? "–" : fmt::format("{:.2f}", number(find(stage, "/cpu_seconds_max")) / mean);
 }
 
+/// Bytes of messages of all kinds.
+std::string sent(const Json& stage) {
+  double bytes = 0;
+  for (const Json& messages : find(stage, "/messages")) bytes += number(find(messages, "/bytes"), 0);
+  return bytes > 0 ? memory(bytes) : "–";
+}
+
 std::string stage_table(const Json& report) {
   Table table(
       {{"stage"},
@@ -32,6 +39,7 @@ std::string stage_table(const Json& report) {
        {"checks", Align::right, "CPU of checks of what was made, largest over ranks"},
        {"other", Align::right, "CPU that is neither tasks nor checks nor messages, largest over ranks"},
        {"waiting", Align::right, "in messages, until other ranks come included, mean over ranks"},
+       {"sent", Align::right, "bytes of messages to other ranks, all ranks together"},
        {"pieces", Align::right},
        {"memory", Align::right, "of the largest rank at its peak"},
        {"all ranks", Align::right}});
@@ -44,7 +52,7 @@ std::string stage_table(const Json& report) {
          seconds(own), wall > 0 ? bar(own / wall) : "", seconds(find(stage, "/cpu_seconds_min")),
          seconds(find(stage, "/cpu_seconds_mean")), seconds(find(stage, "/cpu_seconds_max")),
          imbalance(stage), seconds(find(stage, "/check_seconds")), seconds(find(stage, "/other_seconds")),
-         seconds(find(stage, "/waiting_seconds_mean")), count(find(stage, "/pieces")),
+         seconds(find(stage, "/waiting_seconds_mean")), sent(stage), count(find(stage, "/pieces")),
          memory(find(stage, "/peak_rss_bytes_max")), memory(find(stage, "/peak_rss_bytes_sum"))});
   }
   return table.html();

@@ -25,6 +25,13 @@ void add_load(Json& stage, const std::vector<double>& of_ranks, double largest) 
     stage["cpu_seconds_histogram"] = load_histogram(of_ranks, largest);
 }
 
+Json messages_json(const parallel::MessageSummary& messages) {
+  return {{"count", messages.count},
+          {"count_max", messages.count_max},
+          {"bytes", messages.bytes},
+          {"bytes_max", messages.bytes_max}};
+}
+
 }  // namespace
 
 Json stages_json(const std::vector<parallel::StageSummary>& stages) {
@@ -44,7 +51,11 @@ Json stages_json(const std::vector<parallel::StageSummary>& stages) {
                     {"peak_rss_bytes_max", stage.peak_resident_bytes_max},
                     {"peak_rss_bytes_sum", stage.peak_resident_bytes_sum},
                     {"peak_own_bytes_max", stage.peak_own_bytes_max},
-                    {"peak_own_bytes_sum", stage.peak_own_bytes_sum}});
+                    {"peak_own_bytes_sum", stage.peak_own_bytes_sum},
+                    {"messages",
+                     {{"collective", messages_json(stage.collective)},
+                      {"neighbour", messages_json(stage.neighbour)},
+                      {"rendezvous", messages_json(stage.rendezvous)}}}});
     add_load(json.back(), stage.cpu_seconds_of_ranks, stage.cpu_seconds_max);
   }
   return json;

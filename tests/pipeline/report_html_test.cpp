@@ -73,6 +73,9 @@ ReportFacts facts(int ranks = 2) {
   stage.cpu_seconds_max = 5;
   stage.cpu_seconds_mean = 4;
   stage.peak_resident_bytes_sum = 466LL << 20;
+  stage.collective.bytes = 12LL << 20;
+  stage.neighbour.bytes = 300LL << 20;
+  stage.rendezvous.bytes = 5LL << 20;
   for (int r = 0; r < ranks; ++r) stage.cpu_seconds_of_ranks.push_back(3 + 2.0 * r / ranks);
   facts.stages = {stage};
   facts.warnings.kept = {{"beware", 1, 3}};
@@ -117,6 +120,7 @@ TEST(ReportHtml, SaysWhatPeopleAskFor) {
         "smallest_angle: 5"}) {
     EXPECT_TRUE(contains(page, words)) << words;
   }
+  EXPECT_TRUE(contains(page, "317 MiB"));  // messages of all kinds
 }
 
 TEST(ReportHtml, EveryTextIsEscaped) {

@@ -94,6 +94,13 @@ def main():
     assert "failure" not in page.ids and page.source.count("<tr>") > 20
     assert all(len(stage["cpu_seconds_by_rank"]) == SHARED_RANKS for stage in good.report["stages"])
 
+    sent = [stage["messages"] for stage in good.report["stages"]]
+    for kind in ("collective", "neighbour", "rendezvous"):
+        assert SHARED_RANKS == 1 or any(stage[kind]["bytes"] > 0 for stage in sent), kind
+        for messages in (stage[kind] for stage in sent):
+            assert messages["count_max"] <= messages["count"] <= SHARED_RANKS * messages["count_max"], messages
+            assert messages["bytes_max"] <= messages["bytes"] <= SHARED_RANKS * messages["bytes_max"], messages
+
     # A limit that is missed: the mesh is there, and the page says first what it misses.
     missed = Run(program, COARSE_TRANSPORT, 1, ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179",
                                                 "improve.gate.largest_edge_ratio=1.5"))
@@ -101,6 +108,9 @@ def main():
     assert [row["met"] for row in missed.report["quality"]["gate"]] == [True, False, False]
     page = check_page(missed.output, "improve.gate.min_mean_ratio", "gate failed", "What to do")
     assert page.text.index("What to do") < page.text.index("Is this mesh good?")
+
+    silent = {"count": 0, "count_max": 0, "bytes": 0, "bytes_max": 0}
+    assert all(messages == silent for stage in missed.report["stages"] for messages in stage["messages"].values())
 
     folder = missed.folder
 
