@@ -1,11 +1,14 @@
 #include "surface/intersection.hpp"
 
 #include "geometry/box_tree.hpp"
+#include "geometry/runs.hpp"
 #include "parallel/collective_error.hpp"
 #include "surface/triangle_contact.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 
@@ -35,13 +38,17 @@ struct BatchTriangle {
   NamedTriangle corners;
   Box box;
   LocalIndex cell;
-
-  static constexpr auto fields() {
-    return std::tuple(&BatchTriangle::corners, &BatchTriangle::box, &BatchTriangle::cell);
-  }
 };
 
 using Triangles = std::vector<BatchTriangle>;
+
+/// A triangle on its way: its box follows from its corners.
+struct SentTriangle {
+  NamedTriangle corners;
+  LocalIndex cell;
+
+  static constexpr auto fields() { return std::tuple(&SentTriangle::corners, &SentTriangle::cell); }
+};
 
 /// Two batches, lower first, tested on one rank.
 struct BatchPair {
@@ -57,6 +64,12 @@ std::vector<VertexName> name_vertices(const mesh::Piece& piece) {
   return names;
 }
 
+Box box_of(const NamedTriangle& triangle) {
+  Box box;
+  for (const Vec3& point : triangle.points) box.add(point);
+  return box;
+}
+
 Triangles name_triangles(const mesh::Piece& piece) {
   const std::vector<VertexName> names = name_vertices(piece);
   Triangles triangles(piece.cell_count());
@@ -66,8 +79,8 @@ Triangles name_triangles(const mesh::Piece& piece) {
       const LocalIndex v = piece.cell(t)[i];
       triangles[t].corners.points[i] = piece.point(v);
       triangles[t].corners.names[i] = names[v];
-      triangles[t].box.add(piece.point(v));
     }
+    triangles[t].box = box_of(triangles[t].corners);
   }
   return triangles;
 }
@@ -118,7 +131,42 @@ std::vector<BatchPair> find_batch_pairs(const std::vector<Batch>& table, paralle
   return pairs;
 }
 
-/// All batches this rank needs for the pairs it tests, by number in the table: its own and those of others.
+/// A batch of this rank that another one tests with one of its own.
+struct Wish {
+  parallel::Rank rank;
+  std::int32_t mine, theirs;
+
+  friend auto operator<=>(const Wish&, const Wish&) = default;
+};
+
+/// What others test, ascending.
+std::vector<Wish> find_wishes(const std::vector<Batch>& table, const std::vector<BatchPair>& pairs,
+                              parallel::Rank self) {
+  std::vector<Wish> wishes;
+  for (const BatchPair pair : pairs) {
+    const parallel::Rank rank = tester(table, pair);
+    if (rank == self) continue;
+    const bool lower_is_mine = table[pair.lower].rank == self;
+    wishes.push_back(
+        {rank, lower_is_mine ? pair.lower : pair.upper, lower_is_mine ? pair.upper : pair.lower});
+  }
+  std::sort(wishes.begin(), wishes.end());
+  return wishes;
+}
+
+/// Those of a batch that reach into one of the batches of its wishes: no others can meet their triangles.
+std::vector<SentTriangle> within_reach(const Triangles& triangles, std::span<const Wish> wishes,
+                                       const std::vector<Batch>& table) {
+  std::vector<SentTriangle> reaching;
+  for (const BatchTriangle& t : triangles) {
+    const auto reaches = [&](const Wish& wish) { return t.box.overlaps(table[wish.theirs].box); };
+    if (std::any_of(wishes.begin(), wishes.end(), reaches)) reaching.push_back({t.corners, t.cell});
+  }
+  return reaching;
+}
+
+/// All batches this rank needs for the pairs it tests, by number in the table: its own, and of those of
+/// others what is within reach.
 std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& communicator,
                                                 const std::vector<Batch>& table,
                                                 const std::vector<BatchPair>& pairs,
@@ -128,25 +176,26 @@ std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& co
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(table.size()); ++i) {
     if (table[i].rank == communicator.rank()) at_hand[i] = std::move(contents[mine++]);
   }
-  std::vector<std::pair<parallel::Rank, std::int32_t>> wanted;  // by a rank, of the batches here
-  for (const BatchPair pair : pairs) {
-    const parallel::Rank rank = tester(table, pair);
-    if (rank == communicator.rank()) continue;
-    wanted.emplace_back(rank, table[pair.lower].rank == communicator.rank() ? pair.lower : pair.upper);
-  }
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  const std::vector<Wish> wishes = find_wishes(table, pairs, communicator.rank());
+  std::map<parallel::Rank, parallel::Packer> packers;
+  geometry::for_each_run(
+      std::span<const Wish>(wishes),
+      [](const Wish& a, const Wish& b) { return a.rank == b.rank && a.mine == b.mine; },
+      [&](std::size_t first, std::size_t last) {
+        const std::int32_t batch = wishes[first].mine;
+        const std::span<const Wish> of_batch(wishes.data() + first, last - first);
+        const std::vector<SentTriangle> reaching = within_reach(at_hand[batch], of_batch, table);
+        parallel::pack(packers[wishes[first].rank], std::tie(batch, reaching));
+      });
   std::vector<parallel::Parcel> parcels;
-  for (auto next = wanted.begin(); next != wanted.end();) {
-    const parallel::Rank rank = next->first;
-    parallel::Packer packer;
-    for (; next != wanted.end() && next->first == rank; ++next)
-      parallel::pack(packer, std::tie(next->second, at_hand[next->second]));
-    parcels.push_back({rank, packer.take()});
-  }
+  for (auto& [rank, packer] : packers) parcels.push_back({rank, packer.take()});
   for (const parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) at_hand.insert(parallel::unpack<std::pair<std::int32_t, Triangles>>(unpacker));
+    while (!unpacker.at_end()) {
+      Triangles& triangles = at_hand[parallel::unpack<std::int32_t>(unpacker)];
+      for (const SentTriangle& t : parallel::unpack<std::vector<SentTriangle>>(unpacker))
+        triangles.push_back({t.corners, box_of(t.corners), t.cell});
+    }
   }
   return at_hand;
 }
