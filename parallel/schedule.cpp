@@ -1,8 +1,10 @@
 #include "parallel/schedule.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <queue>
+#include <utility>
 
 namespace aeroloom::parallel {
 
@@ -24,22 +26,77 @@ struct Burden {
   }
 };
 
-}  // namespace
+std::vector<int> largest_first(std::span<const double> loads) {
+  std::vector<int> tasks(loads.size());
+  std::iota(tasks.begin(), tasks.end(), 0);
+  sort_largest_first(tasks, loads);
+  return tasks;
+}
 
-std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks) {
-  std::vector<int> order(loads.size());
-  std::iota(order.begin(), order.end(), 0);
-  sort_largest_first(order, loads);
+/// Gives each task in turn to the rank with the least, beginning with these burdens.
+void give_to_least_burdened(std::span<const int> tasks, std::span<const double> loads,
+                            std::span<const double> burdens, std::vector<Rank>& assignment) {
   std::priority_queue<Burden, std::vector<Burden>, std::greater<>> least_burdened;
-  for (Rank r = 0; r < ranks; ++r) least_burdened.push({0, r});
-  std::vector<Rank> assignment(loads.size());
-  for (const int task : order) {
+  for (std::size_t r = 0; r < burdens.size(); ++r) least_burdened.push({burdens[r], static_cast<Rank>(r)});
+  for (const int task : tasks) {
     Burden burden = least_burdened.top();
     least_burdened.pop();
     assignment[static_cast<std::size_t>(task)] = burden.rank;
     burden.load += loads[static_cast<std::size_t>(task)];
     least_burdened.push(burden);
   }
+}
+
+}  // namespace
+
+std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks) {
+  std::vector<Rank> assignment(loads.size());
+  const std::vector<double> burdens(static_cast<std::size_t>(ranks), 0);
+  give_to_least_burdened(largest_first(loads), loads, burdens, assignment);
+  return assignment;
+}
+
+std::vector<Rank> move_excess(std::span<const double> loads, std::span<const Rank> now, int ranks) {
+  const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / ranks;
+  std::vector<Rank> assignment(now.begin(), now.end());
+  std::vector<double> burdens(static_cast<std::size_t>(ranks), 0);
+  std::vector<int> taken_away;
+  for (const int task : largest_first(loads)) {
+    const double load = loads[static_cast<std::size_t>(task)];
+    double& burden = burdens[static_cast<std::size_t>(now[static_cast<std::size_t>(task)])];
+    if (burden + load > mean)
+      taken_away.push_back(task);
+    else
+      burden += load;
+  }
+  give_to_least_burdened(taken_away, loads, burdens, assignment);
+  return assignment;
+}
+
+std::vector<Rank> keep_in_place(std::span<const double> loads, std::span<const Rank> shares,
+                                std::span<const Rank> now, int ranks) {
+  std::map<std::pair<Rank, Rank>, double> common;  // by share and rank
+  for (std::size_t t = 0; t < loads.size(); ++t) common[{shares[t], now[t]}] += loads[t];
+  std::vector<std::pair<std::pair<Rank, Rank>, double>> most_first(common.begin(), common.end());
+  std::stable_sort(most_first.begin(), most_first.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  constexpr Rank none = -1;
+  std::vector<Rank> rank_of(static_cast<std::size_t>(ranks), none), share_of(rank_of);
+  const auto match = [&](Rank share, Rank rank) {
+    Rank &its_rank = rank_of[static_cast<std::size_t>(share)],
+         &its_share = share_of[static_cast<std::size_t>(rank)];
+    if (its_rank == none && its_share == none) its_rank = rank, its_share = share;
+  };
+  for (const auto& [place, load] : most_first) match(place.first, place.second);
+  Rank free = 0;
+  for (Rank share = 0; share < ranks; ++share) {
+    if (rank_of[static_cast<std::size_t>(share)] != none) continue;
+    while (share_of[static_cast<std::size_t>(free)] != none) ++free;
+    match(share, free);
+  }
+  std::vector<Rank> assignment;
+  assignment.reserve(shares.size());
+  for (const Rank share : shares) assignment.push_back(rank_of[static_cast<std::size_t>(share)]);
   return assignment;
 }
 

@@ -13,6 +13,17 @@ namespace aeroloom::parallel {
 /// same on every rank, without communication. Loads are any non-negative unit.
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks);
 
+/// Moves tasks from where they are `now` only where that rank would get more than the mean: largest load
+/// first they stay or are taken away, then those taken away are given as above to what the ranks have kept.
+/// May be less even than assign_largest_first. The same on every rank, without communication.
+std::vector<Rank> move_excess(std::span<const double> loads, std::span<const Rank> now, int ranks);
+
+/// The same shares, each as a whole on another rank, so that much of the load stays where it is `now`: what a
+/// share and a rank have in common decides, the most first; ties go to the lower share and the lower rank.
+/// The same on every rank, without communication.
+std::vector<Rank> keep_in_place(std::span<const double> loads, std::span<const Rank> shares,
+                                std::span<const Rank> now, int ranks);
+
 /// The tasks of `rank` in the order it should run them: largest first.
 std::vector<int> tasks_of_rank(std::span<const Rank> assignment, std::span<const double> loads, Rank rank);
 

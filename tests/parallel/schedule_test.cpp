@@ -44,6 +44,42 @@ TEST(ScheduleTest, StaysWithinGrahamsBound) {
   }
 }
 
+TEST(ScheduleTest, MovesNoMoreThanTheExcess) {
+  const std::vector<double> loads{4, 3, 2, 1, 1, 1};
+  EXPECT_EQ(move_excess(loads, std::vector<Rank>{0, 0, 0, 1, 1, 1}, 2),
+            (std::vector<Rank>{0, 1, 0, 1, 1, 1}));
+  // What is even stays.
+  const std::vector<Rank> even{1, 0, 1, 0, 0, 0};
+  EXPECT_EQ(move_excess(loads, even, 2), even);
+  EXPECT_TRUE(move_excess({}, {}, 4).empty());
+  EXPECT_EQ(move_excess(std::vector<double>{1}, std::vector<Rank>{2}, 3), (std::vector<Rank>{0}));
+}
+
+TEST(ScheduleTest, MovedTasksEvenOutTheLoad) {
+  std::mt19937 random(5);
+  for (const int ranks : {1, 2, 3, 7, 64}) {
+    std::vector<double> loads(200);
+    std::vector<Rank> now(loads.size());
+    for (double& load : loads) load = 1 + random() % 1000;
+    for (Rank& rank : now) rank = static_cast<Rank>(random() % static_cast<unsigned>(ranks));
+    const auto burden = burdens(move_excess(loads, now, ranks), loads, ranks);
+    const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / ranks;
+    // No rank that has the mean already gets anything.
+    EXPECT_LE(*std::max_element(burden.begin(), burden.end()),
+              mean + *std::max_element(loads.begin(), loads.end()));
+  }
+}
+
+TEST(ScheduleTest, SharesGoWhereMostOfThemIs) {
+  const std::vector<double> loads{4, 3, 2, 1, 1, 1};
+  const std::vector<Rank> shares{0, 1, 1, 0, 2, 2};
+  // Share 0 has 4 on rank 2, share 1 has 5 on rank 0; share 2, of which nothing is there, gets what is left.
+  EXPECT_EQ(keep_in_place(loads, shares, std::vector<Rank>{2, 0, 0, 1, 0, 2}, 3),
+            (std::vector<Rank>{2, 0, 0, 2, 1, 1}));
+  EXPECT_EQ(keep_in_place(loads, shares, shares, 3), shares);
+  EXPECT_TRUE(keep_in_place({}, {}, {}, 4).empty());
+}
+
 TEST(ScheduleTest, TasksOfRanksPartitionAllTasksLargestFirst) {
   const std::vector<double> loads{4, 9, 4, 1, 7, 4, 2};
   const auto assignment = assign_largest_first(loads, 3);
@@ -70,6 +106,12 @@ TEST(ScheduleTest, IsTheSameOnEveryRank) {
   auto of_root = mine;
   world.broadcast_items(of_root);
   EXPECT_EQ(mine, of_root);
+  std::vector<Rank> now(loads.size());
+  for (Rank& rank : now) rank = static_cast<Rank>(random() % 7);
+  const auto moved = move_excess(loads, now, 7);
+  of_root = moved;
+  world.broadcast_items(of_root);
+  EXPECT_EQ(moved, of_root);
 }
 
 }  // namespace
