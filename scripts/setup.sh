@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# setup.sh [--tests]: installs the Debian 12 packages that Aeroloom is built and run with, only where they are missing;
-# with --tests those of the tests and checks too.
+# setup.sh [--tests] [--cluster]: installs the Debian 12 packages that Aeroloom is built and run with, only where they are
+# missing; with --tests those of the tests and checks too, with --cluster those of the tests on several hosts.
 # Works as root, or as a user who may use sudo.
 set -euo pipefail
 
@@ -23,14 +23,20 @@ test_packages=(
   # what checks cases by our schema
   python3-jsonschema python3-yaml
 )
-case "${1:-}" in
-  "") ;;
-  --tests) packages+=("${test_packages[@]}") ;;
-  *)
-    echo "usage: $0 [--tests]" >&2
-    exit 2
-    ;;
-esac
+cluster_packages=(
+  # hosts as network namespaces, and a queue on them
+  iproute2 munge slurm-wlm
+)
+for option in "$@"; do
+  case "$option" in
+    --tests) packages+=("${test_packages[@]}") ;;
+    --cluster) packages+=("${cluster_packages[@]}") ;;
+    *)
+      echo "usage: $0 [--tests] [--cluster]" >&2
+      exit 2
+      ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do
