@@ -31,6 +31,8 @@ SHARED = pathlib.Path("/mnt")  # where hosts see FOLDER/shared
 NAMESPACES = ["--mount", "--uts", "--ipc", "--net", "--pid"]
 PROGRAMS = {"ip": "iproute2", "unshare": "util-linux", "slurmctld": "slurm-wlm", "slurmd": "slurm-wlm", "munged": "munge"}
 
+os.environ["PATH"] += ":/usr/sbin:/sbin"  # where daemons are, which users need not have in theirs
+
 SLURM_DEFAULTS = {
     "ClusterName": "small", "SlurmctldHost": "node1", "SlurmUser": "root", "AuthType": "auth/munge",
     "StateSaveLocation": "/run/slurmctld", "SlurmctldPidFile": "/run/slurmctld.pid", "SlurmctldLogFile": "/run/slurmctld.log",
@@ -46,12 +48,8 @@ def obstacle():
     done = subprocess.run(["unshare", "-mn", "true"], capture_output=True, text=True)
     if done.returncode != 0:
         return "`unshare -mn true` fails: " + done.stderr.strip()
-    missing = sorted({package for name, package in PROGRAMS.items() if shutil.which(name, path=search_path()) is None})
+    missing = sorted({package for name, package in PROGRAMS.items() if shutil.which(name) is None})
     return f"packages are missing: {', '.join(missing)} (scripts/setup.sh --cluster)" if missing else None
-
-
-def search_path():
-    return os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
 
 
 def sh(*words):
@@ -241,7 +239,6 @@ def main():
     parser.add_argument("words", nargs=argparse.REMAINDER)
     arguments = parser.parse_args()
     cluster, words = Cluster(arguments.folder), arguments.words
-    os.environ["PATH"] = search_path()
     if arguments.what == "up":
         options = argparse.ArgumentParser(usage=__doc__)
         options.add_argument("hosts", type=int)
