@@ -59,14 +59,25 @@ class Queue:
         assert self.state(job) == state, f"{self.state(job)}: {self.text(job)}"
 
 
+def prepare(cluster, program, case):
+    """The program, found on all hosts, and a case in the shared place; root may run Open MPI's programs."""
+    for name in ("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_mpi_yield_when_idle"):
+        os.environ[f"OMPI_{name}"] = "1"
+    os.environ["SCRATCH"] = str(SHARED)
+    os.environ["PATH"] = f"{SHARED}:{os.environ['PATH']}"
+    shutil.copy(program, cluster.shared / "aeroloom")
+    (cluster.shared / "case.yaml").write_text(case)
+    (cluster.shared / "mesh.sh").write_text(block("mesh.sh"))
+
+
 def hash_of(text):
     return re.search(r"^hash: (\w{32})$", text, re.MULTILINE)[1]
 
 
-def left_on(cluster):
+def left_on(cluster, hosts=None):
     """Processes and files of ended runs, by host."""
     left = {}
-    for host in cluster.hosts():
+    for host in hosts or cluster.hosts():
         files = cluster.on(host, "find", "/tmp", "/dev/shm", "-mindepth", "1").stdout.split()
         left[host] = files + [w for w in cluster.processes(host).values() if not w.startswith(DAEMONS)]
     return {host: found for host, found in left.items() if found}
@@ -88,7 +99,6 @@ def check_srun(cluster, queue, wanted):
 
 def check_batch(cluster, queue, wanted):
     """The same script once more after the job was cancelled."""
-    (cluster.shared / "mesh.sh").write_text(block("mesh.sh"))
     submit = f"cd {SHARED} && {block('submit')}"
     first = queue.shell(submit).split()[-1]
     kept = cluster.shared / "wing" / "checkpoint"
@@ -112,15 +122,10 @@ def main():
     alone = Run(program, CASE, folder=folder)
     assert alone.code == 0, alone.text
     wanted = alone.report["mesh"]["hash"]
-    for name in ("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_mpi_yield_when_idle"):
-        os.environ[f"OMPI_{name}"] = "1"
-    os.environ["SCRATCH"] = str(SHARED)
-    os.environ["PATH"] = f"{SHARED}:{os.environ['PATH']}"
     with Cluster(folder / "cluster") as cluster:
         cluster.up(HOSTS, tied=True)
         cluster.slurm()
-        shutil.copy(program, cluster.shared / "aeroloom")
-        (cluster.shared / "case.yaml").write_text(CASE)
+        prepare(cluster, program, CASE)
         check_srun(cluster, Queue(cluster), wanted)
         check_nothing_left(cluster)
         check_batch(cluster, Queue(cluster), wanted)
