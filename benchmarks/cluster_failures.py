@@ -2,7 +2,8 @@
 """What breaks a run on several hosts, and what is left: the table of docs/clusters.md. Needs root and `scripts/setup.sh --cluster`.
 
 usage: cluster_failures.py PROGRAM [--only WORD] [--launcher NAME] [--limit 120] [--slurm KEY=VALUE] [--mca KEY=VALUE]
-A cluster of three hosts is made for each row, and a run of five ranks on it is harmed once its surface is there. Prints Markdown.
+           [--sysctl KEY=VALUE] [--verbose]
+A cluster of three hosts is made for each row, and a run of four ranks on it is harmed once its surface is there. Prints Markdown.
 """
 import argparse
 import os
@@ -38,6 +39,9 @@ class Job:
         if launcher == "srun":
             command = block("srun").strip() + " --checkpoints"
         else:
+            if launcher == REQUEUED:  # a run that ends first, by its own means, is not queued again
+                script = cluster.shared / "mesh.sh"
+                script.write_text(re.sub(r"export OMPI_MCA_oob_.*\n", "", script.read_text()))
             requeue = "--requeue" if launcher == REQUEUED else "--no-requeue"
             command = f"sbatch {requeue} --time=10 --open-mode=append --output={SHARED}/log mesh.sh"
         with open(self.log, "wb") as log:
@@ -113,23 +117,27 @@ def wait_for(condition, seconds):
     return time.monotonic() - start
 
 
-def seconds_until_clean(cluster, hosts, seconds):
-    """In words, with what is left after so many seconds."""
-    taken = wait_for(lambda: not left_on(cluster, hosts), seconds)
-    return f"{taken:.0f}" if taken is not None else f"never; {in_words(left_on(cluster, hosts))}"
-
-
 def words_of(text):
     """The last line of the run, or of what started it, that tells of an end."""
-    lines = [line for line in text.splitlines() if line.strip(" -") and "help message" not in line and "help_aggregate" not in line]
-    told = [line for line in lines if re.search(r"error|killed|aborted|hash: |caught", line, re.IGNORECASE)]
-    return (told or lines or ["nothing"])[-1][:110].replace("|", "/")
+    told = re.findall(r"^(?:error|srun: error|slurmstepd\S* error|mpirun noticed|hash: ).*", text, re.MULTILINE)
+    return told[-1][:110].replace("|", "/") if told else "nothing"
+
+
+def first_times(conditions, limit):
+    """After how many seconds each held for the first time, in words. A requeued run has new ranks: once is enough."""
+    start, found = time.monotonic(), {}
+    while len(found) < len(conditions) and (passed := time.monotonic() - start) < limit:
+        found |= {name: f"{passed:.0f}" for name, holds in conditions.items() if name not in found and holds()}
+        time.sleep(0.1)
+    return {name: found.get(name, f"not in {limit:.0f}") for name in conditions}
 
 
 def measure(program, launcher, name, arguments):
     hosts = 4 if launcher == REQUEUED else 3
-    with Cluster(pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_cluster_")) / "hosts") as cluster:
+    with tempfile.TemporaryDirectory(prefix="aeroloom_cluster_") as folder, Cluster(f"{folder}/hosts") as cluster:
         cluster.up(hosts, tied=True)
+        for host in cluster.hosts() if arguments.sysctl else []:
+            cluster.on(host, "sysctl", "-qw", *arguments.sysctl, check=True)
         cluster.slurm(**dict(pair.split("=", 1) for pair in arguments.slurm))
         prepare(cluster, program, CASE)
         job = Job(cluster, launcher)
@@ -138,12 +146,17 @@ def measure(program, launcher, name, arguments):
         before = len(job.text())
         HARM[name](cluster, job)
         whole = [host for host in cluster.hosts() if host != "node3" or name not in LOST]
-        seconds = wait_for(lambda: job.ended() is not None, arguments.limit)
-        row = [f"{seconds:.0f}" if seconds is not None else f"not within {arguments.limit:.0f}", job.ended() or "running"]
-        row.append(seconds_until_clean(cluster, whole, 90))
+        seconds = first_times({
+            "ranks": lambda: not any(ranks_of(cluster, host) for host in whole),
+            "job": lambda: job.ended() is not None,
+            "clean": lambda: not left_on(cluster, whole),
+        }, arguments.limit)
+        row = [seconds["ranks"], seconds["job"], job.ended() or "running", seconds["clean"]]
+        if left := left_on(cluster, whole):
+            row[-1] += f": {in_words(left)}"
         if LOST.get(name):
             LOST[name](cluster)
-            row[-1] += f"; node3, once back: {seconds_until_clean(cluster, ['node3'], 60)}"
+            row[-1] += f"; node3 {first_times({'clean': lambda: not left_on(cluster, ['node3'])}, 60)['clean']} after it is back"
         text = job.text()[before:]
         if arguments.verbose:
             print(text, file=sys.stderr)
@@ -157,6 +170,7 @@ def main():
     parser.add_argument("--launcher", action="append", choices=LAUNCHERS)
     parser.add_argument("--limit", type=float, default=120)
     parser.add_argument("--slurm", action="append", default=[])
+    parser.add_argument("--sysctl", action="append", default=[])
     parser.add_argument("--mca", action="append", default=[])
     parser.add_argument("--verbose", action="store_true")
     arguments = parser.parse_args()
@@ -165,7 +179,7 @@ def main():
     for pair in arguments.mca:
         key, value = pair.split("=", 1)
         os.environ[f"OMPI_MCA_{key}"] = value
-    print("| what | launcher | job over after s | exit code, state | hosts clean s later | last words |\n|---|---|---|---|---|---|")
+    print("| what | launcher | ranks gone after s | job over | exit code, state | hosts clean | last words |\n|---|---|---|---|---|---|---|")
     for name in HARM:
         for launcher in arguments.launcher or LAUNCHERS:
             told = "B:" not in name if launcher == "srun" else launcher == "mpirun" or name == "power lost"
