@@ -1,5 +1,6 @@
-# cmake --install: the program, the stages as static libraries, their headers under include/aeroloom, and what
-# find_package(Aeroloom) reads. The program's own folder, pipeline/, is no library for others.
+# cmake --install: the program, the stages as static libraries, their headers under include/aeroloom, what
+# find_package(Aeroloom) reads, manual pages, completion, cases and documentation. The program's own folder, pipeline/, is
+# no library for others.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -18,6 +19,29 @@ install(CODE "
   execute_process(COMMAND \"$<TARGET_FILE:aeroloom>\" completion bash OUTPUT_FILE \"${completion}\"
     COMMAND_ERROR_IS_FATAL ANY)")
 install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+
+# Manual pages, made of what the program says of itself.
+set(manual ${CMAKE_BINARY_DIR}/manual)
+install(CODE "
+  execute_process(COMMAND \"${Python3_EXECUTABLE}\" \"${CMAKE_SOURCE_DIR}/scripts/man_pages.py\" \"$<TARGET_FILE:aeroloom>\"
+    \"${manual}\" COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+
+# Cases that run as they stand, and the documentation, whose pages name each other as in the source tree.
+file(GLOB cases CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/configs/*.yaml)
+install(FILES ${cases} DESTINATION ${CMAKE_INSTALL_DATADIR}/aeroloom/configs)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# The copyright file of a Debian package holds the licence in full, paragraphs apart by a dot.
+file(READ LICENSE licence)
+string(REGEX REPLACE "\n" "\n " licence "\n${licence}")
+string(REGEX REPLACE "\n *\n" "\n .\n" licence "${licence}")
+string(REGEX REPLACE "\n *\n" "\n .\n" licence "${licence}")
+string(STRIP "${licence}" licence)
+file(READ packaging/copyright copyright)
+file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/copyright CONTENT "${copyright} ${licence}\n")
+install(FILES ${CMAKE_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Aeroloom)
 install(EXPORT AeroloomTargets NAMESPACE Aeroloom:: DESTINATION ${package_folder})

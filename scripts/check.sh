@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check.sh: what the tests do not see. Format of the whole tree, lengths of files, clang-tidy on the sources of the last commit, the
-# fast tests under address and undefined behaviour sanitizers, and the example outside the tree against the
-# installed package. Needs the build of test.sh.
+# fast tests under address and undefined behaviour sanitizers, the example outside the tree against what is
+# installed, and whether the Debian package finds what it depends on. Needs the build of test.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -39,3 +39,8 @@ for ranks in 1 3; do
 done
 # One mesh, whatever the number of ranks.
 diff <(grep hash build/example/on_1) <(grep hash build/example/on_3)
+
+echo "check: the Debian package"
+rm -f build/release/aeroloom_*.deb
+cpack --preset release -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip > /dev/null  # seconds, where xz takes half a minute
+apt-get install --simulate --no-install-recommends -qq ./build/release/aeroloom_*.deb

@@ -14,6 +14,8 @@ packages=(
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
   # the build is configured with its tests
   libgtest-dev libbenchmark-dev python3
+  # what cpack asks which files are programs; the rest it needs comes with build-essential
+  file
 )
 test_packages=(
   clang-format clang-tidy
