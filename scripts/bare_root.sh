@@ -142,7 +142,7 @@ END
     > "$folder/manifest"
   read -r size digest < <(blob "$folder/manifest")
   manifest="{\"mediaType\": \"$kind.manifest.v1+json\", \"size\": $size, \"digest\": \"sha256:$digest\",
-  \"annotations\": {\"org.opencontainers.image.ref.name\": \"$version\"}}"
+  \"annotations\": {\"org.opencontainers.image.ref.name\": \"aeroloom:$version\"}}"
 
   echo "{\"schemaVersion\": 2, \"mediaType\": \"$kind.index.v1+json\", \"manifests\": [$manifest]}" > "$image/index.json"
   echo '{"imageLayoutVersion": "1.0.0"}' > "$image/oci-layout"
