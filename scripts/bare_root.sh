@@ -34,7 +34,7 @@ hash_of() {
 
 # total FILE: of the sizes that dpkg knows.
 total() {
-  awk '{sum += $1} END {print NR " packages, " sum " kB"}' "$1"
+  awk '{sum += $1} END {print NR " packages, " sum " KiB"}' "$1"
 }
 
 # in_root COMMAND...: as a user without rights, with the file systems that a running system has.
