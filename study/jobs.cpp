@@ -80,9 +80,10 @@ void write_script(const fs::path& file, const std::string& text) {
 void write_jobs(const StudyRecord& record, const JobOptions& jobs,
                 const std::function<Forecast(const std::vector<std::string>&)>& forecast) {
   const StudyOptions& options = record.options;
-  const Launcher launcher = jobs.launcher.empty()
-                                ? Launcher{"srun --mpi=pmix --nodes={nodes} --ntasks={ranks} {command}", true}
-                                : make_launcher(jobs.launcher);
+  const Launcher launcher =
+      jobs.launcher.empty()
+          ? Launcher{"srun --mpi=pmix --kill-on-bad-exit --nodes={nodes} --ntasks={ranks} {command}", true}
+          : make_launcher(jobs.launcher);
   std::map<std::vector<std::string>, Forecast> known;  // repeats and numbers of ranks share one
   std::string submit = "#!/bin/sh\n# Submits what has not been submitted yet, and notes the jobs.\nset -eu\n";
   const fs::path submitted = jobs.folder / submitted_name;

@@ -125,6 +125,7 @@ std::string quoted(const std::string& word) {
 
 std::string quoted(const std::vector<std::string>& words) {
   std::vector<std::string> texts;
+  texts.reserve(words.size());
   for (const std::string& word : words) texts.push_back(quoted(word));
   return fmt::format("{}", fmt::join(texts, " "));
 }
@@ -149,7 +150,7 @@ Launcher make_launcher(const std::string& pattern) {
     return {pattern, true};
   }
   if (std::getenv("SLURM_JOB_ID") != nullptr)
-    return {"srun --mpi=pmix --nodes={nodes} --ntasks={ranks} {command}", true};
+    return {"srun --mpi=pmix --kill-on-bad-exit --nodes={nodes} --ntasks={ranks} {command}", true};
   // Ranks that share a core give it to each other while they wait.
   const char* root = ::getuid() == 0 ? " --allow-run-as-root" : "";
   return {
@@ -168,6 +169,7 @@ double now_seconds() {
 pid_t start_line(const std::string& line, const std::filesystem::path& log) {
   std::vector<std::string> variables = first_environment();
   std::vector<char*> environment;
+  environment.reserve(variables.size() + 1);
   for (std::string& variable : variables) environment.push_back(variable.data());
   environment.push_back(nullptr);
   std::string shell = "sh", flag = "-c", text = line;

@@ -136,6 +136,7 @@ std::vector<Row> make_rows(const StudyRecord& record, const std::vector<RunResul
   std::map<std::pair<Series, int>, std::vector<const RunResult*>> groups;
   for (const RunResult& run : runs) groups[{run.spec.series, run.spec.ranks}].push_back(&run);
   std::vector<Row> rows;
+  rows.reserve(groups.size());
   for (auto& [key, group] : groups) rows.push_back(make_row(record, std::move(group), machine));
   compare(rows);
   return rows;

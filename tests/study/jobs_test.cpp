@@ -14,9 +14,10 @@ TEST(Jobs, AskForWhatIsPredicted) {
   const JobOptions jobs{folder.path / "jobs", "#SBATCH --account=wing\n", {}};
   write_jobs(study, jobs, [](const std::vector<std::string>&) { return Forecast{1e6, 36000, 8e9}; });
   const std::string script = read_file(jobs.folder / "strong_8_1.slurm");
-  for (const char* line : {"#SBATCH --nodes=2", "#SBATCH --ntasks=8", "#SBATCH --ntasks-per-node=4",
-                           "#SBATCH --time=05:00:00", "#SBATCH --account=wing", "#SBATCH --signal=B:USR1@120",
-                           "srun --mpi=pmix --nodes=2 --ntasks=8 /opt/aeroloom run /cases/wing.yaml"})
+  for (const char* line :
+       {"#SBATCH --nodes=2", "#SBATCH --ntasks=8", "#SBATCH --ntasks-per-node=4", "#SBATCH --time=05:00:00",
+        "#SBATCH --account=wing", "#SBATCH --signal=B:USR1@120",
+        "srun --mpi=pmix --kill-on-bad-exit --nodes=2 --ntasks=8 /opt/aeroloom run /cases/wing.yaml"})
     EXPECT_NE(script.find(line), std::string::npos) << line << "\n" << script;
   EXPECT_NE(read_file(jobs.folder / "serial_1_1.slurm").find("--time=40:00:00"), std::string::npos);
   EXPECT_EQ(results_of_jobs(jobs.folder), folder.path / "out");
