@@ -259,9 +259,9 @@ Command add_scaling(CLI::App& program) {
   add_help_footer(
       *app,
       {{"aeroloom scaling case.yaml --ranks 1,2,4", "three runs of each; the page is out/scaling.html"},
-       {"aeroloom scaling case.yaml --ranks 1,2,4 --series strong,weak --repeats 5", "two series"},
-       {"aeroloom scaling case.yaml --ranks 64,128,256 --ranks-per-node 64 --write-jobs jobs --job-header "
-        "account.txt",
+       {"aeroloom scaling case.yaml --ranks 1,2 --series strong,weak --repeats 1",
+        "two series, each line once"},
+       {"aeroloom scaling case.yaml --ranks 64,128,256 --write-jobs jobs --job-header account.txt",
         "scripts for a queue; sh jobs/submit.sh submits them"},
        {"aeroloom scaling --collect jobs", "what they have left so far"},
        {"aeroloom scaling --compare before/out after/out", "two studies side by side"}},

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Every example of the help runs as it stands. usage: examples_test.py PROGRAM"""
 import re
+import shutil
 import sys
 
 from program import COARSE_WING
@@ -16,6 +17,7 @@ def commands_of(shell):
 def check_examples(shell):
     """Every example in every help runs as it stands."""
     (shell.folder / "case.yaml").write_text(COARSE_WING)
+    (shell.folder / "account.txt").write_text("#SBATCH --account=wing\n")
     commands = commands_of(shell)
     assert {"run", "check", "info", "improve", "quality", "convert", "export-cad", "completion", "init", "schema"} <= set(commands)
     ran = set()
@@ -37,6 +39,8 @@ def check_examples(shell):
                             "wing.step": "aeroloom export-cad case.yaml wing.step"}[wanted]
                     if make != example and not example.startswith("aeroloom export-cad"):
                         assert shell.type(make).returncode == 0, make
+            for study in re.findall(r"(?:before|after)/out", example):
+                shutil.copytree(shell.folder / "out", shell.folder / study)
             # What writes a case must not find one.
             done = shell.type(f"mkdir new && cd new && {example}" if " init case" in example else example)
             assert done.returncode == (6 if "--gate" in example and done.returncode == 6 else 0), \

@@ -27,12 +27,12 @@ class Shell:
         """As a shell would run the line."""
         bin_folder = self.folder / "bin"
         bin_folder.mkdir(exist_ok=True)
-        for name, body in (("aeroloom", f'exec "{self.program}" "$@"'), ("mpirun", f'shift; exec "{LAUNCHER}" "$@"')):
+        real = os.environ["PATH"]
+        # mpirun_local.sh must not find itself under the name mpirun; options before the number of ranks are its own.
+        for name, body in (("aeroloom", f'exec "{self.program}" "$@"'),
+                           ("mpirun", f'PATH="{real}"; export PATH\nwhile [ "$1" != -n ]; do shift; done\n'
+                                      f'ranks=$2; shift 3; exec "{LAUNCHER}" "$ranks" "{self.program}" "$@"')):
             (bin_folder / name).write_text(f"#!/bin/sh\n{body}\n")
             (bin_folder / name).chmod(0o755)
-        # mpirun_local.sh must not find the name above.
-        real = os.environ["PATH"]
-        (bin_folder / "mpirun").write_text(f'#!/bin/sh\nshift; PATH="{real}"; export PATH\n'
-                                           f'ranks=$1; shift 2; exec "{LAUNCHER}" "$ranks" "{self.program}" "$@"\n')
         return subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=300, cwd=self.folder,
                               env={**os.environ, "PATH": f"{bin_folder}:{real}"})
