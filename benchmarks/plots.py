@@ -62,10 +62,8 @@ class Axis:
         if not self.fixed[1]:
             self.high = max(values, default=2)
         if self.log:
-            if not self.fixed[0]:
-                self.low = self.log ** math.floor(math.log(self.low, self.log) + 1e-9)
-            if not self.fixed[1]:
-                self.high = self.log ** math.ceil(math.log(self.high, self.log) - 1e-9)
+            self.low /= 1 if self.fixed[0] else 1.4
+            self.high *= 1 if self.fixed[1] else 1.4
         if self.high <= self.low:
             self.high = self.low * self.log if self.log else self.low + 1
 
@@ -77,8 +75,9 @@ class Axis:
 
     def ticks(self):
         if self.log:
-            count = round(math.log(self.high / self.low, self.log))
-            return [self.low * self.log**i for i in range(0, count + 1, max(1, math.ceil(count / 10)))]
+            first = math.ceil(math.log(self.low, self.log) - 1e-9)
+            last = math.floor(math.log(self.high, self.log) + 1e-9)
+            return [float(self.log) ** i for i in range(first, last + 1, max(1, math.ceil((last - first) / 10)))]
         step = 10 ** math.floor(math.log10((self.high - self.low) / 4))
         step *= next(f for f in (1, 2, 5, 10) if (self.high - self.low) / (f * step) <= 7)
         first = math.ceil(self.low / step - 1e-9)
@@ -147,20 +146,22 @@ class Panel:
         for gx, gy, name in self.guides:
             if gx is True:
                 low, high = max(self.x.low, self.y.low), min(self.x.high, self.y.high)
-                out += [line(X(low), Y(low), X(high), Y(high), "#888"), text(X(high) - 6, Y(high) + 14, name, "end")]
+                out += [line(X(low), Y(low), X(high), Y(high), "#888"), text(X(high) - 44, Y(high) + 24, name, "end")]
             elif gx is not None:
                 out += [line(X(gx), y0, X(gx), y1, "#000", "3 3"), text(X(gx), y1 - 2, name, more='font-size="10"')]
             else:
                 out += [line(x0, Y(gy), x1, Y(gy), "#000", "3 3"), text(x1 - 4, Y(gy) - 4, name, "end", 'font-size="10"')]
-        for what, _, a, b, kind in self.series:
+        abreast = sum(what == "points" and any(b) for what, _, _, b, _ in self.series)
+        for place, (what, _, a, b, kind) in enumerate(self.series):
             grey, dash = GREYS[kind % len(GREYS)], DASHES[kind % len(DASHES)]
             if what == "points":
                 for i, (value, span) in enumerate(zip(a, b)):
                     if value is None:
                         continue
+                    y = row(i) + (9 * (place - (abreast - 1) / 2) if span else 0)  # intervals beside each other
                     if span:
-                        out.append(line(X(span[0]), row(i), X(span[1]), row(i), grey, width=2))
-                    out.append(marker(MARKERS[kind % len(MARKERS)], X(value), row(i), grey))
+                        out.append(line(X(span[0]), y, X(span[1]), y, grey, width=2))
+                    out.append(marker(MARKERS[kind % len(MARKERS)], X(value), y, grey))
                 continue
             if what == "steps":
                 path = [(X(a[i + side]), Y(h)) for i, h in enumerate(b) for side in (0, 1)]

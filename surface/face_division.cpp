@@ -32,8 +32,8 @@ constexpr double largest_cluster = 0.15;
 constexpr double most_pieces_at_once = 24;
 
 /// The pieces that a seed is cut into at once: a part of a face (group > 0) is not cut again.
-double count_parts(const PieceSeed& seed, std::int32_t group, const SurfaceOptions& options) {
-  const double pieces = std::max(1.0, std::round(seed.load / static_cast<double>(options.piece_triangles)));
+double count_parts(double load, std::int32_t group, const SurfaceOptions& options) {
+  const double pieces = std::max(1.0, std::round(load / static_cast<double>(options.piece_triangles)));
   return group == 0 && pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
 }
 
@@ -154,6 +154,17 @@ const sizing::SizeField& CoarseSizes::field(int power) {
   return _fields[power];
 }
 
+double seed_cost(double facets) {
+  return 3 * facets;
+}
+
+double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options) {
+  // A part costs its background triangles; the cuts of so many parts have about so many edges.
+  constexpr double per_part = 400, per_cut_edge = 2, per_facet = 1.5;
+  const double parts = count_parts(triangles, group, options);
+  return per_part * parts + per_cut_edge * 1.3 * std::sqrt(triangles * parts) + per_facet * facets;
+}
+
 bool is_heavy(double load, const SurfaceOptions& options) {
   return options.decomposition == SurfaceDecomposition::pieces &&
          load >= 1.5 * static_cast<double>(options.piece_triangles);
@@ -161,7 +172,7 @@ bool is_heavy(double load, const SurfaceOptions& options) {
 
 SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
                        const SurfaceOptions& options) {
-  const double parts = count_parts(seed, group, options);
+  const double parts = count_parts(seed.load, group, options);
   const double factor = std::sqrt(seed.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
   const DivisionRequest wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};
