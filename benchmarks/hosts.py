@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""A run on hosts of one rank each with limited links, beside the same run on one host through shared memory, as Markdown
-tables: seconds and bytes of each stage, and the bytes that the program counted beside those that the links counted.
+"""A run on hosts of one rank each with limited links, beside the same run on one host through shared memory, as Markdown tables:
+seconds and bytes of each stage, and the bytes that the program counted beside those that the links counted.
 
 usage: hosts.py PROGRAM CASE [--hosts 4] [--rate 1gbit] [--repeats 3]
 
 The hosts are made on this machine (tests/cluster/cluster.py: root, slurm-wlm, munge), so they share its processors: seconds say
-what links cost, not what more processors bring. Of each kind the run with the median of the seconds is shown. Links are
-read a hundred times a second. When the first stage began is not written anywhere: of the moments within half a second the one that fits best is taken,
-one for all stages, so bytes of single stages are good to some hundredths of a second of a full link; those of the sum are exact. A case names its file by the whole path, which is not in /tmp. The least that a link carries besides, starting and ending the processes, is in the sum.
+what links cost, not what more processors bring. Of each kind the run with the median of the seconds is shown. Links are read a
+hundred times a second. When the first stage began is not written anywhere: of the moments within half a second the one that
+fits best is taken, one for all stages, so bytes of single stages are good to some hundredths of a second of a full link; those
+of the sum are exact. A case names its file by the whole path, which is not in /tmp. The least that a link carries besides,
+starting and ending the processes, is in the sum.
 """
 import argparse
 import json
@@ -43,7 +45,8 @@ class Reader(threading.Thread):
 
     def __init__(self, cluster):
         super().__init__(daemon=True)
-        self.files = [pathlib.Path(f"/proc/{number}/net/dev") for name, number in cluster._first_processes().items() if name != "switch"]
+        first = cluster._first_processes()
+        self.files = [pathlib.Path(f"/proc/{number}/net/dev") for name, number in first.items() if name != "switch"]
         self.samples, self.over = [], False
 
     def sent(self):
@@ -119,10 +122,12 @@ def main():
     memory = median(here, lambda run: run)
     links, carried, total = median(there, lambda run: run[0])
     assert memory["mesh"]["hash"] == links["mesh"]["hash"]
-    print(f"{links['mesh']['tetrahedra']:,} tetrahedra, {options.hosts} ranks, {options.rate}, hash {links['mesh']['hash'][:8]}\n")
+    mesh = links["mesh"]
+    print(f"{mesh['tetrahedra']:,} tetrahedra, {options.hosts} ranks, {options.rate}, hash {mesh['hash'][:8]}\n")
     print("| stage | shared memory, s | links, s | MB counted | MB of the links |\n|---|---|---|---|---|")
     for one, other, bytes_ in zip(memory["stages"], links["stages"], carried):
-        print(f"| {one['name']} | {one['wall_seconds']:.2f} | {other['wall_seconds']:.2f} | {counted(other) / 1e6:.1f} | {bytes_ / 1e6:.1f} |")
+        print(f"| {one['name']} | {one['wall_seconds']:.2f} | {other['wall_seconds']:.2f} | {counted(other) / 1e6:.1f} "
+              f"| {bytes_ / 1e6:.1f} |")
     seconds = [sum(s["wall_seconds"] for s in report["stages"]) for report in (memory, links)]
     print(f"| all | {seconds[0]:.2f} | {seconds[1]:.2f} | {sum(map(counted, links['stages'])) / 1e6:.1f} | {total / 1e6:.1f} |")
 
