@@ -194,7 +194,8 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& ro
         part[level] = static_cast<std::int32_t>(i);
         divided.emplace(part, std::move(pieces.seeds[i]));
       }
-      _angles[key] = std::move(pieces.angles);
+      std::vector<CutAngle>& angles = _angles[key];  // its first part has the key of the face
+      angles.insert(angles.end(), pieces.angles.begin(), pieces.angles.end());
     }
   });
   return divided;

@@ -141,7 +141,9 @@ TEST(DividedTwice, HasNoSeamEither) {
   for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
   const Seam seam = measure_seam(world, meshed.surface.mesh);
   EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
-  EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options)));
+  const Meshed alone = mesh_model(self, model, field, options);
+  EXPECT_EQ(hash_of(world, meshed), hash_of(self, alone));
+  EXPECT_EQ(meshed.surface.report.cut_angles.size(), alone.surface.report.cut_angles.size());
 }
 
 /// However many pieces a face has, its parts are cut down to the size asked for.
