@@ -15,8 +15,11 @@
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <TopoDS_Edge.hxx>
 #include <gp_Ax2.hxx>
+#include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
+#include <gp_Cylinder.hxx>
 
 namespace aeroloom::cad::shapes {
 
@@ -42,6 +45,32 @@ inline Model spline_cylinder(double degrees, double height) {
       BRepBuilderAPI_MakeEdge(circle, std::numbers::pi, 2 * std::numbers::pi).Edge());
   BRepPrimAPI_MakePrism prism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, height));
   return prepare_fluid(BRepBuilderAPI_NurbsConvert(prism.Shape()).Shape()).model;
+}
+
+/// Half a disc of radius 1 and that height, its round side between one arc below and two above.
+inline Model half_coin(double height) {
+  const auto circle = [](double z) { return gp_Circ(gp_Ax2(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1)), 1); };
+  const auto edge = [](const gp_Pnt& a, const gp_Pnt& b) { return BRepBuilderAPI_MakeEdge(a, b).Edge(); };
+  constexpr double half = std::numbers::pi, middle = 1.1;
+  const gp_Pnt low_a(1, 0, 0), low_b(-1, 0, 0), high_a(1, 0, height), high_b(-1, 0, height);
+  const TopoDS_Edge below = BRepBuilderAPI_MakeEdge(circle(0), 0, half).Edge();
+  const TopoDS_Edge above[2] = {BRepBuilderAPI_MakeEdge(circle(height), 0, middle).Edge(),
+                                BRepBuilderAPI_MakeEdge(circle(height), middle, half).Edge()};
+  BRepBuilderAPI_MakeWire side(below, edge(low_b, high_b));
+  side.Add(above[1]);
+  side.Add(above[0]);
+  side.Add(edge(high_a, low_a));
+  BRepBuilderAPI_MakeWire top(above[0], above[1]);
+  top.Add(edge(high_b, high_a));
+  const BRepBuilderAPI_MakeWire bottom(below, edge(low_b, low_a));
+  BRepBuilderAPI_MakePolygon back(low_a, low_b, high_b, high_a, Standard_True);
+  const gp_Cylinder cylinder(gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
+  return prepare_fluid(
+             compound_of<TopoDS_Face>({BRepBuilderAPI_MakeFace(cylinder, side.Wire()).Face(),
+                                       BRepBuilderAPI_MakeFace(top.Wire()).Face(),
+                                       BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(bottom).Wire()).Face(),
+                                       BRepBuilderAPI_MakeFace(back.Wire()).Face()}))
+      .model;
 }
 
 /// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.

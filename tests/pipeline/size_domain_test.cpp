@@ -144,10 +144,9 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   ASSERT_EQ(small.features->strips.size(), 3u) << "the blunt end, and the sides beside it";
   EXPECT_NEAR(small.features->strips[0].width, 0.0005, 1e-6);
   EXPECT_NEAR(small.features->strips[0].place.x, 1, 1e-9);
-  const double floor = small.features->share.floor;
-  EXPECT_GT(floor, 0.0005);
-  EXPECT_NEAR(std::tan(small.features->strips[0].surface_degrees * std::numbers::pi / 180), 0.0005 / floor,
-              1e-6);
+  const double aspect = small.features->share.aspect;
+  EXPECT_GT(aspect, 1);
+  EXPECT_NEAR(std::tan(small.features->strips[0].surface_degrees * std::numbers::pi / 180), 1 / aspect, 1e-6);
   EXPECT_GT(small.features->wanted_tetrahedra(), 2 * 20'000);
   const std::string text = describe(*small.features);
   EXPECT_NE(text.find("'" + small.features->strips[0].face + "'"), std::string::npos) << text;

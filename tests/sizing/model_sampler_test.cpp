@@ -51,6 +51,17 @@ TEST(ModelSampler, TakesOverWhatJoiningLeavesAsItIs) {
     expect_same(model, joined, {0.05, 0.5, 15, 1.3, 0}, fields, clock);
 }
 
+// Segments of facets leave the curves by far more than this strip is wide, and other ones on each side of it.
+TEST(ModelSampler, WidthsOfStripsAreThoseBetweenTheirCurves) {
+  constexpr double width = 4e-5;
+  parallel::StageClock clock;
+  const Model model = cad::shapes::half_coin(width);
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  const std::vector<Strip> strips = sampler.strips_narrower_than(0.05, 0.05);
+  ASSERT_FALSE(strips.empty());
+  EXPECT_NEAR(strips.front().width, width, 0.05 * width);
+}
+
 // The strip hides that two walls meet in an edge; joined with one of them it must not be taken for a gap.
 TEST(ModelSampler, LooksForGapsAnewBesideJoinedFaces) {
   parallel::StageClock clock;
