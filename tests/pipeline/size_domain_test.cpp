@@ -2,6 +2,7 @@
 
 #include "parallel/warnings.hpp"
 #include "pipeline/stage_products.hpp"
+#include "tests/cad/blunt_shapes.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <cmath>
@@ -22,7 +23,7 @@ SizedDomain size(const Model& model, double minimum, NarrowFaces narrow_faces) {
   request.minimum = minimum;
   request.maximum = 1;
   parallel::StageClock clock;
-  return size_domain(parallel::Communicator::world(), model, request, narrow_faces, clock);
+  return size_domain(parallel::Communicator::world(), model, request, {narrow_faces}, clock);
 }
 
 TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
@@ -52,7 +53,7 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   request.target_tetrahedra = 20'000;
   parallel::StageClock clock;
   const auto world = parallel::Communicator::world();
-  const SizedDomain sized = size_domain(world, model, request, NarrowFaces::join, clock);
+  const SizedDomain sized = size_domain(world, model, request, {NarrowFaces::join}, clock);
   ASSERT_EQ(sized.joined.changes.size(), 1u);
   const double predicted = sizing::predict_counts(world, sized.model, sized.field, clock).tetrahedra;
   EXPECT_GT(predicted, 14'000);
@@ -79,7 +80,7 @@ TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
     for (std::size_t k = 0; k < keys.size(); ++k)
       if (chosen >> k & 1) keys[k](request);
     parallel::take_warnings(world);
-    const SizedDomain sized = size_domain(world, model, request, NarrowFaces::join, clock);
+    const SizedDomain sized = size_domain(world, model, request, {NarrowFaces::join}, clock);
     const parallel::Warnings warnings = parallel::take_warnings(world);
     ASSERT_TRUE(sized.counts);
     const double share = sized.features ? sized.features->share.share : 1;
@@ -106,7 +107,7 @@ TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
   request.target_tetrahedra = 1000;
   request.curvature_angle = 4;
   request.minimum = 0.01;
-  const SizedDomain sized = size_domain(world, model, request, NarrowFaces::join, clock);
+  const SizedDomain sized = size_domain(world, model, request, {NarrowFaces::join}, clock);
   const parallel::Warnings warnings = parallel::take_warnings(world);
   EXPECT_GT(sized.counts->tetrahedra, 2000);
   if (!world.is_root()) return;
@@ -124,7 +125,7 @@ TEST(SizeDomain, LetsChosenBoundsFollowGivenOnes) {
   SizingRequest request;
   request.target_tetrahedra = 1000;
   request.surface_maximum = 0.05;
-  const auto sized = size_domain(parallel::Communicator::world(), model, request, NarrowFaces::join, clock);
+  const auto sized = size_domain(parallel::Communicator::world(), model, request, {NarrowFaces::join}, clock);
   EXPECT_EQ(sized.sizes.surface_maximum, 0.05);
   EXPECT_LE(sized.sizes.minimum, 0.05);
 }
@@ -137,7 +138,7 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   parallel::StageClock clock;
   const auto size_within = [&](double budget) {
     request.feature_budget = budget;
-    return size_domain(parallel::Communicator::world(), model, request, NarrowFaces::join, clock);
+    return size_domain(parallel::Communicator::world(), model, request, {NarrowFaces::join}, clock);
   };
   const SizedDomain small = size_within(2);
   ASSERT_TRUE(small.features);
@@ -179,6 +180,83 @@ TEST(SizeDomain, ComesBackFromACheckpoint) {
   EXPECT_EQ(found.model.face_count(), sized.model.face_count());
   EXPECT_EQ(found.joined.groups, sized.joined.groups);
   EXPECT_EQ(found.joined.changes.at(0).what, sized.joined.changes.at(0).what);
+}
+
+/// A half wing of unit chord and three times that span, as a body.
+Model thin_wing(double thickness) {
+  cad::DomainOptions options;
+  options.kind = cad::DomainKind::body;
+  return cad::shapes::prepare(cad::shapes::blunt_wing({{0, 0, thickness}, {3, 0, thickness}}), options).model;
+}
+
+SizedDomain size_automatically(const Model& model, const SizingRequest& request) {
+  parallel::StageClock clock;
+  return size_domain(parallel::Communicator::world(), model, request,
+                     {NarrowFaces::join, cad::TrailingEdges::automatic}, clock);
+}
+
+const JudgedEdge& only_edge(const SizedDomain& sized) {
+  EXPECT_EQ(sized.edges.size(), 1u);
+  return sized.edges.front();
+}
+
+// Thick enough for the budget: kept. Thin enough that nobody sees it: closed. Between: graded.
+TEST(TrailingEdges, AreKeptClosedOrGraded) {
+  SizingRequest request;
+  request.target_tetrahedra = 20'000;
+  const auto judged = [&](double thickness, double budget) {
+    const Model model = thin_wing(thickness);
+    request.feature_budget = budget;
+    const SizedDomain sized = size_automatically(model, request);
+    const JudgedEdge edge = only_edge(sized);
+    EXPECT_NEAR(edge.narrowest, thickness, 0.01 * thickness);
+    EXPECT_NEAR(edge.widest, thickness, 0.01 * thickness);
+    EXPECT_NEAR(edge.chord, 1, 0.1);
+    EXPECT_EQ(sized.model.face_count(), model.face_count() - (edge.fate == EdgeFate::closed ? 1 : 0));
+    return edge;
+  };
+  EXPECT_EQ(judged(0.02, 20).fate, EdgeFate::kept);
+  EXPECT_LE(judged(0.02, 20).aspect, largest_kept_aspect);
+  const JudgedEdge graded = judged(0.002, 1.2);
+  EXPECT_EQ(graded.fate, EdgeFate::graded);
+  EXPECT_GT(graded.aspect, largest_kept_aspect);
+  EXPECT_NE(graded.what.find("0.1 % of the local chord"), std::string::npos) << graded.what;
+  const JudgedEdge closed = judged(0.0005, 5);
+  EXPECT_EQ(closed.fate, EdgeFate::closed);
+  EXPECT_NE(closed.what.find("was closed"), std::string::npos) << closed.what;
+  EXPECT_NE(closed.what.find("drag counts"), std::string::npos) << closed.what;
+  // Resolved where somebody pays for it.
+  EXPECT_EQ(judged(0.0005, 500).fate, EdgeFate::kept);
+}
+
+// Where all sizes are given, the smallest that features may have takes the budget's place.
+TEST(TrailingEdges, GoByTheGivenSizesOfFeatures) {
+  SizingRequest request;
+  request.minimum = 0.05, request.maximum = 1;
+  const Model model = thin_wing(0.0007);
+  request.feature_minimum = 0.0015;
+  EXPECT_EQ(only_edge(size_automatically(model, request)).fate, EdgeFate::kept);
+  request.feature_minimum = 0.004;
+  EXPECT_EQ(only_edge(size_automatically(model, request)).fate, EdgeFate::closed);
+}
+
+// A blunt end of 0.08 % of the chord: about half a drag count.
+TEST(TrailingEdges, HoernersBaseDrag) {
+  EXPECT_NEAR(base_drag_counts(8e-4), 0.55, 0.01);
+  EXPECT_EQ(base_drag_counts(0), 0);
+}
+
+TEST(TrailingEdges, ClosedOnesComeBackFromACheckpoint) {
+  const Model model = thin_wing(0.0005);
+  SizingRequest request;
+  request.minimum = 0.05, request.maximum = 1;
+  const SizedDomain sized = size_automatically(model, request);
+  ASSERT_TRUE(has_closed(sized.edges));
+  const auto world = parallel::Communicator::world();
+  const SizedDomain found = unpack_sizes(world, as_read(pack_sizes(sized)), model);
+  EXPECT_EQ(found.model.face_count(), sized.model.face_count());
+  EXPECT_EQ(found.model.edge_count(), sized.model.edge_count());
+  EXPECT_EQ(found.edges.at(0).what, sized.edges.at(0).what);
 }
 
 // Where joined faces could not be meshed, the surface is that of other sizes than the stage before has kept.
