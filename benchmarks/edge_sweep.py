@@ -9,7 +9,8 @@ Thicknesses of 0.01 to 1 % of the chord in equal ratios. For each the forecast o
 --forecast, a run: *fate* is what `geometry.trailing_edges: auto` decided, of most edges; *aspect* what elements along
 strips are longer than wide by, *forecast angle* that of such triangles (a dash where there is no strip left that is told
 of); counts in thousands; *improve* its share of the CPU. With --budgets, forecasts for budgets of 1 to 20. The last lines
-say what does not rise or fall as it should.
+say what does not rise or fall as it should, where `check` and `run` decided differently, and the worst of each column
+beside what it may be.
 """
 import argparse
 import collections
@@ -26,6 +27,8 @@ PARTS = ("wing", "horizontal_tail", "vertical_tail")
 SUFFIX = {"separate": "igs", "tapered": "step", "partly_sharp": "step"}
 BUDGETS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 8.5, 10, 12, 15, 20)
 NOISE = 0.03  # of a share: fields of almost the same sizes
+TARGET, BUDGET = 1e6, 5  # the defaults
+YARDSTICK = 0.003  # no thickness is to take longer than this one
 
 
 def case_of(options, thickness, scratch):
@@ -43,13 +46,20 @@ def case_of(options, thickness, scratch):
 def forecast(options, case, folder, settings):
     words = [word for setting in [*settings, f"output.directory={folder}"] for word in ("--set", setting)]
     call([options.program, "check", case, *words])
-    found = json.loads((folder / "check.json").read_text())["forecast"]
+    checked = json.loads((folder / "check.json").read_text())
+    found = checked["forecast"]
     features = found["features"]
     aspect = features["aspect"] if features["aspect"] is not None else math.inf
     angles = [strip["surface_degrees"] for strip in features["unresolved"]]
     fates = collections.Counter(edge["fate"] for edge in found["trailing_edges"])
     return {"fate": fates.most_common(1)[0][0] if fates else "–", "aspect": aspect, "share": features["share"],
-            "angle": min(angles, default=45 if aspect < 2 else 90), "predicted": found["tetrahedra"]}
+            "angle": min(angles, default=45 if aspect < 2 else 90), "predicted": found["tetrahedra"],
+            "decided": decisions(found["trailing_edges"], features)}
+
+
+def decisions(edges, features):
+    """What `check` and `run` have to agree on."""
+    return [(edge["face"], edge["fate"], edge["moved"]) for edge in edges], features["aspect"], features["share"]
 
 
 def text_of(told):
@@ -63,9 +73,12 @@ def run(options, case, folder, settings):
     report = json.loads((folder / "report.json").read_text())
     stages = {stage["name"]: cpu_seconds(stage) for stage in report["stages"]}
     least, cpu = report["quality"]["min_dihedral_deg"], sum(stages.values())
+    made = {"least": least, "made": report["mesh"]["tetrahedra"], "improve": stages["improve"] / cpu,
+            "seconds": report["wall_seconds"], "cpu": cpu,
+            "run_decided": decisions(report["sizing"]["trailing_edges"], report["sizing"]["features"])}
     text = (f"{report['mesh']['tetrahedra'] / 1e3:,.0f} | {least:.1f} | {100 * stages['improve'] / cpu:.0f} % | "
             f"{stages['sizing']:.1f} | {cpu:.0f} | {report['wall_seconds']:.0f} | {report['mesh']['hash'][:8]}")
-    return text, least
+    return text, made
 
 
 def thicknesses(steps):
@@ -75,7 +88,7 @@ def thicknesses(steps):
 def complain(rows, what, wrong):
     """Of neighbours in a table."""
     found = [f"{a[0]} to {b[0]}" for a, b in zip(rows, rows[1:]) if wrong(a[1], b[1])]
-    print(f"{what}: {'; '.join(found) if found else 'everywhere'}", flush=True)
+    print(f"{what}: {'; '.join(found) if found else 'nowhere'}", flush=True)
 
 
 def sweep(options, scratch):
@@ -91,15 +104,31 @@ def sweep(options, scratch):
         told = forecast(options, case, folder, options.set)
         line = f"| {100 * thickness:.3g} | {text_of(told)} |"
         if not options.forecast:
-            made, told["least"] = run(options, case, folder, options.set)
-            line += f" {made} |"
+            text, made = run(options, case, folder, options.set)
+            told |= made
+            line += f" {text} |"
         print(line, flush=True)
         rows.append((f"{100 * thickness:.3g}", told))
     kept = [row for row in rows if row[1]["fate"] != "closed"]
-    complain(kept, "shares fall with the thickness", lambda a, b: b["share"] > (1 + NOISE) * a["share"])
-    complain(kept, "forecast angles rise with the thickness", lambda a, b: b["angle"] < a["angle"])
+    complain(kept, "shares do not fall with the thickness", lambda a, b: b["share"] > (1 + NOISE) * a["share"])
+    complain(kept, "forecast angles do not rise with the thickness", lambda a, b: b["angle"] < a["angle"])
     if not options.forecast:
-        print(f"least angle of all: {min(row[1]['least'] for row in rows):.1f}")
+        summarise(rows, options)
+
+
+def summarise(rows, options):
+    told = [row[1] for row in rows]
+    settings = dict(setting.split("=") for setting in options.set)
+    most = float(settings.get("sizing.feature_budget", BUDGET)) * float(settings.get("sizing.target_tetrahedra", TARGET))
+    yardstick = min(rows, key=lambda row: abs(math.log(float(row[0]) / 100 / YARDSTICK)))
+    other = [row[0] for row in rows if row[1]["decided"] != row[1]["run_decided"]]
+    print(f"check and run decide differently: {', '.join(other) or 'nowhere'}")
+    print(f"least angle: {min(row['least'] for row in told):.1f} (20)")
+    print(f"tetrahedra over budget times target: {max(row['made'] for row in told) / most:.2f} (1.1)")
+    print(f"improvement's share of the CPU: {max(row['improve'] for row in told):.2f} (0.35)")
+    for what, key in (("wall time", "seconds"), ("CPU", "cpu")):
+        ratio = max(row[key] for row in told) / yardstick[1][key]
+        print(f"{what} over that of {yardstick[0]} %: {ratio:.2f}" + (" (1)" if key == "seconds" else ""))
 
 
 def budgets(options, scratch):
@@ -112,8 +141,8 @@ def budgets(options, scratch):
             print(f"| {100 * thickness:.3g} | {budget:g} | {text_of(told)} |", flush=True)
             rows.append((f"{budget:g}", told))
         kept = [row for row in rows if row[1]["fate"] != "closed"]
-        complain(kept, "shares rise with the budget", lambda a, b: b["share"] < a["share"])
-        complain(kept, "forecast angles rise with the budget", lambda a, b: b["angle"] < a["angle"])
+        complain(kept, "shares do not rise with the budget", lambda a, b: b["share"] < a["share"])
+        complain(kept, "forecast angles do not rise with the budget", lambda a, b: b["angle"] < a["angle"])
 
 
 def main():

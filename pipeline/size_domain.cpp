@@ -107,13 +107,17 @@ struct Trial {
   sizing::SizingOptions sizes;               ///< where nothing is left to choose
   std::optional<sizing::Prospect> prospect;  ///< else
 
-  double smallest_size() const { return prospect ? prospect->options.minimum : sizes.minimum; }
-  /// Of elements along a strip, over its width.
-  double aspect_at(double width) const {
-    const sizing::SizingOptions tried = prospect ? prospect->with_features() : sizes;
-    return sizing::strip_size(width, tried) / width;
-  }
+  sizing::SizingOptions options() const { return prospect ? prospect->with_features() : sizes; }
 };
+
+/// What trailing edges are judged by. Its functions refer to the sampler.
+TrialSizes tell(const sizing::ModelSampler& sampler, const Trial& trial) {
+  const sizing::SizingOptions options = trial.options();
+  return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
+          [&sampler, options](const std::vector<geometry::Vec3>& places) {
+            return sampler.sizes_without_features(places, options);
+          }};
+}
 
 Trial try_sizes(const sizing::ModelSampler& sampler, const SizingRequest& request,
                 const std::optional<sizing::SizingOptions>& near) {
@@ -145,11 +149,10 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
           chosen.counts,   std::move(features), std::move(bounded)};
 }
 
-}  // namespace
-
-SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
-                        const SizingRequest& request, const Simplification& simplification,
-                        parallel::StageClock& clock) {
+/// `near`: sizes for a model that is almost the same, where they are known and the target is to be met.
+SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
+                             const SizingRequest& request, const Simplification& simplification,
+                             parallel::StageClock& clock, std::optional<sizing::SizingOptions> near) {
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
@@ -157,8 +160,7 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   const bool join = simplification.narrow_faces == NarrowFaces::join;
   const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;
   // What is narrow is told by an estimate; sizes are chosen for what is left of the model.
-  std::optional<sizing::SizingOptions> near;
-  if (target && (join || automatic)) near = sizing::estimate_sizes(sampler, *target, request);
+  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(sampler, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);
   std::vector<sizing::TrailingEdge> edges;
   if (automatic) edges = sizing::find_trailing_edges(sampler, width);
@@ -170,16 +172,25 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   }
   const sizing::ModelSampler& sampled = of_joined ? *of_joined : sampler;
   const Trial trial = try_sizes(sampled, request, near);
-  TrailingEdgeReport report = judge_trailing_edges(
-      model, edges, [&](double wide) { return trial.aspect_at(wide); }, trial.smallest_size());
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(sampled, trial));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
-  SizedDomain sized = closed ? size_domain(communicator, *closed, request,
-                                           {simplification.narrow_faces, cad::TrailingEdges::keep}, clock)
-                             : finish(communicator, sampled, request, trial, std::move(what));
+  if (closed && trial.prospect) near = trial.prospect->options;
+  SizedDomain sized =
+      closed ? size_domain_near(communicator, *closed, request,
+                                {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, near)
+             : finish(communicator, sampled, request, trial, std::move(what));
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
   return sized;
+}
+
+}  // namespace
+
+SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
+                        const SizingRequest& request, const Simplification& simplification,
+                        parallel::StageClock& clock) {
+  return size_domain_near(communicator, model, request, simplification, clock, {});
 }
 
 }  // namespace aeroloom::pipeline

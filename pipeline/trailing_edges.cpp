@@ -37,16 +37,26 @@ void keep(JudgedEdge& edge) {
                           edge.length, edge.narrowest, edge.widest);
 }
 
-void judge(JudgedEdge& edge, double smallest_size) {
+/// Whether nowhere along the strip its borders would move by more than a part of the size there.
+bool moves_little(const cad::BluntEdge& strip, const TrialSizes& trial) {
+  if (0.5 * strip.widest <= closing_share_of_size * trial.minimum) return true;
+  std::vector<geometry::Vec3> places;
+  for (const cad::BluntStation& station : strip.stations) places.push_back(station.place);
+  const std::vector<double> sizes = trial.sizes_without_strips(places);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (0.5 * strip.stations[i].width > closing_share_of_size * sizes[i]) return false;
+  return true;
+}
+
+void judge(JudgedEdge& edge, const cad::BluntEdge& strip, const TrialSizes& trial) {
   if (edge.aspect <= largest_kept_aspect) return keep(edge);
   if (0.5 * edge.share > closing_share_of_chord) {
     return grade(edge, fmt::format("closing it would move its borders {}, more than {:g} %",
                                    borders_move(edge), 100 * closing_share_of_chord));
   }
-  if (moved(edge) > closing_share_of_size * smallest_size) {
-    return grade(edge,
-                 fmt::format("closing it would move its borders {}, more than {:g} of the smallest size",
-                             borders_move(edge), closing_share_of_size));
+  if (!moves_little(strip, trial)) {
+    return grade(edge, fmt::format("closing it would move its borders {}, more than {:g} of the local size",
+                                   borders_move(edge), closing_share_of_size));
   }
   edge.fate = EdgeFate::closed;
 }
@@ -80,8 +90,7 @@ const char* name_of(EdgeFate fate) {
 
 TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
                                         const std::vector<sizing::TrailingEdge>& edges,
-                                        const std::function<double(double)>& aspect_at,
-                                        double smallest_size) {
+                                        const TrialSizes& trial) {
   TrailingEdgeReport report;
   for (const sizing::TrailingEdge& each : edges) {
     const cad::BluntEdge& strip = each.strip;
@@ -89,8 +98,8 @@ TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
                     strip.place,     strip.length,
                     strip.narrowest, strip.widest,
                     each.chord,      each.share};
-    edge.aspect = strip.narrowest > 0 ? aspect_at(strip.narrowest) : 1 / closing_share_of_chord;
-    judge(edge, smallest_size);
+    edge.aspect = strip.narrowest > 0 ? trial.aspect_at(strip.narrowest) : 1 / closing_share_of_chord;
+    judge(edge, strip, trial);
     report.push_back(std::move(edge));
   }
   return report;

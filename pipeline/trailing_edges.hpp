@@ -17,7 +17,7 @@ namespace aeroloom::pipeline {
 /// Elements along a strip that are longer than it is wide by more than this give angles below some 20
 /// degrees.
 inline constexpr double largest_kept_aspect = 2.7;
-/// How far borders may move to be closed: of the local chord, and of the smallest size that faces have there.
+/// How far borders may move to be closed: of the local chord, and of the size that elements would have there.
 inline constexpr double closing_share_of_chord = 4e-4, closing_share_of_size = 0.05;
 
 enum class EdgeFate : std::uint8_t {
@@ -36,7 +36,7 @@ struct JudgedEdge {
   double share = 0;   ///< of the local chord that it is wide, at most
   double aspect = 1;  ///< of elements along it; of one that was closed, in the trial
   EdgeFate fate = EdgeFate::kept;
-  std::string what;  ///< a sentence for people
+  std::string what = {};  ///< a sentence for people
 
   static constexpr auto fields() {
     return std::tuple(&JudgedEdge::face, &JudgedEdge::name, &JudgedEdge::place, &JudgedEdge::length,
@@ -47,10 +47,19 @@ struct JudgedEdge {
 
 using TrailingEdgeReport = std::vector<JudgedEdge>;
 
-/// Judges each by the aspect that the trial has where a strip is so wide, and by the trial's smallest size.
+/// What a trial sizing tells.
+struct TrialSizes {
+  std::function<double(double)> aspect_at;  ///< of elements along a strip that is so wide
+  double minimum;                           ///< of what is no feature
+  /// At these places, did strips ask for nothing. Asked for where `minimum` does not tell enough; may be
+  /// collective.
+  std::function<std::vector<double>(const std::vector<geometry::Vec3>&)> sizes_without_strips;
+};
+
+/// Judges each. Collective where the trial's functions are.
 TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
                                         const std::vector<sizing::TrailingEdge>& edges,
-                                        const std::function<double(double)>& aspect_at, double smallest_size);
+                                        const TrialSizes& trial);
 
 /// The domain with what was judged to be closed; what cannot be is graded. Nothing where none is left to
 /// close. The same on every rank; not collective.

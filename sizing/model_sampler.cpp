@@ -331,6 +331,21 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
   return elements;
 }
 
+std::vector<double> ModelSampler::sizes_without_features(std::span<const geometry::Vec3> places,
+                                                         const SizingOptions& options) const {
+  SizingOptions without = options;
+  without.feature_minimum = without.strip_minimum = options.maximum;
+  const std::vector<SizeSource> sources = sample(without, 1);
+  const double slope = std::log(options.growth);
+  std::vector<double> sizes;
+  for (const geometry::Vec3 place : places) {
+    double size = options.maximum;
+    for (const SizeSource& s : sources) size = std::min(size, s.size + slope * distance(s.point, place));
+    sizes.push_back(std::max(size, options.minimum));
+  }
+  return sizes;
+}
+
 SizeField ModelSampler::build_field(const SizingOptions& options) const {
   return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
 }

@@ -87,6 +87,9 @@ public:
   /// (SizingOptions::feature_aspect): lengths over strip_size(). Collective.
   std::vector<double> elements_along_strips(std::span<const double> aspects,
                                             const SizingOptions& options) const;
+  /// The sizes at some places where short edges, narrow faces and sharp corners ask for nothing. Collective.
+  std::vector<double> sizes_without_features(std::span<const geometry::Vec3> places,
+                                             const SizingOptions& options) const;
   /// The width of the narrowest gap that sizes below the minimum resolve; infinite where there is none, or
   /// none were looked for. The same on every rank.
   double narrowest_gap() const { return _narrowest_gap; }

@@ -240,6 +240,26 @@ TEST(TrailingEdges, GoByTheGivenSizesOfFeatures) {
   EXPECT_EQ(only_edge(size_automatically(model, request)).fate, EdgeFate::closed);
 }
 
+// How far borders may move goes by the size elements would have there, not by the smallest of all.
+TEST(TrailingEdges, MayMoveAsElementsThereAreLarge) {
+  constexpr double width = 0.0007, aspect = 5, minimum = 0.002;
+  const Model model = thin_wing(width);
+  parallel::StageClock clock;
+  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, sizing::Fields::one);
+  const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, 0.05);
+  const auto fate_of = [&](double root, double tip) {
+    const auto sizes = [&](const std::vector<geometry::Vec3>& places) {
+      std::vector<double> result;
+      for (const geometry::Vec3 place : places) result.push_back(root + place.y / 3 * (tip - root));
+      return result;
+    };
+    return judge_trailing_edges(model, edges, {[&](double) { return aspect; }, minimum, sizes}).at(0).fate;
+  };
+  EXPECT_EQ(fate_of(0.02, 0.02), EdgeFate::closed);
+  EXPECT_EQ(fate_of(0.002, 0.02), EdgeFate::graded);
+  EXPECT_EQ(fate_of(0.02, 0.002), EdgeFate::graded);
+}
+
 // A blunt end of 0.08 % of the chord: about half a drag count.
 TEST(TrailingEdges, HoernersBaseDrag) {
   EXPECT_NEAR(base_drag_counts(8e-4), 0.55, 0.01);
