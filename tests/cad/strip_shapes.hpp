@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -15,11 +16,10 @@
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Edge.hxx>
 #include <gp_Ax2.hxx>
-#include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
-#include <gp_Cylinder.hxx>
 
 namespace aeroloom::cad::shapes {
 
@@ -49,28 +49,21 @@ inline Model spline_cylinder(double degrees, double height) {
 
 /// Half a disc of radius 1 and that height, its round side between one arc below and two above.
 inline Model half_coin(double height) {
-  const auto circle = [](double z) { return gp_Circ(gp_Ax2(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1)), 1); };
-  const auto edge = [](const gp_Pnt& a, const gp_Pnt& b) { return BRepBuilderAPI_MakeEdge(a, b).Edge(); };
-  constexpr double half = std::numbers::pi, middle = 1.1;
-  const gp_Pnt low_a(1, 0, 0), low_b(-1, 0, 0), high_a(1, 0, height), high_b(-1, 0, height);
-  const TopoDS_Edge below = BRepBuilderAPI_MakeEdge(circle(0), 0, half).Edge();
-  const TopoDS_Edge above[2] = {BRepBuilderAPI_MakeEdge(circle(height), 0, middle).Edge(),
-                                BRepBuilderAPI_MakeEdge(circle(height), middle, half).Edge()};
-  BRepBuilderAPI_MakeWire side(below, edge(low_b, high_b));
-  side.Add(above[1]);
-  side.Add(above[0]);
-  side.Add(edge(high_a, low_a));
-  BRepBuilderAPI_MakeWire top(above[0], above[1]);
-  top.Add(edge(high_b, high_a));
-  const BRepBuilderAPI_MakeWire bottom(below, edge(low_b, low_a));
-  BRepBuilderAPI_MakePolygon back(low_a, low_b, high_b, high_a, Standard_True);
-  const gp_Cylinder cylinder(gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
-  return prepare_fluid(
-             compound_of<TopoDS_Face>({BRepBuilderAPI_MakeFace(cylinder, side.Wire()).Face(),
-                                       BRepBuilderAPI_MakeFace(top.Wire()).Face(),
-                                       BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(bottom).Wire()).Face(),
-                                       BRepBuilderAPI_MakeFace(back.Wire()).Face()}))
-      .model;
+  constexpr double middle = 1.1;
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(circle, 0, std::numbers::pi).Edge(),
+                               BRepBuilderAPI_MakeEdge(gp_Pnt(-1, 0, 0), gp_Pnt(1, 0, 0)).Edge());
+  const TopoDS_Face bottom = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+  TopTools_ListOfShape coin, cut;
+  coin.Append(BRepPrimAPI_MakePrism(bottom, gp_Vec(0, 0, height)).Shape());
+  const gp_Pnt beyond(2 * std::cos(middle), 2 * std::sin(middle), height);
+  cut.Append(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, height), beyond).Edge());
+  cut.Append(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, height), gp_Pnt(0, -1, height)).Edge());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(coin);
+  splitter.SetTools(cut);
+  splitter.Build();
+  return prepare_fluid(splitter.Shape()).model;
 }
 
 /// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.

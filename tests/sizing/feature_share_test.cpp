@@ -66,7 +66,7 @@ TEST(FeatureShare, StaysWithinTheBudgetAndUsesIt) {
     EXPECT_GT(some.aspect, 1);
     EXPECT_LT(some.aspect, last_aspect) << "a larger budget resolves more";
     EXPECT_TRUE(some.limited);
-    EXPECT_NEAR(some.resolved_share, all.share, 0.2 * all.share);
+    EXPECT_NEAR(some.resolved_share, all.share, 0.25 * all.share);
     last_aspect = some.aspect;
   }
   EXPECT_EQ(wedge.share(1).aspect, no_aspect);
@@ -95,7 +95,7 @@ TEST(FeatureShare, LargerBudgetsNeverGiveLess) {
 TEST(FeatureShare, ThinAndThickStripsHaveOneAspect) {
   constexpr double thick = 0.01, thin = 0.001;
   Sampled wedge(cad::shapes::tapered_wedge(thick, thin));
-  const FeatureShare some = wedge.share(2);
+  const FeatureShare some = wedge.share(5);
   ASSERT_TRUE(some.limited);
   ASSERT_GT(some.aspect, 1.2);
   ASSERT_LT(some.aspect * thick, Sampled::sizes().minimum);
