@@ -18,8 +18,8 @@ namespace {
 constexpr double finest_over_minimum = 1e-3;
 constexpr double finest_point = 0.05;    // of the minimum, at short edges and sharp corners
 constexpr double finest_over_gap = 0.5;  // of the widest gap that was sewn
-// Of the budget, by forecasts that are a few percent too low where strips take most of a mesh.
-constexpr double aim = 0.93;
+// Of the budget, by forecasts that are some percent too low where strips take most of a mesh.
+constexpr double aim = 0.9;
 // Values are tried on a logarithmic scale: steps of 4 %, up to a factor of a thousand.
 constexpr int steps_per_octave = 16, last_step = 160;
 // Tetrahedra around an element along one side of a strip: the first guess (twelve models: 40 to 90).

@@ -315,7 +315,9 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
         double sum = 0;
         for (const StripPart& part : parts) {
           const double width = 0.5 * (part.first_width + part.last_width);
-          if (width < options.minimum) sum += distance(part.first, part.last) / strip_size(width, sizes);
+          if (width >= options.minimum) continue;
+          const double size = strip_size(width, sizes), on_top = 1 - size / options.minimum;
+          sum += distance(part.first, part.last) / size * on_top * on_top;
         }
         mine.push_back({face.id, static_cast<std::int32_t>(i), sum});
       }

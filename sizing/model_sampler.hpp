@@ -84,7 +84,9 @@ public:
   std::vector<Strip> strips_narrower_than(double width, double minimum) const;
 
   /// Elements along both sides of all strips narrower than the minimum, about, for each of some aspects
-  /// (SizingOptions::feature_aspect): lengths over strip_size(). Collective.
+  /// (SizingOptions::feature_aspect): lengths over strip_size(). Each counts by what grows around it until
+  /// sizes are the minimum: where they grow by k a length from s to m, the integral of 2 pi r / (s + k r)^3
+  /// is that to infinity times (1 - s/m)^2. Collective.
   std::vector<double> elements_along_strips(std::span<const double> aspects,
                                             const SizingOptions& options) const;
   /// The sizes at some places where short edges, narrow faces and sharp corners ask for nothing. Collective.

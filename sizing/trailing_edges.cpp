@@ -13,11 +13,11 @@ namespace {
 using cad::FaceId;
 using Kind = cad::BluntEdgeFinding::Kind;
 
-constexpr double smooth_turn = 20;  // degrees: a skin goes on beyond an edge
+constexpr double largest_kink = 50;  // degrees: a skin goes on beyond an edge, but for tips and noses
 constexpr std::size_t most_faces_of_skin = 64;
 constexpr double least_end_share = 0.5;  // of the chord near by, at an end
 
-/// The faces on both sides of a strip and those that go on from them smoothly.
+/// The faces on both sides of a strip and those that go on from them, over kinks.
 std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
   std::set<FaceId> skin;
   std::vector<FaceId> next;
@@ -36,7 +36,7 @@ std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
         const cad::Edge& edge = model.edge(use.edge);
         if (edge.degenerate || edge.faces.size() != 2 || edge.faces[0] == edge.faces[1]) continue;
         const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
-        if (skin.contains(other) || turn_across(model, face, other, use.edge) > smooth_turn) continue;
+        if (skin.contains(other) || turn_across(model, face, other, use.edge) > largest_kink) continue;
         add(other);
       }
     }
