@@ -157,8 +157,7 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   EXPECT_TRUE(large.features->strips.empty());
   EXPECT_TRUE(describe(*large.features).empty());
   EXPECT_LT(large.sizes.strip_minimum, 0.0005);
-  EXPECT_NEAR(large.counts->tetrahedra, small.features->wanted_tetrahedra(),
-              0.4 * small.features->wanted_tetrahedra());
+  EXPECT_NEAR(small.features->wanted_tetrahedra(), large.counts->tetrahedra, 0.4 * large.counts->tetrahedra);
 }
 
 io::CheckpointContent as_read(const io::CheckpointDraft& draft) {

@@ -157,7 +157,7 @@ TEST(FeatureShare, GapsGetWhatStripsLeave) {
   EXPECT_EQ(all.gap_floor, 0.01);
   EXPECT_GT(all.gap_share, 1);
   EXPECT_GE(all.share, all.gap_share);
-  const FeatureShare none = slot.share(1.08 * all.share / all.gap_share);
+  const FeatureShare none = slot.share(1.12 * all.share / all.gap_share);
   EXPECT_EQ(none.gap_share, 1);
   EXPECT_EQ(none.share, all.share / all.gap_share);
 }
