@@ -2,6 +2,7 @@
 
 #include "cad/domain/close_strips.hpp"
 #include "cad/model/closed_edges.hpp"
+#include "sizing/closed_corners.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,21 @@ const char* name_of(EdgeFate fate) {
 
 }  // namespace
 
+namespace {
+
+/// Of elements along the strip at its narrowest. One that ends in a point and is nowhere wider than corners
+/// are closed by asks for nothing (sizing/closed_corners.hpp).
+double aspect_along(const cad::BluntEdge& strip, const TrialSizes& trial) {
+  if (!(strip.narrowest > 0)) return 1 / closing_share_of_chord;
+  const bool is_pointed = strip.ends[0].empty() || strip.ends[1].empty();
+  sizing::SizingOptions options;
+  options.minimum = trial.minimum;
+  if (is_pointed && strip.widest < sizing::closing_gap(options)) return trial.minimum / strip.narrowest;
+  return trial.aspect_at(strip.narrowest);
+}
+
+}  // namespace
+
 TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
                                         const std::vector<sizing::TrailingEdge>& edges,
                                         const TrialSizes& trial) {
@@ -98,7 +114,7 @@ TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
                     strip.place,     strip.length,
                     strip.narrowest, strip.widest,
                     each.chord,      each.share};
-    edge.aspect = strip.narrowest > 0 ? trial.aspect_at(strip.narrowest) : 1 / closing_share_of_chord;
+    edge.aspect = aspect_along(strip, trial);
     judge(edge, strip, trial);
     report.push_back(std::move(edge));
   }

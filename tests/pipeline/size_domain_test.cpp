@@ -259,6 +259,26 @@ TEST(TrailingEdges, MayMoveAsElementsThereAreLarge) {
   EXPECT_EQ(fate_of(0.02, 0.002), EdgeFate::graded);
 }
 
+// So thin as corners are closed by and ending in a point: sizes ask for nothing there, and it is not
+// resolved.
+TEST(TrailingEdges, ThatEndInAPointAndAskForNothingAreClosed) {
+  constexpr double minimum = 0.02;
+  cad::DomainOptions options;
+  options.kind = cad::DomainKind::body;
+  const Model model =
+      cad::shapes::prepare(cad::shapes::blunt_wing({{0, 0, 0.0005}, {3, 0, 0}}), options).model;
+  parallel::StageClock clock;
+  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, sizing::Fields::one);
+  const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, minimum);
+  ASSERT_EQ(edges.size(), 1u);
+  const auto sizes = [](const std::vector<geometry::Vec3>& places) {
+    return std::vector<double>(places.size(), minimum);
+  };
+  const auto resolved = [](double) { return 1.0; };
+  EXPECT_EQ(judge_trailing_edges(model, edges, {resolved, minimum, sizes}).at(0).fate, EdgeFate::closed);
+  EXPECT_EQ(judge_trailing_edges(model, edges, {resolved, 0.005, sizes}).at(0).fate, EdgeFate::kept);
+}
+
 // A blunt end of 0.08 % of the chord: about half a drag count.
 TEST(TrailingEdges, HoernersBaseDrag) {
   EXPECT_NEAR(base_drag_counts(8e-4), 0.55, 0.01);
