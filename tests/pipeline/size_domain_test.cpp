@@ -271,7 +271,7 @@ TEST(TrailingEdges, ThatEndInAPointAndAskForNothingAreClosed) {
   const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, sizing::Fields::one);
   const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, minimum);
   ASSERT_EQ(edges.size(), 1u);
-  const auto sizes = [](const std::vector<geometry::Vec3>& places) {
+  const auto sizes = [&](const std::vector<geometry::Vec3>& places) {
     return std::vector<double>(places.size(), minimum);
   };
   const auto resolved = [](double) { return 1.0; };
