@@ -21,7 +21,7 @@ inline CaseSurface mesh_surface(const parallel::Communicator& communicator, cons
   cad::DomainReport domain;
   const cad::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
   const pipeline::SizedDomain sized =
-      pipeline::size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
+      pipeline::size_domain(communicator, model, input.sizing, pipeline::Simplification::of(input), clock);
   CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface, clock), {}};
   result.numbering = mesh::number_mesh(communicator, result.surface.mesh);
   return result;

@@ -41,7 +41,7 @@ void run(const Communicator& communicator, const char* file) {
   clock.end();
   clock.begin("sizing");
   const pipeline::SizedDomain sized =
-      pipeline::size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
+      pipeline::size_domain(communicator, model, input.sizing, pipeline::Simplification::of(input), clock);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   if (!communicator.is_root()) return;

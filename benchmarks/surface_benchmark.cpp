@@ -224,7 +224,7 @@ void run(const Communicator& communicator, const pipeline::Case& input, const Re
   clock.end();
   clock.begin("sizing");
   const pipeline::SizedDomain sized =
-      pipeline::size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
+      pipeline::size_domain(communicator, model, input.sizing, pipeline::Simplification::of(input), clock);
   clock.end();
   clock.begin("surface");
   const surface::SurfaceMesh surface =

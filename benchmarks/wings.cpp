@@ -1,7 +1,8 @@
 // wings: writes half wings with thin blunt trailing edges, to see what meshes make of them.
 //
-// usage: wings separate|tapered|partly_sharp FILE
+// usage: wings separate|tapered|partly_sharp FILE [TRAILING_EDGE]
 //
+// TRAILING_EDGE: its thickness over the chord, at the root of partly_sharp, instead of:
 // separate: IGES, faces that share no edges; rectangular, trailing edge 0.3 % of the chord.
 // tapered: STEP; swept, the tip a tenth of the root, trailing edge 0.3 % of the chord.
 // partly_sharp: STEP; trailing edge 0.2 % of the chord at the root, sharp at the tip.
@@ -124,16 +125,17 @@ void write_solid(const std::vector<TopoDS_Face>& faces, const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string kind = argc == 3 ? argv[1] : "";
+  const std::string kind = argc == 3 || argc == 4 ? argv[1] : "";
   try {
+    const auto edge = [&](double usual) { return argc == 4 ? std::stod(argv[3]) : usual; };
     if (kind == "separate") {
-      write_separate(faces_between({0, 0, 1000, 0.003}, {0, 3000, 1000, 0.003}), argv[2]);
+      write_separate(faces_between({0, 0, 1000, edge(0.003)}, {0, 3000, 1000, edge(0.003)}), argv[2]);
     } else if (kind == "tapered") {
-      write_solid(faces_between({0, 0, 1000, 0.003}, {1200, 3000, 100, 0.003}), argv[2]);
+      write_solid(faces_between({0, 0, 1000, edge(0.003)}, {1200, 3000, 100, edge(0.003)}), argv[2]);
     } else if (kind == "partly_sharp") {
-      write_solid(faces_between({0, 0, 1000, 0.002}, {600, 3000, 500, 0}), argv[2]);
+      write_solid(faces_between({0, 0, 1000, edge(0.002)}, {600, 3000, 500, 0}), argv[2]);
     } else {
-      std::fprintf(stderr, "usage: wings separate|tapered|partly_sharp FILE\n");
+      std::fprintf(stderr, "usage: wings separate|tapered|partly_sharp FILE [TRAILING_EDGE]\n");
       return 2;
     }
   } catch (const std::exception& error) {

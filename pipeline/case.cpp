@@ -27,7 +27,7 @@ void check_geometry(const KeyTable& keys, const CaseDraft& draft, const std::str
   const char* const needless = draft.sharpen_width       ? "sharpen_width"
                                : !trailing.faces.empty() ? "sharpen_faces"
                                                          : nullptr;
-  if (needless != nullptr && trailing.treatment == cad::TrailingEdges::keep) {
+  if (needless != nullptr && trailing.treatment != cad::TrailingEdges::sharpen) {
     throw CaseError(at(needless) +
                     fmt::format("'geometry.{}' needs 'geometry.trailing_edges: sharpen'", needless));
   }

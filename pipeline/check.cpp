@@ -32,10 +32,11 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
                       const Case& input) {
   parallel::StageClock clock;
   Forecast forecast;
-  const SizedDomain sized = size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
+  const SizedDomain sized = size_domain(communicator, model, input.sizing, Simplification::of(input), clock);
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined.changes;
   forecast.features = sized.features;
+  forecast.edges = sized.edges;
   forecast.bounded = sized.bounded;
   forecast.counts =
       sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
@@ -110,6 +111,8 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
 
 std::string describe_forecast(const Forecast& forecast, int ranks) {
   std::string text;
+  for (const JudgedEdge& edge : forecast.edges)
+    if (edge.fate != EdgeFate::kept) text += "      " + edge.what + "\n";
   for (const std::string& line : shown_changes(forecast.joined, "check.json: forecast.joined_faces"))
     text += "a run joins: " + line + "\n";
   const std::string features = forecast.features ? describe(*forecast.features) : std::string();
@@ -179,6 +182,7 @@ Json forecast_json(const Forecast& forecast) {
           {"piece_tets", forecast.piece_tets},
           {"features", forecast.features ? to_json(*forecast.features) : Json()},
           {"bounded_by_minimum", to_json(forecast.bounded)},
+          {"trailing_edges", to_json(forecast.edges)},
           {"joined_faces", to_json(forecast.joined)}};
 }
 

@@ -6,6 +6,7 @@
 #include "pipeline/bounded_faces.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
+#include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
 
@@ -29,6 +30,7 @@ struct Forecast {
   std::optional<FeatureReport> features;
   std::vector<NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
   cad::Changes joined;              ///< narrow faces that would vanish in their neighbours
+  TrailingEdgeReport edges;         ///< what would become of blunt trailing edges
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together

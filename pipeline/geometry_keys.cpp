@@ -54,8 +54,15 @@ void declare_trailing_edges(KeyTable& keys, CaseDraft& draft) {
   cad::TrailingEdgeOptions& trailing = draft.result.domain.trailing_edges;
   keys.choice<cad::TrailingEdges>(
       "trailing_edges", trailing.treatment,
-      {{"keep", cad::TrailingEdges::keep}, {"sharpen", cad::TrailingEdges::sharpen}},
-      "`sharpen`: blunt trailing edges are closed to a curve half-way between their two long borders, which "
+      {{"auto", cad::TrailingEdges::automatic},
+       {"keep", cad::TrailingEdges::keep},
+       {"sharpen", cad::TrailingEdges::sharpen}},
+      "`auto`: blunt trailing edges are meshed as they are where elements along them, within "
+      "`sizing.feature_budget` (or `sizing.feature_minimum`), are at most 2.7 times as long as they are "
+      "wide; else "
+      "closed where that moves their borders by at most 0.04 % of the local chord; else elements are longer "
+      "([Trailing edges](trailing_edges.md#what-auto-decides)). `sharpen`: blunt trailing edges are closed "
+      "to a curve half-way between their two long borders, which "
       "saves the small tetrahedra that their thickness asks for "
       "([Blunt trailing edges](trailing_edges.md#closing-them)). `keep`: they are meshed as they are.");
   keys.texts("sharpen_faces", trailing.faces,

@@ -142,14 +142,14 @@ private:
       note_sizes(sized);
       return sized;
     }
-    SizedDomain sized = build_sizes(domain, _input.narrow_faces);
+    SizedDomain sized = build_sizes(domain, Simplification::of(_input));
     _checkpoints->keep(SavedStage::sizing,
                        [&] { return _communicator.is_root() ? pack_sizes(sized) : io::CheckpointDraft(); });
     return sized;
   }
 
-  SizedDomain build_sizes(const cad::Model& domain, NarrowFaces narrow_faces) {
-    SizedDomain sized = size_domain(_communicator, domain, _input.sizing, narrow_faces, _record.clock);
+  SizedDomain build_sizes(const cad::Model& domain, const Simplification& simplification) {
+    SizedDomain sized = size_domain(_communicator, domain, _input.sizing, simplification, _record.clock);
     note_sizes(sized);
     return sized;
   }
@@ -161,6 +161,7 @@ private:
     for (cad::FaceId f = 0; f < sized.model.face_count(); ++f)
       _record.face_names.push_back(sized.model.face(f).name);
     _record.joined_faces = sized.joined.changes;
+    _record.trailing_edges = sized.edges;
     _record.features = sized.features;
     _record.bounded_faces = sized.bounded;
     log_sizing(_record);
@@ -172,9 +173,11 @@ private:
   FinishedSurface find_or_build_surface(const cad::Model& domain, SizedDomain& sized) {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::surface, "surface")) {
       const cad::Changes joined_before = sized.joined.changes;
+      const bool closed_before = has_closed(sized.edges);
       if (std::optional<surface::SurfaceMesh> known =
               unpack_surface(_communicator, std::move(*found), domain, sized)) {
-        if (sized.joined.changes.size() != joined_before.size()) note_sizes(sized);
+        if (sized.joined.changes.size() != joined_before.size() || has_closed(sized.edges) != closed_before)
+          note_sizes(sized);
         _record.clock.add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
         return finish_surface(sized.model, std::move(*known));
       }
@@ -182,8 +185,10 @@ private:
       parallel::log_info("checkpoint: that surface is of other sizes: done anew");
     }
     const std::size_t joined_before = sized.joined.groups.size();
+    const bool closed_before = has_closed(sized.edges);
     surface::SurfaceMesh made = build_surface_or_advise(domain, sized);
-    const bool sizes_are_other = sized.joined.groups.size() != joined_before;
+    const bool sizes_are_other =
+        sized.joined.groups.size() != joined_before || has_closed(sized.edges) != closed_before;
     FinishedSurface finished = finish_surface(sized.model, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
       return pack_surface(_communicator,
@@ -208,10 +213,10 @@ private:
                                  _checkpoints->tasks(SavedStage::surface));
   }
 
-  /// The surface of the sized domain. Where joined faces cannot be meshed, that of the model as it was, and
-  /// `sized` becomes its.
+  /// The surface of the sized domain. Where joined faces or closed edges cannot be meshed, that of the model
+  /// as it was, and `sized` becomes its.
   surface::SurfaceMesh build_surface(const cad::Model& domain, SizedDomain& sized) {
-    if (sized.joined.groups.empty()) return build_surface(sized);
+    if (sized.joined.groups.empty() && !has_closed(sized.edges)) return build_surface(sized);
     try {
       return build_surface(sized);
     } catch (const parallel::CollectiveError& error) {
@@ -220,7 +225,7 @@ private:
     } catch (const surface::SurfaceError& error) {
       log_surface_again(error.what());
     }
-    sized = build_sizes(domain, NarrowFaces::keep);
+    sized = build_sizes(domain, {NarrowFaces::keep, cad::TrailingEdges::keep});
     return build_surface(sized);
   }
 

@@ -14,6 +14,7 @@
 #include "pipeline/exit_code.hpp"
 #include "pipeline/picture.hpp"
 #include "pipeline/size_conformity.hpp"
+#include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
 #include "surface/surface_mesher.hpp"
@@ -57,6 +58,7 @@ struct RunRecord {
   std::int32_t regions = 0, faces = 0, edges = 0;
   std::vector<std::string> face_names;       ///< by face id
   std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
+  TrailingEdgeReport trailing_edges;         ///< what became of blunt ones
   cad::Changes joined_faces;                 ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;

@@ -102,23 +102,45 @@ void tell_missed_target(const sizing::ModelSampler& sampler, const parallel::Com
       chosen.counts.tetrahedra, costs.empty() ? "" : "; ", costs, remedy));
 }
 
+/// What a model has become on the way to its sizes, and what they may be.
+struct Trial {
+  sizing::SizingOptions sizes;               ///< where nothing is left to choose
+  std::optional<sizing::Prospect> prospect;  ///< else
+
+  sizing::SizingOptions options() const { return prospect ? prospect->with_features() : sizes; }
+};
+
+/// What trailing edges are judged by. Its functions refer to the sampler.
+TrialSizes tell(const sizing::ModelSampler& sampler, const Trial& trial) {
+  const sizing::SizingOptions options = trial.options();
+  return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
+          [&sampler, options](const std::vector<geometry::Vec3>& places) {
+            return sampler.sizes_without_features(places, options);
+          }};
+}
+
+Trial try_sizes(const sizing::ModelSampler& sampler, const SizingRequest& request,
+                const std::optional<sizing::SizingOptions>& near) {
+  const std::optional<double> target = target_of(request);
+  if (!target) return {sizing::with_given({}, request), {}};
+  return {{}, sizing::prospect_sizes(sampler, *target, request.feature_budget, near, request)};
+}
+
 /// The sized domain of the sampler's model, which stays as it is.
 SizedDomain finish(const parallel::Communicator& communicator, const sizing::ModelSampler& sampler,
-                   const SizingRequest& request, const std::optional<sizing::SizingOptions>& near,
-                   JoinedFaces joined) {
-  const std::optional<double> target = target_of(request);
-  if (!target) {
-    const sizing::SizingOptions sizes = sizing::with_given({}, request);
+                   const SizingRequest& request, const Trial& trial, JoinedFaces joined) {
+  if (!trial.prospect) {
     return {sampler.model(),
-            sizes,
-            sampler.build_field(sizes),
+            trial.sizes,
+            sampler.build_field(trial.sizes),
             std::move(joined),
             {},
             {},
-            report_bounded_faces(sampler, sizes)};
+            report_bounded_faces(sampler, trial.sizes)};
   }
-  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, *target, request.feature_budget, near, request);
-  tell_missed_target(sampler, communicator, chosen, request, *target);
+  const double target = *target_of(request);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request);
+  tell_missed_target(sampler, communicator, chosen, request, target);
   std::optional<FeatureReport> features;
   if (!request.holds_features())
     features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
@@ -127,24 +149,48 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
           chosen.counts,   std::move(features), std::move(bounded)};
 }
 
-}  // namespace
-
-SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
-                        const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
+/// `near`: sizes for a model that is almost the same, where they are known and the target is to be met.
+SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
+                             const SizingRequest& request, const Simplification& simplification,
+                             parallel::StageClock& clock, std::optional<sizing::SizingOptions> near) {
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
-  if (narrow_faces == NarrowFaces::keep) return finish(communicator, sampler, request, {}, {});
-  // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
-  std::optional<sizing::SizingOptions> near;
-  if (target) near = sizing::estimate_sizes(sampler, *target, request);
-  const double width = near ? near->minimum : *request.minimum;
+  const bool join = simplification.narrow_faces == NarrowFaces::join;
+  const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;
+  // What is narrow is told by an estimate; sizes are chosen for what is left of the model.
+  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(sampler, *target, request);
+  const double width = near ? near->minimum : request.minimum.value_or(0);
+  std::vector<sizing::TrailingEdge> edges;
+  if (automatic) edges = sizing::find_trailing_edges(sampler, width);
   JoinedFaces what;
-  const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, what);
-  if (!joined) return finish(communicator, sampler, request, near, {});
-  const sizing::ModelSampler of_joined(std::move(sampler), *joined);
-  return finish(communicator, of_joined, request, near, std::move(what));
+  std::optional<sizing::ModelSampler> of_joined;
+  if (join) {
+    if (const auto joined = join_narrow_faces(communicator, model, width, clock, what))
+      of_joined.emplace(std::move(sampler), *joined);
+  }
+  const sizing::ModelSampler& sampled = of_joined ? *of_joined : sampler;
+  const Trial trial = try_sizes(sampled, request, near);
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(sampled, trial));
+  std::optional<cad::Model> closed;
+  parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
+  if (closed && trial.prospect) near = trial.prospect->options;
+  SizedDomain sized =
+      closed ? size_domain_near(communicator, *closed, request,
+                                {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, near)
+             : finish(communicator, sampled, request, trial, std::move(what));
+  judge_again(report, sized.sizes);
+  sized.edges = std::move(report);
+  return sized;
+}
+
+}  // namespace
+
+SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
+                        const SizingRequest& request, const Simplification& simplification,
+                        parallel::StageClock& clock) {
+  return size_domain_near(communicator, model, request, simplification, clock, {});
 }
 
 }  // namespace aeroloom::pipeline

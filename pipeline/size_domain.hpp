@@ -7,6 +7,7 @@
 #include "parallel/timers.hpp"
 #include "pipeline/bounded_faces.hpp"
 #include "pipeline/case.hpp"
+#include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
 #include "sizing/size_field.hpp"
 
@@ -24,20 +25,34 @@ struct JoinedFaces {
   static constexpr auto fields() { return std::tuple(&JoinedFaces::groups, &JoinedFaces::changes); }
 };
 
+/// What may become of a model so that it needs no small elements.
+struct Simplification {
+  NarrowFaces narrow_faces = NarrowFaces::join;
+  cad::TrailingEdges trailing_edges = cad::TrailingEdges::keep;  ///< `sharpen` was done to the model before
+
+  static Simplification of(const Case& input) {
+    return {input.narrow_faces, input.domain.trailing_edges.treatment};
+  }
+};
+
 struct SizedDomain {
-  cad::Model model;  ///< faces narrower than the smallest size joined with neighbours, if wanted
+  cad::Model model;  ///< trailing edges closed, then faces narrower than the smallest size joined with
+                     ///< neighbours, if wanted
   sizing::SizingOptions sizes;
   sizing::SizeField field;
   JoinedFaces joined;
   std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
   std::optional<FeatureReport> features;          ///< where sizes at features were chosen
   std::vector<NamedBound> bounded;                ///< faces on which the minimum wins over curvature
+  TrailingEdgeReport edges = {};                  ///< where that was looked at
 };
 
-/// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. What the user did not
+/// Resolves sizes, closes trailing edges that trial sizes do not resolve where that moves little, joins
+/// narrow faces, as the simplification allows, and builds the field. What the user did not
 /// ask for is chosen from the model; bounds that the user gave bind the choice. The same on every rank.
 /// Collective. Throws std::invalid_argument where what was asked for contradicts what was chosen.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
-                        const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock);
+                        const SizingRequest& request, const Simplification& simplification,
+                        parallel::StageClock& clock);
 
 }  // namespace aeroloom::pipeline

@@ -22,6 +22,8 @@ void log_geometry(const cad::Model& model, const RunRecord& record) {
 }
 
 void log_sizing(const RunRecord& record) {
+  for (const JudgedEdge& edge : record.trailing_edges)
+    if (edge.fate != EdgeFate::kept) log_info("sizing: " + edge.what);
   for (const std::string& line : shown_changes(record.joined_faces, "report.json: sizing.joined_faces"))
     log_info("sizing: " + line);
   log_info(
@@ -113,7 +115,8 @@ void log_needles(const RunRecord& record) {
 }
 
 void log_surface_again(const std::string& reason) {
-  log_info(fmt::format("surface: with joined faces: {}; again without", with_keys(reason)));
+  log_info(fmt::format("surface: with joined faces and closed trailing edges: {}; again without",
+                       with_keys(reason)));
 }
 
 void log_decompose(const RunRecord& record) {

@@ -38,10 +38,11 @@ struct SizesRecord {
   std::optional<sizing::PredictedCounts> counts;
   std::optional<FeatureReport> features;
   std::vector<NamedBound> bounded;
+  TrailingEdgeReport edges;
 
   static constexpr auto fields() {
     return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
-                      &SizesRecord::features, &SizesRecord::bounded);
+                      &SizesRecord::features, &SizesRecord::bounded, &SizesRecord::edges);
   }
 };
 
@@ -79,6 +80,8 @@ parallel::Digest digest_of(const SizedDomain& sized) {
   digester.value(field.low).value(field.high);
   for (const std::vector<cad::FaceId>& group : sized.joined.groups)
     digester.items(std::span<const cad::FaceId>(group));
+  for (const JudgedEdge& edge : sized.edges)
+    if (edge.fate == EdgeFate::closed) digester.value(edge.face);
   return digester.result();
 }
 
@@ -94,21 +97,22 @@ cad::Domain unpack_domain_product(CheckpointContent content) {
 
 CheckpointDraft pack_sizes(const SizedDomain& sized) {
   return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features,
-                              sized.bounded}),
+                              sized.bounded, sized.edges}),
           {}};
 }
 
 SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointContent content,
                          const cad::Model& domain) {
   auto record = from_wire<SizesRecord>(content.common);
-  SizedDomain sized{domain,
+  SizedDomain sized{close_again(domain, record.edges),
                     record.sizes,
                     sizing::SizeField::unpack(communicator, record.field),
                     std::move(record.joined),
                     record.counts,
                     std::move(record.features),
-                    std::move(record.bounded)};
-  if (!sized.joined.groups.empty()) sized.model = cad::join_faces(domain, sized.joined.groups);
+                    std::move(record.bounded),
+                    std::move(record.edges)};
+  if (!sized.joined.groups.empty()) sized.model = cad::join_faces(sized.model, sized.joined.groups);
   return sized;
 }
 

@@ -10,16 +10,19 @@ namespace aeroloom::pipeline {
 namespace {
 
 constexpr std::size_t shown_strips = 5;
+/// Triangles that are longer than wide by less have angles above the 28 degrees that improvement aims at.
+constexpr double telling_aspect = 1.9;
 
 }  // namespace
 
 FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
                               double tetrahedra) {
   FeatureReport report{share, tetrahedra, {}};
-  if (!share.limited) return report;
-  for (const sizing::Strip& strip : sampler.strips_narrower_than(share.floor, share.minimum)) {
+  if (!share.limited || share.aspect < telling_aspect) return report;
+  const double widest = share.minimum / telling_aspect;
+  for (const sizing::Strip& strip : sampler.strips_narrower_than(widest, share.minimum)) {
     report.strips.push_back({sampler.model().face(strip.face).name, strip.width, strip.place,
-                             std::atan(strip.width / share.floor) * 180 / std::numbers::pi});
+                             std::atan(1 / share.aspect_at(strip.width)) * 180 / std::numbers::pi});
   }
   return report;
 }
@@ -40,10 +43,13 @@ std::string describe_share(const FeatureReport& report) {
 
 std::string describe(const FeatureReport& report) {
   if (report.strips.empty()) return {};
+  const std::string longer = report.share.aspect == sizing::no_aspect
+                                 ? fmt::format("{:.3g} long", report.share.minimum)
+                                 : fmt::format("{:.2g} times as long as wide", report.share.aspect);
   std::string text = fmt::format(
-      "{} face(s) have strips narrower than {:.3g}, the smallest size that features get for {:.3g} "
-      "tetrahedra; resolved, they would take about {:.2g}. Triangles along them are longer than wide:",
-      report.strips.size(), report.share.floor, report.tetrahedra, report.wanted_tetrahedra());
+      "{} face(s) have strips that {:.3g} tetrahedra do not resolve: triangles along them are {}; resolved, "
+      "they would take about {:.2g}:",
+      report.strips.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
   for (std::size_t i = 0; i < std::min(shown_strips, report.strips.size()); ++i) {
     const UnresolvedStrip& strip = report.strips[i];
     text += fmt::format(" '{}' is {:.3g} wide at ({:.6g}, {:.6g}, {:.6g}), angles from about {:.2g} degrees;",
@@ -67,7 +73,14 @@ nlohmann::ordered_json to_json(const FeatureReport& report) {
                       {"at", to_json(strip.place)},
                       {"surface_degrees", strip.surface_degrees}});
   }
-  return {{"smallest_size", report.share.floor},
+  const bool nothing = report.share.aspect == sizing::no_aspect;
+  double smallest = nothing ? report.share.minimum : report.share.floor;
+  if (!strips.empty()) {
+    const double width = report.strips.front().width;
+    smallest = width * report.share.aspect_at(width);
+  }
+  return {{"aspect", nothing ? nlohmann::ordered_json() : nlohmann::ordered_json(report.share.aspect)},
+          {"smallest_size", smallest},
           {"share", report.share.share},
           {"smallest_gap_size", report.share.gap_floor},
           {"gap_share", report.share.gap_share},

@@ -139,8 +139,7 @@ private:
   /// kept.
   double judge(double body_size, const Preset& preset) {
     SizingOptions options = sizes_for(body_size, preset, _given);
-    if (_features.floor > 0) set_feature_floor(options, _features.floor);
-    if (_features.gap_floor > 0) set_gap_floor(options, _features.gap_floor);
+    set_features(options, _features);
     std::optional<Trial> trial;
     if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
     const std::optional<double> tetrahedra =
@@ -217,22 +216,40 @@ SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahed
   return search.options();
 }
 
-ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
-                         const std::optional<SizingOptions>& near, const GivenSizes& given) {
+SizingOptions Prospect::with_features() const {
+  SizingOptions sizes = options;
+  set_features(sizes, features);
+  return sizes;
+}
+
+Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+                        const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
   const double coarser = coarsening(target_tetrahedra);
   Search base(sampler, target_tetrahedra, coarser, {}, given);
   const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(sampler);
   base.run(start, near ? near_enough : close_enough, most_rounds);
-  FeatureShare features;
+  Prospect prospect{base.options(), base.body_size(), base.is_out_of_reach(), {}};
   if (!given.holds_features()) {
-    features = share_of_features(sampler, base.options(), feature_budget, coarser,
-                                 leaves_for(target_tetrahedra * feature_budget));
+    prospect.features = share_of_features(sampler, base.options(), feature_budget, coarser,
+                                          leaves_for(target_tetrahedra * feature_budget));
   }
-  Search search(sampler, target_tetrahedra, 1, features, given);
-  search.run(base.body_size(), features.share > little_share ? near_enough_with_features : near_enough,
-             base.is_out_of_reach() ? rounds_out_of_reach : most_rounds);
+  return prospect;
+}
+
+ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
+                         const GivenSizes& given) {
+  Search search(sampler, target_tetrahedra, 1, prospect.features, given);
+  search.run(prospect.body_size,
+             prospect.features.share > little_share ? near_enough_with_features : near_enough,
+             prospect.is_out_of_reach ? rounds_out_of_reach : most_rounds);
   return search.best();
+}
+
+ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+                         const std::optional<SizingOptions>& near, const GivenSizes& given) {
+  return choose_sizes(sampler, target_tetrahedra,
+                      prospect_sizes(sampler, target_tetrahedra, feature_budget, near, given), given);
 }
 
 std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenSizes& chosen,

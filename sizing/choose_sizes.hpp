@@ -46,6 +46,16 @@ struct ChosenSizes {
 SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra,
                              const GivenSizes& given = {});
 
+/// What coarse fields tell of the sizes to choose, before any is built that is as fine as asked for.
+struct Prospect {
+  SizingOptions options;  ///< where no feature is finer than the minimum
+  double body_size;       ///< from which the bounds that are not given follow
+  bool is_out_of_reach;   ///< nothing came near the target
+  FeatureShare features;  ///< as given options have them where features' sizes are given
+  /// `options` with what features ask for.
+  SizingOptions with_features() const;
+};
+
 /// Searches the one size from which all bounds that are not given follow until the predicted count is within
 /// some percent of the target where no feature asks for less than the minimum. What finer features ask for
 /// comes on top, up to `feature_budget` times the target in all: the rest of the model has the sizes it would
@@ -56,6 +66,14 @@ SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahed
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
+
+/// The first half of that. Collective.
+Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+                        const std::optional<SizingOptions>& near, const GivenSizes& given);
+
+/// The second half. Collective.
+ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
+                         const GivenSizes& given);
 
 /// Where the minimum is given and does not bind them.
 inline constexpr const char* of_features = "features";

@@ -56,7 +56,7 @@ std::vector<SizeSource> corner_sources(const cad::Model& model, const cad::FaceC
     const auto opening = cad::open_corner(model, corner, reach);
     if (!opening || (k == 0 && opening->degrees >= sharp)) break;
     if (opening->degrees < closed && opening->width < closing_gap(options)) continue;
-    const double size = std::max(opening->width, smallest_feature_size(options));
+    const double size = feature_size(opening->width, smallest_feature_size(options), options);
     if (size >= options.maximum || opening->degrees > 2 * sharp) break;
     for (const geometry::Vec3 point : opening->points) sources.push_back({point, size});
   }

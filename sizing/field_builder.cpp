@@ -43,6 +43,7 @@ void check_options(const SizingOptions& options) {
           options.growth);
   require(options.curvature_angle > 0 && options.curvature_angle < 180,
           "curvature_angle must lie in (0, 180)", options.curvature_angle);
+  require(options.feature_aspect >= 1, "feature_aspect must be at least 1", options.feature_aspect);
   require(options.chordal_deviation >= 0, "chordal_deviation must not be negative",
           options.chordal_deviation);
   require(options.surface_maximum == 0 || options.surface_maximum >= options.minimum,

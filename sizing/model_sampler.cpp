@@ -53,8 +53,11 @@ bool only_far_field(const cad::Edge& edge, const std::vector<bool>& far_field) {
   return std::all_of(edge.faces.begin(), edge.faces.end(), [&](FaceId f) { return far_field[f]; });
 }
 
-/// Widths that are told apart, over the widest.
+/// Widths are measured at places this far apart, at least, over the widest.
 constexpr double finest_strip = 0.01;
+/// Parts of strips by which their elements are counted are this many times as long as wide, at most.
+constexpr double aspect_of_parts = 8;
+constexpr double largest_aspect = 1e30;  // finite, for widths of nothing
 
 /// Sizes that differ by rounding alone.
 bool is_same(double a, double b) {
@@ -66,7 +69,7 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
   return is_same(a.minimum, b.minimum) && is_same(a.maximum, b.maximum) &&
          is_same(a.surface_maximum, b.surface_maximum) && is_same(a.growth, b.growth) &&
          is_same(a.curvature_angle, b.curvature_angle) && is_same(a.proximity, b.proximity) &&
-         is_same(a.chordal_deviation, b.chordal_deviation) &&
+         is_same(a.chordal_deviation, b.chordal_deviation) && is_same(a.feature_aspect, b.feature_aspect) &&
          is_same(smallest_feature_size(a), smallest_feature_size(b)) &&
          is_same(smallest_strip_size(a), smallest_strip_size(b)) &&
          is_same(smallest_gap_size(a), smallest_gap_size(b));
@@ -273,10 +276,12 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (const OwnFace& face : _faces) {
-      const auto sources = strip_sources(_model, face.facets, face.closed_corners, options, width);
-      const auto narrowest = std::min_element(sources.begin(), sources.end(),
-                                              [](const auto& a, const auto& b) { return a.size < b.size; });
-      if (narrowest != sources.end()) mine.push_back({face.id, narrowest->size, narrowest->point});
+      Strip narrowest{face.id, width, {}};
+      for (const StripPart& part : strip_parts(_model, face.facets, face.closed_corners, options, width)) {
+        if (part.first_width < narrowest.width) narrowest = {face.id, part.first_width, part.first};
+        if (part.last_width < narrowest.width) narrowest = {face.id, part.last_width, part.last};
+      }
+      if (narrowest.width < width) mine.push_back(narrowest);
     }
   });
   std::vector<Strip> all = _communicator.all_gather_items<Strip>(mine);
@@ -286,43 +291,61 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
   return all;
 }
 
-std::vector<double> ModelSampler::elements_along_strips(std::span<const double> floors,
-                                                        double minimum) const {
+std::vector<double> ModelSampler::elements_along_strips(std::span<const double> aspects,
+                                                        const SizingOptions& options) const {
   struct FaceElements {
     FaceId face;
-    std::size_t floor;
+    std::int32_t aspect;
     double elements;
 
     static constexpr auto fields() {
-      return std::tuple(&FaceElements::face, &FaceElements::floor, &FaceElements::elements);
+      return std::tuple(&FaceElements::face, &FaceElements::aspect, &FaceElements::elements);
     }
   };
-  SizingOptions options;
-  options.minimum = options.maximum = minimum;
-  options.strip_minimum = *std::min_element(floors.begin(), floors.end());
+  SizingOptions rough = options;
+  rough.feature_aspect = aspect_of_parts;
   std::vector<FaceElements> mine;
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    SizingOptions sizes = options;
     for (const OwnFace& face : _faces) {
-      const auto parts = strip_parts(_model, face.facets, face.closed_corners, options, minimum);
-      for (std::size_t i = 0; i < floors.size() && !parts.empty(); ++i) {
+      const auto parts = strip_parts(_model, face.facets, face.closed_corners, rough, options.minimum);
+      for (std::size_t i = 0; i < aspects.size() && !parts.empty(); ++i) {
+        sizes.feature_aspect = std::min(aspects[i], largest_aspect);
         double sum = 0;
         for (const StripPart& part : parts) {
           const double width = 0.5 * (part.first_width + part.last_width);
-          if (width < minimum) sum += distance(part.first, part.last) / std::max(width, floors[i]);
+          if (width >= options.minimum) continue;
+          const double size = strip_size(width, sizes), on_top = 1 - size / options.minimum;
+          sum += distance(part.first, part.last) / size * on_top * on_top;
         }
-        mine.push_back({face.id, i, sum});
+        mine.push_back({face.id, static_cast<std::int32_t>(i), sum});
       }
     }
   });
   std::vector<FaceElements> all = _communicator.all_gather_items<FaceElements>(mine);
   // Summed in the order of faces, whatever the number of ranks.
   std::sort(all.begin(), all.end(), [](const FaceElements& a, const FaceElements& b) {
-    return std::pair(a.face, a.floor) < std::pair(b.face, b.floor);
+    return std::pair(a.face, a.aspect) < std::pair(b.face, b.aspect);
   });
-  std::vector<double> elements(floors.size());
-  for (const FaceElements& face : all) elements[face.floor] += face.elements;
+  std::vector<double> elements(aspects.size());
+  for (const FaceElements& face : all) elements[face.aspect] += face.elements;
   return elements;
+}
+
+std::vector<double> ModelSampler::sizes_without_features(std::span<const geometry::Vec3> places,
+                                                         const SizingOptions& options) const {
+  SizingOptions without = options;
+  without.feature_minimum = without.strip_minimum = options.maximum;
+  const std::vector<SizeSource> sources = sample(without, 1);
+  const double slope = std::log(options.growth);
+  std::vector<double> sizes;
+  for (const geometry::Vec3 place : places) {
+    double size = options.maximum;
+    for (const SizeSource& s : sources) size = std::min(size, s.size + slope * distance(s.point, place));
+    sizes.push_back(std::max(size, options.minimum));
+  }
+  return sizes;
 }
 
 SizeField ModelSampler::build_field(const SizingOptions& options) const {

@@ -79,18 +79,27 @@ public:
   /// Of the face, as its facets have it.
   double area(cad::FaceId face) const { return _areas[face]; }
 
-  /// One for each face with strips narrower than that, by width; widths below a hundredth of it count as
-  /// that. `minimum` tells how far corners are closed. Collective.
+  /// One for each face with strips narrower than that, by width: the least distance between two of its edges.
+  /// `minimum` tells how far corners are closed. Collective.
   std::vector<Strip> strips_narrower_than(double width, double minimum) const;
 
-  /// Elements along both sides of all strips narrower than `minimum`, about, for each of some smallest sizes
-  /// that strips may ask for: their lengths over their widths. Collective.
-  std::vector<double> elements_along_strips(std::span<const double> floors, double minimum) const;
+  /// Elements along both sides of all strips narrower than the minimum, about, for each of some aspects
+  /// (SizingOptions::feature_aspect): lengths over strip_size(). Each counts by what grows around it until
+  /// sizes are the minimum: where they grow by k a length from s to m, the integral of 2 pi r / (s + k r)^3
+  /// is that to infinity times (1 - s/m)^2. Collective.
+  std::vector<double> elements_along_strips(std::span<const double> aspects,
+                                            const SizingOptions& options) const;
+  /// The sizes at some places where short edges, narrow faces and sharp corners ask for nothing. Collective.
+  std::vector<double> sizes_without_features(std::span<const geometry::Vec3> places,
+                                             const SizingOptions& options) const;
   /// The width of the narrowest gap that sizes below the minimum resolve; infinite where there is none, or
   /// none were looked for. The same on every rank.
   double narrowest_gap() const { return _narrowest_gap; }
 
   const cad::Model& model() const { return _model; }
+  const parallel::Communicator& communicator() const { return _communicator; }
+  /// Facets of all faces, by face; not those between regions.
+  const Walls& walls() const { return *_walls; }
   /// The box of all faces that are not far field; of everything where there are none.
   const geometry::Box& body_box() const { return _body_box; }
 

@@ -67,7 +67,7 @@ private:
   void ask_for_own_length() {
     const cad::Edge& edge = _model.edge(_edge);
     if (_length >= _options.maximum) return;
-    const double size = std::max(_length, smallest_feature_size(_options));
+    const double size = feature_size(_length, smallest_feature_size(_options), _options);
     _sources.push_back({_model.edge_point(_edge, 0.5 * (edge.first_parameter + edge.last_parameter)), size});
   }
 

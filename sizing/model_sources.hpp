@@ -26,15 +26,15 @@ struct StripPart {
   double first_width, last_width;  ///< from `reach` on they do not matter
 };
 
-/// The narrow strips of a face, part by part, none longer than it is wide or than smallest_strip_size(), as
-/// strip_sources() looks for them.
+/// The narrow strips of a face, part by part, none longer than strip_size(), as strip_sources() looks for
+/// them.
 std::vector<StripPart> strip_parts(const cad::Model& model, const cad::Facets& facets,
                                    std::span<const EdgePair> closed_corners, const SizingOptions& options,
                                    double reach);
 
 /// What narrow strips of a face ask for: between two edges of the face that share no vertex, or that end in
-/// one of its corners which are closed (is_closed_corner()), elements are at most as large as the distance;
-/// down to smallest_strip_size(). Distances from `reach` on ask for nothing, nor does a corner as far as it
+/// one of its corners which are closed (is_closed_corner()), elements are at most as large as strip_size() of
+/// the nearest distance. Distances from `reach` on ask for nothing, nor does a corner as far as it
 /// is closed.
 std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,
                                       std::span<const EdgePair> closed_corners, const SizingOptions& options,

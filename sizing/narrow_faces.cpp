@@ -46,24 +46,6 @@ std::optional<EdgeUse> use_of(const Model& model, FaceId face, cad::EdgeId edge)
   return found;
 }
 
-/// Degrees the surface turns across the edge, at most; 180 where that is not known.
-double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
-  constexpr int samples = 16;
-  const auto first = use_of(model, a, id), second = use_of(model, b, id);
-  if (!first || !second) return 180;
-  const cad::Edge& edge = model.edge(id);
-  double largest = 0;
-  for (int i = 0; i < samples; ++i) {
-    const double t =
-        edge.first_parameter + (i + 0.5) / samples * (edge.last_parameter - edge.first_parameter);
-    const Vec3 n = model.face_frame(a, model.edge_uv(a, *first, t)).normal;
-    const Vec3 m = model.face_frame(b, model.edge_uv(b, *second, t)).normal;
-    if (!(norm(n) > 0 && norm(m) > 0)) return 180;
-    largest = std::max(largest, std::atan2(norm(cross(n, m)), dot(n, m)) * 180 / std::numbers::pi);
-  }
-  return largest;
-}
-
 double deviation_of(double width, double degrees) {
   return degrees < 90 ? width * std::sin(degrees * std::numbers::pi / 180) : width;
 }
@@ -107,6 +89,23 @@ std::optional<NarrowFace> examine(const Model& model, FaceId face, double width,
 }
 
 }  // namespace
+
+double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
+  constexpr int samples = 16;
+  const auto first = use_of(model, a, id), second = use_of(model, b, id);
+  if (!first || !second) return 180;
+  const cad::Edge& edge = model.edge(id);
+  double largest = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double t =
+        edge.first_parameter + (i + 0.5) / samples * (edge.last_parameter - edge.first_parameter);
+    const Vec3 n = model.face_frame(a, model.edge_uv(a, *first, t)).normal;
+    const Vec3 m = model.face_frame(b, model.edge_uv(b, *second, t)).normal;
+    if (!(norm(n) > 0 && norm(m) > 0)) return 180;
+    largest = std::max(largest, std::atan2(norm(cross(n, m)), dot(n, m)) * 180 / std::numbers::pi);
+  }
+  return largest;
+}
 
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const Model& model,
                                           double width, double tolerance, parallel::StageClock& clock) {

@@ -24,6 +24,9 @@ struct NarrowFace {
   }
 };
 
+/// Degrees the surface turns across an edge between two faces, at most; 180 where that is not known.
+double turn_across(const cad::Model& model, cad::FaceId a, cad::FaceId b, cad::EdgeId id);
+
 /// Faces narrower than `width` which have a neighbour in the same patch, between the same regions, that goes
 /// on from them smoothly: across every edge between the two the surface turns by less than 20 degrees and the
 /// deviation is at most `tolerance`. Of several neighbours the one with the longest common border; a blunt

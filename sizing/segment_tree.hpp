@@ -36,17 +36,27 @@ public:
     _tree = geometry::BoxTree(boxes, segments_per_leaf);
   }
 
-  /// The distance to the nearest segment whose tag `counts(tag)`, or `bound` where none is nearer than that.
-  /// Tags are asked for in no particular order, and not for all.
+  struct Hit {
+    double away;
+    std::int32_t tag = -1;  ///< -1: no segment is that near
+  };
+  /// The nearest segment whose tag `counts(tag)`, or `bound` where none is nearer than that. Tags are asked
+  /// for in no particular order, and not for all.
   template <class Counts>
-  double nearest(geometry::Vec3 p, double bound, const Counts& counts) const {
+  Hit nearest_hit(geometry::Vec3 p, double bound, const Counts& counts) const {
+    std::int32_t tag = -1;
     _tree.search_nearest([&](const geometry::Box& box) { return distance_to_box(p, box); }, bound,
                          [&](std::int32_t place) {
                            const Segment& segment = _segments[_tree.order()[place]];
                            const double away = distance_to_segment(p, segment.a, segment.b);
-                           if (away < bound && counts(segment.tag)) bound = away;
+                           if (away < bound && counts(segment.tag)) bound = away, tag = segment.tag;
                          });
-    return bound;
+    return {bound, tag};
+  }
+  /// As above, the distance alone.
+  template <class Counts>
+  double nearest(geometry::Vec3 p, double bound, const Counts& counts) const {
+    return nearest_hit(p, bound, counts).away;
   }
 
 private:

@@ -8,6 +8,7 @@
 #include "parallel/timers.hpp"
 #include "sizing/octree.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <tuple>
@@ -27,9 +28,11 @@ struct SizingOptions {
       0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
   double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
   double feature_minimum =
-      0;                     ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
-  double strip_minimum = 0;  ///< as `feature_minimum`, for narrow faces alone; 0: as that
-  double gap_minimum = 0;    ///< as `minimum`, for gaps between walls, where they do not meet; 0: minimum
+      0;                      ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
+  double strip_minimum = 0;   ///< as `feature_minimum`, for narrow faces alone; 0: as that
+  double gap_minimum = 0;     ///< as `minimum`, for gaps between walls, where they do not meet; 0: minimum
+  double feature_aspect = 1;  ///< length of an element along a narrow face, over the width there; likewise at
+                              ///< short edges and sharp corners; >= 1, but nowhere beyond the minimum
   double chordal_deviation =
       0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
 
@@ -37,7 +40,8 @@ struct SizingOptions {
     return std::tuple(&SizingOptions::minimum, &SizingOptions::maximum, &SizingOptions::curvature_angle,
                       &SizingOptions::growth, &SizingOptions::surface_maximum, &SizingOptions::proximity,
                       &SizingOptions::feature_minimum, &SizingOptions::strip_minimum,
-                      &SizingOptions::gap_minimum, &SizingOptions::chordal_deviation);
+                      &SizingOptions::gap_minimum, &SizingOptions::feature_aspect,
+                      &SizingOptions::chordal_deviation);
   }
   friend bool operator==(const SizingOptions&, const SizingOptions&) = default;
 };
@@ -50,6 +54,16 @@ inline double smallest_feature_size(const SizingOptions& options) {
 /// Narrow faces may ask for sizes down to this.
 inline double smallest_strip_size(const SizingOptions& options) {
   return options.strip_minimum > 0 ? options.strip_minimum : smallest_feature_size(options);
+}
+
+/// What something as long or wide as `extent` asks for that may ask for sizes down to `smallest`.
+inline double feature_size(double extent, double smallest, const SizingOptions& options) {
+  return std::max(std::min(options.feature_aspect * extent, std::max(extent, options.minimum)), smallest);
+}
+
+/// What a narrow face asks for where it is so wide.
+inline double strip_size(double width, const SizingOptions& options) {
+  return feature_size(width, smallest_strip_size(options), options);
 }
 
 /// Gaps may ask for sizes down to this.

@@ -1,4 +1,5 @@
 // Narrow faces: where two edges of a face come closer than its elements are large.
+#include "cad/model/edge_foot.hpp"
 #include "sizing/closed_corners.hpp"
 #include "sizing/curvature_size.hpp"
 #include "sizing/model_sources.hpp"
@@ -17,8 +18,11 @@ using cad::Facets;
 using geometry::Vec3;
 
 constexpr int facets_per_leaf = 8;
+/// Of a width: what segments may leave their curves by before the curves themselves are asked.
+constexpr double width_error = 0.01;
 
-/// The boundary lines of one face, which of them lie opposite each other, and how far apart.
+/// The boundary lines of one face, which of them lie opposite each other, and how far apart: nearest
+/// distances between curves, for segments of facets may leave them by more than a strip is wide.
 class Strips {
 public:
   /// Widths from `reach` on do not matter.
@@ -39,27 +43,48 @@ public:
   }
 
 private:
+  /// A segment of a line.
+  struct Piece {
+    int line;
+    std::size_t node;  ///< the first
+    double sag;        ///< its distance from the curve, about
+  };
+  /// A place on a line.
+  struct Station {
+    Vec3 point;
+    double parameter, width;
+  };
+
   void cover_line(int line) {
-    const auto& nodes = _facets.boundary[line].nodes;
-    double width_a = width(_facets.points[nodes.front()], line, _reach);
+    const auto& [use, nodes, parameters] = _facets.boundary[line];
+    const auto station = [&](std::size_t i, double bound) {
+      const Vec3 point = _facets.points[nodes[i]];
+      return Station{point, parameters[i], width(point, line, bound)};
+    };
+    Station a = station(0, _reach);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
-      const double width_b = width(b, line, width_a + distance(a, b));
-      cover(a, width_a, b, width_b, line, 0);
-      width_a = width_b;
+      const Station b = station(i + 1, a.width + distance(a.point, _facets.points[nodes[i + 1]]));
+      cover(a, b, line, _pieces[_first_piece[line] + i].sag, 0);
+      a = b;
     }
   }
 
   /// Those that carry elements, and their segments.
   void list_lines() {
     std::vector<SegmentTree::Segment> segments;
+    _first_piece.resize(_facets.boundary.size());
     for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
-      const auto& nodes = _facets.boundary[line].nodes;
-      if (nodes.size() < 2 || _model.is_seam(_facets.boundary[line].use.edge)) continue;
+      const auto& [use, nodes, parameters] = _facets.boundary[line];
+      if (nodes.size() < 2 || _model.is_seam(use.edge)) continue;
       _lines.push_back(static_cast<int>(line));
+      _first_piece[line] = _pieces.size();
       for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        segments.push_back(
-            {_facets.points[nodes[i]], _facets.points[nodes[i + 1]], static_cast<std::int32_t>(line)});
+        const Vec3 a = _facets.points[nodes[i]], b = _facets.points[nodes[i + 1]];
+        const Vec3 middle = _model.edge_point(use.edge, 0.5 * (parameters[i] + parameters[i + 1]));
+        const double sag = distance_to_segment(middle, a, b);
+        segments.push_back({a, b, static_cast<std::int32_t>(_pieces.size())});
+        _pieces.push_back({static_cast<int>(line), i, sag});
+        _largest_sag = std::max(_largest_sag, sag);
       }
     }
     _segments = SegmentTree(std::move(segments));
@@ -165,25 +190,36 @@ private:
   /// The distance to the nearest line that faces this one; `bound` where none is nearer. Widths change no
   /// faster than the place: a width near by gives a bound.
   double width(Vec3 p, int line, double bound) {
-    return _segments.nearest(p, std::min(bound, _reach), [&](int other) { return are_facing(line, other); });
+    bound = std::min(bound, _reach);
+    const SegmentTree::Hit hit = _segments.nearest_hit(
+        p, bound + _largest_sag, [&](std::int32_t piece) { return are_facing(line, _pieces[piece].line); });
+    if (hit.tag < 0) return bound;
+    const Piece& piece = _pieces[hit.tag];
+    if (piece.sag <= width_error * hit.away) return std::min(bound, hit.away);
+    const auto& [use, nodes, parameters] = _facets.boundary[piece.line];
+    const double share =
+        part_along(p, _facets.points[nodes[piece.node]], _facets.points[nodes[piece.node + 1]]);
+    const double guess = (1 - share) * parameters[piece.node] + share * parameters[piece.node + 1];
+    return std::min(bound, cad::foot_on_edge(_model, use.edge, p, guess).away);
   }
 
-  double size_of(double width) const { return std::max(width, smallest_strip_size(_options)); }
-
-  void cover(Vec3 a, double width_a, Vec3 b, double width_b, int line, int depth) {
-    const double length = distance(a, b);
+  void cover(const Station& a, const Station& b, int line, double sag, int depth) {
+    const double length = distance(a.point, b.point);
     // Widths change no faster than the place: on the whole segment they are at least this.
-    const double least = 0.5 * (width_a + width_b - length);
+    const double least = 0.5 * (a.width + b.width - length);
     if (least >= _reach || depth >= deepest_bisection) return;
-    if (_beside_corners && 0.5 * (width_a + width_b + length) < closing_gap(_options)) return;
-    if (length <= size_of(std::min(width_a, width_b))) {
-      _parts.push_back({a, b, open_width(width_a), open_width(width_b)});
+    if (_beside_corners && 0.5 * (a.width + b.width + length) < closing_gap(_options)) return;
+    const double narrower = std::min(a.width, b.width);
+    if (length <= strip_size(narrower, _options)) {
+      _parts.push_back({a.point, b.point, open_width(a.width), open_width(b.width)});
       return;
     }
-    const Vec3 middle = 0.5 * (a + b);
-    const double width_middle = width(middle, line, std::min(width_a, width_b) + 0.5 * length);
-    cover(a, width_a, middle, width_middle, line, depth + 1);
-    cover(middle, width_middle, b, width_b, line, depth + 1);
+    Station middle{0.5 * (a.point + b.point), 0.5 * (a.parameter + b.parameter), 0};
+    if (sag > width_error * narrower)
+      middle.point = _model.edge_point(_facets.boundary[line].use.edge, middle.parameter);
+    middle.width = width(middle.point, line, narrower + 0.5 * length);
+    cover(a, middle, line, sag, depth + 1);
+    cover(middle, b, line, sag, depth + 1);
   }
 
   /// A corner asks for nothing as far as it is closed.
@@ -197,7 +233,10 @@ private:
   const SizingOptions& _options;
   double _reach;
   std::vector<int> _lines;
-  SegmentTree _segments;                        // by line
+  std::vector<Piece> _pieces;             // of the lines, one after the other
+  std::vector<std::size_t> _first_piece;  // by line
+  double _largest_sag = 0;
+  SegmentTree _segments;                        // by piece
   std::map<std::pair<int, int>, bool> _facing;  // of those asked for, the lower line first
   bool _beside_corners = false;                 // edges that share a vertex are looked at, and no others
   geometry::BoxTree _plane;                     // of the facets' parameters, when it is asked for
@@ -219,7 +258,7 @@ std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& fac
   for (const StripPart& part : strip_parts(model, facets, closed_corners, options, reach)) {
     for (const auto& [point, width] :
          {std::pair(part.first, part.first_width), std::pair(part.last, part.last_width)}) {
-      if (width < reach) sources.push_back({point, std::max(width, smallest_strip_size(options))});
+      if (width < reach) sources.push_back({point, strip_size(width, options)});
     }
   }
   return sources;

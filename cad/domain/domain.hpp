@@ -41,11 +41,13 @@ struct FarFieldOptions {
   }
 };
 
-/// What happens to blunt trailing edges: strips between two faces that meet at a sharp angle.
-enum class TrailingEdges { keep, sharpen };
+/// What happens to blunt trailing edges: strips between two faces that meet at a sharp angle. `sharpen`: they
+/// are closed here; `automatic`: they are kept here, and those closed later that sizes cannot resolve, where
+/// that moves little.
+enum class TrailingEdges { automatic, keep, sharpen };
 
 struct TrailingEdgeOptions {
-  TrailingEdges treatment = TrailingEdges::keep;
+  TrailingEdges treatment = TrailingEdges::automatic;
   std::vector<std::string> faces =
       {};  ///< patterns of faces' or patches' names, with * and ?; none: any face
   double width =

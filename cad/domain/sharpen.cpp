@@ -1,12 +1,11 @@
 #include "cad/domain/sharpen.hpp"
 
+#include "cad/domain/close_strips.hpp"
 #include "cad/model/blunt_edges.hpp"
-#include "cad/model/closed_edges.hpp"
 #include "cad/model/patches.hpp"
 #include "cad/model/step_trace.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,61 +51,16 @@ void require_matches(const Model& model, const std::vector<std::string>& pattern
   }
 }
 
-std::string borders_of(const Model& model, const BluntEdge& strip) {
-  return fmt::format("'{}' and '{}'", model.face(strip.borders[0].front().neighbour).name,
-                     model.face(strip.borders[1].front().neighbour).name);
-}
-
-Change describe_closed(const Model& model, const BluntEdge& strip) {
-  return {
-      fmt::format("trailing edge '{}', {:.4g} long and at most {:.3g} wide, was closed to a curve half-way "
-                  "between {}",
-                  model.face(strip.face).name, strip.length, strip.widest, borders_of(model, strip)),
-      strip.place, 0.5 * strip.widest};
-}
-
 Change describe_left(const Model& model, const BluntEdge& strip, const std::string& reason) {
   return {fmt::format("strip '{}', {:.4g} long and about {:.3g} wide, was not closed: {}",
                       model.face(strip.face).name, strip.length, strip.widest, reason),
           strip.place};
 }
 
-/// Closes them all, or else as many as can be, one after the other.
-Model close_what_closes(const Model& model, std::vector<BluntEdge> strips, Changes& changes) {
-  const auto attempt = [&](const std::vector<BluntEdge>& some, std::string& reason) -> std::optional<Model> {
-    try {
-      return close_blunt_edges(model, some);
-    } catch (const CadError& error) {
-      reason = error.what();
-      return std::nullopt;
-    }
-  };
-  std::string reason;
-  if (auto closed = attempt(strips, reason)) {
-    for (const BluntEdge& strip : strips) changes.push_back(describe_closed(model, strip));
-    return *std::move(closed);
-  }
-  std::vector<BluntEdge> some;
-  Model best = model;
-  std::stable_sort(strips.begin(), strips.end(),
-                   [](const BluntEdge& a, const BluntEdge& b) { return a.length > b.length; });
-  for (const BluntEdge& strip : strips) {
-    some.push_back(strip);
-    if (auto closed = attempt(some, reason)) {
-      best = *std::move(closed);
-      changes.push_back(describe_closed(model, strip));
-      continue;
-    }
-    some.pop_back();
-    changes.push_back(describe_left(model, strip, reason));
-  }
-  return best;
-}
-
 }  // namespace
 
 Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes) {
-  if (options.treatment == TrailingEdges::keep) return model;
+  if (options.treatment != TrailingEdges::sharpen) return model;
   tell_step("sharpening trailing edges");
   require_matches(model, options.faces);
   std::vector<BluntEdge> strips;
@@ -131,7 +85,10 @@ Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Ch
     changes.push_back({"no trailing edge was closed"});
     return model;
   }
-  return close_what_closes(model, strips, changes);
+  ClosedStrips result = close_strips(model, std::move(strips));
+  for (const BluntEdge& strip : result.closed) changes.push_back(describe_closed(model, strip));
+  for (const auto& [strip, reason] : result.left) changes.push_back(describe_left(model, strip, reason));
+  return std::move(result.model);
 }
 
 }  // namespace aeroloom::cad

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,7 +25,7 @@ constexpr double slenderness = 10;
 constexpr double end_share = 0.25;
 /// A face that turns less across a border goes on in its neighbour.
 constexpr double smooth_turn = 30 * degree;
-constexpr int stations = 9;  // where angles and widths are measured
+constexpr int stations = 9;  // inside, where angles and widths are measured
 
 using Kind = BluntEdgeFinding::Kind;
 
@@ -124,6 +126,7 @@ struct Section {
   double turns[2] = {0, 0};  ///< of the normal across the borders
   bool convex = false;       ///< both neighbours lie behind the strip, seen from the fluid
   double opening = 0;        ///< angle between the neighbours
+  Vec3 along, into;          ///< of a station
 };
 
 /// The passage of a face along an edge that it passes once.
@@ -153,6 +156,9 @@ Section section_at(const Model& model, const BluntEdge& strip, const std::array<
     section.convex = section.convex && dot(into[side], own) > 0;
   }
   section.opening = angle_between(into[0], into[1]);
+  const BorderEdge& border = strip.borders[0][at[0].edge];
+  section.along = normalized(model.edge_tangent(border.strip_use.edge, at[0].parameter));
+  section.into = normalized(into[0] + into[1]);
   return section;
 }
 
@@ -190,18 +196,34 @@ void judge(const Model& model, double width, BluntEdgeFinding& finding) {
   strip.length = std::max(first.length(), second.length());
   double widest_turn[2] = {0, 0}, widest_opening = 0;
   bool convex = true;
+  strip.narrowest = std::numeric_limits<double>::max();
+  std::vector<BluntStation> along;
   for (int i = 0; i <= stations + 1; ++i) {
     const double share = static_cast<double>(i) / (stations + 1);
-    const std::array<BorderPath::Place, 2> at{first.at(share * first.length()),
-                                              second.at(share * second.length())};
-    strip.widest = std::max(strip.widest, distance(at[0].point, at[1].point));
+    std::array<BorderPath::Place, 2> at{first.at(share * first.length()), {}};
+    at[1] = second.nearest(at[0].point);
+    double width = distance(at[0].point, at[1].point);
+    // Where a strip ends obliquely one border goes on without the other.
+    if (i == 0 || i == stations + 1) {
+      const Vec3 end = second.at(share * second.length()).point;
+      width = std::min(width, distance(end, first.nearest(end).point));
+    }
+    strip.widest = std::max(strip.widest, width);
+    const bool is_point = (i == 0 && strip.ends[0].empty()) || (i > stations && strip.ends[1].empty());
+    if (!is_point) strip.narrowest = std::min(strip.narrowest, width);
+    along.push_back({0.5 * (at[0].point + at[1].point), {}, {}, width});
     if (i == (stations + 1) / 2) strip.place = 0.5 * (at[0].point + at[1].point);
     if (i == 0 || i == stations + 1) continue;
     const Section section = section_at(model, strip, at);
+    along.back().along = section.along, along.back().into = section.into;
     for (int side = 0; side < 2; ++side) widest_turn[side] = std::max(widest_turn[side], section.turns[side]);
     widest_opening = std::max(widest_opening, section.opening);
     convex = convex && section.convex;
   }
+  // At the ends, where neighbours may end obliquely, directions are those near by.
+  for (const auto& [end, next] : {std::pair(0, 1), std::pair(stations + 1, stations)})
+    along[end].along = along[next].along, along[end].into = along[next].into;
+  strip.stations = std::move(along);
   if (strip.widest * slenderness > 2 * strip.length) return;  // narrow on average only
   const auto refuse = [&](Kind kind, std::string reason) {
     finding.kind = kind, finding.reason = std::move(reason);

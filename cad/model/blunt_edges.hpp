@@ -16,14 +16,23 @@ struct BorderEdge {
   FaceId neighbour = no_entity;  ///< the face beyond
 };
 
+/// A place along a strip.
+struct BluntStation {
+  Vec3 place;        ///< half-way between the borders
+  Vec3 along, into;  ///< unit: along the strip; from it into what its neighbours enclose
+  double width = 0;  ///< the nearest distance from one border to the other
+};
+
 /// A strip with two long borders, which run side by side from its start to its end.
 struct BluntEdge {
   FaceId face = no_entity;
   std::array<std::vector<BorderEdge>, 2> borders;  ///< each in its order from start to end
   std::array<std::vector<EdgeId>, 2> ends;  ///< edges across at start and end; none where the borders meet
   double length = 0;                        ///< of the longer border
-  double widest = 0;                        ///< largest distance between the borders
+  double widest = 0;                        ///< largest of the nearest distances from one border to the other
+  double narrowest = 0;                     ///< the least of them, apart from ends where the borders meet
   Vec3 place;                               ///< in the middle
+  std::vector<BluntStation> stations = {};  ///< from start to end; where the shape is that of a blunt edge
 };
 
 /// What a narrow face turned out to be.

@@ -1,6 +1,9 @@
 #include "cad/model/border_path.hpp"
 
+#include "cad/model/edge_foot.hpp"
+
 #include <algorithm>
+#include <limits>
 
 namespace aeroloom::cad {
 namespace {
@@ -55,6 +58,26 @@ double BorderPath::passed_at(std::size_t edge, double parameter) const {
 BorderPath::Place BorderPath::at(double passed) const {
   const auto above = std::upper_bound(_joints.begin() + 1, _joints.end() - 1, passed);
   return at(passed, static_cast<std::size_t>(above - _joints.begin()) - 1);
+}
+
+BorderPath::Place BorderPath::nearest(Vec3 point) const {
+  Place best;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i + 1 < _samples.size(); ++i) {
+    if ((i + 1) % (intervals + 1) == 0) continue;  // from one edge to the next
+    const Sample &low = _samples[i], &high = _samples[i + 1];
+    const Vec3 along = high.point - low.point;
+    const double square = dot(along, along);
+    const double share = square > 0 ? std::clamp(dot(point - low.point, along) / square, 0.0, 1.0) : 0;
+    const double away = distance(point, low.point + share * along);
+    if (away >= least) continue;
+    least = away;
+    best.edge = i / (intervals + 1);
+    best.parameter = low.parameter + share * (high.parameter - low.parameter);
+  }
+  const EdgeFoot foot = foot_on_edge(*_model, (*_chain)[best.edge].strip_use.edge, point, best.parameter);
+  best.parameter = foot.parameter, best.point = foot.point;
+  return best;
 }
 
 }  // namespace aeroloom::cad

@@ -24,6 +24,9 @@ public:
   /// Where length `passed` ends, on the chain's edge `edge`.
   Place at(double passed, std::size_t edge) const;
   Place at(double passed) const;
+  /// The place nearest to a point, on the curves themselves: segments between samples may miss them by more
+  /// than a strip is wide.
+  Place nearest(Vec3 point) const;
   /// The length passed at a parameter of the chain's edge `edge`.
   double passed_at(std::size_t edge, double parameter) const;
   /// The length passed at the ends of each edge: one more than there are edges.

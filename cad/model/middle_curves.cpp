@@ -144,6 +144,13 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
   const Station start{{0, 0}, {borders[0].vertices().front(), borders[1].vertices().front()}};
   const Station end{{borders[0].length(), borders[1].length()},
                     {borders[0].vertices().back(), borders[1].vertices().back()}};
+  double apart = 0;  // at equal shares of the way: more than the strip is wide where borders' lengths differ
+  constexpr int shares = 10;
+  for (int i = 0; i <= shares; ++i) {
+    const double share = static_cast<double>(i) / shares;
+    apart = std::max(apart, distance(borders[0].at(share * borders[0].length()).point,
+                                     borders[1].at(share * borders[1].length()).point));
+  }
   // First those that face each other ...
   std::vector<Station> facing{start};
   std::size_t next = 0;
@@ -152,7 +159,7 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
       return distance(borders[0].at(a.passed).point, borders[1].at(b.passed).point);
     };
     std::size_t best = joints[1].size();
-    double least = 1.5 * strip.widest;
+    double least = 1.5 * apart;
     for (std::size_t i = next; i < joints[1].size(); ++i) {
       if (gap(joints[1][i]) < least) least = gap(joints[1][i]), best = i;
     }

@@ -31,6 +31,7 @@ Json sizing_json(const RunRecord& record) {
           {"curvature_angle", record.sizes.curvature_angle},
           {"chordal_deviation", record.sizes.chordal_deviation},
           {"growth", record.sizes.growth},
+          {"trailing_edges", to_json(record.trailing_edges)},
           {"joined_faces", to_json(record.joined_faces)},
           {"octree_leaves", record.size_field_leaves}};
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -15,6 +16,8 @@
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Edge.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
 
@@ -42,6 +45,25 @@ inline Model spline_cylinder(double degrees, double height) {
       BRepBuilderAPI_MakeEdge(circle, std::numbers::pi, 2 * std::numbers::pi).Edge());
   BRepPrimAPI_MakePrism prism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, height));
   return prepare_fluid(BRepBuilderAPI_NurbsConvert(prism.Shape()).Shape()).model;
+}
+
+/// Half a disc of radius 1 and that height, its round side between one arc below and two above.
+inline Model half_coin(double height) {
+  constexpr double middle = 1.1;
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(circle, 0, std::numbers::pi).Edge(),
+                               BRepBuilderAPI_MakeEdge(gp_Pnt(-1, 0, 0), gp_Pnt(1, 0, 0)).Edge());
+  const TopoDS_Face bottom = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+  TopTools_ListOfShape coin, cut;
+  coin.Append(BRepPrimAPI_MakePrism(bottom, gp_Vec(0, 0, height)).Shape());
+  const gp_Pnt beyond(2 * std::cos(middle), 2 * std::sin(middle), height);
+  cut.Append(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, height), beyond).Edge());
+  cut.Append(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, height), gp_Pnt(0, -1, height)).Edge());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(coin);
+  splitter.SetTools(cut);
+  splitter.Build();
+  return prepare_fluid(splitter.Shape()).model;
 }
 
 /// A wedge along y whose thin end, at x = 1, is cut off: a blunt trailing edge of that height.

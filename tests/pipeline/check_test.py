@@ -67,7 +67,32 @@ def check_sharpened(program):
     assert code == 3 and "no face and no patch of this model is called 'wings'" in text, text
 
 
+def check_edges(program):
+    """What becomes of thin trailing edges is the same in `check` and in a run."""
+    case = ("geometry:\n  builtin: transport\n"
+            "  dimensions: {wing: {trailing_edge: 0.0003}, horizontal_tail: {trailing_edge: 0.003}}\n"
+            "farfield: {shape: cylinder, extent: 2}\nsizing: {target_tetrahedra: 20000}\n")
+    code, text, record = check(program, case)
+    assert code == 0, text
+    edges = record["forecast"]["trailing_edges"]
+    fates = {edge["face"]: edge["fate"] for edge in edges}
+    assert fates["wing_left_trailing_edge"] == fates["wing_right_trailing_edge"] == "closed", fates
+    assert fates["horizontal_tail_left_trailing_edge"] == "graded", fates
+    assert all(edge["what"] in text for edge in edges if edge["fate"] != "kept"), text
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
+    (folder / "case.yaml").write_text(case)
+    command = [SOURCE / "scripts" / "mpirun_local.sh", "2", program, "run", folder / "case.yaml",
+               "--set", f"output.directory={folder / 'out'}"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    report = json.loads((folder / "out" / "report.json").read_text())
+    assert report["sizing"]["trailing_edges"] == edges, report["sizing"]["trailing_edges"]
+    assert report["sizing"]["features"]["aspect"] == record["forecast"]["features"]["aspect"]
+    assert not any(patch["name"] == "wing_left_trailing_edge" for patch in report["patches"]), report["patches"]
+
+
 def main():
+    check_edges(sys.argv[1])
     check_sound(sys.argv[1])
     check_sharpened(sys.argv[1])
     check_open(sys.argv[1])

@@ -2,7 +2,9 @@
 #include "sizing/choose_sizes.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -22,12 +24,13 @@ public:
   FeatureShare share(double budget, std::int64_t most_leaves = 1'000'000'000) {
     return share_of_features(_sampler, sizes(), budget, 1, most_leaves);
   }
-  double predict(double floor) { return _sampler.predict(field(floor)).tetrahedra; }
-  SizeField field(double floor) {
+  double predict(const FeatureShare& features) { return _sampler.predict(field(features)).tetrahedra; }
+  SizeField field(const FeatureShare& features) {
     SizingOptions options = sizes();
-    set_feature_floor(options, floor);
+    set_features(options, features);
     return _sampler.build_field(options);
   }
+  std::vector<Strip> strips(double width) { return _sampler.strips_narrower_than(width, sizes().minimum); }
   ChosenSizes choose(double target, double budget) { return choose_sizes(_sampler, target, budget); }
 
   static SizingOptions sizes() {
@@ -47,26 +50,65 @@ TEST(FeatureShare, ABluntEndIsResolvedWhereTheBudgetAllows) {
   EXPECT_GT(all.share, 2);
   EXPECT_FALSE(all.limited);
   EXPECT_EQ(all.resolved_share, all.share);
-  EXPECT_LT(all.floor, 0.004);
-  EXPECT_DOUBLE_EQ(all.share, wedge.predict(all.floor) / wedge.predict(Sampled::sizes().minimum));
+  EXPECT_EQ(all.aspect, 1);
+  EXPECT_DOUBLE_EQ(all.share, wedge.predict(all) / wedge.predict({}));
 }
 
 TEST(FeatureShare, StaysWithinTheBudgetAndUsesIt) {
   Sampled wedge(cad::shapes::blunt_wedge(0.004));
   const FeatureShare all = wedge.share(no_budget);
-  double last_floor = Sampled::sizes().minimum;
+  double last_aspect = no_aspect;
   for (const double part : {0.25, 0.5}) {
     const double budget = 1 + part * (all.share - 1);
     const FeatureShare some = wedge.share(budget);
     EXPECT_LE(some.share, budget);
     EXPECT_GT(some.share, 0.8 * budget);
-    EXPECT_GT(some.floor, 0.004);
-    EXPECT_LT(some.floor, last_floor) << "a larger budget resolves more";
+    EXPECT_GT(some.aspect, 1);
+    EXPECT_LT(some.aspect, last_aspect) << "a larger budget resolves more";
     EXPECT_TRUE(some.limited);
-    EXPECT_NEAR(some.resolved_share, all.share, 0.01 * all.share) << "it was tried";
-    last_floor = some.floor;
+    EXPECT_NEAR(some.resolved_share, all.share, 0.25 * all.share);
+    last_aspect = some.aspect;
   }
-  EXPECT_EQ(wedge.share(1).floor, Sampled::sizes().minimum);
+  EXPECT_EQ(wedge.share(1).aspect, no_aspect);
+}
+
+// Thinner than a thousandth of the smallest size at first, strips got nothing; budgets in between more than
+// larger ones.
+TEST(FeatureShare, LargerBudgetsNeverGiveLess) {
+  for (const double thickness : {0.01, 0.002, 0.0004}) {
+    Sampled wedge(cad::shapes::blunt_wedge(thickness));
+    FeatureShare last = wedge.share(1, 200'000);
+    for (const double budget : {1.2, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0, 21.0}) {
+      const FeatureShare some = wedge.share(budget, 200'000);
+      EXPECT_LE(some.aspect, last.aspect) << thickness << ' ' << budget;
+      EXPECT_GE(some.share, last.share) << thickness << ' ' << budget;
+      EXPECT_LE(some.share, budget);
+      if (some.limited) {
+        EXPECT_GT(some.share, 0.85 * budget) << thickness << ' ' << budget;
+      }
+      last = some;
+    }
+  }
+}
+
+// Beyond the budget thin and thick parts of an end have elements as much longer than wide.
+TEST(FeatureShare, ThinAndThickStripsHaveOneAspect) {
+  constexpr double thick = 0.01, thin = 0.001;
+  Sampled wedge(cad::shapes::tapered_wedge(thick, thin));
+  const FeatureShare some = wedge.share(5);
+  ASSERT_TRUE(some.limited);
+  ASSERT_GT(some.aspect, 1.2);
+  ASSERT_LT(some.aspect * thick, Sampled::sizes().minimum);
+  const SizeField field = wedge.field(some);
+  double least = 1e9, most = 0;
+  for (const Strip& strip : wedge.strips(2 * thick)) {
+    if (strip.width > 1.5 * thin) continue;
+    EXPECT_NEAR(strip.width, thin, 0.05 * thin);
+    least = std::min(least, field(strip.place) / strip.width);
+    most = std::max(most, field(strip.place) / strip.width);
+  }
+  EXPECT_GT(least, 0.5 * some.aspect);
+  EXPECT_LT(most, 1.1 * some.aspect);
 }
 
 TEST(FeatureShare, FieldsThatAreFarTooFineAreNotBuilt) {
@@ -84,7 +126,7 @@ TEST(FeatureShare, TellsWhatEndsWouldTakeThatAreTooFineToTry) {
     Sampled wedge(cad::shapes::tapered_wedge(0.01, tip));
     const FeatureShare all = wedge.share(no_budget);
     ASSERT_FALSE(all.limited);
-    const FeatureShare some = wedge.share(no_budget, wedge.field(all.floor).leaf_count() / 2);
+    const FeatureShare some = wedge.share(no_budget, wedge.field(all).leaf_count() / 2);
     ASSERT_TRUE(some.limited);
     EXPECT_LT(some.share, 0.8 * all.share);
     EXPECT_NEAR(some.resolved_share, all.share, 0.25 * all.share) << "tip " << tip;
@@ -96,7 +138,7 @@ TEST(FeatureShare, WhereNotEvenTheMinimumCanBeTriedFeaturesStayUnresolved) {
   const FeatureShare none = wedge.share(no_budget, 1);
   EXPECT_TRUE(none.limited);
   EXPECT_EQ(none.share, 1);
-  EXPECT_EQ(none.floor, Sampled::sizes().minimum);
+  EXPECT_EQ(none.aspect, no_aspect);
 }
 
 TEST(FeatureShare, WithoutFeaturesThereIsNone) {
@@ -104,7 +146,7 @@ TEST(FeatureShare, WithoutFeaturesThereIsNone) {
   const FeatureShare none = sphere.share(1.5);
   EXPECT_EQ(none.share, 1);
   EXPECT_FALSE(none.limited);
-  EXPECT_LT(none.floor, Sampled::sizes().minimum);
+  EXPECT_EQ(none.aspect, 1);
 }
 
 TEST(FeatureShare, GapsGetWhatStripsLeave) {
@@ -115,7 +157,7 @@ TEST(FeatureShare, GapsGetWhatStripsLeave) {
   EXPECT_EQ(all.gap_floor, 0.01);
   EXPECT_GT(all.gap_share, 1);
   EXPECT_GE(all.share, all.gap_share);
-  const FeatureShare none = slot.share(all.share / all.gap_share);
+  const FeatureShare none = slot.share(1.12 * all.share / all.gap_share);
   EXPECT_EQ(none.gap_share, 1);
   EXPECT_EQ(none.share, all.share / all.gap_share);
 }
@@ -137,7 +179,7 @@ TEST(ChooseSizes, FeaturesComeOnTop) {
                 0.1 * usual.options.surface_maximum);
     EXPECT_GT(chosen.counts.tetrahedra, 1.3 * target);
     EXPECT_LT(chosen.counts.tetrahedra, 1.2 * budget * target);
-    EXPECT_LT(chosen.options.strip_minimum, 0.5 * chosen.options.minimum);
+    EXPECT_LT(chosen.features.aspect_at(thickness) * thickness, 0.5 * chosen.options.minimum);
     EXPECT_NEAR(chosen.counts.tetrahedra / chosen.features.share, target, 0.2 * target);
   }
 }

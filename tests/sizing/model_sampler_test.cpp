@@ -51,6 +51,35 @@ TEST(ModelSampler, TakesOverWhatJoiningLeavesAsItIs) {
     expect_same(model, joined, {0.05, 0.5, 15, 1.3, 0}, fields, clock);
 }
 
+// Segments of facets leave the curves by far more than this strip is wide, and other ones on each side of it.
+TEST(ModelSampler, WidthsOfStripsAreThoseBetweenTheirCurves) {
+  constexpr double width = 4e-5;
+  parallel::StageClock clock;
+  const Model model = cad::shapes::half_coin(width);
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  const std::vector<Strip> strips = sampler.strips_narrower_than(0.05, 0.05);
+  ASSERT_FALSE(strips.empty());
+  EXPECT_NEAR(strips.front().width, width, 0.05 * width);
+}
+
+// At a strip the size is that of what lies around it, did it ask for nothing.
+TEST(ModelSampler, TellsSizesWithoutFeatures) {
+  constexpr double width = 0.002, surface = 0.1;
+  parallel::StageClock clock;
+  const Model model = cad::shapes::blunt_wedge(width);
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  SizingOptions options;
+  options.minimum = 0.02, options.maximum = 0.5, options.surface_maximum = surface;
+  options.feature_minimum = 0.001;
+  const std::vector<Strip> strips = sampler.strips_narrower_than(2 * width, options.minimum);
+  ASSERT_FALSE(strips.empty());
+  const geometry::Vec3 place = strips.front().place;
+  EXPECT_LT(sampler.build_field(options)(place), 3 * width);
+  const std::vector<double> sizes = sampler.sizes_without_features(std::vector{place}, options);
+  EXPECT_GT(sizes.at(0), 0.6 * surface);
+  EXPECT_LE(sizes.at(0), surface);
+}
+
 // The strip hides that two walls meet in an edge; joined with one of them it must not be taken for a gap.
 TEST(ModelSampler, LooksForGapsAnewBesideJoinedFaces) {
   parallel::StageClock clock;

@@ -1,0 +1,29 @@
+/// Strips closed to edges, as many as can be.
+#pragma once
+
+#include "cad/model/blunt_edges.hpp"
+#include "cad/repair/change.hpp"
+
+#include <string>
+#include <vector>
+
+namespace aeroloom::cad {
+
+struct ClosedStrips {
+  struct Left {
+    BluntEdge strip;
+    std::string reason;
+  };
+  Model model;
+  std::vector<BluntEdge> closed;
+  std::vector<Left> left;  ///< where what is left would be no model
+};
+
+/// Closes them all or else, the longest first, as many as can be, by close_blunt_edges(). A function of the
+/// model and the strips alone.
+ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips);
+
+/// What is told of one that was closed.
+Change describe_closed(const Model& model, const BluntEdge& strip);
+
+}  // namespace aeroloom::cad
