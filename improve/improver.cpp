@@ -4,6 +4,7 @@
 #include "improve/balance.hpp"
 #include "improve/border_relaxation.hpp"
 #include "improve/cavity_improver.hpp"
+#include "improve/corner_relief.hpp"
 #include "improve/relaxation.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
@@ -65,6 +66,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   const ChangeLimits limits(source.sizes, &strips, effort);
   Schedule schedule(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
+  report.swaps += CornerRelief(limits).run(mesh);
   report.smoothed += Relaxation().run(mesh, options.relaxation);
   const BadState after = examine(mesh);
   mesh.finish();

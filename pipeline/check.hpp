@@ -7,6 +7,7 @@
 #include "pipeline/case.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/unresolved_features.hpp"
+#include "pipeline/wall_findings.hpp"
 #include "sizing/size_field.hpp"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct FaceContact {
 struct Forecast {
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;
+  WallFindings walls;               ///< what was found of walls close to each other
   std::vector<NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
   cad::Changes joined;              ///< narrow faces that would vanish in their neighbours
   sizing::PredictedCounts counts;

@@ -109,13 +109,16 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
   const std::optional<double> target = target_of(request);
   if (!target) {
     const sizing::SizingOptions sizes = sizing::with_given({}, request);
+    sizing::SizeField field = sampler.build_field(sizes);
+    const sizing::PredictedCounts counts = sampler.predict(field);
     return {sampler.model(),
             sizes,
-            sampler.build_field(sizes),
+            std::move(field),
             std::move(joined),
+            counts,
             {},
-            {},
-            report_bounded_faces(sampler, sizes)};
+            report_bounded_faces(sampler, sizes),
+            {}};
   }
   sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, *target, request.feature_budget, near, request);
   tell_missed_target(sampler, communicator, chosen, request, *target);
@@ -124,10 +127,15 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
     features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
   std::vector<NamedBound> bounded = report_bounded_faces(sampler, chosen.options);
   return {sampler.model(), chosen.options,      std::move(chosen.field), std::move(joined),
-          chosen.counts,   std::move(features), std::move(bounded)};
+          chosen.counts,   std::move(features), std::move(bounded),      {}};
 }
 
 }  // namespace
+
+void require_walls_apart(const SizedDomain& sized) {
+  const std::string text = describe(sized.walls.coincident);
+  if (!text.empty()) throw parallel::CollectiveError(parallel::FailureKind::input, text);
+}
 
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock) {
@@ -135,16 +143,23 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
-  if (narrow_faces == NarrowFaces::keep) return finish(communicator, sampler, request, {}, {});
+  const std::vector<sizing::CoincidentFaces> coincident = sampler.find_coincident_faces();
+  const auto finish_with = [&](const sizing::ModelSampler& last,
+                               const std::optional<sizing::SizingOptions>& near, JoinedFaces what) {
+    SizedDomain sized = finish(communicator, last, request, near, std::move(what));
+    sized.walls = report_walls(model, coincident, last, sized.field);
+    return sized;
+  };
+  if (narrow_faces == NarrowFaces::keep) return finish_with(sampler, {}, {});
   // Which faces are narrow is told by an estimate; sizes are chosen for what is left of the model.
   std::optional<sizing::SizingOptions> near;
   if (target) near = sizing::estimate_sizes(sampler, *target, request);
   const double width = near ? near->minimum : *request.minimum;
   JoinedFaces what;
   const std::optional<cad::Model> joined = join_narrow_faces(communicator, model, width, clock, what);
-  if (!joined) return finish(communicator, sampler, request, near, {});
+  if (!joined) return finish_with(sampler, near, {});
   const sizing::ModelSampler of_joined(std::move(sampler), *joined);
-  return finish(communicator, of_joined, request, near, std::move(what));
+  return finish_with(of_joined, near, std::move(what));
 }
 
 }  // namespace aeroloom::pipeline

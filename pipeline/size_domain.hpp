@@ -8,6 +8,7 @@
 #include "pipeline/bounded_faces.hpp"
 #include "pipeline/case.hpp"
 #include "pipeline/unresolved_features.hpp"
+#include "pipeline/wall_findings.hpp"
 #include "sizing/size_field.hpp"
 
 #include <optional>
@@ -29,9 +30,10 @@ struct SizedDomain {
   sizing::SizingOptions sizes;
   sizing::SizeField field;
   JoinedFaces joined;
-  std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
-  std::optional<FeatureReport> features;          ///< where sizes at features were chosen
-  std::vector<NamedBound> bounded;                ///< faces on which the minimum wins over curvature
+  sizing::PredictedCounts counts;         ///< that the field predicts
+  std::optional<FeatureReport> features;  ///< where sizes at features were chosen
+  std::vector<NamedBound> bounded;        ///< faces on which the minimum wins over curvature
+  WallFindings walls;                     ///< what was found of walls close to each other
 };
 
 /// Resolves sizes, joins narrow faces (unless told to keep them), and builds the field. What the user did not
@@ -39,5 +41,9 @@ struct SizedDomain {
 /// Collective. Throws std::invalid_argument where what was asked for contradicts what was chosen.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, NarrowFaces narrow_faces, parallel::StageClock& clock);
+
+/// Ends a run whose faces lie on one another: CollectiveError (input), with the faces. The same on every
+/// rank.
+void require_walls_apart(const SizedDomain& sized);
 
 }  // namespace aeroloom::pipeline

@@ -35,13 +35,14 @@ struct SizesRecord {
   sizing::SizingOptions sizes;
   Bytes field;
   JoinedFaces joined;
-  std::optional<sizing::PredictedCounts> counts;
+  sizing::PredictedCounts counts;
   std::optional<FeatureReport> features;
   std::vector<NamedBound> bounded;
+  WallFindings walls;
 
   static constexpr auto fields() {
     return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
-                      &SizesRecord::features, &SizesRecord::bounded);
+                      &SizesRecord::features, &SizesRecord::bounded, &SizesRecord::walls);
   }
 };
 
@@ -94,7 +95,7 @@ cad::Domain unpack_domain_product(CheckpointContent content) {
 
 CheckpointDraft pack_sizes(const SizedDomain& sized) {
   return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features,
-                              sized.bounded}),
+                              sized.bounded, sized.walls}),
           {}};
 }
 
@@ -107,7 +108,8 @@ SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointC
                     std::move(record.joined),
                     record.counts,
                     std::move(record.features),
-                    std::move(record.bounded)};
+                    std::move(record.bounded),
+                    std::move(record.walls)};
   if (!sized.joined.groups.empty()) sized.model = cad::join_faces(domain, sized.joined.groups);
   return sized;
 }

@@ -40,12 +40,21 @@ public:
   /// Tags are asked for in no particular order, and not for all.
   template <class Counts>
   double nearest(geometry::Vec3 p, double bound, const Counts& counts) const {
-    _tree.search_nearest([&](const geometry::Box& box) { return distance_to_box(p, box); }, bound,
-                         [&](std::int32_t place) {
-                           const Segment& segment = _segments[_tree.order()[place]];
-                           const double away = distance_to_segment(p, segment.a, segment.b);
-                           if (away < bound && counts(segment.tag)) bound = away;
-                         });
+    std::int64_t nodes = 0;
+    return nearest(p, bound, counts, nodes);
+  }
+  /// Adds the nodes that were visited to `nodes`.
+  template <class Counts>
+  double nearest(geometry::Vec3 p, double bound, const Counts& counts, std::int64_t& nodes) const {
+    const auto away_from = [&](const geometry::Box& box) {
+      ++nodes;
+      return distance_to_box(p, box);
+    };
+    _tree.search_nearest(away_from, bound, [&](std::int32_t place) {
+      const Segment& segment = _segments[_tree.order()[place]];
+      const double away = distance_to_segment(p, segment.a, segment.b);
+      if (away < bound && counts(segment.tag)) bound = away;
+    });
     return bound;
   }
 
