@@ -32,7 +32,9 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
                       const Case& input) {
   parallel::StageClock clock;
   Forecast forecast;
+  const double begin = parallel::cpu_seconds();
   const SizedDomain sized = size_domain(communicator, model, input.sizing, input.narrow_faces, clock);
+  parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined.changes;
   forecast.features = sized.features;

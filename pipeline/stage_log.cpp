@@ -130,8 +130,7 @@ void warn_of_count(const RunRecord& record) {
   if (expected < telling * forecast) return;
   parallel::log_warning(fmt::format(
       "decompose: about {:.2g} tetrahedra are to be made, {:.2g} times the {:.2g} that the sizes forecast{}. "
-      "Remedy: "
-      "larger sizes (sizing.minimum, sizing.feature_minimum)",
+      "Remedy: larger sizes (sizing.minimum, sizing.feature_minimum)",
       expected, expected / forecast, forecast,
       record.surface.mending_rounds > 0
           ? fmt::format(": sizes fell in {} round(s) where faces or curves came too close to each other",

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t shown_walls = 5;
 /// Elements over the distance between two faces, from which on these are one to them.
-constexpr double size_over_distance = 10;
+constexpr double size_over_distance = 5;
 /// Distance over the length of the place where two faces are on one another, below which it is rounding.
 constexpr double exact = 1e-12;
 

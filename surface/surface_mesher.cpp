@@ -86,8 +86,7 @@ std::string complain(const cad::Model& model, const SizeField& field, const std:
   const geometry::Vec3 at = worst->place;
   return fmt::format(
       "triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), over an area of about "
-      "{:.3g} in "
-      "all, size {:.4g} there",
+      "{:.3g} in all, size {:.4g} there",
       model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, at.x, at.y, at.z, worst_area,
       field(at));
 }
@@ -200,13 +199,11 @@ private:
   bool end_early(double triangles) {
     const std::string tried = fmt::format(
         "; sizes that might part them would take about {:.2g} triangles, after {:.2g} in the first round; "
-        "{:.2g} "
-        "are allowed",
+        "{:.2g} are allowed",
         triangles, _pool.first_triangles(), _pool.most_triangles());
     if (!_accepted) give_up(_last_complaint, tried);
     parallel::log_verbose(
-        fmt::format("surface: needles stay as they are: without them there would be about {:.2g} "
-                    "triangles",
+        fmt::format("surface: needles stay as they are: without them there would be about {:.2g} triangles",
                     triangles));
     return true;
   }
