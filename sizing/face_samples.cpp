@@ -46,9 +46,11 @@ FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId
     const auto& [a, b, c] = corners;
     const Vec3 p = facets.points[a];
     const double share = norm(cross(facets.points[b] - p, facets.points[c] - p)) / 6;  // of a corner
+    double widest = 0;
     for (const auto corner : corners) {
       const Point& point = _points[corner];
       const double size = size_of(point, demand), turn = point.curvature * size;
+      widest = std::max(widest, size);
       seen.area += share;
       seen.triangles += share / (triangle_over_square * size * size);
       const bool deviates = demand.limits.deviation > 0 &&
@@ -57,6 +59,7 @@ FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId
       seen.bounded_area += share;
       seen.degrees = std::max(seen.degrees, turn * 180 / std::numbers::pi);
     }
+    seen.least_triangles += 3 * share / (triangle_over_square * widest * widest);
   }
   return seen;
 }

@@ -24,7 +24,7 @@ constexpr double most_rays = 2e6;
 // And those that look closer at open gaps.
 constexpr double most_close_rays = 3e5;
 // Nodes of trees that all searches may visit: rays of all faces, and those that look closer.
-constexpr std::int64_t most_nodes = 600'000'000, most_close_nodes = 200'000'000;
+constexpr std::int64_t most_nodes = 300'000'000, most_close_nodes = 100'000'000;
 // How often what some faces leave of that is dealt to those that need more, and the least part of it that is
 // worth it.
 constexpr int most_deals = 4;
