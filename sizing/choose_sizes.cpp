@@ -39,8 +39,8 @@ constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 
 constexpr double little_share = 1.05, near_enough_with_features = 0.2;
 // A field with more leaves than this gives several times the count: it is not built to the end.
 constexpr double leaves_per_tetrahedron = 0.5;
-/// Nor is anything sampled for it where the surface has as many triangles for each of these leaves.
-constexpr double triangles_per_leaf = 8;
+/// Nor is anything sampled for it where faces would be cut into as many parts for each of these leaves.
+constexpr double parts_per_leaf = 8;
 constexpr std::int64_t least_limit = 100'000;
 
 std::int64_t leaves_for(double tetrahedra) {
@@ -145,7 +145,7 @@ private:
     if (_features.gap_floor > 0) set_gap_floor(options, _features.gap_floor);
     std::optional<Trial> trial;
     std::optional<double> tetrahedra;
-    if (!_sampler.has_more_triangles(options, triangles_per_leaf * static_cast<double>(_most_leaves))) {
+    if (!_sampler.has_more_parts(options, parts_per_leaf * static_cast<double>(_most_leaves))) {
       if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
       if (trial) tetrahedra = trial->counts.tetrahedra;
       if (_coarser > 1) tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);

@@ -48,14 +48,14 @@ std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOpti
   return all;
 }
 
-bool ModelSampler::has_more_triangles(const SizingOptions& options, double most) const {
+bool ModelSampler::has_more_parts(const SizingOptions& options, double most) const {
   constexpr double most_of_face = 1e15;
-  std::int64_t triangles = 0;
+  std::int64_t parts = 0;
   parallel::agree(_communicator, [&] {
     for (const auto& [face, seen] : look_over(options))
-      triangles += std::llround(std::min(seen.least_triangles, most_of_face));
+      parts += std::llround(std::min(seen.parts, most_of_face));
   });
-  return static_cast<double>(_communicator.sum(triangles)) > most;
+  return static_cast<double>(_communicator.sum(parts)) > most;
 }
 
 void ModelSampler::require_possible(const SizingOptions& options) const {

@@ -82,9 +82,9 @@ public:
   /// For the model with some faces joined: what belongs to all others is taken over. Collective.
   ModelSampler(ModelSampler&& before, const cad::Model& joined);
 
-  /// Whether the surface alone has more triangles than that, as its facets tell where corners of high
-  /// curvature are left out: known before anything is sampled. Collective.
-  bool has_more_triangles(const SizingOptions& options, double most) const;
+  /// Whether sampling the faces cuts them into more parts than that, about, as their facets tell before it is
+  /// done. Collective.
+  bool has_more_parts(const SizingOptions& options, double most) const;
 
   /// The field under these options. Collective. This and what follows throw std::invalid_argument where the
   /// memory of this node cannot hold a point for each triangle.
