@@ -1,8 +1,11 @@
-/// The surface stage alone: mpirun -n N surface_benchmark CASE [KEY=VALUE ...] prints one RESULT line; with
-/// --write as the last argument, surface.pvtp goes to the case's output directory.
+/// The surface stage alone: mpirun -n N surface_benchmark CASE [KEY=VALUE ...] [OPTION ...] prints one RESULT
+/// line. --write: surface.pvtp goes to the case's output directory. --details FILE: shapes by piece and
+/// histograms as JSON. --without STEP[,STEP ...]: leaves out steps of the decomposition of faces:
+/// contraction, repair, widening, straightening.
 ///
 /// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
 /// on a border between pieces of one CAD face. Needles: below 10 degrees, below 5, the least angle.
+#include "benchmarks/surface_details.hpp"
 #include "io/vtk/vtk_writer.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/validity.hpp"
@@ -17,6 +20,7 @@
 #include <cstdlib>
 #include <exception>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 
@@ -166,7 +170,53 @@ Decomposition inspect_pieces(const Communicator& communicator, const mesh::Distr
   return result;
 }
 
-void run(const Communicator& communicator, const pipeline::Case& input, bool write) {
+struct Request {
+  std::vector<std::string> settings;
+  surface::DivisionSteps steps;
+  std::string details;  // empty: none
+  bool write = false;
+};
+
+surface::DivisionSteps steps_without(std::string names) {
+  surface::DivisionSteps steps;
+  for (std::size_t end = 0; end != std::string::npos;) {
+    end = names.find(',');
+    const std::string name = names.substr(0, end);
+    bool* step = name == "contraction"     ? &steps.contraction
+                 : name == "repair"        ? &steps.repair
+                 : name == "widening"      ? &steps.widening
+                 : name == "straightening" ? &steps.straightening
+                                           : nullptr;
+    if (step == nullptr) throw std::invalid_argument("--without: no step '" + name + "'");
+    *step = false;
+    if (end != std::string::npos) names.erase(0, end + 1);
+  }
+  return steps;
+}
+
+Request read_request(const std::vector<std::string>& arguments) {
+  Request request;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument == "--write") {
+      request.write = true;
+    } else if (argument.starts_with("--")) {
+      if (i + 1 == arguments.size()) throw std::invalid_argument(argument + " lacks its value");
+      if (argument == "--without") {
+        request.steps = steps_without(arguments[++i]);
+      } else if (argument == "--details") {
+        request.details = arguments[++i];
+      } else {
+        throw std::invalid_argument("no option " + argument);
+      }
+    } else {
+      request.settings.push_back(argument);
+    }
+  }
+  return request;
+}
+
+void run(const Communicator& communicator, const pipeline::Case& input, const Request& request) {
   parallel::StageClock clock;
   cad::DomainReport domain;
   clock.begin("geometry");
@@ -190,8 +240,12 @@ void run(const Communicator& communicator, const pipeline::Case& input, bool wri
   const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
   const Sharp apart = measure_sharp(communicator, surface);
   const Decomposition decomposition = inspect_pieces(communicator, surface.mesh);
-  if (write) io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
+  const benchmarks::SurfaceDetails details(communicator, surface.mesh);
+  if (request.write)
+    io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
   if (!communicator.is_root()) return;
+  if (!request.details.empty())
+    details.write(request.details, surface.report.cut_angles, stage.cpu_seconds_of_ranks);
   double sharpest = 180;
   int sharp = 0, bins[6] = {0, 0, 0, 0, 0, 0};
   for (const surface::CutAngle& angle : surface.report.cut_angles) {
@@ -234,14 +288,16 @@ int main(int argc, char** argv) {
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2) {
-    std::fprintf(stderr, "usage: surface_benchmark CASE [KEY=VALUE ...]\n");
+    std::fprintf(stderr, "usage: surface_benchmark CASE [KEY=VALUE ...] [OPTION ...]\n");
     return 2;
   }
   try {
     const bool verbose = std::getenv("AEROLOOM_VERBOSE") != nullptr;
     parallel::configure_log(world, verbose ? parallel::LogLevel::verbose : parallel::LogLevel::quiet);
-    const bool write = argc > 2 && std::string(argv[argc - 1]) == "--write";
-    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc - (write ? 1 : 0)}), write);
+    const Request request = read_request({argv + 2, argv + argc});
+    pipeline::Case input = pipeline::read_case(argv[1], request.settings);
+    input.surface.division = request.steps;
+    run(world, input, request);
   } catch (const std::exception& error) {
     if (world.is_root()) std::fprintf(stderr, "%s\n", error.what());
     return 1;

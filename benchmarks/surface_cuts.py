@@ -1,46 +1,68 @@
 #!/usr/bin/env python3
-"""The decomposition of CAD faces with and without simplification of the dual graph, as a Markdown table.
+"""What each step of the decomposition of CAD faces is worth: a Markdown table and a plot of models meshed without it.
 
-usage: surface_cuts.py SURFACE_BENCHMARK [FILE ...]
+usage: surface_cuts.py SURFACE_BENCHMARK [FILE ...] [--piece-triangles N] [--plot FILE]
 
-Without: METIS on the dual graph of the same background mesh, connected parts, nothing else (surface.cut_angle
-0). Angles are those between fine edges where cuts end: on feature curves and where cuts meet.
+The steps are the simplification of the dual graph (contraction of arcs), the repair of parts that METIS leaves asunder,
+the widening of wedges that are still sharp, and the straightening of cuts. Angles are those between fine edges where
+cuts end: on feature curves and where cuts meet.
 """
+import argparse
+import os
 import pathlib
-import re
-import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-AIRCRAFT = ROOT.parent / "shared" / "geometry" / "aircraft"
-FILES = ["gmsh_dlr_f6.brep", "tigl_D150_fused_aircraft.brep", "su2_oneram6.igs", "gmsh_wing_fuselage.step",
-         "gmsh_submarine.stp", "dealii_wing.igs", "pyrefine_cev_capsule.igs"]
+from plots import Panel, save
+from surface_runs import FILES, PICTURES, run_with_details, write_case
+
+VARIANTS = {  # the steps that are left out
+    "METIS alone": "contraction,repair,widening,straightening",
+    "simplified graph alone": "repair,widening,straightening",
+    "not simplified": "contraction",
+    "not repaired": "repair",
+    "not widened": "widening",
+    "not straightened": "straightening",
+    "all steps": "",
+}
+BINS = (0, 20, 30, 40, 50, 360)
 
 
-def run(program, file, angle, folder):
-    config = folder / "case.yaml"
-    config.write_text(f"geometry: {{file: {file}}}\nsurface: {{piece_triangles: 1500, cut_angle: {angle}}}\n")
-    done = subprocess.run([program, config], capture_output=True, text=True)
-    return dict(re.findall(r"(\w+)=(\S+)", done.stdout))
+def row(model, name, r, details):
+    angles = details["cut_angles"]
+    bins = [sum(low <= a < high for a in angles) for low, high in zip(BINS, BINS[1:])]
+    return (f"| {model} | {name} | {r['pieces']} | " + " | ".join(map(str, bins)) +
+            f" | {r['cut_angle_min']} | {r['cut_edges']} | {r['imbalance']} | {r['rounds']} | {r['cut_min_angle']} | "
+            f"{r['cut_worst']} | {r['cut_mean_ratio']} / {r['other_mean_ratio']} |")
 
 
 def main():
-    program = sys.argv[1]
-    files = [pathlib.Path(f) for f in sys.argv[2:]] or [ROOT / "configs/geometry/sphere.brep"] + [AIRCRAFT / f for f in FILES]
-    print("| model | graph | pieces | angles < 10 | 10–20 | 20–30 | 30–40 | 40–50 | ≥ 50 | smallest | cut edges | imbalance | rounds |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("files", nargs="*", type=pathlib.Path, default=[file for file in FILES if file.exists()])
+    parser.add_argument("--piece-triangles", type=int, default=1500)
+    parser.add_argument("--plot", default=PICTURES / "surface_cuts.svg")
+    options = parser.parse_args()
+    print("| model | steps | pieces | angles < 20 | 20–30 | 30–40 | 40–50 | ≥ 50 | smallest | cut edges | imbalance | rounds | "
+          "smallest angle at cuts | worst mean ratio | mean ratio, cuts / others |")
+    print("|---" * 15 + "|")
+    smallest = {name: [] for name in VARIANTS}
+    sharpest = {name: [] for name in VARIANTS}
     with tempfile.TemporaryDirectory() as folder:
-        for file in files:
-            if not file.exists():
-                continue
-            for angle, name in ((0, "plain"), (40, "simplified")):
-                r = run(program, file, angle, pathlib.Path(folder))
-                if not r:
-                    print(f"| {file.stem} | {name} | no mesh |")
-                    continue
-                print(f"| {file.stem} | {name} | {r['pieces']} | " + " | ".join(r["cut_angles_by_10"].split(",")) +
-                      f" | {r['cut_angle_min']} | {r['cut_edges']} | {r['imbalance']} | {r['rounds']} |")
+        for file in options.files:
+            case = write_case(file, folder, options.piece_triangles)
+            for name, without in VARIANTS.items():
+                r, details = run_with_details(options.program, case, folder, *(["--without", without] if without else []))
+                print(row(file.stem, name, r, details) if r else f"| {file.stem} | {name} | no mesh |" + " |" * 12, flush=True)
+                smallest[name].append(float(r["cut_angle_min"]) if r else None)
+                sharpest[name].append(float(r["cut_min_angle"]) if r else None)
+    rows = [file.stem for file in options.files]
+    panels = [Panel("Smallest angle where cuts end", "degrees", x=(0, 90), rows=rows, width=560),
+              Panel("Smallest angle of triangles at cuts", "degrees", x=(0, 60), rows=rows, width=460)]
+    panels[0].guide(x=40, name="40")
+    for kind, name in enumerate(VARIANTS):
+        panels[0].points(name, smallest[name], kind=kind)
+        panels[1].points(name, sharpest[name], kind=kind)
+    save(options.plot, panels)
 
 
 if __name__ == "__main__":

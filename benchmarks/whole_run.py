@@ -103,7 +103,7 @@ def run_case(options, case):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         runs, gmsh, factor = {}, None, 0
-        call([options.program, "export-cad", os.path.abspath(case), folder / "domain.step"], ROOT)
+        call([options.program, "export-cad", os.path.abspath(case), folder / "domain.step", "--domain"], ROOT)
         for _ in range(options.repeat):
             for ranks in options.ranks:
                 wall, report = ours(options, case, ranks, folder / f"ours{ranks}")

@@ -1,6 +1,7 @@
 #include "parallel/contained.hpp"
 
 #include "parallel/contained_server.hpp"
+#include "parallel/crash_note.hpp"
 #include "parallel/file_descriptor.hpp"
 #include "parallel/log.hpp"
 #include "parallel/memory_limit.hpp"
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include <poll.h>
 #include <sys/mman.h>
@@ -40,6 +42,8 @@ Registry& registry() {
 struct Server {
   pid_t process = -1;
   FileDescriptor socket;
+  std::string refusal;    // of the machine to have one
+  bool unwanted = false;  // by the user
 };
 
 Server& server() {
@@ -121,11 +125,23 @@ std::string describe_interruption(const std::string& task, const ContainedReply&
          ", twice; is the machine short of memory? Remedy: fewer ranks on it, or --max-memory";
 }
 
+/// It ends when it sees that nobody asks any more.
+void end_server() {
+  server().socket.close();
+  if (server().process < 0) return;
+  while (waitpid(server().process, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  server().process = -1;
+}
+
 /// Runs a task in this process.
 ContainedResult run_uncontained(const RegisteredTask& task, std::span<const std::byte> input) {
   static bool warned = false;
-  if (!warned) {
-    log_warning("no server of contained runs was started before MPI: what crashes in '" + task.name +
+  if (!warned && !server().unwanted) {
+    const std::string why = server().refusal.empty()
+                                ? "no server of contained runs was started before MPI"
+                                : "this machine allows no child processes (" + server().refusal + ")";
+    log_warning(why + ": what crashes in '" + task.name +
                 "' ends the program, and limits of time and memory do not hold (parallel::ContainedServer)");
   }
   warned = true;
@@ -179,7 +195,7 @@ ContainedServer::ContainedServer() {
   FileDescriptor mine(ends[0]), theirs(ends[1]);
   const pid_t rank_process = getpid();
   const pid_t process = fork();
-  if (process < 0) throw_system_error("forking the worker server");
+  if (process < 0) throw_system_error("starting a child process");
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != rank_process) _exit(0);  // the rank died before we asked to be told
@@ -191,11 +207,30 @@ ContainedServer::ContainedServer() {
 }
 
 ContainedServer::~ContainedServer() {
-  server().socket.close();
-  while (waitpid(server().process, nullptr, 0) < 0 && errno == EINTR) {
-  }
-  server().process = -1;
+  end_server();
   registry().sealed = false;
+}
+
+std::unique_ptr<ContainedServer> start_server_if_allowed() {
+  try {
+    return std::make_unique<ContainedServer>();
+  } catch (const std::system_error& error) {
+    // Short of processes or memory is another matter: that may be gone in a minute.
+    if (error.code().value() != EPERM && error.code().value() != ENOSYS && error.code().value() != EACCES)
+      throw;
+    server().refusal = error.what();
+    return nullptr;
+  }
+}
+
+const std::string& containment_refusal() {
+  return server().refusal;
+}
+
+void do_without_containment(const Communicator& communicator) {
+  end_server();
+  server().unwanted = true;
+  tell_crashes(communicator.rank());
 }
 
 ContainedResult run_contained(const std::string& name, std::span<const std::byte> input,

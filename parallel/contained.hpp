@@ -23,6 +23,12 @@ using ContainedTask = Bytes (*)(std::span<const std::byte> input);
 /// afterwards a new name throws std::logic_error. Registering a name twice with another task throws too.
 void register_contained_task(const std::string& name, ContainedTask task);
 
+/// Where contained tasks run.
+enum class Sandbox {
+  process,  ///< in child processes
+  none      ///< in the rank itself: what crashes ends the program, and limits do not hold
+};
+
 /// The worker server of this process. Environment starts one; a program that runs MPI itself constructs it
 /// before it starts MPI, after every task is registered, or does without: tasks then run in the rank itself.
 /// At most one at a time; a second one throws std::logic_error.
@@ -37,6 +43,16 @@ public:
 
 /// Whether tasks run in children: a server is there.
 bool is_containment_ready();
+
+/// Whether this process is such a child: what a task prints here goes to the message about its end.
+bool is_contained_child();
+
+/// Why this machine lets Environment start no server; empty where it has, or where none was wanted.
+const std::string& containment_refusal();
+
+/// Ends the server, if there is one, for good: tasks run in this rank from now on, without a warning, and a
+/// crash there is told (crash_note.hpp).
+void do_without_containment(const Communicator& communicator);
 
 /// Limits of one run; functions of the input, never of the clock or the machine.
 struct ContainedLimits {

@@ -83,6 +83,8 @@ std::span<const std::byte> map_input(int input) {
   return {static_cast<const std::byte*>(start), size};
 }
 
+bool in_child = false;
+
 [[noreturn]] void leave_with_exception(int output, const std::string& text) {
   write_all(output, std::as_bytes(std::span(text)));
   leave(ChildExit::threw);
@@ -90,10 +92,15 @@ std::span<const std::byte> map_input(int input) {
 
 }  // namespace
 
+bool is_contained_child() {
+  return in_child;
+}
+
 void run_child(const ContainedRequest& request, int input, int output, int printed) {
   dup2(printed, STDOUT_FILENO);
   dup2(printed, STDERR_FILENO);
   release_termination_signals();  // the server lives as long as its rank
+  in_child = true;
   const ContainedTask task = contained_tasks()[static_cast<std::size_t>(request.task)].run;
   const std::span<const std::byte> content = map_input(input);
   // Third-party code may swallow bad_alloc or be unable to pass it on: do not let it come to that.

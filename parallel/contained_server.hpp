@@ -4,6 +4,7 @@
 #include "parallel/contained.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct ContainedReply {
   std::uint32_t message_length;
   char message[message_capacity];
 };
+
+/// A server, unless the machine forbids processes: then containment_refusal() says so. Throws
+/// std::system_error where it is short of what a process takes.
+std::unique_ptr<ContainedServer> start_server_if_allowed();
 
 /// The server's life: answers requests on `socket` until it closes. Never returns.
 [[noreturn]] void serve_contained_runs(int socket);

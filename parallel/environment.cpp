@@ -1,6 +1,7 @@
 #include "parallel/environment.hpp"
 
 #include "parallel/contained.hpp"
+#include "parallel/contained_server.hpp"
 #include "parallel/session.hpp"
 
 #include <cstdio>
@@ -60,8 +61,7 @@ void open_standard_streams() {
 
 Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
   open_standard_streams();
-  if (!session::is_library_running() && !is_containment_ready())
-    _server = std::make_unique<ContainedServer>();
+  if (!session::is_library_running() && !is_containment_ready()) _server = start_server_if_allowed();
   // Not in contained runs, whose memory goes with them.
   if (!session::is_library_running()) return_large_arrays();
   session::start(argc, argv);

@@ -50,8 +50,11 @@ void give_to_least_burdened(std::span<const int> tasks, std::span<const double> 
 }  // namespace
 
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks) {
+  return assign_largest_first(loads, std::vector<double>(static_cast<std::size_t>(ranks), 0));
+}
+
+std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens) {
   std::vector<Rank> assignment(loads.size());
-  const std::vector<double> burdens(static_cast<std::size_t>(ranks), 0);
   give_to_least_burdened(largest_first(loads), loads, burdens, assignment);
   return assignment;
 }

@@ -13,6 +13,9 @@ namespace aeroloom::parallel {
 /// same on every rank, without communication. Loads are any non-negative unit.
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks);
 
+/// As above, to ranks that have something already: `burdens`, one for each.
+std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens);
+
 /// Moves tasks from where they are `now` only where that rank would get more than the mean: largest load
 /// first they stay or are taken away, then those taken away are given as above to what the ranks have kept.
 /// May be less even than assign_largest_first. The same on every rank, without communication.

@@ -199,12 +199,12 @@ std::int32_t widen_wedges(const BackgroundSurface& surface, const VertexFans& fa
   return Widener(surface, fans, smallest_angle, part).run();
 }
 
-PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, const RepairOptions& options,
                        std::vector<PartIndex>& part) {
-  connect_parts(surface, part);
-  for (int round = 0; round < repair_rounds && smallest_angle > 0; ++round) {
-    const std::int32_t moves = widen_wedges(surface, fans, smallest_angle, part);
-    connect_parts(surface, part);
+  if (options.connects_parts) connect_parts(surface, part);
+  for (int round = 0; round < repair_rounds && options.smallest_angle > 0; ++round) {
+    const std::int32_t moves = widen_wedges(surface, fans, options.smallest_angle, part);
+    if (options.connects_parts) connect_parts(surface, part);
     if (moves == 0) break;
   }
   return number_parts(part);

@@ -22,10 +22,15 @@ void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& par
 std::int32_t widen_wedges(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
                           std::vector<PartIndex>& part);
 
-/// Both in turn, until nothing moves or a few rounds have passed: connected parts whose borders meet, as far
-/// as the surface allows it, at `smallest_angle` (degrees) or more; 0: connected parts, whatever their
-/// angles. Parts are numbered by their first triangles, none is empty. Returns their number.
-PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, double smallest_angle,
+struct RepairOptions {
+  double smallest_angle = 40;  ///< degrees that borders make with each other and with feature curves, as far
+                               ///< as the surface allows it; 0: no wedge is widened
+  bool connects_parts = true;  ///< false: parts may stay asunder, to compare with
+};
+
+/// Both in turn, until nothing moves or a few rounds have passed. Parts are numbered by their first
+/// triangles, none is empty. Returns their number.
+PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, const RepairOptions& options,
                        std::vector<PartIndex>& part);
 
 }  // namespace aeroloom::partition

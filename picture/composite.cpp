@@ -75,7 +75,8 @@ std::vector<Colour> resolve(const Canvas& canvas, Strip strip, Colour background
 
 }  // namespace
 
-Image composite(const parallel::Communicator& communicator, Canvas canvas, Colour background) {
+Image composite(const parallel::Communicator& communicator, Canvas canvas, Colour background,
+                const std::function<void(Canvas&)>& draw_alike) {
   const int ranks = communicator.size();
   const auto sample_count = [&](Strip strip) {
     return static_cast<std::size_t>(strip.end - strip.begin) * canvas.width() * Canvas::samples;
@@ -92,6 +93,7 @@ Image composite(const parallel::Communicator& communicator, Canvas canvas, Colou
   for (const parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     merge_strip(parcel.content, canvas.row(mine.begin));
   }
+  if (draw_alike) draw_alike(canvas);
   const std::vector<Colour> pixels = resolve(canvas, mine, background);
   Image image;
   for (const parallel::Bytes& bytes :

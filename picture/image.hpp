@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace aeroloom::picture {
@@ -18,8 +19,10 @@ struct Image {
 
 /// What all ranks have drawn, the nearest in front, on rank 0; empty elsewhere. Each rank puts a strip
 /// together (Hsu, Parallel Rendering Symposium, 1993: direct send); what is empty does not travel. The same
-/// for any distribution of what is drawn. Collective; canvases are of one size.
-Image composite(const parallel::Communicator& communicator, Canvas canvas, Colour background);
+/// for any distribution of what is drawn. `draw_alike` draws what every rank would draw alike, and does not
+/// travel. Collective; canvases are of one size.
+Image composite(const parallel::Communicator& communicator, Canvas canvas, Colour background,
+                const std::function<void(Canvas&)>& draw_alike = nullptr);
 
 /// The image as PNG, with a palette: as many colours, at most 256, as keep it below `bytes`, but 16 at least.
 /// Throws std::runtime_error.

@@ -5,6 +5,7 @@
 #include "improve/improve_options.hpp"
 #include "io/file_formats.hpp"
 #include "io/vtk/vtk_writer.hpp"
+#include "parallel/contained.hpp"
 #include "parallel/log.hpp"
 #include "pipeline/case_error.hpp"
 #include "pipeline/patch_rules.hpp"
@@ -64,6 +65,7 @@ struct Case {
   QualityGate gate;
   std::vector<PatchRule> patches;  ///< the first that a face matches holds
   OutputOptions output;
+  parallel::Sandbox sandbox = parallel::Sandbox::process;  ///< changes no result
   /// Bytes that all ranks of this node may take together; 0: any. Not a key: it changes no result.
   std::int64_t memory_limit = 0;
 };

@@ -120,6 +120,14 @@ void declare_case_keys(KeyTable& root, CaseDraft& draft) {
   declare_volume(root.section("volume", "How the volume is cut into pieces of work and filled."),
                  draft.result);
   declare_result_keys(root, draft.result);
+  root.section("parallel", "How the machine is used; it changes no result.")
+      .choice<parallel::Sandbox>("sandbox", draft.result.sandbox,
+                                 {{"process", parallel::Sandbox::process}, {"none", parallel::Sandbox::none}},
+                                 "Where the CAD library and TetGen run. `process`: in child processes, so "
+                                 "that a crash of theirs is a "
+                                 "message, or another try. `none`: in the ranks, for machines that forbid "
+                                 "child processes; a crash ends "
+                                 "the run then, and limits of time and memory do not hold.");
 }
 
 std::vector<KeyInfo> case_keys() {

@@ -3,6 +3,7 @@
 #include "cad/model/step_trace.hpp"
 #include "parallel/collective_error.hpp"
 #include "parallel/contained.hpp"
+#include "parallel/crash_note.hpp"
 #include "pipeline/domain_bytes.hpp"
 
 #include <atomic>
@@ -66,11 +67,17 @@ cad::Diagnosis unpack_diagnosis(std::span<const std::byte> bytes) {
 }
 
 /// In the child: errors of known kinds travel as data, the step at hand goes to standard error.
+/// For the message about a crash.
+void tell_step(const std::string& step) {
+  if (!parallel::is_contained_child()) return parallel::set_crash_note("stage geometry, " + step);
+  fmt::print(stderr, "\n{}", step);
+  std::fflush(stderr);
+}
+
 template <class Work>
 Bytes answer(std::span<const std::byte> input, Work work) {
   const auto [sabotage, options] = parallel::from_wire<std::tuple<Sabotage, DomainOptions>>(input);
-  cad::listen_to_steps(
-      [](const std::string& step) { fmt::print(stderr, "\n{}", step), std::fflush(stderr); });
+  cad::listen_to_steps(tell_step);
   Answer answer;
   try {
     parallel::commit_sabotage(sabotage);
@@ -112,9 +119,12 @@ parallel::ContainedLimits limits_for(const DomainOptions& options) {
   return limits;
 }
 
+std::string source_of(const DomainOptions& options) {
+  return options.transport ? "the built-in aircraft" : "'" + options.file + "'";
+}
+
 [[noreturn]] void throw_crash(const DomainOptions& options, const parallel::ContainedResult& result,
                               const parallel::ContainedLimits& limits) {
-  const std::string source = options.transport ? "the built-in aircraft" : "'" + options.file + "'";
   std::string what = "failed";
   if (result.status == parallel::ContainedStatus::aborted) what = "crashed";
   if (result.status == parallel::ContainedStatus::out_of_time)
@@ -124,13 +134,14 @@ parallel::ContainedLimits limits_for(const DomainOptions& options) {
       fmt::format("{}: the CAD library {} while preparing this geometry ({}). Remedy: repair the file in the "
                   "CAD program, or "
                   "export it anew, in another format or part by part",
-                  source, what, result.message));
+                  source_of(options), what, result.message));
 }
 
 /// Runs a task on the options; its result where it ended well.
 Bytes run_task(const char* task, const DomainOptions& options, parallel::StageClock& clock,
                Sabotage sabotage) {
   const parallel::ContainedLimits limits = limits_for(options);
+  const parallel::CrashNote note(fmt::format("stage geometry, {}", source_of(options)));
   const parallel::ContainedResult result =
       parallel::run_contained(task, parallel::to_wire(std::tie(sabotage, options)), limits);
   clock.add_task_cpu(result.cpu_seconds);

@@ -87,11 +87,14 @@ std::vector<LegendItem> angle_legend() {
   return legend;
 }
 
-/// `draw` puts on a canvas what this rank has. Collective; all ranks learn of what is thrown on one.
-Picture painted(const Communicator& communicator, Picture picture, const std::function<void(Canvas&)>& draw) {
+/// `draw` puts on a canvas what this rank has, `draw_alike` what is the same on all. Collective; all ranks
+/// learn of what is thrown on one by `draw`.
+Picture painted(const Communicator& communicator, Picture picture, const std::function<void(Canvas&)>& draw,
+                const std::function<void(Canvas&)>& draw_alike = nullptr) {
   std::optional<Canvas> canvas;
   parallel::agree(communicator, [&] { draw(canvas.emplace(picture.width, picture.height)); });
-  const picture::Image image = picture::composite(communicator, std::move(*canvas), picture::white);
+  const picture::Image image =
+      picture::composite(communicator, std::move(*canvas), picture::white, draw_alike);
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) picture.png = picture::encode_png(image, bytes_of_picture);
   });
@@ -284,18 +287,20 @@ Cut main_cut(const Scene& scene) {
 Picture painted_cut(const Subject& subject, const mesh::DistributedMesh& volume, const Plane& plane,
                     const Camera& camera, std::string name, std::string caption) {
   if (subject.scene.has_body) caption += " The body is grey.";
-  return painted(subject.communicator,
-                 {.name = std::move(name),
-                  .caption = std::move(caption),
-                  .width = camera.window.width,
-                  .height = camera.window.height,
-                  .legend = angle_legend()},
-                 [&](Canvas& canvas) {
-                   if (subject.scene.has_body && subject.communicator.is_root())
-                     draw_backdrop(canvas, camera, subject.scene.box, picture::solid_grey);
-                   draw_cut(canvas, camera, volume, plane, 0.8);
-                   draw_section(canvas, camera, subject.source.surface, subject.scene, plane, 2);
-                 });
+  return painted(
+      subject.communicator,
+      {.name = std::move(name),
+       .caption = std::move(caption),
+       .width = camera.window.width,
+       .height = camera.window.height,
+       .legend = angle_legend()},
+      [&](Canvas& canvas) {
+        draw_cut(canvas, camera, volume, plane, 0.8);
+        draw_section(canvas, camera, subject.source.surface, subject.scene, plane, 2);
+      },
+      [&](Canvas& canvas) {
+        if (subject.scene.has_body) draw_backdrop(canvas, camera, subject.scene.box, picture::solid_grey);
+      });
 }
 
 Picture cut_picture(const Subject& subject, const mesh::DistributedMesh& volume) {

@@ -135,6 +135,23 @@ fs::path results_of_jobs(const fs::path& folder) {
   return text;
 }
 
+namespace {
+
+/// The last that the queue wrote of a job's end into what the job printed, or nothing.
+std::string last_word_of_queue(const fs::path& printed) {
+  std::ifstream lines(printed);
+  std::string word;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find("CANCELLED AT ");
+    if (line.find("error: *** ") == std::string::npos || begin == std::string::npos) continue;
+    word = line.substr(begin, line.find_first_of(",*", begin) - begin);
+    word.erase(word.find_last_not_of(' ') + 1);
+  }
+  return word;
+}
+
+}  // namespace
+
 std::map<std::string, std::string> ask_queue(const fs::path& folder) {
   std::map<std::string, std::string> jobs, said;
   std::ifstream file(folder / submitted_name);
@@ -158,10 +175,10 @@ std::map<std::string, std::string> ask_queue(const fs::path& folder) {
       states[line.substr(0, bar)] = state;
     }
   }
-  for (const auto& [name, id] : jobs)
-    said[name] =
-        fmt::format("job {}{}", id,
-                    states.count(id) > 0 ? " " + states[id] : std::string(", of which sacct says nothing"));
+  for (const auto& [name, id] : jobs) {
+    std::string state = states.count(id) > 0 ? states[id] : last_word_of_queue(folder / (name + ".out"));
+    said[name] = fmt::format("job {}{}{}", id, state.empty() ? ", of which sacct says nothing" : " ", state);
+  }
   return said;
 }
 

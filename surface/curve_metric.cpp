@@ -68,10 +68,10 @@ double MetricLength::parameter_at(double value) const {
     (excess > 0 ? high : low) = t;
     const double density = _density(t);
     double next = density > 0 ? t - excess / density : low;
+    // Checked first: what is exact leaves the bracket, and would be bisected over and over.
+    if (std::abs(next - t) <= 1e-13 * (_parameters.back() - _parameters.front())) break;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double moved = std::abs(next - t);
     t = next;
-    if (moved <= 1e-13 * (_parameters.back() - _parameters.front())) break;
   }
   return t;
 }

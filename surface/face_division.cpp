@@ -28,13 +28,13 @@ constexpr double triangles_per_part = 64;
 constexpr int most_halvings = 4;
 /// No cluster is heavier than this fraction of a part, so that parts can be balanced.
 constexpr double largest_cluster = 0.15;
-/// A seed of more pieces is cut twice.
+/// A face of more pieces is cut twice.
 constexpr double most_pieces_at_once = 24;
 
-/// The pieces that a seed is cut into at once.
-double count_parts(const PieceSeed& seed, const SurfaceOptions& options) {
-  const double pieces = std::max(1.0, std::round(seed.load / static_cast<double>(options.piece_triangles)));
-  return pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
+/// The pieces that a seed is cut into at once: a part of a face (group > 0) is not cut again.
+double count_parts(double load, std::int32_t group, const SurfaceOptions& options) {
+  const double pieces = std::max(1.0, std::round(load / static_cast<double>(options.piece_triangles)));
+  return group == 0 && pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
 }
 
 /// The background as the decomposition sees it.
@@ -120,6 +120,8 @@ struct DivisionRequest {
 std::optional<SeedPieces> divide(const DivisionRequest& wanted, int power, CoarseSizes& sizes) {
   const auto& [model, seed, group, parts, options] = wanted;
   const sizing::SizeField& fine = sizes.fine();
+  const DivisionSteps& steps = options.division;
+  const auto angle_for = [&](bool step) { return step ? options.cut_angle : 0; };
 
   std::optional<Background> background =
       mesh_background(model, seed, sizes.field(power), std::ldexp(1.0, power), options);
@@ -132,13 +134,14 @@ std::optional<SeedPieces> divide(const DivisionRequest& wanted, int power, Coars
   } else {
     const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
     const partition::VertexFans fans = partition::gather_fans(surface);
-    const partition::Clusters clusters =
-        partition::simplify_dual_graph(surface, fans, {options.cut_angle, largest_cluster * total / parts});
+    const partition::Clusters clusters = partition::simplify_dual_graph(
+        surface, fans, {angle_for(steps.contraction), largest_cluster * total / parts});
     part = partition::partition_clusters(surface, clusters, parts);
-    partition::repair_parts(surface, fans, options.cut_angle, part);
+    partition::repair_parts(surface, fans, {angle_for(steps.widening), steps.repair}, part);
   }
 
-  if (options.cut_angle > 0) straighten_cuts(model, fine, part, options.cut_angle, background->mesh);
+  if (angle_for(steps.straightening) > 0)
+    straighten_cuts(model, fine, part, options.cut_angle, background->mesh);
   CutFace cut = discretise_cuts(model, seed, *background, std::move(part), group, fine);
 
   return make_pieces(std::move(cut), fine);
@@ -151,6 +154,17 @@ const sizing::SizeField& CoarseSizes::field(int power) {
   return _fields[power];
 }
 
+double seed_cost(double facets) {
+  return 3 * facets;
+}
+
+double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options) {
+  // A part costs its background triangles; the cuts of so many parts have about so many edges.
+  constexpr double per_part = 400, per_cut_edge = 2, per_facet = 1.5;
+  const double parts = count_parts(triangles, group, options);
+  return per_part * parts + per_cut_edge * 1.3 * std::sqrt(triangles * parts) + per_facet * facets;
+}
+
 bool is_heavy(double load, const SurfaceOptions& options) {
   return options.decomposition == SurfaceDecomposition::pieces &&
          load >= 1.5 * static_cast<double>(options.piece_triangles);
@@ -158,7 +172,7 @@ bool is_heavy(double load, const SurfaceOptions& options) {
 
 SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
                        const SurfaceOptions& options) {
-  const double parts = count_parts(seed, options);
+  const double parts = count_parts(seed.load, group, options);
   const double factor = std::sqrt(seed.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
   const DivisionRequest wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};

@@ -28,6 +28,11 @@ private:
   std::deque<sizing::SizeField> _fields;  // references to those made stay good
 };
 
+/// What it costs to make a face's seed with so many facets, and to divide a seed of so many triangles and
+/// facets (group 0: a face), both in triangles to mesh. About; no result depends on it.
+double seed_cost(double facets);
+double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options);
+
 struct SeedPieces {
   std::vector<PieceSeed> seeds;
   std::vector<CutAngle> angles;  ///< where cuts end: on loops and where they meet
@@ -38,7 +43,8 @@ bool is_heavy(double load, const SurfaceOptions& options);
 
 /// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,
 /// and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other divisions
-/// of the same face. Where no background mesh can be had, the seed stays whole. A function of the arguments
+/// of the same face: 0 for a face, which may be cut into large parts, others for its parts, which are cut
+/// into pieces. Where no background mesh can be had, the seed stays whole. A function of the arguments
 /// alone. Not collective. Throws SurfaceError, cad::CadError, or
 /// std::runtime_error where METIS fails or there are more cuts than can be named.
 SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,

@@ -118,7 +118,8 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
 std::vector<PiecePool::Row> PiecePool::tabulate(const Seeds& seeds) const {
   std::vector<Row> rows;
   for (const auto& [key, seed] : seeds) {
-    rows.push_back({key, seed.load, static_cast<double>(seed.support.triangles.size())});
+    rows.push_back(
+        {key, seed.load, static_cast<double>(seed.support.triangles.size()), _communicator.rank()});
   }
   rows = _communicator.all_gather_items<Row>(rows);
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
@@ -162,38 +163,41 @@ void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
 }
 
 /// Deals out the seeds and divides those that are too heavy; the parts stay where they were made.
-PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, int level, CoarseSizes& sizes) {
-  const std::vector<Row> rows = tabulate(seeds);
+PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& rows, int level,
+                                         CoarseSizes& sizes) {
   if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return is_to_divide(row, level); })) {
     return seeds;
   }
+  const auto group_of = [&](const Key& key) { return level == 1 ? 0 : key[1] + 1; };
   std::vector<double> loads;
   loads.reserve(rows.size());
   for (const Row& row : rows) {
-    loads.push_back(is_to_divide(row, level) ? row.load : 0);
+    const bool divided = is_to_divide(row, level);
+    loads.push_back(divided ? division_cost(row.load, row.facets, group_of(row.key), _options) : 0);
   }
-  auto owners = parallel::assign_largest_first(loads, _communicator.size());
+  auto owners = parallel::assign_largest_first(loads, _burdens);
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    _burdens[owners[i]] += loads[i];
     // What is not divided stays with whoever has it.
-    if (!is_to_divide(rows[i], level)) owners[i] = _communicator.rank();
+    if (!is_to_divide(rows[i], level)) owners[i] = rows[i].at;
   }
   seeds = deal_out(std::move(seeds), rows, owners);
   Seeds divided;
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (auto& [key, seed] : seeds) {
-      if (!is_to_divide({key, seed.load, 0}, level)) {
+      if (!is_to_divide({key, seed.load, 0, 0}, level)) {
         divided.emplace(key, std::move(seed));
         continue;
       }
-      const std::int32_t group = level == 1 ? 0 : key[1] + 1;
-      SeedPieces pieces = divide_seed(_model, std::move(seed), group, sizes, _options);
+      SeedPieces pieces = divide_seed(_model, std::move(seed), group_of(key), sizes, _options);
       for (std::size_t i = 0; i < pieces.seeds.size(); ++i) {
         Key part = key;
         part[level] = static_cast<std::int32_t>(i);
         divided.emplace(part, std::move(pieces.seeds[i]));
       }
-      _angles[key] = std::move(pieces.angles);
+      std::vector<CutAngle>& angles = _angles[key];  // its first part has the key of the face
+      angles.insert(angles.end(), pieces.angles.begin(), pieces.angles.end());
     }
   });
   return divided;
@@ -215,7 +219,11 @@ double PiecePool::most_triangles() const {
 /// From the seeds of faces to those of pieces.
 PiecePool::Seeds PiecePool::divide(Seeds seeds, const SizeField& field) {
   CoarseSizes sizes(field);
-  for (const int level : {1, 2}) seeds = divide_heavy(std::move(seeds), level, sizes);
+  for (const int level : {1, 2}) {
+    const std::vector<Row> rows = tabulate(seeds);
+    for (const Row& row : rows) _burdens[row.at] += level == 1 ? seed_cost(row.facets) : 0;
+    seeds = divide_heavy(std::move(seeds), rows, level, sizes);
+  }
   return seeds;
 }
 
@@ -278,6 +286,7 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   if (!_started) _first = conflicts.predicted;
   _started = true;
   if (conflicts.predicted > most_triangles()) return conflicts;
+  _burdens.assign(static_cast<std::size_t>(_communicator.size()), 0);
   seeds = divide(std::move(seeds), field);
   const std::vector<Row> rows = tabulate(seeds);
   for (const FaceId face : faces) _parts[face] = 0;
@@ -287,7 +296,7 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
     places[row.key] = _parts[row.key[0]]++;
     loads.push_back(row.load + piece_overhead + row.facets);
   }
-  seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, _communicator.size()));
+  seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, _burdens));
   parallel::agree(_communicator, [&] { mesh_seeds(seeds, places, curves, field, conflicts); });
   return conflicts;
 }

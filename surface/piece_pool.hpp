@@ -67,8 +67,9 @@ private:
     Key key;
     double load;    // predicted triangles
     double facets;  // of the support
+    parallel::Rank at;
 
-    static constexpr auto fields() { return std::tuple(&Row::key, &Row::load, &Row::facets); }
+    static constexpr auto fields() { return std::tuple(&Row::key, &Row::load, &Row::facets, &Row::at); }
   };
 
   bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, cad::FaceId face,
@@ -80,7 +81,7 @@ private:
   Seeds divide(Seeds seeds, const sizing::SizeField& field);
   Seeds make_face_seeds(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                         const sizing::SizeField& field);
-  Seeds divide_heavy(Seeds seeds, int level, CoarseSizes& sizes);
+  Seeds divide_heavy(Seeds seeds, const std::vector<Row>& rows, int level, CoarseSizes& sizes);
   bool is_to_divide(const Row& row, int level) const;
   std::vector<Row> tabulate(const Seeds& seeds) const;
   Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
@@ -95,10 +96,11 @@ private:
   parallel::StageClock& _clock;
   parallel::TaskStore* _tasks;  // may be null
   bool _started = false;
-  double _first = 0;                             // triangles predicted in the first round
-  std::vector<std::int32_t> _parts;              // per face: pieces, 0 before it is divided
-  std::vector<char> _whole;                      // per face: 1 where it must not be divided
-  std::map<Key, Meshed> _meshed;                 // on this rank
+  double _first = 0;                 // triangles predicted in the first round
+  std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
+  std::vector<char> _whole;          // per face: 1 where it must not be divided
+  std::vector<double> _burdens;      // per rank: what it has done in this round, in triangles to mesh, about
+  std::map<Key, Meshed> _meshed;     // on this rank
   std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };
 

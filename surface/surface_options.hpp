@@ -18,10 +18,20 @@ enum class SurfaceDecomposition : std::int8_t { faces, pieces };
 using FaceDivider =
     std::function<std::vector<std::int32_t>(cad::FaceId, const partition::BackgroundSurface&)>;
 
+/// The steps that make the cuts of a face good. All are done; benchmarks leave one out to see what it is
+/// worth.
+struct DivisionSteps {
+  bool contraction = true;    ///< of arcs of the dual graph, before it is partitioned
+  bool repair = true;         ///< of parts that fell asunder: stray components join a neighbour
+  bool widening = true;       ///< of wedges below the cut angle, which go to the part beside them
+  bool straightening = true;  ///< of the borders between parts
+};
+
 struct SurfaceOptions {
   SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
   std::int64_t piece_triangles = 10'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
+  DivisionSteps division = {};
   FaceDivider divider = {};   ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
   double chart_spread =

@@ -1,4 +1,5 @@
 #include "parallel/collective_error.hpp"
+#include "parallel/crash_note.hpp"
 #include "parallel/log.hpp"
 #include "parallel/progress.hpp"
 #include "volume/agreement.hpp"
@@ -84,6 +85,7 @@ private:
     const double begin = parallel::cpu_seconds(), seconds = _input.options.base_cpu_seconds;
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
+    const parallel::CrashNote note(fmt::format("stage volume, zone {}", content.zone));
     ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone), _input.tasks, seconds);
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);

@@ -53,19 +53,35 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
   return decide_kind(*hull);
 }
 
-/// `hull` compares the solids as they are; joined ones have other faces.
-Model build_fluid(NamedShape solids, std::optional<HullComparison> hull, Volumes& volumes, Changes& changes) {
-  const bool single = solids_of(solids.shape).size() == 1;
-  const NamedShape fluid = join_regions(std::move(solids), volumes, changes);
-  if (!hull || !single) hull = compare(fluid, volumes);
-  return build_model(fluid, tag_faces(fluid, DomainKind::fluid, &*hull));
+/// What is meshed, the far field included.
+struct FluidShape {
+  NamedShape shape;
+  KindDecision decision;
+  std::optional<HullComparison> hull;  ///< of the shape, where it was made
+  bool triangulated = false;           ///< its faces, coarsely
+};
+
+FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+  NamedShape solids = make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes);
+  std::optional<HullComparison> hull;
+  KindDecision decision = choose_kind(options, solids, volumes, hull);
+  const bool triangulated = hull.has_value();
+  if (decision.kind == DomainKind::fluid) {
+    const bool single = solids_of(solids.shape).size() == 1;
+    solids = join_regions(std::move(solids), volumes, changes);
+    if (!single) hull.reset();  // joined ones have other faces
+  } else {
+    solids = surround(unite_bodies(std::move(solids), volumes, changes),
+                      options.far_field.value_or(FarFieldOptions{}), volumes, changes);
+  }
+  return {std::move(solids), std::move(decision), hull, triangulated};
 }
 
-Model build_around_bodies(NamedShape solids, const FarFieldOptions& far_field, Volumes& volumes,
-                          Changes& changes) {
-  const NamedShape fluid =
-      surround(unite_bodies(std::move(solids), volumes, changes), far_field, volumes, changes);
-  return build_model(fluid, tag_faces(fluid, DomainKind::body, nullptr));
+Model build_domain(const FluidShape& fluid, Volumes& volumes) {
+  if (fluid.decision.kind != DomainKind::fluid)
+    return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::body, nullptr));
+  const HullComparison hull = fluid.hull ? *fluid.hull : compare(fluid.shape, volumes);
+  return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::fluid, &hull));
 }
 
 double largest_extent(Vec3 size) {
@@ -99,19 +115,13 @@ void try_facets(const Model& model) {
 Domain prepare(const DomainOptions& options) {
   DomainReport report;
   Volumes volumes;
-  NamedShape solids =
-      make_solids(read_source(options), largest_sewing_tolerance(options), volumes, report.changes);
-  std::optional<HullComparison> hull;
-  const KindDecision decision = choose_kind(options, solids, volumes, hull);
-  report.kind = decision.kind;
-  report.reason = decision.reason;
-  Model model = report.kind == DomainKind::fluid
-                    ? build_fluid(std::move(solids), hull, volumes, report.changes)
-                    : build_around_bodies(std::move(solids), options.far_field.value_or(FarFieldOptions{}),
-                                          volumes, report.changes);
+  const FluidShape fluid = make_fluid(options, volumes, report.changes);
+  report.kind = fluid.decision.kind;
+  report.reason = fluid.decision.reason;
+  Model model = build_domain(fluid, volumes);
   model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
   require_representable(model.bounds());
-  if (!hull) try_facets(model);
+  if (!fluid.triangulated) try_facets(model);
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};
 }
@@ -139,11 +149,15 @@ Domain prepare_domain(const DomainOptions& options) {
   return with_source(options, [&] { return prepare(options); });
 }
 
-void export_step(const DomainOptions& options, const std::string& file) {
+void export_step(const DomainOptions& options, ExportedPart part, const std::string& file) {
   with_source(options, [&] {
     Changes changes;
     Volumes volumes;
-    write_step(make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes), file);
+    const NamedShape shape =
+        part == ExportedPart::domain
+            ? make_fluid(options, volumes, changes).shape
+            : make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes);
+    write_step(shape, file);
   });
 }
 

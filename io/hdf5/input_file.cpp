@@ -2,6 +2,7 @@
 
 #include "io/hdf5/contained_reading.hpp"
 #include "parallel/contained.hpp"
+#include "parallel/crash_note.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -24,6 +25,7 @@ parallel::Bytes read_contained(const ReadingRequest& request) {
   parallel::ContainedLimits limits;
   limits.cpu_seconds = 120;
   limits.address_space_bytes = std::int64_t{2} << 30;
+  const parallel::CrashNote note(fmt::format("reading '{}'", path));
   parallel::ContainedResult result =
       parallel::run_contained(reading_task(), parallel::to_wire(request), limits);
   switch (result.status) {

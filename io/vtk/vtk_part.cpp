@@ -1,6 +1,7 @@
 #include "io/vtk/vtk_part.hpp"
 
 #include "parallel/contained.hpp"
+#include "parallel/crash_note.hpp"
 
 #include <cerrno>
 #include <filesystem>
@@ -49,6 +50,7 @@ const bool tasks_are_known = [] {
 parallel::Bytes run(const char* task, const std::string& path) {
   if (!tasks_are_known) throw std::logic_error("the tasks of VTK files are not registered");
   const parallel::ContainedLimits limits = limits_of(readable_bytes(path));
+  const parallel::CrashNote note(fmt::format("reading '{}'", path));
   parallel::ContainedResult result = parallel::run_contained(task, std::as_bytes(std::span(path)), limits);
   switch (result.status) {
     case parallel::ContainedStatus::ok:

@@ -54,6 +54,23 @@ void add_overrides(CLI::App& command, CaseArguments& arguments) {
       ->group(option_group::of_case);
 }
 
+namespace {
+
+/// Collective: throws CollectiveError where a rank has no child processes and nobody said that it need not.
+void choose_sandbox(const Communicator& communicator, parallel::Sandbox sandbox) {
+  if (sandbox == parallel::Sandbox::none) parallel::do_without_containment(communicator);
+  parallel::agree(communicator, [&] {
+    if (sandbox == parallel::Sandbox::none || parallel::containment_refusal().empty()) return;
+    throw std::runtime_error(
+        fmt::format("this machine allows no child processes ({}), which keep crashes of the CAD library and "
+                    "of TetGen from "
+                    "ending the run. Remedy: parallel.sandbox: none",
+                    parallel::containment_refusal()));
+  });
+}
+
+}  // namespace
+
 int with_case(const Communicator& communicator, const CaseArguments& arguments, const Loudness& loudness,
               const std::function<int(const Case&)>& work) {
   parallel::configure_log(communicator, loudness.level());
@@ -77,6 +94,11 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
     return fail(communicator, memory ? ExitCode::resources : ExitCode::usage, error.what());
   }
   parallel::configure_log(communicator, loudness.level(input.output.log));
+  try {
+    choose_sandbox(communicator, input.sandbox);
+  } catch (const parallel::CollectiveError& error) {
+    return fail(communicator, ExitCode::resources, error.what());
+  }
   return work(input);
 }
 

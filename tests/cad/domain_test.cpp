@@ -237,12 +237,27 @@ TEST(Domain, IgnoresLooseCopiesOfASolidsFaces) {
   checks::expect_watertight(domain.model);
 }
 
+TEST(Domain, IsExportedWithItsFarField) {
+  DomainOptions options;
+  options.transport = TransportDimensions{};
+  const Domain direct = prepare_domain(options);
+  const real::TemporaryFile step("domain.step", "");
+  export_step(options, ExportedPart::domain, step.path());
+  DomainOptions again;
+  again.file = step.path();
+  again.kind = DomainKind::fluid;
+  const Domain read = prepare_domain(again);
+  EXPECT_EQ(read.model.face_count(), direct.model.face_count());
+  EXPECT_NEAR(read.model.bounds().diagonal(), direct.model.bounds().diagonal(),
+              1e-6 * direct.model.bounds().diagonal());
+}
+
 TEST(Domain, AStepFileBringsBackTheNamesItWasGiven) {
   DomainOptions options;
   options.transport = TransportDimensions{};
   const Domain direct = prepare_domain(options);
   const real::TemporaryFile step("transport.step", "");
-  export_step(options, step.path());
+  export_step(options, ExportedPart::geometry, step.path());
   DomainOptions again;
   again.file = step.path();
   const Domain read = prepare_domain(again);

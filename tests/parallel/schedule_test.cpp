@@ -31,6 +31,11 @@ TEST(ScheduleTest, CopesWithFewTasksAndNone) {
   EXPECT_TRUE(tasks_of_rank({}, {}, 0).empty());
 }
 
+TEST(ScheduleTest, TakesIntoAccountWhatRanksHaveDone) {
+  const std::vector<double> loads{3, 2, 2}, done{4, 0};
+  EXPECT_EQ(assign_largest_first(loads, done), (std::vector<Rank>{1, 1, 0}));
+}
+
 TEST(ScheduleTest, StaysWithinGrahamsBound) {
   std::mt19937 random(3);
   for (const int ranks : {1, 2, 3, 7, 64}) {

@@ -87,7 +87,7 @@ SurfaceDecomposition decompose(const BackgroundSurface& surface, PartIndex parts
   const VertexFans fans = gather_fans(surface);
   const Clusters clusters = simplify_dual_graph(surface, fans, {smallest_angle, 0.15 * total / parts});
   SurfaceDecomposition result{partition_clusters(surface, clusters, parts), 0};
-  result.parts = repair_parts(surface, fans, smallest_angle, result.part);
+  result.parts = repair_parts(surface, fans, {smallest_angle}, result.part);
   return result;
 }
 
@@ -229,6 +229,18 @@ TEST(RepairParts, StrayTrianglesJoinANeighbour) {
   EXPECT_EQ(part, wanted);
 }
 
+TEST(RepairParts, LeavesPartsAsunderWhenAskedTo) {
+  const BackgroundSurface surface = plate(10, 10, 1, 0);
+  std::vector<PartIndex> part(surface.triangles.size());
+  for (std::size_t t = 0; t < part.size(); ++t) part[t] = t / 20 < 5 ? 0 : 1;
+  part[2 * 12] = part[2 * 12 + 1] = 1;  // a square on its own
+  const std::vector<PartIndex> wanted = part;
+  EXPECT_EQ(repair_parts(surface, gather_fans(surface), {0, false}, part), 2);
+  EXPECT_EQ(part, wanted);
+  EXPECT_EQ(repair_parts(surface, gather_fans(surface), {0}, part), 2);
+  EXPECT_EQ(part[2 * 12], 0);
+}
+
 TEST(RepairParts, ASpikeIsTakenBack) {
   const BackgroundSurface surface = plate(10, 10, 2.5, 0);
   std::vector<std::int32_t> part(surface.triangles.size());
@@ -259,7 +271,7 @@ TEST(RepairParts, GoesOnUntilNothingMoves) {
     widen_wedges(surface, fans, 40, once);
     connect_parts(surface, once);
     in_need_of_more += widen_wedges(surface, fans, 40, once) > 0;
-    repair_parts(surface, fans, 40, part);
+    repair_parts(surface, fans, {40}, part);
     EXPECT_EQ(widen_wedges(surface, fans, 40, part), 0);
   }
   EXPECT_GT(in_need_of_more, 0);

@@ -57,6 +57,25 @@ TEST(Composite, IsThePictureOfOneRank) {
   EXPECT_EQ(encode_png(together, 1 << 20), encode_png(alone, 1 << 20));
 }
 
+/// What all ranks draw alike is behind and in front of what each has.
+TEST(Composite, DrawsAlikeWithoutSending) {
+  const Communicator world = Communicator::world();
+  const auto half = [](double left, double depth) {
+    return std::array<ScreenPoint, 3>{
+        ScreenPoint{left, -1, depth}, {left + 200, -1, depth}, {left, 200, depth}};
+  };
+  const auto picture = [&](const Communicator& communicator, bool alike) {
+    Canvas canvas(40, 30);
+    const TriangleStyle blue{{0, 0, 200}}, grey{{90, 90, 90}};
+    const auto draw_grey = [&](Canvas& on) { on.draw_triangle(half(20, 5), grey); };
+    if (communicator.is_root()) canvas.draw_triangle(half(10, 9), blue);
+    if (!alike && communicator.is_root()) draw_grey(canvas);
+    return composite(communicator, std::move(canvas), white,
+                     alike ? draw_grey : std::function<void(Canvas&)>());
+  };
+  EXPECT_EQ(picture(world, true).pixels, picture(world, false).pixels);
+}
+
 TEST(Composite, CanvasesLowerThanThereAreRanks) {
   const Communicator world = Communicator::world();
   Canvas canvas(3, 2);

@@ -5,6 +5,7 @@ import json
 import pathlib
 import random
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -35,8 +36,19 @@ class Runs:
         return run_and_kill(self.program, self.case, self.output, ranks, is_time, "output.checkpoints=write")
 
 
-def size_of(path):
-    return path.stat().st_size if path.exists() else 0
+RECORD_HEADER = struct.Struct("<Q16s16sqQ")  # of parallel::TaskStore: magic, key, content, bytes, check
+
+
+def whole_records(path):
+    """Of a file of tasks that may still be written."""
+    if not path.exists():
+        return 0
+    content = path.read_bytes()
+    count = at = 0
+    while at + RECORD_HEADER.size <= len(content):
+        at += RECORD_HEADER.size + RECORD_HEADER.unpack_from(content, at)[3]
+        count += at <= len(content)
+    return count
 
 
 def check_killed(runs, wanted):
@@ -45,7 +57,7 @@ def check_killed(runs, wanted):
     caught = 0
     for stage, ranks, again in (("surface", 1, 3), ("volume", 2, 1), ("improve", 3, 2)):
         tasks = [folder / f"{stage}.0.{rank}.tasks" for rank in range(ranks)]
-        if runs.kill(ranks, lambda _: sum(size_of(t) for t in tasks) > 20000) is None:
+        if runs.kill(ranks, lambda _: any(whole_records(t) for t in tasks)) is None:
             continue  # it was quicker than the eye
         caught += 1
         code, text, report = runs.run(again, "output.checkpoints=resume")

@@ -80,5 +80,18 @@ TEST_F(ScriptOfJob, SubmitsItselfWhenItsTimeIsOver) {
   EXPECT_EQ(read_file(folder.path / "jobs" / "submitted"), "strong_1_1 4711\n");
 }
 
+TEST(Jobs, TellWhatTheQueueWroteOfTheirEnd) {
+  // No such jobs are known to any queue here.
+  const Folder folder("queue");
+  write_file(folder.path / "submitted", "strong_4_1 99999998\nstrong_4_2 99999999\n");
+  write_file(
+      folder.path / "strong_4_1.out",
+      "a line\nslurmstepd-node1: error: *** JOB 1 ON node1 CANCELLED AT 2026-11-25T09:46:29 DUE TO NODE "
+      "FAILURE, SEE SLURMCTLD LOG FOR DETAILS ***\nlast words\n");
+  const std::map<std::string, std::string> said = ask_queue(folder.path);
+  EXPECT_EQ(said.at("strong_4_1"), "job 99999998 CANCELLED AT 2026-11-25T09:46:29 DUE TO NODE FAILURE");
+  EXPECT_EQ(said.at("strong_4_2"), "job 99999999, of which sacct says nothing");
+}
+
 }  // namespace
 }  // namespace aeroloom::study

@@ -141,7 +141,40 @@ TEST(DividedTwice, HasNoSeamEither) {
   for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
   const Seam seam = measure_seam(world, meshed.surface.mesh);
   EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
-  EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options)));
+  const Meshed alone = mesh_model(self, model, field, options);
+  EXPECT_EQ(hash_of(world, meshed), hash_of(self, alone));
+  EXPECT_EQ(meshed.surface.report.cut_angles.size(), alone.surface.report.cut_angles.size());
+}
+
+/// However many pieces a face has, its parts are cut down to the size asked for.
+TEST(DividedTwice, LeavesNoHeavyPiece) {
+  const Communicator world = Communicator::world();
+  const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const SurfaceOptions options{.piece_triangles = 100};
+  const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.005), options);
+  expect_valid(world, meshed);
+  std::int64_t most = 0;
+  for (const mesh::Piece& piece : meshed.surface.mesh.pieces)
+    most = std::max<std::int64_t>(most, piece.cell_count());
+  EXPECT_LT(world.maximum(most), 2 * options.piece_triangles);
+}
+
+/// Any step of the division can be left out: other cuts, and a mesh all the same.
+TEST(DivisionSteps, CanBeLeftOut) {
+  const Communicator world = Communicator::world();
+  const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
+  const sizing::SizeField field = graded_field(model, {0.25, 0, 0}, 0.008, 0.02);
+  SurfaceOptions options{.piece_triangles = 300};
+  const std::string complete = hash_of(world, mesh_model(world, model, field, options));
+  for (bool DivisionSteps::*const step : {&DivisionSteps::contraction, &DivisionSteps::straightening}) {
+    options.division = {};
+    options.division.*step = false;
+    const Meshed meshed = mesh_model(world, model, field, options);
+    expect_valid(world, meshed);
+    EXPECT_NE(hash_of(world, meshed), complete);
+  }
+  options.division = {false, false, false, false};
+  expect_valid(world, mesh_model(world, model, field, options));
 }
 
 /// The stage takes cuts whoever asks for them: here a box that the surface reaches into.
