@@ -15,12 +15,11 @@ double worst_of(const TetMesh& mesh, const std::vector<LocalIndex>& tets) {
   return worst;
 }
 
-/// What new tetrahedra must reach.
-double bar_of(const TetMesh& mesh, double before) {
-  return std::min(before, mesh.measure().target());
-}
-
 }  // namespace
+
+double CornerRelief::bar_of(const TetMesh& mesh, double before) const {
+  return std::min(before, _share * mesh.measure().target());
+}
 
 int count_boundary_faces(const TetMesh& mesh, LocalIndex t) {
   int count = 0;

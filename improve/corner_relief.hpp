@@ -16,11 +16,12 @@ namespace aeroloom::improve {
 
 /// For each such tetrahedron, by slot: a face between it and a neighbour gives way to an edge (2-3 swap), or
 /// the edge that is on neither triangle goes (edge removal), or gets a vertex. What leaves fewer of them, the
-/// best worst quality first, is done where no new tetrahedron is below the target, or below the worst of
-/// those that go. The boundary stays as it is.
+/// best worst quality first, is done where no new tetrahedron is below a share of the target, or below the
+/// worst of those that go. The boundary stays as it is.
 class CornerRelief {
 public:
-  explicit CornerRelief(const ChangeLimits& limits) : _limits(limits) {}
+  /// `share`: of the target; below one where what gets worse is improved afterwards.
+  explicit CornerRelief(const ChangeLimits& limits, double share = 1) : _limits(limits), _share(share) {}
 
   /// Returns how many cavities were filled anew.
   std::int64_t run(TetMesh& mesh);
@@ -33,11 +34,14 @@ private:
   /// Keeps the trial where it is better than what was found so far.
   void consider(const TetMesh& mesh);
   bool is_good(const TetMesh& mesh, const Replacement& cavity);
+  /// What new tetrahedra must reach.
+  double bar_of(const TetMesh& mesh, double before) const;
   /// Of those with several faces on the boundary; leaves the faces in _sides.
   int count_before(const TetMesh& mesh, const Replacement& cavity);
   int count_after(const Replacement& cavity) const;
 
   const ChangeLimits& _limits;
+  double _share;
   EdgeRing _edge_ring;
   RingFilling _filling;
   ConeOptimiser _cones;
