@@ -174,7 +174,16 @@ namespace {
 /// The search of one face of a plate, with so many nodes at a time.
 struct PlateSearch {
   Model model = plate(0.02);
-  cad::Facets facets = model.facets(0, 0.1, 0.3);
+  cad::FaceId face = [&] {
+    cad::FaceId largest = cad::no_entity;
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+      if (!model.is_far_field(f) &&
+          (largest == cad::no_entity || model.face_area(f) > model.face_area(largest)))
+        largest = f;
+    }
+    return largest;
+  }();
+  cad::Facets facets = model.facets(face, 0.1, 0.3);
   sizing::Walls walls = [&] {
     std::vector<sizing::Wall> all;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
@@ -185,7 +194,7 @@ struct PlateSearch {
     }
     return sizing::Walls(std::move(all));
   }();
-  sizing::GapSearch search{model, 0, facets, walls, {0.1, 0.005, 1}};
+  sizing::GapSearch search{model, face, facets, walls, {0.1, 0.005, 1}};
   sizing::Gaps gaps;
 };
 
