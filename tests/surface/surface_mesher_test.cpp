@@ -7,7 +7,6 @@
 #include "mesh/validity.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_mesher.hpp"
-#include "tests/wall_bodies.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -149,26 +148,6 @@ TEST(SurfaceMesher, HashDoesNotDependOnRanks) {
   const Meshed together = mesh_model(world, model, 8, 0.1), alone = mesh_model(self, model, 8, 0.1);
   EXPECT_EQ(mesh::hash_mesh(world, together.surface.mesh, together.numbering),
             mesh::hash_mesh(self, alone.surface.mesh, alone.numbering));
-}
-
-/// Two walls that cross: every round would have four times the triangles there.
-TEST(SurfaceMesher, RoundsEndBeforeTheyCostTooMuch) {
-  const Communicator world = Communicator::world();
-  const cad::Model model =
-      shapes::prism({{0, 0}, {4, 0}, {4, 0.8}, {1, 1.2}, {1, 0.8}, {4, 1.2}, {4, 2}, {0, 2}});
-  parallel::StageClock clock;
-  const sizing::SizingOptions sizes{.minimum = 0.1, .maximum = 0.1, .growth = 1.3};
-  const sizing::SizeField field = sizing::build_size_field(world, model, sizes, clock);
-  try {
-    mesh_surface(world, model, field, {}, clock);
-    FAIL() << "the walls cannot be parted";
-  } catch (const SurfaceError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("are allowed"), std::string::npos) << text;
-    const auto area = text.find("over an area of about ");
-    ASSERT_NE(area, std::string::npos) << text;
-    EXPECT_GT(std::stod(text.substr(area + 22)), 0) << text;
-  }
 }
 
 }  // namespace
