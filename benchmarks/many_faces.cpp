@@ -1,9 +1,11 @@
 // many_faces: writes CAD models of a thousand faces and more, as STEP, to see what the work per face costs.
 //
-// usage: many_faces plate|stack FILE.step [COUNT]
+// usage: many_faces plate|stack|exchanger FILE.step [COUNT]
 //
 // plate: a plate with COUNT (default 350) countersunk holes, three faces each.
 // stack: COUNT (default 180) thin sheets of different extents, close to each other, six faces each.
+// exchanger: COUNT (default 500) thin pipes close to each other between two plates, two faces each, askew, 50
+// inches long, in inches.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,16 +14,22 @@
 #include <string>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRep_Builder.hxx>
+#include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 #include <gp_Ax1.hxx>
+#include <gp_Ax2.hxx>
 #include <gp_Pnt.hxx>
+#include <gp_Trsf.hxx>
 
 namespace {
 
@@ -76,18 +84,57 @@ TopoDS_Shape make_stack(int sheets) {
   return stack;
 }
 
+/// Of a shape the others are taken away, or are added to it.
+template <class Operation>
+TopoDS_Shape combine(const TopoDS_Shape& shape, const TopTools_ListOfShape& others) {
+  TopTools_ListOfShape shapes;
+  shapes.Append(shape);
+  Operation operation;
+  operation.SetArguments(shapes);
+  operation.SetTools(others);
+  operation.Build();
+  if (!operation.IsDone()) throw std::runtime_error("the pipes cannot be joined");
+  return operation.Shape();
+}
+
+TopoDS_Shape make_exchanger(int pipes) {
+  constexpr double inch = 25.4, length = 50 * inch, plate = inch, pitch = 0.8 * inch;
+  constexpr double bore = 0.3 * inch, wall = 0.03 * inch;
+  const int columns = static_cast<int>(std::ceil(std::sqrt(pipes))), rows = (pipes + columns - 1) / columns;
+  const double width = pitch * (columns + 1), height = pitch * (rows + 1);
+  TopTools_ListOfShape outer, inner;
+  for (int i = 0; i < pipes; ++i) {
+    const double x = pitch * (1 + i % columns), y = pitch * (1 + i / columns);
+    const gp_Ax2 from(gp_Pnt(x, y, 0.5 * plate), gp_Dir(0, 0, 1));
+    outer.Append(BRepPrimAPI_MakeCylinder(from, bore + wall, length - plate).Shape());
+    const gp_Ax2 before(gp_Pnt(x, y, -plate), gp_Dir(0, 0, 1));
+    inner.Append(BRepPrimAPI_MakeCylinder(before, bore, length + 2 * plate).Shape());
+  }
+  outer.Append(BRepPrimAPI_MakeBox(gp_Pnt(0, 0, length - plate), width, height, plate).Shape());
+  const TopoDS_Shape body =
+      combine<BRepAlgoAPI_Fuse>(BRepPrimAPI_MakeBox(width, height, plate).Shape(), outer);
+  gp_Trsf askew;
+  askew.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 2, 0.5)), 0.7);
+  return BRepBuilderAPI_Transform(combine<BRepAlgoAPI_Cut>(body, inner), askew).Shape();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string kind = argc > 1 ? argv[1] : "";
-  if (argc < 3 || (kind != "plate" && kind != "stack")) {
-    std::fprintf(stderr, "usage: many_faces plate|stack FILE.step [COUNT]\n");
+  if (argc < 3 || (kind != "plate" && kind != "stack" && kind != "exchanger")) {
+    std::fprintf(stderr, "usage: many_faces plate|stack|exchanger FILE.step [COUNT]\n");
     return 2;
   }
   try {
-    const int count = argc > 3 ? std::atoi(argv[3]) : kind == "plate" ? 350 : 180;
+    const int usual = kind == "plate" ? 350 : kind == "stack" ? 180 : 500;
+    const int count = argc > 3 ? std::atoi(argv[3]) : usual;
     STEPControl_Writer writer;
-    writer.Transfer(kind == "plate" ? make_plate(count) : make_stack(count), STEPControl_AsIs);
+    if (kind == "exchanger") Interface_Static::SetCVal("write.step.unit", "INCH");
+    writer.Transfer(kind == "plate"   ? make_plate(count)
+                    : kind == "stack" ? make_stack(count)
+                                      : make_exchanger(count),
+                    STEPControl_AsIs);
     if (writer.Write(argv[2]) != IFSelect_RetDone) throw std::runtime_error("the file cannot be written");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "many_faces: %s\n", error.what());

@@ -4,6 +4,7 @@
 #include "improve/balance.hpp"
 #include "improve/border_relaxation.hpp"
 #include "improve/cavity_improver.hpp"
+#include "improve/corner_relief.hpp"
 #include "improve/relaxation.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 namespace aeroloom::improve {
@@ -38,6 +40,10 @@ double expected_work(const mesh::Piece& piece, const TetQuality& measure) {
   }
   return static_cast<double>(piece.cell_count()) + per_bad * static_cast<double>(bad);
 }
+
+/// Corners are relieved down to this share of the target, for so many sweeps to make it good.
+constexpr double sparing_share = 0.6;
+constexpr int sweeps_after_relief = 3;
 
 }  // namespace
 
@@ -65,6 +71,13 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   const ChangeLimits limits(source.sizes, &strips, effort);
   Schedule schedule(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
+  std::optional<Schedule> again;
+  if (const std::int64_t relieved = CornerRelief(limits, sparing_share).run(mesh); relieved > 0) {
+    report.swaps += relieved;
+    again.emplace(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
+    again->run(sweeps_after_relief);
+    report.swaps += CornerRelief(limits).run(mesh);
+  }
   report.smoothed += Relaxation().run(mesh, options.relaxation);
   const BadState after = examine(mesh);
   mesh.finish();
@@ -73,9 +86,12 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 
   report.bad_after = after.bad;
   report.min_angle_after = after.least_angle;
-  report.smoothed += schedule.smoothed();
-  report.slid = schedule.slid();
-  report.swaps += schedule.swaps();
+  for (const Schedule* each : {&schedule, again ? &*again : nullptr}) {
+    if (each == nullptr) continue;
+    report.smoothed += each->smoothed();
+    report.slid += each->slid();
+    report.swaps += each->swaps();
+  }
   return report;
 }
 

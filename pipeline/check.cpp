@@ -32,14 +32,16 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
                       const Case& input) {
   parallel::StageClock clock;
   Forecast forecast;
+  const double begin = parallel::cpu_seconds();
   const SizedDomain sized = size_domain(communicator, model, input.sizing, Simplification::of(input), clock);
+  parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined.changes;
   forecast.features = sized.features;
   forecast.edges = sized.edges;
   forecast.bounded = sized.bounded;
-  forecast.counts =
-      sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
+  forecast.walls = sized.walls;
+  forecast.counts = sized.counts;
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
   forecast.seconds = predicted_seconds(forecast.counts);
   forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
@@ -121,15 +123,23 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
   if (!share.empty()) text += "features: " + share + "\n";
   const std::string bounded = describe(forecast.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
+  const std::string unseen = describe(forecast.walls.unseen);
+  if (!unseen.empty()) text += "gaps: " + unseen + "\n";
+  const std::string coincident = describe(forecast.walls.coincident);
   return text + fmt::format(
                     "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
                     "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
                     "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
-                    "a volume can be meshed\n",
+                    "{}\n",
                     forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
                     forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
                     forecast.bytes / (1024.0 * 1024 * 1024), ranks, forecast.piece_triangles,
-                    forecast.piece_tets);
+                    forecast.piece_tets,
+                    coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
+}
+
+bool is_meshable(const CheckRecord& record) {
+  return record.diagnosis.domain.has_value() && record.forecast.walls.coincident.empty();
 }
 
 Json read_json(const Case& input, const cad::Diagnosis& found) {
@@ -183,11 +193,12 @@ Json forecast_json(const Forecast& forecast) {
           {"features", forecast.features ? to_json(*forecast.features) : Json()},
           {"bounded_by_minimum", to_json(forecast.bounded)},
           {"trailing_edges", to_json(forecast.edges)},
+          {"walls", to_json(forecast.walls)},
           {"joined_faces", to_json(forecast.joined)}};
 }
 
 Json record_json(const Case& input, const CheckRecord& record) {
-  Json json = {{"schema_version", 1}, {"meshable", record.diagnosis.domain.has_value()}};
+  Json json = {{"schema_version", 1}, {"meshable", is_meshable(record)}};
   json["read"] = read_json(input, record.diagnosis);
   json["findings"] = to_json(record.diagnosis.findings);
   json["contact_count"] = record.contact_count;
@@ -263,7 +274,7 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
       parallel::log_warning(fmt::format("check.json is not written: {}", error.what()));
     }
   });
-  return meshable ? ExitCode::ok : ExitCode::cad;
+  return meshable && record.forecast.walls.coincident.empty() ? ExitCode::ok : ExitCode::cad;
 }
 
 }  // namespace aeroloom::pipeline

@@ -8,6 +8,7 @@
 #include "pipeline/exit_code.hpp"
 #include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
+#include "pipeline/wall_findings.hpp"
 #include "sizing/size_field.hpp"
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct FaceContact {
 struct Forecast {
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;
+  WallFindings walls;               ///< what was found of walls close to each other
   std::vector<NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
   cad::Changes joined;              ///< narrow faces that would vanish in their neighbours
   TrailingEdgeReport edges;         ///< what would become of blunt trailing edges

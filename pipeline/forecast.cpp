@@ -42,14 +42,13 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks) {
 }
 
 void require_memory(const parallel::Communicator& communicator, const SizedDomain& sized,
-                    std::int64_t bytes_of_node, parallel::StageClock& clock) {
+                    std::int64_t bytes_of_node) {
   const auto limit = static_cast<double>(communicator.minimum(bytes_of_node));
   if (limit <= 0) return;
   const int ranks = communicator.size();
   const auto ranks_here = static_cast<int>(
       communicator.maximum(std::int64_t{parallel::find_node_shape(communicator).ranks_here}));
-  const sizing::PredictedCounts counts =
-      sized.counts ? *sized.counts : sizing::predict_counts(communicator, sized.model, sized.field, clock);
+  const sizing::PredictedCounts& counts = sized.counts;
   const double needed = predicted_bytes(counts, ranks) * ranks_here / ranks;
   if (needed <= limit) return;
   throw parallel::CollectiveError(

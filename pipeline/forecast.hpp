@@ -17,6 +17,6 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks);
 /// Ends a run that is predicted to take more than `bytes_of_node` on its fullest node, and says what would
 /// fit: CollectiveError (resources). Nothing where the limit is 0. Collective.
 void require_memory(const parallel::Communicator& communicator, const SizedDomain& sized,
-                    std::int64_t bytes_of_node, parallel::StageClock& clock);
+                    std::int64_t bytes_of_node);
 
 }  // namespace aeroloom::pipeline

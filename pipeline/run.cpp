@@ -53,7 +53,8 @@ public:
     const cad::Model domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
     SizedDomain sized = stage("sizing", ExitCode::cad, [&] {
       SizedDomain found = find_or_build_sizes(domain);
-      require_memory(_communicator, found, _input.memory_limit, _record.clock);
+      require_walls_apart(found);
+      require_memory(_communicator, found, _input.memory_limit);
       return found;
     });
     FinishedSurface surface =
@@ -164,6 +165,8 @@ private:
     _record.trailing_edges = sized.edges;
     _record.features = sized.features;
     _record.bounded_faces = sized.bounded;
+    _record.walls = sized.walls;
+    _record.forecast = sized.counts;
     log_sizing(_record);
     if (_communicator.is_root()) warn_of_sizes(_record);
   }
@@ -309,6 +312,7 @@ private:
     Decomposition decomposition = volume::decompose(_communicator, volume_input(surface), _record.clock);
     _record.decomposition = decomposition.report();
     log_decompose(_record);
+    if (_communicator.is_root()) warn_of_count(_record);
     return decomposition;
   }
 

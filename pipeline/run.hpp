@@ -16,6 +16,7 @@
 #include "pipeline/size_conformity.hpp"
 #include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
+#include "pipeline/wall_findings.hpp"
 #include "sizing/size_field.hpp"
 #include "surface/surface_mesher.hpp"
 #include "volume/volume_mesher.hpp"
@@ -63,6 +64,8 @@ struct RunRecord {
   sizing::SizingOptions sizes;
   std::optional<FeatureReport> features;
   std::vector<NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
+  sizing::PredictedCounts forecast;       ///< what the size field predicts
+  WallFindings walls;                     ///< what was found of walls close to each other
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
   volume::DecompositionReport decomposition;

@@ -130,13 +130,17 @@ Trial try_sizes(const sizing::ModelSampler& sampler, const SizingRequest& reques
 SizedDomain finish(const parallel::Communicator& communicator, const sizing::ModelSampler& sampler,
                    const SizingRequest& request, const Trial& trial, JoinedFaces joined) {
   if (!trial.prospect) {
+    sizing::SizeField field = sampler.build_field(trial.sizes);
+    const sizing::PredictedCounts counts = sampler.predict(field);
     return {sampler.model(),
             trial.sizes,
-            sampler.build_field(trial.sizes),
+            std::move(field),
             std::move(joined),
+            counts,
             {},
+            report_bounded_faces(sampler, trial.sizes),
             {},
-            report_bounded_faces(sampler, trial.sizes)};
+            {}};
   }
   const double target = *target_of(request);
   sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request);
@@ -145,8 +149,15 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
   if (!request.holds_features())
     features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
   std::vector<NamedBound> bounded = report_bounded_faces(sampler, chosen.options);
-  return {sampler.model(), chosen.options,      std::move(chosen.field), std::move(joined),
-          chosen.counts,   std::move(features), std::move(bounded)};
+  return {sampler.model(),
+          chosen.options,
+          std::move(chosen.field),
+          std::move(joined),
+          chosen.counts,
+          std::move(features),
+          std::move(bounded),
+          {},
+          {}};
 }
 
 /// `near`: sizes for a model that is almost the same, where they are known and the target is to be met.
@@ -157,6 +168,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
+  const std::vector<sizing::CoincidentFaces> coincident = sampler.find_coincident_faces();
   const bool join = simplification.narrow_faces == NarrowFaces::join;
   const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;
   // What is narrow is told by an estimate; sizes are chosen for what is left of the model.
@@ -180,12 +192,18 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
       closed ? size_domain_near(communicator, *closed, request,
                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, near)
              : finish(communicator, sampled, request, trial, std::move(what));
+  if (!closed) sized.walls = report_walls(model, coincident, sampled, sized.field);
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
   return sized;
 }
 
 }  // namespace
+
+void require_walls_apart(const SizedDomain& sized) {
+  const std::string text = describe(sized.walls.coincident);
+  if (!text.empty()) throw parallel::CollectiveError(parallel::FailureKind::input, text);
+}
 
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, const Simplification& simplification,

@@ -9,6 +9,7 @@
 #include "pipeline/case.hpp"
 #include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
+#include "pipeline/wall_findings.hpp"
 #include "sizing/size_field.hpp"
 
 #include <optional>
@@ -41,10 +42,11 @@ struct SizedDomain {
   sizing::SizingOptions sizes;
   sizing::SizeField field;
   JoinedFaces joined;
-  std::optional<sizing::PredictedCounts> counts;  ///< that the field predicts, where that was looked at
-  std::optional<FeatureReport> features;          ///< where sizes at features were chosen
-  std::vector<NamedBound> bounded;                ///< faces on which the minimum wins over curvature
-  TrailingEdgeReport edges = {};                  ///< where that was looked at
+  sizing::PredictedCounts counts;         ///< that the field predicts
+  std::optional<FeatureReport> features;  ///< where sizes at features were chosen
+  std::vector<NamedBound> bounded;        ///< faces on which the minimum wins over curvature
+  TrailingEdgeReport edges = {};          ///< where that was looked at
+  WallFindings walls;                     ///< what was found of walls close to each other
 };
 
 /// Resolves sizes, closes trailing edges that trial sizes do not resolve where that moves little, joins
@@ -54,5 +56,9 @@ struct SizedDomain {
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, const Simplification& simplification,
                         parallel::StageClock& clock);
+
+/// Ends a run whose faces lie on one another: CollectiveError (input), with the faces. The same on every
+/// rank.
+void require_walls_apart(const SizedDomain& sized);
 
 }  // namespace aeroloom::pipeline

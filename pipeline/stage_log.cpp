@@ -38,6 +38,8 @@ void log_sizing(const RunRecord& record) {
 }
 
 void warn_of_sizes(const RunRecord& record) {
+  if (const std::string text = describe(record.walls.unseen); !text.empty())
+    parallel::log_warning("sizing: " + text);
   if (const std::string text = record.features ? describe(*record.features) : std::string(); !text.empty())
     parallel::log_warning("sizing: " + text);
   if (is_much_of_body(record.bounded_faces))
@@ -123,6 +125,20 @@ void log_decompose(const RunRecord& record) {
   const volume::DecompositionReport& report = record.decomposition;
   log_info(fmt::format("decompose: {} zone(s) of {} blocks, {} lattice points; heaviest {:.2f} of the mean",
                        report.zones, report.blocks, report.lattice_points, report.imbalance));
+}
+
+void warn_of_count(const RunRecord& record) {
+  constexpr double telling = 1.5;
+  const double expected = record.decomposition.expected_tetrahedra, forecast = record.forecast.tetrahedra;
+  if (expected < telling * forecast) return;
+  parallel::log_warning(fmt::format(
+      "decompose: about {:.2g} tetrahedra are to be made, {:.2g} times the {:.2g} that the sizes forecast{}. "
+      "Remedy: larger sizes (sizing.minimum, sizing.feature_minimum)",
+      expected, expected / forecast, forecast,
+      record.surface.mending_rounds > 0
+          ? fmt::format(": sizes fell in {} round(s) where faces or curves came too close to each other",
+                        record.surface.mending_rounds)
+          : ": faces have more triangles than sizes ask for"));
 }
 
 void log_volume(const RunRecord& record) {

@@ -22,6 +22,8 @@ void log_needles(const RunRecord& record);
 /// Joined faces could not be meshed: it is done again without.
 void log_surface_again(const std::string& reason);
 void log_decompose(const RunRecord& record);
+/// Where more tetrahedra are to be made than sizes have led to expect.
+void warn_of_count(const RunRecord& record);
 void log_volume(const RunRecord& record);
 void log_improve(const RunRecord& record);
 /// Nothing where nothing is pinned.

@@ -35,14 +35,16 @@ struct SizesRecord {
   sizing::SizingOptions sizes;
   Bytes field;
   JoinedFaces joined;
-  std::optional<sizing::PredictedCounts> counts;
+  sizing::PredictedCounts counts;
   std::optional<FeatureReport> features;
   std::vector<NamedBound> bounded;
   TrailingEdgeReport edges;
+  WallFindings walls;
 
   static constexpr auto fields() {
     return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
-                      &SizesRecord::features, &SizesRecord::bounded, &SizesRecord::edges);
+                      &SizesRecord::features, &SizesRecord::bounded, &SizesRecord::edges,
+                      &SizesRecord::walls);
   }
 };
 
@@ -97,7 +99,7 @@ cad::Domain unpack_domain_product(CheckpointContent content) {
 
 CheckpointDraft pack_sizes(const SizedDomain& sized) {
   return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features,
-                              sized.bounded, sized.edges}),
+                              sized.bounded, sized.edges, sized.walls}),
           {}};
 }
 
@@ -111,7 +113,8 @@ SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointC
                     record.counts,
                     std::move(record.features),
                     std::move(record.bounded),
-                    std::move(record.edges)};
+                    std::move(record.edges),
+                    std::move(record.walls)};
   if (!sized.joined.groups.empty()) sized.model = cad::join_faces(sized.model, sized.joined.groups);
   return sized;
 }

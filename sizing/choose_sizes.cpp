@@ -39,6 +39,8 @@ constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 
 constexpr double little_share = 1.05, near_enough_with_features = 0.2;
 // A field with more leaves than this gives several times the count: it is not built to the end.
 constexpr double leaves_per_tetrahedron = 0.5;
+/// Nor is anything sampled for it where faces would be cut into as many parts for each of these leaves.
+constexpr double parts_per_leaf = 8;
 constexpr std::int64_t least_limit = 100'000;
 
 std::int64_t leaves_for(double tetrahedra) {
@@ -141,11 +143,12 @@ private:
     SizingOptions options = sizes_for(body_size, preset, _given);
     set_features(options, _features);
     std::optional<Trial> trial;
-    if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
-    const std::optional<double> tetrahedra =
-        trial          ? std::optional(trial->counts.tetrahedra)
-        : _coarser > 1 ? _sampler.estimate_tetrahedra(options, _coarser, _most_leaves)
-                       : std::nullopt;
+    std::optional<double> tetrahedra;
+    if (!_sampler.has_more_parts(options, parts_per_leaf * static_cast<double>(_most_leaves))) {
+      if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
+      if (trial) tetrahedra = trial->counts.tetrahedra;
+      if (_coarser > 1) tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);
+    }
     if (!tetrahedra) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", body_size));
       return 1e300;

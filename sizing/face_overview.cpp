@@ -4,6 +4,7 @@
 #include "sizing/model_sampler.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
@@ -45,6 +46,16 @@ std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOpti
   std::sort(all.begin(), all.end(),
             [](const BoundedFace& a, const BoundedFace& b) { return a.face < b.face; });
   return all;
+}
+
+bool ModelSampler::has_more_parts(const SizingOptions& options, double most) const {
+  constexpr double most_of_face = 1e15;
+  std::int64_t parts = 0;
+  parallel::agree(_communicator, [&] {
+    for (const auto& [face, seen] : look_over(options))
+      parts += std::llround(std::min(seen.parts, most_of_face));
+  });
+  return static_cast<double>(_communicator.sum(parts)) > most;
 }
 
 void ModelSampler::require_possible(const SizingOptions& options) const {

@@ -46,9 +46,13 @@ FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId
     const auto& [a, b, c] = corners;
     const Vec3 p = facets.points[a];
     const double share = norm(cross(facets.points[b] - p, facets.points[c] - p)) / 6;  // of a corner
+    double widest = 0, longest = 0;
+    for (int i = 0; i < 3; ++i)
+      longest = std::max(longest, distance(facets.points[corners[i]], facets.points[corners[(i + 1) % 3]]));
     for (const auto corner : corners) {
       const Point& point = _points[corner];
       const double size = size_of(point, demand), turn = point.curvature * size;
+      widest = std::max(widest, size);
       seen.area += share;
       seen.triangles += share / (triangle_over_square * size * size);
       const bool deviates = demand.limits.deviation > 0 &&
@@ -57,6 +61,9 @@ FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId
       seen.bounded_area += share;
       seen.degrees = std::max(seen.degrees, turn * 180 / std::numbers::pi);
     }
+    // A facet narrower than the size is cut along its length alone.
+    seen.parts +=
+        std::max(3 * share / (triangle_over_square * widest * widest), longest / (spacing * widest));
   }
   return seen;
 }

@@ -27,6 +27,8 @@ public:
   /// What is asked for, told by the corners of the facets alone.
   struct Overview {
     double triangles = 0;  ///< about
+    double parts =
+        0;  ///< that sources() cuts it into, about, by the corner of each facet that asks for least
     double area = 0;
     double bounded_area = 0;  ///< where curvature asks for less than the smallest size
     double degrees = 0;       ///< that an element turns there, at most

@@ -1,6 +1,7 @@
 // Gaps between the faces of a model: what ModelSampler looks for once, before any sizes.
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
+#include "parallel/progress.hpp"
 #include "sizing/model_sampler.hpp"
 
 #include <algorithm>
@@ -22,21 +23,111 @@ constexpr double narrow_gap = 20, finest_gap = 400;
 constexpr double most_rays = 2e6;
 // And those that look closer at open gaps.
 constexpr double most_close_rays = 3e5;
+// Nodes of trees that all searches may visit: rays of all faces, and those that look closer.
+constexpr std::int64_t most_nodes = 300'000'000, most_close_nodes = 100'000'000;
+// How often what some faces leave of that is dealt to those that need more, and the least part of it that is
+// worth it.
+constexpr int most_deals = 4;
+constexpr double least_deal = 0.02;
+constexpr double all_shares = 3e12;
 
 /// The shortest edge of the facets that rays start from, where all faces would need it.
 double finest_facet(double extent, double area) {
   return std::max(extent / finest_gap, std::sqrt(rays_per_area * area / most_rays));
 }
 
+double longest_side(const Triangle& t) {
+  return longest_edge(t).length;
+}
+
+/// The largest of the parts of a face that were not looked at, the first one of several, or a narrow one.
+std::optional<UnseenGaps> describe_unseen(FaceId face, const Gaps& gaps) {
+  const auto largest = std::max_element(
+      gaps.unseen.begin(), gaps.unseen.end(),
+      [](const auto& a, const auto& b) { return longest_side(a.triangle) < longest_side(b.triangle); });
+  if (largest == gaps.unseen.end() && !gaps.unresolved) return std::nullopt;
+  const Triangle& t = largest == gaps.unseen.end() ? gaps.unresolved->triangle : largest->triangle;
+  return UnseenGaps{face, (t[0] + t[1] + t[2]) / 3, longest_side(t)};
+}
+
+/// A face whose gaps are looked for.
+struct FaceSearch {
+  FaceId face;
+  Gaps* gaps;
+  GapSearch search;
+  std::int64_t share;  ///< of `all_shares`
+};
+
+/// Of all work: a third the same for each face, a third by area, a third by facets.
+std::int64_t share_of_face(double faces, double area_part, double facet_part) {
+  return std::llround(all_shares / 3 * (1 / faces + area_part + facet_part));
+}
+
+/// Looks until everything was looked at or the work is done. Collective.
+void search_faces(const parallel::Communicator& communicator, parallel::StageClock& clock,
+                  std::vector<FaceSearch>& searches) {
+  parallel::Progress progress("sizing", static_cast<std::int64_t>(searches.size()),
+                              "faces searched for gaps");
+  const auto is_done = [](const FaceSearch& each) { return each.gaps->unseen.empty(); };
+  std::int64_t left = most_nodes;
+  for (int deal = 0; deal < most_deals && left > least_deal * most_nodes; ++deal) {
+    std::int64_t wanting = 0, visited = 0;
+    for (const FaceSearch& each : searches) wanting += deal == 0 || !is_done(each) ? each.share : 0;
+    wanting = communicator.sum(wanting);
+    if (wanting == 0) break;
+    const double per_share =
+        static_cast<double>(left) / (deal == 0 ? all_shares : static_cast<double>(wanting));
+    parallel::agree(communicator, [&] {
+      const ScopedCpu cpu(clock, ScopedCpu::As::task);
+      for (FaceSearch& each : searches) {
+        if (deal > 0 && is_done(each)) continue;
+        visited += each.search.go_on(std::llround(per_share * static_cast<double>(each.share)), *each.gaps);
+        if (is_done(each)) progress.advance(1, 1);
+      }
+    });
+    left -= communicator.sum(visited);
+    parallel::log_verbose(
+        fmt::format("sizing: gaps: {:.3g} nodes visited", static_cast<double>(most_nodes - left)));
+  }
+}
+
+/// In the open gaps of those faces. Collective.
+void look_closer(const parallel::Communicator& communicator, parallel::StageClock& clock, double layers,
+                 std::vector<FaceSearch>& searches) {
+  std::int64_t rays = 0, limits = 0;
+  for (const FaceSearch& each : searches) rays += count_rays(*each.gaps, layers);
+  const double apart =
+      std::max(1.0, std::sqrt(static_cast<double>(communicator.sum(rays)) / most_close_rays));
+  const auto limit_of = [&](const FaceSearch& each) {
+    return rays_for_closer_look(*each.gaps, layers, apart);
+  };
+  for (const FaceSearch& each : searches) limits += limit_of(each);
+  const double nodes_per_ray = static_cast<double>(most_close_nodes) /
+                               static_cast<double>(std::max<std::int64_t>(1, communicator.sum(limits)));
+  parallel::agree(communicator, [&] {
+    const ScopedCpu cpu(clock, ScopedCpu::As::task);
+    for (FaceSearch& each : searches) {
+      const double nodes = nodes_per_ray * static_cast<double>(limit_of(each));
+      each.search.look_closer(apart, std::llround(nodes), *each.gaps);
+    }
+  });
+}
+
 }  // namespace
 
 void ModelSampler::measure_gaps(Notes notes) {
   const geometry::Vec3 size = _body_box.size();
-  const double extent = std::max({size.x, size.y, size.z}), widest = extent / narrow_gap;
-  std::vector<OwnFace*> looked_at;
+  const double extent = std::max({size.x, size.y, size.z});
+  std::int64_t facets = 0;
+  for (const OwnFace& face : _faces)
+    facets += _model.is_far_field(face.id) ? 0 : static_cast<std::int64_t>(face.facets.triangles.size());
+  const auto all_facets = static_cast<double>(std::max<std::int64_t>(1, _communicator.sum(facets)));
+  std::vector<FaceSearch> searches;
   parallel::agree(_communicator, [&] {
-    double area = 0;
-    for (FaceId f = 0; f < _model.face_count(); ++f) area += _model.is_far_field(f) ? 0 : _areas[f];
+    double area = 0, count = 0;
+    for (FaceId f = 0; f < _model.face_count(); ++f) {
+      if (!_model.is_far_field(f)) area += _areas[f], ++count;
+    }
     const double finest = finest_facet(extent, area);
     if (notes == Notes::tell && _layers > 0 && finest > 1.5 * extent / finest_gap) {
       parallel::log_info(
@@ -44,32 +135,35 @@ void ModelSampler::measure_gaps(Notes notes) {
                       "many rays",
                       finest));
     }
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const GapLimits limits{extent / narrow_gap, finest, _layers};
     for (OwnFace& face : _faces) {
       if (_layers <= 0 || face.gaps || _model.is_far_field(face.id)) continue;
-      face.gaps = find_gaps(_model, face.id, face.facets, *_walls, widest, finest, _layers);
-      looked_at.push_back(&face);
+      face.gaps.emplace();
+      searches.push_back({face.id,
+                          &*face.gaps,
+                          {_model, face.id, face.facets, *_walls, limits},
+                          share_of_face(count, _areas[face.id] / std::max(area, 1e-300),
+                                        static_cast<double>(face.facets.triangles.size()) / all_facets)});
     }
   });
-  look_closer(looked_at, widest);
+  search_faces(_communicator, _clock, searches);
+  look_closer(_communicator, _clock, _layers, searches);
+  gather_gaps();
 }
 
-void ModelSampler::look_closer(const std::vector<OwnFace*>& faces, double widest) {
-  std::int64_t rays = 0;
-  for (const OwnFace* face : faces) rays += count_rays(*face->gaps, _layers);
-  const double apart =
-      std::max(1.0, std::sqrt(static_cast<double>(_communicator.sum(rays)) / most_close_rays));
+void ModelSampler::gather_gaps() {
   double narrowest = std::numeric_limits<double>::infinity();
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    for (OwnFace* face : faces)
-      sizing::look_closer(_model, face->id, face->facets, *_walls, widest, _layers, apart, *face->gaps);
-    for (const OwnFace& face : _faces) {
-      if (!face.gaps) continue;
-      for (const Gap& gap : face.gaps->open) narrowest = std::min(narrowest, gap.width);
-    }
-  });
+  std::vector<UnseenGaps> mine;
+  for (const OwnFace& face : _faces) {
+    if (!face.gaps) continue;
+    for (const Gap& gap : face.gaps->open) narrowest = std::min(narrowest, gap.width);
+    if (const auto unseen = describe_unseen(face.id, *face.gaps)) mine.push_back(*unseen);
+  }
   _narrowest_gap = _communicator.minimum(narrowest);
+  _unseen_gaps = _communicator.all_gather_items<UnseenGaps>(mine);
+  std::sort(_unseen_gaps.begin(), _unseen_gaps.end(),
+            [](const UnseenGaps& a, const UnseenGaps& b) { return a.face < b.face; });
 }
 
 }  // namespace aeroloom::sizing

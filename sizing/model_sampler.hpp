@@ -43,6 +43,30 @@ struct BoundedFace {
   }
 };
 
+/// A face on which the search for gaps ended early.
+struct UnseenGaps {
+  cad::FaceId face;
+  geometry::Vec3 place;  ///< middle of the largest part that was not looked at
+  double size;           ///< of that part: gaps much narrower than this may have been missed there
+
+  static constexpr auto fields() {
+    return std::tuple(&UnseenGaps::face, &UnseenGaps::place, &UnseenGaps::size);
+  }
+};
+
+/// Two faces that lie on one another, or nearly so.
+struct CoincidentFaces {
+  cad::FaceId first, second;
+  double area;           ///< over which they do, about
+  geometry::Vec3 place;  ///< on the first one
+  double apart;          ///< how far they are from each other there, at most
+
+  static constexpr auto fields() {
+    return std::tuple(&CoincidentFaces::first, &CoincidentFaces::second, &CoincidentFaces::area,
+                      &CoincidentFaces::place, &CoincidentFaces::apart);
+  }
+};
+
 /// Whether samples of faces are kept: those that serve once only are not worth their memory.
 enum class Fields : bool { one, several };
 
@@ -57,6 +81,10 @@ public:
 
   /// For the model with some faces joined: what belongs to all others is taken over. Collective.
   ModelSampler(ModelSampler&& before, const cad::Model& joined);
+
+  /// Whether sampling the faces cuts them into more parts than that, about, as their facets tell before it is
+  /// done. Collective.
+  bool has_more_parts(const SizingOptions& options, double most) const;
 
   /// The field under these options. Collective. This and what follows throw std::invalid_argument where the
   /// memory of this node cannot hold a point for each triangle.
@@ -96,6 +124,16 @@ public:
   /// none were looked for. The same on every rank.
   double narrowest_gap() const { return _narrowest_gap; }
 
+  /// Faces on which the search for gaps ended early, for the work it would have been; in the order of faces,
+  /// the same on every rank.
+  const std::vector<UnseenGaps>& unseen_gaps() const { return _unseen_gaps; }
+
+  /// Pairs of faces of the body, none between regions, that are nearer than 2e-5 of the body's extent over
+  /// more than a twentieth of the smaller one's area; not where they run together towards a common edge. The
+  /// largest areas first. By facets, and by projections where facets lie on one another. For the model before
+  /// any of its faces were joined. Collective.
+  std::vector<CoincidentFaces> find_coincident_faces() const;
+
   const cad::Model& model() const { return _model; }
   const parallel::Communicator& communicator() const { return _communicator; }
   /// Facets of all faces, by face; not those between regions.
@@ -134,8 +172,8 @@ private:
   std::vector<std::pair<cad::FaceId, FaceSamples::Overview>> look_over(const SizingOptions& options) const;
   enum class Notes { tell, were_told };
   void measure_gaps(Notes notes);
-  /// In the open gaps of those faces; `widest` as they were looked for. Collective.
-  void look_closer(const std::vector<OwnFace*>& faces, double widest);
+  /// What all ranks have found. Collective.
+  void gather_gaps();
   /// What the faces and edges of this rank ask for.
   std::vector<SizeSource> sample_own(const SizingOptions& options) const;
   /// What all ask for, corners included, sizes multiplied by `factor`. Collective.
@@ -163,6 +201,7 @@ private:
   std::optional<Walls> _walls;                    // facets of all faces
   geometry::Box _body_box;
   mutable std::vector<Estimate> _estimates;
+  std::vector<UnseenGaps> _unseen_gaps;
   double _narrowest_gap = std::numeric_limits<double>::infinity();
 };
 

@@ -1,5 +1,6 @@
 #include "sizing/proximity.hpp"
 
+#include "parallel/progress.hpp"
 #include "sizing/segment_tree.hpp"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ constexpr double middle_off_facet = 0.25;
 // An open gap over what walls may be off by, at least: the distance of both its facets from the surface and
 // the accuracy of the model, what was sewn or this part of the widest gap.
 constexpr double gap_over_error = 2, accuracy = 1e-5;
+constexpr std::int64_t looks_per_beat = 4096;
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 Vec3 unit_normal(const Triangle& t) {
@@ -45,34 +47,20 @@ double edge_per_gap(double layers) {
   return edge_per_size / std::max(1.0, layers);
 }
 
-struct LongestEdge {
-  int from = 0;
-  double length = 0;
-};
+}  // namespace
 
-LongestEdge longest_edge(const Triangle& t) {
-  LongestEdge longest;
-  for (int i = 0; i < 3; ++i) {
-    const double length = distance(t[i], t[(i + 1) % 3]);
-    if (length > longest.length) longest = {i, length};
-  }
-  return longest;
-}
-
-std::array<Triangle, 2> bisect(const Triangle& t, int from) {
-  const Vec3 &a = t[from], &b = t[(from + 1) % 3], &c = t[(from + 2) % 3], middle = 0.5 * (a + b);
-  return {{{a, middle, c}, {middle, b, c}}};
-}
-
-class GapFinder {
+/// The rays of one face.
+class GapSearch::Rays {
 public:
-  GapFinder(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-            double widest, double layers)
+  Rays(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+       const GapLimits& limits)
       : _facets(facets),
         _walls(walls),
-        _widest(widest),
-        _edge_per_gap(edge_per_gap(layers)),
-        _accuracy(std::max(model.sewn_gap(), accuracy * widest)),
+        _widest(limits.widest),
+        _finest(limits.finest),
+        _layers(limits.layers),
+        _edge_per_gap(edge_per_gap(limits.layers)),
+        _accuracy(std::max(model.sewn_gap(), accuracy * limits.widest)),
         _meshed_beyond(model.face(face).back != cad::no_entity),
         _deviations(facet_deviations(model, face, facets)) {
     std::map<cad::FaceId, std::vector<SegmentTree::Segment>> shared;
@@ -85,89 +73,130 @@ public:
     for (auto& [user, segments] : shared) _edges.emplace(user, std::move(segments));
   }
 
-  Gaps find(double finest) {
-    _finest = finest;
-    for (std::size_t f = 0; f < _facets.triangles.size(); ++f) {
-      const auto& t = _facets.triangles[f];
-      _deviation = _deviations[f];
-      cover({_facets.points[t[0]], _facets.points[t[1]], _facets.points[t[2]]}, 0);
+  std::int64_t cover(std::int64_t most, Gaps& gaps) {
+    _gaps = std::move(gaps);
+    const std::int64_t before = _nodes;
+    const std::vector<Gaps::Unseen> parts = _begun ? std::exchange(_gaps.unseen, {}) : whole_facets();
+    _begun = true;
+    double left = 0;
+    for (const Gaps::Unseen& part : parts) left += area(part.triangle);
+    for (const Gaps::Unseen& part : parts) {
+      const double own = area(part.triangle), rest = static_cast<double>(most - (_nodes - before));
+      cover(part, std::llround(left > own ? std::ceil(rest * own / left) : rest));
+      left -= own;
     }
-    return std::move(_gaps);
+    gaps = std::move(_gaps);
+    return _nodes - before;
   }
 
-  void look_closer(double apart, std::int64_t most_rays, Gaps& gaps) {
+  std::int64_t look_closer(double apart, std::int64_t most_rays, std::int64_t most, Gaps& gaps) {
     _edge_per_gap *= apart;
     _rays_left = most_rays;
     _gaps = std::move(gaps);
-    for (const Gaps::Part& part : std::exchange(_gaps.narrow, {})) cover_narrow(part.triangle, part.gap, 0);
+    const std::int64_t before = _nodes;
+    _most_nodes = before + most;
+    for (const Gaps::Part& part : std::exchange(_gaps.narrow, {})) cover_narrow(part, 0);
     gaps = std::move(_gaps);
+    return _nodes - before;
   }
+
+  double layers() const { return _layers; }
 
 private:
   struct Seen {
     double gap = nowhere, open = nowhere;
   };
 
-  void cover(const Triangle& t, int depth) {
+  std::vector<Gaps::Unseen> whole_facets() const {
+    std::vector<Gaps::Unseen> parts;
+    parts.reserve(_facets.triangles.size());
+    for (std::size_t f = 0; f < _facets.triangles.size(); ++f) {
+      const auto& [a, b, c] = _facets.triangles[f];
+      parts.push_back({{_facets.points[a], _facets.points[b], _facets.points[c]}, _deviations[f], 0});
+    }
+    return parts;
+  }
+
+  /// With about so many nodes; the halves of a part get the same.
+  void cover(const Gaps::Unseen& part, std::int64_t most) {
+    const Triangle& t = part.triangle;
     const Vec3 center = (t[0] + t[1] + t[2]) / 3;
     const Vec3 normal = unit_normal(t);
     if (!(norm(normal) > 0.5)) return;
-    const auto [gap, open] = look_around(center, normal);
+    if (most <= 0) {
+      _gaps.unseen.push_back(part);
+      return;
+    }
+    const std::int64_t before = _nodes;
+    const auto [gap, open] = look_around(center, normal, part.deviation);
     if (gap <= _widest) _gaps.seen.push_back({center, gap});
     if (open <= _widest) _gaps.open.push_back({center, open});
     const auto [from, length] = longest_edge(t);
     // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
     const double fine = std::max(_finest, _edge_per_gap * std::min(gap, _widest));
-    if (length > fine && depth < deepest_edge_split) {
-      for (const Triangle& half : bisect(t, from)) cover(half, depth + 1);
+    if (length > fine && part.depth < deepest_edge_split) {
+      const auto halves = bisect(t, from);
+      cover({halves[0], part.deviation, part.depth + 1}, (most - (_nodes - before)) / 2);
+      cover({halves[1], part.deviation, part.depth + 1}, most - (_nodes - before));
     } else if (length > _edge_per_gap * open) {
-      _gaps.narrow.push_back({t, open, _deviation});
+      _gaps.narrow.push_back({t, open, part.deviation});
     }
   }
 
-  /// `gap`: of the last larger part that saw one.
-  void cover_narrow(const Triangle& t, double gap, int depth) {
-    if (_rays_left <= 0) return;
+  /// `part.gap`: of the last larger part that saw one.
+  void cover_narrow(const Gaps::Part& part, int depth) {
+    const Triangle& t = part.triangle;
+    if (_rays_left <= 0 || _nodes >= _most_nodes) {
+      const bool too_dear = _nodes >= _most_nodes;
+      if (too_dear && (!_gaps.unresolved || part.gap < _gaps.unresolved->gap)) _gaps.unresolved = part;
+      return;
+    }
     --_rays_left;
     const Vec3 center = (t[0] + t[1] + t[2]) / 3;
     const Vec3 normal = unit_normal(t);
     if (!(norm(normal) > 0.5)) return;
-    const double open = look_around(center, normal).open;
+    const double open = look_around(center, normal, part.deviation).open;
+    double gap = part.gap;
     if (open <= _widest) _gaps.open.push_back({center, open}), gap = open;
     const auto [from, length] = longest_edge(t);
     if (length <= _edge_per_gap * gap || depth >= deepest_edge_split) return;
-    for (const Triangle& half : bisect(t, from)) cover_narrow(half, gap, depth + 1);
+    for (const Triangle& half : bisect(t, from)) cover_narrow({half, gap, part.deviation}, depth + 1);
   }
 
   /// Distances along the normal, to either side, to the nearest wall that faces back, the lower one where two
-  /// are as near; infinity where there is none in reach.
-  Seen look_around(Vec3 from, Vec3 normal) const {
+  /// are as near; infinity where there is none in reach. `deviation`: of the facet looked from.
+  Seen look_around(Vec3 from, Vec3 normal, double deviation) {
+    if (++_looks % looks_per_beat == 0) parallel::beat();
     const auto faces_back = [&](std::int32_t triangle) {
       return dot(_walls.normals[triangle], normal) <= facing;
     };
-    const auto nearest = _walls.tree.nearest_crossings(from, normal, _widest, faces_back);
-    const Seen ahead = judge(nearest[0], from, normal, _meshed_beyond);
-    const Seen behind = judge(nearest[1], from, normal, true);
+    const auto corners = [&](std::int32_t triangle) -> const Triangle& {
+      return _walls.facets[triangle].corners;
+    };
+    const auto nearest = _walls.rays.nearest_crossings(from, normal, _widest, corners, faces_back, _nodes);
+    const Seen ahead = judge(nearest[0], from, normal, deviation, _meshed_beyond);
+    const Seen behind = judge(nearest[1], from, normal, deviation, true);
     return {std::min(ahead.gap, behind.gap), std::min(ahead.open, behind.open)};
   }
 
   /// What a crossing means, on a side that is meshed or not.
-  Seen judge(const TriangleTree::Crossing& crossing, Vec3 from, Vec3 normal, bool meshed) const {
+  Seen judge(const RayTree::Crossing& crossing, Vec3 from, Vec3 normal, double own_deviation, bool meshed) {
     const auto& [wall, away] = crossing;
     if (wall < 0) return {};
     const auto& [opposite, corners, deviation] = _walls.facets[wall];
     if (is_edge_within(wedge_slenderness * away, from, opposite)) return {};
-    if (!meshed || away < gap_over_error * (_deviation + deviation + _accuracy)) return {away, nowhere};
+    if (!meshed || away < gap_over_error * (own_deviation + deviation + _accuracy)) return {away, nowhere};
     const double turn = norm(cross(_walls.normals[wall], normal));
     const bool closes = turn > 0 && is_edge_within(nowhere, from, opposite, away / (closing_reach * turn));
     return {away, closes ? nowhere : away};
   }
 
   /// Whether the face meets the opposite one (or itself) in an edge so near, but not nearer than `least`.
-  bool is_edge_within(double reach, Vec3 point, cad::FaceId opposite, double least = 0) const {
+  bool is_edge_within(double reach, Vec3 point, cad::FaceId opposite, double least = 0) {
     const auto edges = _edges.find(opposite);
     if (edges == _edges.end()) return false;
-    const double away = edges->second.nearest(point, reach, [](std::int32_t) { return true; });
+    const double away = edges->second.nearest(
+        point, reach, [](std::int32_t) { return true; }, _nodes);
     return away < reach && away >= least;
   }
 
@@ -175,16 +204,15 @@ private:
   const Walls& _walls;
   std::map<cad::FaceId, SegmentTree>
       _edges;  // that the face shares with each neighbour; all of them with itself
-  double _widest, _finest = 0, _edge_per_gap;
+  double _widest, _finest, _layers, _edge_per_gap;
   double _accuracy;
   bool _meshed_beyond;
   std::vector<double> _deviations;  // of the facets
-  double _deviation = 0;            // of the one looked from
-  std::int64_t _rays_left = 0;
+  bool _begun = false;
+  std::int64_t _nodes = 0, _most_nodes = 0;  // visited so far, and when to end
+  std::int64_t _rays_left = 0, _looks = 0;
   Gaps _gaps;
 };
-
-}  // namespace
 
 std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, const cad::Facets& facets) {
   std::vector<double> deviations;
@@ -214,14 +242,25 @@ std::vector<Triangle> corners_of(const std::vector<Wall>& walls) {
 
 }  // namespace
 
-Walls::Walls(std::vector<Wall> walls) : tree(corners_of(walls)), facets(std::move(walls)) {
+Walls::Walls(std::vector<Wall> walls)
+    : tree(corners_of(walls)), rays(corners_of(walls)), facets(std::move(walls)) {
   normals.reserve(facets.size());
   for (const Wall& wall : facets) normals.push_back(unit_normal(wall.corners));
 }
 
-Gaps find_gaps(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-               double widest, double finest, double layers) {
-  return GapFinder(model, face, facets, walls, widest, layers).find(finest);
+GapSearch::GapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+                     const GapLimits& limits)
+    : _rays(std::make_unique<Rays>(model, face, facets, walls, limits)) {}
+GapSearch::~GapSearch() = default;
+GapSearch::GapSearch(GapSearch&&) noexcept = default;
+GapSearch& GapSearch::operator=(GapSearch&&) noexcept = default;
+
+std::int64_t GapSearch::go_on(std::int64_t nodes, Gaps& gaps) {
+  return _rays->cover(nodes, gaps);
+}
+
+std::int64_t GapSearch::look_closer(double apart, std::int64_t nodes, Gaps& gaps) {
+  return _rays->look_closer(apart, rays_for_closer_look(gaps, _rays->layers(), apart), nodes, gaps);
 }
 
 std::int64_t count_rays(const Gaps& gaps, double layers) {
@@ -233,11 +272,9 @@ std::int64_t count_rays(const Gaps& gaps, double layers) {
   return std::llround(std::min(rays, 1e15));
 }
 
-void look_closer(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-                 double widest, double layers, double apart, Gaps& gaps) {
+std::int64_t rays_for_closer_look(const Gaps& gaps, double layers, double apart) {
   const double predicted = static_cast<double>(count_rays(gaps, layers)) / (apart * apart);
-  GapFinder(model, face, facets, walls, widest, layers)
-      .look_closer(apart, few_rays + std::llround(most_over_predicted * predicted), gaps);
+  return few_rays + std::llround(most_over_predicted * predicted);
 }
 
 }  // namespace aeroloom::sizing

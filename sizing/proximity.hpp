@@ -2,9 +2,12 @@
 #pragma once
 
 #include "cad/model/model.hpp"
+#include "sizing/ray_tree.hpp"
 #include "sizing/triangle_tree.hpp"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -32,6 +35,16 @@ struct Gaps {
     double gap, deviation;  ///< of the facet
   };
   std::vector<Part> narrow;
+  /// A part of a facet that was not looked at, for the work that would have been.
+  struct Unseen {
+    Triangle triangle;
+    double deviation;  ///< of the facet
+    int depth;         ///< how often that was bisected
+  };
+  std::vector<Unseen> unseen;
+  /// A narrow part that was not looked at as closely as the gap there is narrow, for the nodes that would
+  /// have taken, if any: the one with the narrowest gap.
+  std::optional<Part> unresolved;
 };
 
 /// The distance of each facet's middle from the face's surface: nothing of a plane, at most a quarter of its
@@ -50,27 +63,53 @@ struct Wall {
 /// The facets of all faces.
 struct Walls {
   TriangleTree tree;
+  RayTree rays;
   std::vector<geometry::Vec3> normals;  ///< unit; zero where a triangle has none
   std::vector<Wall> facets;
 
   explicit Walls(std::vector<Wall> walls);
 };
 
-/// Gaps seen from one face, given by its facets: rays along its facets' normals, to both sides, to the
-/// nearest wall that faces back. Facets are bisected until their edges are no longer than four times the gap
-/// or `finest`. Gaps wider than `widest` are left out, and so are wedges, where the opposite wall meets the
-/// face in an edge nearer than eight times the gap: sizes would fall to nothing there. A function of the
-/// model and the arguments alone.
-Gaps find_gaps(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-               double widest, double finest, double layers);
+/// What a search for gaps may cost, and what is looked for.
+struct GapLimits {
+  double widest;  ///< gaps wider than this are left out
+  double finest;  ///< no parts of facets are bisected whose edges are no longer than this
+  double layers;  ///< elements wanted across a gap, at most
+};
+
+/// Looks for gaps seen from one face, given by its facets: rays along its facets' normals, to both sides, to
+/// the nearest wall that faces back. Facets are bisected until their edges are no longer than four times the
+/// gap or `finest`. Wedges, where the opposite wall meets the face in an edge nearer than eight times the
+/// gap, are left out: sizes would fall to nothing there. A function of the model and the arguments alone,
+/// counts of nodes included.
+class GapSearch {
+public:
+  /// All arguments but the limits must outlive the search.
+  GapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+            const GapLimits& limits);
+  ~GapSearch();
+  GapSearch(GapSearch&&) noexcept;
+  GapSearch& operator=(GapSearch&&) noexcept;
+
+  /// Goes on until everything was looked at, or until about so many nodes of trees more were visited, which
+  /// are dealt to facets by area and to their parts; returns how many were.
+  std::int64_t go_on(std::int64_t nodes, Gaps& gaps);
+
+  /// Looks at the narrow parts of the face as closely as its open gaps are narrow, with rays `apart` times as
+  /// far from each other, and moves on from there: adds to the open gaps. At most about so many nodes;
+  /// returns how many were visited.
+  std::int64_t look_closer(double apart, std::int64_t nodes, Gaps& gaps);
+
+private:
+  class Rays;
+  std::unique_ptr<Rays> _rays;
+};
 
 /// About as many rays as it takes to look at the narrow parts of a face as closely as its open gaps are
 /// narrow.
 std::int64_t count_rays(const Gaps& gaps, double layers);
 
-/// Does so, with rays `apart` times as far from each other, and moves on from there: adds to the open gaps.
-/// A function of the model and the arguments alone.
-void look_closer(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-                 double widest, double layers, double apart, Gaps& gaps);
+/// The most rays that GapSearch::look_closer() takes.
+std::int64_t rays_for_closer_look(const Gaps& gaps, double layers, double apart);
 
 }  // namespace aeroloom::sizing

@@ -44,19 +44,32 @@ public:
   /// for in no particular order, and not for all.
   template <class Counts>
   Hit nearest_hit(geometry::Vec3 p, double bound, const Counts& counts) const {
+    std::int64_t nodes = 0;
+    return nearest_hit(p, bound, counts, nodes);
+  }
+  /// Adds the nodes that were visited to `nodes`.
+  template <class Counts>
+  Hit nearest_hit(geometry::Vec3 p, double bound, const Counts& counts, std::int64_t& nodes) const {
     std::int32_t tag = -1;
-    _tree.search_nearest([&](const geometry::Box& box) { return distance_to_box(p, box); }, bound,
-                         [&](std::int32_t place) {
-                           const Segment& segment = _segments[_tree.order()[place]];
-                           const double away = distance_to_segment(p, segment.a, segment.b);
-                           if (away < bound && counts(segment.tag)) bound = away, tag = segment.tag;
-                         });
+    const auto away_from = [&](const geometry::Box& box) {
+      ++nodes;
+      return distance_to_box(p, box);
+    };
+    _tree.search_nearest(away_from, bound, [&](std::int32_t place) {
+      const Segment& segment = _segments[_tree.order()[place]];
+      const double away = distance_to_segment(p, segment.a, segment.b);
+      if (away < bound && counts(segment.tag)) bound = away, tag = segment.tag;
+    });
     return {bound, tag};
   }
   /// As above, the distance alone.
   template <class Counts>
   double nearest(geometry::Vec3 p, double bound, const Counts& counts) const {
     return nearest_hit(p, bound, counts).away;
+  }
+  template <class Counts>
+  double nearest(geometry::Vec3 p, double bound, const Counts& counts, std::int64_t& nodes) const {
+    return nearest_hit(p, bound, counts, nodes).away;
   }
 
 private:

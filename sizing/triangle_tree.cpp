@@ -46,6 +46,32 @@ double squared_distance(Vec3 p, const Triangle& t, Vec3 normal) {
 
 }  // namespace
 
+LongestEdge longest_edge(const Triangle& t) {
+  LongestEdge longest;
+  for (int i = 0; i < 3; ++i) {
+    const double length = distance(t[i], t[(i + 1) % 3]);
+    if (length > longest.length) longest = {i, length};
+  }
+  return longest;
+}
+
+std::array<Triangle, 2> bisect(const Triangle& t, int from) {
+  const Vec3 &a = t[from], &b = t[(from + 1) % 3], &c = t[(from + 2) % 3], middle = 0.5 * (a + b);
+  return {{{a, middle, c}, {middle, b, c}}};
+}
+
+// Moeller and Trumbore, J. Graphics Tools 2, 1997, doi:10.1080/10867651.1997.10487468.
+double place_on_line(const Triangle& t, Vec3 point, Vec3 direction) {
+  constexpr double missed = std::numeric_limits<double>::infinity();
+  const Vec3 edge1 = t[1] - t[0], edge2 = t[2] - t[0], p = cross(direction, edge2);
+  const double determinant = dot(edge1, p);
+  if (determinant == 0) return missed;
+  const Vec3 s = point - t[0], q = cross(s, edge1);
+  const double u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
+  const double away = dot(edge2, q) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 && away != 0 ? away : missed;
+}
+
 TriangleTree::TriangleTree(std::vector<Triangle> triangles) {
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
@@ -88,26 +114,13 @@ void TriangleTree::keep_overlapping(Vec3 low, double edge, std::span<const std::
   }
 }
 
-// Moeller and Trumbore, J. Graphics Tools 2, 1997, doi:10.1080/10867651.1997.10487468.
-double TriangleTree::crossing(std::int32_t place, Vec3 point, Vec3 direction) const {
-  constexpr double missed = std::numeric_limits<double>::infinity();
-  const Triangle& t = _triangles[place];
-  const Vec3 edge1 = t[1] - t[0], edge2 = t[2] - t[0], p = cross(direction, edge2);
-  const double determinant = dot(edge1, p);
-  if (determinant == 0) return missed;
-  const Vec3 s = point - t[0], q = cross(s, edge1);
-  const double u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
-  const double away = dot(edge2, q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && away != 0 ? away : missed;
-}
-
 bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {
   constexpr double missed = std::numeric_limits<double>::infinity();
   const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
   bool odd = false;
   _tree.search([&](const Box& box) { return entry(box, point, inverse) < missed; },
                [&](std::int32_t place) {
-                 const double along = crossing(place, point, direction);
+                 const double along = place_on_line(_triangles[place], point, direction);
                  if (along > 0 && along < missed) odd = !odd;
                });
   return odd;

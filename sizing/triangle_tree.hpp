@@ -15,6 +15,19 @@ namespace aeroloom::sizing {
 
 using Triangle = std::array<geometry::Vec3, 3>;
 
+struct LongestEdge {
+  int from = 0;  ///< corner; it leads to the next one
+  double length = 0;
+};
+LongestEdge longest_edge(const Triangle& t);
+
+/// The halves of a triangle, cut in the middle of the edge from that corner to the next one.
+std::array<Triangle, 2> bisect(const Triangle& t, int from);
+
+/// How far along the line a triangle is, negative behind the point; infinity where the line misses it or
+/// meets it in the point. The direction is a unit vector.
+double place_on_line(const Triangle& t, geometry::Vec3 point, geometry::Vec3 direction);
+
 /// For estimates: floating point throughout, and the surface may have gaps of facets that do not match.
 class TriangleTree {
 public:
@@ -30,36 +43,6 @@ public:
   /// The share of a cube that lies on the inner side of that of these triangles which is nearest to its
   /// middle, as if that were a plane: right on average over cubes that a smooth surface cuts.
   double share_behind(geometry::Vec3 low, double edge, std::span<const std::int32_t> triangles) const;
-  /// A triangle that a ray crosses, -1 none, and how far away.
-  struct Crossing {
-    std::int32_t triangle = -1;
-    double distance = 0;
-  };
-  /// The nearest of the triangles that a line crosses within `reach` of a point, ahead of it and behind it,
-  /// and that `counts(triangle)`; the lower one where two are as near. The direction is a unit vector.
-  template <class Counts>
-  std::array<Crossing, 2> nearest_crossings(geometry::Vec3 point, geometry::Vec3 direction, double reach,
-                                            const Counts& counts) const {
-    const geometry::Vec3 from = point - reach * direction, to = point + reach * direction;
-    const geometry::Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
-    geometry::Box around;
-    around.add(from), around.add(to);
-    std::array<Crossing, 2> nearest{Crossing{-1, reach}, Crossing{-1, reach}};
-    _tree.search(
-        [&](const geometry::Box& box) {
-          return box.overlaps(around) && entry(box, from, inverse) <= 2 * reach;
-        },
-        [&](std::int32_t place) {
-          const std::int32_t triangle = _tree.order()[place];
-          if (!_boxes[place].overlaps(around) || !counts(triangle)) return;
-          const double along = crossing(place, point, direction), away = std::abs(along);
-          Crossing& best = nearest[along > 0 ? 0 : 1];
-          if (away < best.distance ||
-              (away == best.distance && (best.triangle < 0 || triangle < best.triangle)))
-            best = {triangle, away};
-        });
-    return nearest;
-  }
 
 private:
   /// How far along the ray the box begins; infinity where the ray misses it.
@@ -73,9 +56,6 @@ private:
     }
     return enter <= leave ? enter : std::numeric_limits<double>::infinity();
   }
-  /// How far along the line the triangle at a place of the tree is, negative behind the point; infinity where
-  /// the line misses it or meets it in the point.
-  double crossing(std::int32_t place, geometry::Vec3 point, geometry::Vec3 direction) const;
   bool odd_crossings(geometry::Vec3 point, geometry::Vec3 direction) const;
   bool overlaps_inside(std::int32_t triangle, geometry::Vec3 low, double edge) const;
 

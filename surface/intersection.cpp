@@ -205,12 +205,16 @@ double shortest_side(const NamedTriangle& t) {
                    distance(t.points[2], t.points[0])});
 }
 
+double area(const NamedTriangle& t) {
+  return 0.5 * norm(cross(t.points[1] - t.points[0], t.points[2] - t.points[0]));
+}
+
 TriangleHit make_hit(mesh::PieceId piece_a, const BatchTriangle& a, mesh::PieceId piece_b,
                      const BatchTriangle& b) {
   const auto& [p, q, r] = a.corners.points;
   if (std::tie(piece_b, b.cell) < std::tie(piece_a, a.cell)) return make_hit(piece_b, b, piece_a, a);
-  return {piece_a, piece_b,           a.cell,
-          b.cell,  (p + q + r) / 3.0, std::min(shortest_side(a.corners), shortest_side(b.corners))};
+  const double shortest = std::min(shortest_side(a.corners), shortest_side(b.corners));
+  return {piece_a, piece_b, a.cell, b.cell, (p + q + r) / 3.0, shortest, area(a.corners), area(b.corners)};
 }
 
 /// The triangles that reach into a box, by their low end along an axis.

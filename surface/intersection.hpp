@@ -16,10 +16,12 @@ struct TriangleHit {
   mesh::LocalIndex first, second;           ///< cells of those pieces
   geometry::Vec3 center;                    ///< of the first triangle
   double size;                              ///< shortest edge of both
+  double first_area, second_area;
 
   static constexpr auto fields() {
     return std::tuple(&TriangleHit::first_piece, &TriangleHit::second_piece, &TriangleHit::first,
-                      &TriangleHit::second, &TriangleHit::center, &TriangleHit::size);
+                      &TriangleHit::second, &TriangleHit::center, &TriangleHit::size,
+                      &TriangleHit::first_area, &TriangleHit::second_area);
   }
 };
 

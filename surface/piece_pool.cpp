@@ -21,6 +21,8 @@ using sizing::SizeField;
 
 /// What a piece costs besides its triangles, in triangles. No result depends on it.
 constexpr double piece_overhead = 150;
+/// Rounds may come to so many triangles, however few the first one has.
+constexpr double few_triangles = 20'000;
 
 std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
   std::vector<double> sizes(piece.vertex_count());
@@ -201,10 +203,21 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& ro
   return divided;
 }
 
-/// From faces to the seeds of pieces.
-PiecePool::Seeds PiecePool::divide(const std::vector<FaceId>& faces, const CurveMesh& curves,
-                                   const SizeField& field) {
-  Seeds seeds = make_face_seeds(faces, curves, field);
+double PiecePool::predict(const Seeds& seeds, const SizeField& field) const {
+  // Whole numbers: their sum does not depend on who has which.
+  std::int64_t triangles = 0;
+  const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+  for (const auto& [key, seed] : seeds) triangles += std::llround(integrate_triangles(seed.support, field));
+  for (const auto& [key, meshed] : _meshed) triangles += meshed.piece.cell_count();
+  return static_cast<double>(_communicator.sum(triangles));
+}
+
+double PiecePool::most_triangles() const {
+  return std::max(few_triangles, _options.most_growth * _first);
+}
+
+/// From the seeds of faces to those of pieces.
+PiecePool::Seeds PiecePool::divide(Seeds seeds, const SizeField& field) {
   CoarseSizes sizes(field);
   for (const int level : {1, 2}) {
     const std::vector<Row> rows = tabulate(seeds);
@@ -227,9 +240,8 @@ mesh::Piece PiecePool::mesh_or_find(const PieceSeed& seed, const SizeField& fiel
   return piece;
 }
 
-Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
-                                const CurveMesh& curves, const SizeField& field) {
-  Conflicts conflicts;
+void PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
+                           const CurveMesh& curves, const SizeField& field, Conflicts& conflicts) {
   const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
   parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()), "triangles");
   for (const auto& [key, seed] : seeds) {
@@ -258,20 +270,24 @@ Conflicts PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int
     const auto made = _meshed.find(key);
     progress.advance(1, made == _meshed.end() ? 0 : made->second.piece.cell_count());
   }
-  return conflicts;
 }
 
 Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   const std::vector<FaceId> faces = changed_faces(curves, field);
-  _started = true;
   std::erase_if(_meshed, [&](const auto& entry) {
     return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
   });
   std::erase_if(_angles, [&](const auto& entry) {
     return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
   });
+  Seeds seeds = make_face_seeds(faces, curves, field);
+  Conflicts conflicts;
+  conflicts.predicted = predict(seeds, field);
+  if (!_started) _first = conflicts.predicted;
+  _started = true;
+  if (conflicts.predicted > most_triangles()) return conflicts;
   _burdens.assign(static_cast<std::size_t>(_communicator.size()), 0);
-  Seeds seeds = divide(faces, curves, field);
+  seeds = divide(std::move(seeds), field);
   const std::vector<Row> rows = tabulate(seeds);
   for (const FaceId face : faces) _parts[face] = 0;
   std::vector<double> loads;
@@ -281,8 +297,7 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
     loads.push_back(row.load + piece_overhead + row.facets);
   }
   seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, _burdens));
-  Conflicts conflicts;
-  parallel::agree(_communicator, [&] { conflicts = mesh_seeds(seeds, places, curves, field); });
+  parallel::agree(_communicator, [&] { mesh_seeds(seeds, places, curves, field, conflicts); });
   return conflicts;
 }
 

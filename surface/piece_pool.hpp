@@ -23,6 +23,7 @@ struct Conflicts {
   std::vector<sizing::SizeSource> remedies;  ///< where sizes have to fall
   std::vector<cad::FaceId> undivided;        ///< faces that had better stay whole
   std::string complaint;                     ///< about the first one; empty: none
+  double predicted = 0;  ///< triangles; where these are more than rounds may come to, nothing was meshed
 };
 
 class PiecePool {
@@ -30,9 +31,14 @@ public:
   PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
             const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
 
-  /// Meshes every face whose curves or sizes are not those of the round before. Collective. Conflicts are
-  /// those of this rank.
+  /// Meshes every face whose curves or sizes are not those of the round before, unless the whole surface is
+  /// predicted to have more triangles than rounds may come to (SurfaceOptions::most_growth). Collective.
+  /// Conflicts are those of this rank.
   Conflicts mesh(const CurveMesh& curves, const sizing::SizeField& field);
+  /// Predicted triangles of the first round.
+  double first_triangles() const { return _first; }
+  /// That the whole surface may have in later rounds; at least twenty thousand.
+  double most_triangles() const;
   /// Whether a face is cut into pieces; known on every rank.
   bool is_divided(cad::FaceId face) const { return _parts[face] > 1; }
   /// From the next round on, these faces are one piece each. The same on every rank.
@@ -70,8 +76,9 @@ private:
                     const Meshed& meshed) const;
   std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, cad::FaceId face) const;
   std::vector<cad::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
-  Seeds divide(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
-               const sizing::SizeField& field);
+  /// Triangles of the whole surface: of faces that are kept, and of these seeds.
+  double predict(const Seeds& seeds, const sizing::SizeField& field) const;
+  Seeds divide(Seeds seeds, const sizing::SizeField& field);
   Seeds make_face_seeds(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                         const sizing::SizeField& field);
   Seeds divide_heavy(Seeds seeds, const std::vector<Row>& rows, int level, CoarseSizes& sizes);
@@ -80,8 +87,8 @@ private:
   Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
   mesh::Piece mesh_or_find(const PieceSeed& seed, const sizing::SizeField& field,
                            const parallel::Digest& of_field) const;
-  Conflicts mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places, const CurveMesh& curves,
-                       const sizing::SizeField& field);
+  void mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places, const CurveMesh& curves,
+                  const sizing::SizeField& field, Conflicts& conflicts);
 
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
@@ -89,6 +96,7 @@ private:
   parallel::StageClock& _clock;
   parallel::TaskStore* _tasks;  // may be null
   bool _started = false;
+  double _first = 0;                 // triangles predicted in the first round
   std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
   std::vector<char> _whole;          // per face: 1 where it must not be divided
   std::vector<double> _burdens;      // per rank: what it has done in this round, in triangles to mesh, about

@@ -25,4 +25,8 @@ struct PieceSeed {
 /// loops are known, those inside are the integral of 2/(sqrt(3) h^2) less what belongs to the loops.
 double predict_triangles(const Support& support, const sizing::SizeField& field);
 
+/// As a bound on work needs it: the integral alone, over parts of facets that are a few sizes large, so that
+/// sizes that fall at a few places count as far as they fall.
+double integrate_triangles(const Support& support, const sizing::SizeField& field);
+
 }  // namespace aeroloom::surface

@@ -11,8 +11,11 @@
 #include "surface/surface_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -34,6 +37,60 @@ std::vector<cad::FaceId> faces_of_pieces(const parallel::Communicator& communica
   return faces;
 }
 
+/// A triangle that another one of a face meets; both faces, the lower one first.
+struct CrossedTriangle {
+  std::array<cad::FaceId, 2> faces;
+  std::int32_t side;  // which of the two it lies on
+  mesh::PieceId piece;
+  mesh::LocalIndex cell;
+  double area;
+  geometry::Vec3 place;  // of the hit
+
+  auto key() const { return std::tie(faces, side, piece, cell); }
+};
+
+/// Each once, by faces and sides.
+std::vector<CrossedTriangle> list_crossed(const std::vector<TriangleHit>& hits,
+                                          const std::vector<cad::FaceId>& faces) {
+  std::vector<CrossedTriangle> crossed;
+  for (const TriangleHit& hit : hits) {
+    const cad::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
+    const std::array<cad::FaceId, 2> both{std::min(first, second), std::max(first, second)};
+    const std::int32_t side = first <= second ? 0 : 1;
+    crossed.push_back({both, side, hit.first_piece, hit.first, hit.first_area, hit.center});
+    crossed.push_back({both, 1 - side, hit.second_piece, hit.second, hit.second_area, hit.center});
+  }
+  std::stable_sort(crossed.begin(), crossed.end(),
+                   [](const CrossedTriangle& a, const CrossedTriangle& b) { return a.key() < b.key(); });
+  const auto end =
+      std::unique(crossed.begin(), crossed.end(),
+                  [](const CrossedTriangle& a, const CrossedTriangle& b) { return a.key() == b.key(); });
+  crossed.erase(end, crossed.end());
+  return crossed;
+}
+
+/// The two faces that intersect over the largest area: that of the triangles of one of them, the smaller one.
+std::string complain(const cad::Model& model, const SizeField& field, const std::vector<TriangleHit>& hits,
+                     const std::vector<cad::FaceId>& faces) {
+  const std::vector<CrossedTriangle> crossed = list_crossed(hits, faces);
+  const CrossedTriangle* worst = nullptr;
+  double worst_area = -1;
+  for (std::size_t i = 0; i < crossed.size();) {
+    const CrossedTriangle& first = crossed[i];
+    std::array<double, 2> areas{};
+    for (; i < crossed.size() && crossed[i].faces == first.faces; ++i)
+      areas[crossed[i].side] += crossed[i].area;
+    const double area = std::min(areas[0], areas[1]);
+    if (area > worst_area) worst = &first, worst_area = area;
+  }
+  const geometry::Vec3 at = worst->place;
+  return fmt::format(
+      "triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), over an area of about "
+      "{:.3g} in all, size {:.4g} there",
+      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, at.x, at.y, at.z, worst_area,
+      field(at));
+}
+
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
 /// pieces make intersect is left whole. Collective, the same on every rank.
 Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::Model& model,
@@ -51,17 +108,14 @@ Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::
       conflicts.remedies.push_back({hit.center, 0.5 * field(hit.center)});
     }
   }
-  const TriangleHit& first = hits.front();
-  conflicts.complaint = fmt::format(
-      "triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there",
-      model.face(faces[first.first_piece]).name, model.face(faces[first.second_piece]).name, first.center.x,
-      first.center.y, first.center.z, field(first.center));
+  conflicts.complaint = complain(model, field, hits, faces);
   return conflicts;
 }
 
 /// The remedies of all ranks, the same on every rank; the complaint of the lowest rank that has one.
 Conflicts share(const parallel::Communicator& communicator, const Conflicts& mine) {
   Conflicts all;
+  all.predicted = mine.predicted;
   all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
   all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
   const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
@@ -71,12 +125,13 @@ Conflicts share(const parallel::Communicator& communicator, const Conflicts& min
   return all;
 }
 
-[[noreturn]] void give_up(const Conflicts& conflicts, const SurfaceOptions& options) {
+/// `tried`: what was, or would have been.
+[[noreturn]] void give_up(const std::string& complaint, const std::string& tried) {
   throw SurfaceError(fmt::format(
-      "surface: {} after {} rounds of local refinement. Remedy: smaller SizingOptions::minimum or "
+      "surface: {}{}. Remedy: smaller SizingOptions::minimum or "
       "SizingOptions::curvature_angle, or repair the geometry there (overlapping or self-intersecting faces "
       "cannot be meshed)",
-      conflicts.complaint, options.mending_rounds));
+      complaint, tried));
 }
 
 std::int64_t count_unforced(const std::vector<NeedleGroup>& groups) {
@@ -121,6 +176,7 @@ private:
   bool mesh_once() {
     const CurveMesh curves = discretise_curves(_communicator, _model, _field, _clock, _short_legs);
     Conflicts conflicts = share(_communicator, _pool.mesh(curves, _field));
+    if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
     mesh::DistributedMesh surface;
     if (conflicts.complaint.empty()) {
       surface = _pool.assemble();
@@ -139,13 +195,27 @@ private:
     return false;
   }
 
+  /// Nothing was meshed: sizes have fallen so far that it would be too much.
+  bool end_early(double triangles) {
+    const std::string tried = fmt::format(
+        "; sizes that might part them would take about {:.2g} triangles, after {:.2g} in the first round; "
+        "{:.2g} are allowed",
+        triangles, _pool.first_triangles(), _pool.most_triangles());
+    if (!_accepted) give_up(_last_complaint, tried);
+    parallel::log_verbose(fmt::format(
+        "surface: needles stay as they are: without them there would be about {:.2g} triangles", triangles));
+    return true;
+  }
+
   /// Whether another round can help.
   bool mend(const Conflicts& conflicts) {
     const bool can_go_on = !conflicts.remedies.empty() || !conflicts.undivided.empty();
     if (_rounds >= _options.mending_rounds || !can_go_on) {
       if (_accepted) return false;
-      give_up(conflicts, _options);
+      give_up(conflicts.complaint,
+              fmt::format(", after {} rounds of local refinement", _options.mending_rounds));
     }
+    _last_complaint = conflicts.complaint;
     parallel::log_verbose(fmt::format("surface: {}; sizes fall in {} places, {} faces stay whole",
                                       conflicts.complaint, conflicts.remedies.size(),
                                       conflicts.undivided.size()));
@@ -202,6 +272,7 @@ private:
   std::vector<cad::VertexId> _short_legs;  // ascending
   std::vector<ClosedTip> _closed_tips;     // of this round
   int _rounds = 0, _needle_rounds = 0;
+  std::string _last_complaint;
   std::optional<SurfaceMesh> _accepted;  // the last one without conflicts
 };
 

@@ -38,6 +38,8 @@ struct SurfaceOptions {
       60;  ///< degrees normals of one chart may spread from their axis before the chart is split
   int smoothing_sweeps = 6;  ///< of vertex smoothing and edge flips inside a face
   int mending_rounds = 6;    ///< rounds of local refinement where faces come too close, before giving up
+  double most_growth =
+      4;  ///< triangles that rounds of local refinement may come to, over those predicted for the first one
   int needle_rounds =
       2;  ///< at most as many rounds of local refinement for needles that the CAD does not force
 };

@@ -22,6 +22,7 @@ Json geometry_json(const RunRecord& record) {
 Json sizing_json(const RunRecord& record) {
   return {{"features", record.features ? to_json(*record.features) : Json()},
           {"bounded_by_minimum", to_json(record.bounded_faces)},
+          {"walls", to_json(record.walls)},
           {"minimum", record.sizes.minimum},
           {"feature_minimum", sizing::smallest_feature_size(record.sizes)},
           {"strip_minimum", sizing::smallest_strip_size(record.sizes)},

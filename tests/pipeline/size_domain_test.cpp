@@ -82,9 +82,8 @@ TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {NarrowFaces::join}, clock);
     const parallel::Warnings warnings = parallel::take_warnings(world);
-    ASSERT_TRUE(sized.counts);
     const double share = sized.features ? sized.features->share.share : 1;
-    const double error = std::log(sized.counts->tetrahedra / share / 30'000);
+    const double error = std::log(sized.counts.tetrahedra / share / 30'000);
     met += std::abs(error) < std::log(1.25);
     if (std::abs(error) > std::log(1.25) && world.is_root()) {
       EXPECT_GT(error, 0) << chosen;
@@ -109,7 +108,7 @@ TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
   request.minimum = 0.01;
   const SizedDomain sized = size_domain(world, model, request, {NarrowFaces::join}, clock);
   const parallel::Warnings warnings = parallel::take_warnings(world);
-  EXPECT_GT(sized.counts->tetrahedra, 2000);
+  EXPECT_GT(sized.counts.tetrahedra, 2000);
   if (!world.is_root()) return;
   ASSERT_EQ(warnings.kept.size(), 1u);
   EXPECT_NE(warnings.kept[0].message.find("sizing.curvature_angle makes it"), std::string::npos)
@@ -157,7 +156,7 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   EXPECT_TRUE(large.features->strips.empty());
   EXPECT_TRUE(describe(*large.features).empty());
   EXPECT_LT(large.sizes.strip_minimum, 0.0005);
-  EXPECT_NEAR(small.features->wanted_tetrahedra(), large.counts->tetrahedra, 0.4 * large.counts->tetrahedra);
+  EXPECT_NEAR(small.features->wanted_tetrahedra(), large.counts.tetrahedra, 0.4 * large.counts.tetrahedra);
 }
 
 io::CheckpointContent as_read(const io::CheckpointDraft& draft) {

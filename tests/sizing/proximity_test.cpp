@@ -168,3 +168,61 @@ TEST(SharpCorners, SizesFitBetweenTheEdges) {
   EXPECT_GT(least_on_bisector(0), 0.5 * 0.2 * 2 * std::sin(half));
   EXPECT_GE(least_on_bisector(0.1), 0.0999);
 }
+
+namespace {
+
+/// The search of one face of a plate, with so many nodes at a time.
+struct PlateSearch {
+  Model model = plate(0.02);
+  cad::FaceId face = [&] {
+    cad::FaceId largest = cad::no_entity;
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+      if (!model.is_far_field(f) &&
+          (largest == cad::no_entity || model.face_area(f) > model.face_area(largest)))
+        largest = f;
+    }
+    return largest;
+  }();
+  cad::Facets facets = model.facets(face, 0.1, 0.3);
+  sizing::Walls walls = [&] {
+    std::vector<sizing::Wall> all;
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+      if (model.is_far_field(f)) continue;
+      const cad::Facets of_face = model.facets(f, 0.1, 0.3);
+      for (const auto& [a, b, c] : of_face.triangles)
+        all.push_back({f, {of_face.points[a], of_face.points[b], of_face.points[c]}, 0});
+    }
+    return sizing::Walls(std::move(all));
+  }();
+  sizing::GapSearch search{model, face, facets, walls, {0.1, 0.005, 1}};
+  sizing::Gaps gaps;
+};
+
+}  // namespace
+
+TEST(GapSearch, EndsEarlyWithTheWorkAndSaysWhatWasNotLookedAt) {
+  PlateSearch whole, part;
+  const std::int64_t all = whole.search.go_on(100'000'000, whole.gaps);
+  ASSERT_TRUE(whole.gaps.unseen.empty());
+  ASSERT_GT(whole.gaps.seen.size(), 100);
+  const std::int64_t visited = part.search.go_on(all / 4, part.gaps);
+  EXPECT_NEAR(visited, all / 4, 0.1 * all);
+  EXPECT_FALSE(part.gaps.unseen.empty());
+  // Every part of the face has its share.
+  double low = 1e300, high = -1e300;
+  for (const sizing::Gap& gap : part.gaps.seen) {
+    const double along = gap.point.x + gap.point.y + gap.point.z;
+    low = std::min(low, along), high = std::max(high, along);
+  }
+  double lowest = 1e300, highest = -1e300;
+  for (const sizing::Gap& gap : whole.gaps.seen) {
+    const double along = gap.point.x + gap.point.y + gap.point.z;
+    lowest = std::min(lowest, along), highest = std::max(highest, along);
+  }
+  EXPECT_GT(high - low, 0.8 * (highest - lowest));
+  // What is left over is looked at later.
+  for (int more = 0; more < 40 && !part.gaps.unseen.empty(); ++more) part.search.go_on(all / 4, part.gaps);
+  EXPECT_TRUE(part.gaps.unseen.empty());
+  EXPECT_EQ(part.gaps.seen.size(), whole.gaps.seen.size());
+  EXPECT_EQ(part.gaps.open.size(), whole.gaps.open.size());
+}

@@ -117,27 +117,3 @@ TEST(TriangleTree, KeepsWhatASmallerCubeMeets) {
   EXPECT_GT(few, 20);
   EXPECT_GT(many, 20);
 }
-
-TEST(TriangleTree, FindsWhatALineCrossesFirstAheadAndBehind) {
-  const auto triangles = sphere(20);
-  const TriangleTree tree(triangles);
-  std::mt19937_64 random(3);
-  const auto every = [](std::int32_t) { return true; };
-  for (int i = 0; i < 200; ++i) {
-    const Vec3 p = 0.6 * random_point(random), direction = normalized(random_point(random));
-    if (norm(p) > 0.95) continue;
-    // From a point within the sphere: where the quadratic has its two roots, but for the facets' sagitta.
-    const double along = dot(p, direction), root = std::sqrt(along * along + 1 - dot(p, p));
-    const auto [ahead, behind] = tree.nearest_crossings(p, direction, 3, every);
-    ASSERT_GE(ahead.triangle, 0);
-    ASSERT_GE(behind.triangle, 0);
-    EXPECT_NEAR(ahead.distance, root - along, 0.05);
-    EXPECT_NEAR(behind.distance, root + along, 0.05);
-    const auto within = tree.nearest_crossings(p, direction, 0.5 * ahead.distance, every);
-    EXPECT_EQ(within[0].triangle, -1);
-    const auto others = tree.nearest_crossings(
-        p, direction, 3, [&, hit = ahead.triangle](std::int32_t t) { return t != hit; });
-    EXPECT_NE(others[0].triangle, ahead.triangle);
-    EXPECT_EQ(others[1].triangle, behind.triangle);
-  }
-}

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
 
 #include <gtest/gtest.h>

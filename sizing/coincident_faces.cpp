@@ -1,0 +1,245 @@
+// Faces of the body that lie on one another: what no size can part.
+#include "parallel/collective_error.hpp"
+#include "sizing/model_sampler.hpp"
+#include "sizing/segment_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::sizing {
+namespace {
+
+using cad::FaceId;
+using geometry::Box;
+using geometry::Vec2;
+using geometry::Vec3;
+using parallel::ScopedCpu;
+
+// Faces are on one another where they are nearer than this, of the body's extent, over this part of the
+// smaller one's area.
+constexpr double nearest_walls = 2e-5, least_part = 0.05;
+// Walls that run together towards a common edge are no overlap: the distance over that to the edge, at most.
+constexpr double least_wedge = 1e-3;
+constexpr double least_cosine = 0.9;          // between normals, to either side
+constexpr double least_overlap = 1e-3;        // of two facets, over the area of the smaller one
+constexpr std::size_t places_looked_at = 16;  // of two faces, those of the largest overlaps
+// Nodes of the tree that the search may visit: in all, dealt by facets, and for each face.
+constexpr double most_tree_nodes = 1e8;
+constexpr std::int64_t few_tree_nodes = 1000;
+
+double area_of(const Triangle& t) {
+  return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
+}
+
+/// A convex polygon in space, at most six corners of two triangles that overlap, and some for rounding.
+struct Polygon {
+  std::array<Vec3, 9> corners;
+  int count = 0;
+
+  void add(Vec3 p) {
+    if (count < static_cast<int>(corners.size())) corners[count++] = p;
+  }
+};
+
+/// The part of the polygon to the left of the line from a to b, seen against the normal.
+Polygon clip(const Polygon& polygon, Vec3 a, Vec3 b, Vec3 normal) {
+  const Vec3 inward = cross(normal, b - a);
+  Polygon inside;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vec3 p = polygon.corners[i], q = polygon.corners[(i + 1) % polygon.count];
+    const double at_p = dot(p - a, inward), at_q = dot(q - a, inward);
+    if (at_p >= 0) inside.add(p);
+    if ((at_p < 0) != (at_q < 0)) inside.add(p + at_p / (at_p - at_q) * (q - p));
+  }
+  return inside;
+}
+
+struct Overlap {
+  double area = 0;
+  Vec3 middle;  // in the plane of the first
+};
+
+/// Of two triangles, seen along the normal of the first.
+Overlap overlap_of(const Triangle& first, Vec3 normal, const Triangle& second) {
+  Polygon polygon;
+  for (const Vec3 p : second) polygon.add(p - dot(p - first[0], normal) * normal);
+  for (int i = 0; i < 3 && polygon.count > 2; ++i)
+    polygon = clip(polygon, first[i], first[(i + 1) % 3], normal);
+  Overlap overlap;
+  Vec3 moment;
+  for (int i = 1; i + 1 < polygon.count; ++i) {
+    const Vec3 &a = polygon.corners[0], &b = polygon.corners[i], &c = polygon.corners[i + 1];
+    const double area = 0.5 * std::abs(dot(cross(b - a, c - a), normal));
+    overlap.area += area;
+    moment = moment + area / 3 * (a + b + c);
+  }
+  if (overlap.area > 0) overlap.middle = moment / overlap.area;
+  return overlap;
+}
+
+/// The parameters of a point in the plane of a facet, or beside it along its normal.
+Vec2 parameters_at(const cad::Facets& facets, std::int32_t facet, Vec3 point) {
+  const auto& [a, b, c] = facets.triangles[facet];
+  const Vec3 p = facets.points[a], ab = facets.points[b] - p, ac = facets.points[c] - p;
+  const Vec3 normal = cross(ab, ac);
+  const double square = dot(normal, normal);
+  const double v = dot(cross(point - p, ac), normal) / square, w = dot(cross(ab, point - p), normal) / square;
+  return (1 - v - w) * facets.uv[a] + v * facets.uv[b] + w * facets.uv[c];
+}
+
+/// Two facets that may lie on one another.
+struct FacetPair {
+  std::int32_t first, second;  // of their faces
+  Overlap overlap;
+};
+
+/// What lies on one face.
+class FaceOverlaps {
+public:
+  FaceOverlaps(const cad::Model& model, const Walls& walls, const std::vector<std::int32_t>& first_walls,
+               FaceId face, const cad::Facets& facets, double within)
+      : _model(model),
+        _walls(walls),
+        _first_walls(first_walls),
+        _face(face),
+        _facets(facets),
+        _within(within) {}
+
+  /// By about so many nodes of the tree at most.
+  std::vector<CoincidentFaces> find(std::int64_t most) {
+    std::int64_t nodes = 0;
+    for (std::size_t i = 0; i < _facets.triangles.size() && nodes < most; ++i)
+      look_at(static_cast<std::int32_t>(i), nodes);
+    std::vector<CoincidentFaces> found;
+    for (auto& [other, pairs] : _pairs) {
+      const CoincidentFaces faces = measure(other, pairs);
+      if (faces.area > least_part * std::min(_model.face_area(_face), _model.face_area(other)))
+        found.push_back(faces);
+    }
+    return found;
+  }
+
+private:
+  void look_at(std::int32_t facet, std::int64_t& nodes) {
+    const std::int32_t wall = _first_walls[_face] + facet;
+    const auto& [face, corners, deviation] = _walls.facets[wall];
+    const Vec3 normal = _walls.normals[wall];
+    if (!(norm(normal) > 0.5)) return;
+    _near.clear();
+    _walls.rays.find_near(corners, _within + 2 * deviation, _near, nodes);
+    for (const std::int32_t other : _near) {
+      const Wall& beyond = _walls.facets[other];
+      if (beyond.face == _face || _model.is_far_field(beyond.face)) continue;
+      const Vec3 other_normal = _walls.normals[other];
+      if (std::abs(dot(normal, other_normal)) < least_cosine) continue;
+      const Overlap overlap = overlap_of(corners, normal, beyond.corners);
+      if (!(overlap.area > least_overlap * std::min(area_of(corners), area_of(beyond.corners)))) continue;
+      const double apart = std::abs(dot(overlap.middle - beyond.corners[0], other_normal));
+      if (apart > _within + 2 * (deviation + beyond.deviation)) continue;
+      _pairs[beyond.face].push_back({facet, other - _first_walls[beyond.face], overlap});
+    }
+  }
+
+  /// What lies on the other face, from what is found where their facets overlap most.
+  CoincidentFaces measure(FaceId other, std::vector<FacetPair>& pairs) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const FacetPair& a, const FacetPair& b) { return a.overlap.area > b.overlap.area; });
+    const cad::Facets of_other = sampling_facets(_model, other, false);
+    const SegmentTree common = common_edges(other);
+    CoincidentFaces faces{_face, other, 0, {}, 0};
+    double all = 0, looked_at = 0, together = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      all += pairs[i].overlap.area;
+      if (i >= places_looked_at) continue;
+      looked_at += pairs[i].overlap.area;
+      const auto [place, apart] = distance_at(other, of_other, pairs[i]);
+      if (!(apart <= _within)) continue;
+      const double reach = apart / least_wedge;
+      if (common.nearest(place, reach, [](std::int32_t) { return true; }) < reach) continue;
+      if (together == 0) faces.place = place;
+      together += pairs[i].overlap.area;
+      faces.apart = std::max(faces.apart, apart);
+    }
+    faces.area = looked_at > 0 ? all * together / looked_at : 0;
+    return faces;
+  }
+
+  struct Distance {
+    Vec3 place;
+    double apart;
+  };
+  Distance distance_at(FaceId other, const cad::Facets& of_other, const FacetPair& pair) const {
+    const Vec3 place = _model.face_point(_face, parameters_at(_facets, pair.first, pair.overlap.middle));
+    const Vec2 guess = parameters_at(of_other, pair.second, pair.overlap.middle);
+    const cad::Projection foot = _model.project(other, place, guess);
+    return {place, foot.converged ? distance(place, foot.point) : std::numeric_limits<double>::infinity()};
+  }
+
+  SegmentTree common_edges(FaceId other) const {
+    std::vector<SegmentTree::Segment> segments;
+    for (const cad::Facets::BoundaryLine& line : _facets.boundary) {
+      const std::vector<FaceId>& users = _model.edge(line.use.edge).faces;
+      if (std::find(users.begin(), users.end(), other) == users.end()) continue;
+      for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i)
+        segments.push_back({_facets.points[line.nodes[i]], _facets.points[line.nodes[i + 1]], 0});
+    }
+    return SegmentTree(std::move(segments));
+  }
+
+  const cad::Model& _model;
+  const Walls& _walls;
+  const std::vector<std::int32_t>& _first_walls;  // of each face
+  FaceId _face;
+  const cad::Facets& _facets;
+  double _within;
+  std::vector<std::int32_t> _near;
+  std::map<FaceId, std::vector<FacetPair>> _pairs;  // by the other face
+};
+
+/// Both faces have seen each other, mostly: the larger area counts.
+std::vector<CoincidentFaces> merge(std::vector<CoincidentFaces> all) {
+  for (CoincidentFaces& each : all) {
+    if (each.first > each.second) std::swap(each.first, each.second);
+  }
+  std::sort(all.begin(), all.end(), [](const CoincidentFaces& a, const CoincidentFaces& b) {
+    return std::tuple(a.first, a.second, -a.area) < std::tuple(b.first, b.second, -b.area);
+  });
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const CoincidentFaces& a, const CoincidentFaces& b) {
+                          return a.first == b.first && a.second == b.second;
+                        }),
+            all.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const CoincidentFaces& a, const CoincidentFaces& b) { return a.area > b.area; });
+  return all;
+}
+
+}  // namespace
+
+std::vector<CoincidentFaces> ModelSampler::find_coincident_faces() const {
+  const Vec3 size = _body_box.size();
+  const double within = nearest_walls * std::max({size.x, size.y, size.z});
+  std::vector<CoincidentFaces> mine;
+  parallel::agree(_communicator, [&] {
+    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    std::vector<std::int32_t> first_walls(_model.face_count(), -1);
+    for (std::size_t w = _walls->facets.size(); w-- > 0;)
+      first_walls[_walls->facets[w].face] = static_cast<std::int32_t>(w);
+    for (const OwnFace& face : _faces) {
+      if (_model.is_far_field(face.id) || first_walls[face.id] < 0) continue;
+      const double part =
+          static_cast<double>(face.facets.triangles.size()) / static_cast<double>(_walls->facets.size());
+      const std::int64_t most = few_tree_nodes + std::llround(part * most_tree_nodes);
+      const auto found = FaceOverlaps(_model, *_walls, first_walls, face.id, face.facets, within).find(most);
+      mine.insert(mine.end(), found.begin(), found.end());
+    }
+  });
+  return merge(_communicator.all_gather_items<CoincidentFaces>(mine));
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,75 @@
+#include "improve/corner_relief.hpp"
+
+#include "tests/improve/pieces.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::improve {
+namespace {
+
+/// A cube of n^3 small ones, six tetrahedra each: along its edges some have two faces on the boundary.
+mesh::Piece six_in_each_cube(int n) {
+  std::vector<Vec3> points;
+  const auto at = [n](int i, int j, int k) {
+    return static_cast<LocalIndex>((k * (n + 1) + j) * (n + 1) + i);
+  };
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) points.push_back({double(i), double(j), double(k)});
+    }
+  }
+  std::vector<LocalIndex> cells;
+  for (int cube = 0; cube < n * n * n; ++cube) {
+    std::array<int, 3> axes{0, 1, 2};
+    do {
+      std::array<int, 3> p{cube % n, cube / n % n, cube / n / n};
+      cells.push_back(at(p[0], p[1], p[2]));
+      for (const int axis : axes) ++p[axis], cells.push_back(at(p[0], p[1], p[2]));
+    } while (std::next_permutation(axes.begin(), axes.end()));
+  }
+  return examples::make_piece(points, cells);
+}
+
+int count_in_corners(const TetMesh& mesh) {
+  int count = 0;
+  for (LocalIndex t = 0; t < mesh.slot_count(); ++t)
+    count += mesh.is_alive(t) && count_boundary_faces(mesh, t) > 1 ? 1 : 0;
+  return count;
+}
+
+TEST(CornerRelief, LeavesFewWithSeveralFacesOnTheBoundary) {
+  mesh::Piece piece = six_in_each_cube(4);
+  examples::close_boundary(piece);
+  const auto triangles = piece.boundary;
+  const TetQuality measure(15);
+  TetMesh mesh(piece, measure);
+  const int before = count_in_corners(mesh);
+  ASSERT_GT(before, 20);
+  const ChangeLimits limits;
+  EXPECT_GT(CornerRelief(limits).run(mesh), 0);
+  EXPECT_LE(count_in_corners(mesh), before / 10);
+  for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
+    if (mesh.is_alive(t)) {
+      EXPECT_GE(mesh.quality(t), measure.target());
+    }
+  }
+  mesh.finish();
+  EXPECT_NEAR(examples::volume(piece), 64, 1e-9);
+  EXPECT_EQ(piece.boundary, triangles);
+}
+
+/// A single tetrahedron cannot change, and what is as sharp as the target stays.
+TEST(CornerRelief, LeavesWhatTheCornerForces) {
+  mesh::Piece alone = examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3});
+  examples::close_boundary(alone);
+  const TetQuality measure(15);
+  TetMesh mesh(alone, measure);
+  const ChangeLimits limits;
+  EXPECT_EQ(CornerRelief(limits).run(mesh), 0);
+}
+
+}  // namespace
+}  // namespace aeroloom::improve
