@@ -194,7 +194,7 @@ bool CornerRelief::is_good(const TetMesh& mesh, const Replacement& cavity) {
   return count_after(cavity) < before &&
          std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(),
                      [&](const Corners& c) { return mesh.is_positive(c); }) &&
-         _limits.allow(mesh, cavity);
+         _limits.allow_sizes(mesh, cavity);
 }
 
 }  // namespace aeroloom::improve

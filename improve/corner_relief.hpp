@@ -18,7 +18,7 @@ namespace aeroloom::improve {
 /// the edge that is on neither triangle goes (edge removal), or gets a vertex, or the tetrahedron and its
 /// neighbours give way to those of a vertex between them. What leaves fewer of them, the best worst quality
 /// first, is done where no new tetrahedron is below a share of the target, or below the worst of those that
-/// go. The boundary stays as it is.
+/// go. Edges keep to sizes; the mean ratio may fall, which angles bound here. The boundary stays as it is.
 class CornerRelief {
 public:
   /// `share`: of the target; below one where what gets worse is improved afterwards.
