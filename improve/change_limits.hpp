@@ -30,8 +30,10 @@ public:
   bool allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
                   Vec3 origin) const;
 
-private:
+  /// The part of allow() that is about lengths of edges.
   bool allow_sizes(const TetMesh& mesh, const Replacement& cavity) const;
+
+private:
   bool allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
                          Vec3 origin) const;
   struct Lengths {

@@ -48,7 +48,7 @@ bool CornerRelief::relieve(TetMesh& mesh, LocalIndex t) {
   for (int edge = 0; edge < 6; ++edge) {
     if (split_edge(mesh, t, edge)) return true;
   }
-  return false;
+  return split_neighbourhood(mesh, t);
 }
 
 void CornerRelief::swap_face(const TetMesh& mesh, LocalIndex t, int face) {
@@ -112,6 +112,55 @@ bool CornerRelief::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
   return true;
 }
 
+bool CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity) {
+  const auto is_inside = [&](HalfFace side) {
+    return side >= 0 && std::find(cavity.begin(), cavity.end(), side >> 2) != cavity.end();
+  };
+  const LocalIndex middle = mesh.vertex_count();
+  Vec3 place{};
+  _trial.clear();
+  _trial.old_tets = cavity;
+  _cones.clear();
+  for (const LocalIndex t : cavity) {
+    const Corners& c = mesh.corners(t);
+    for (int face = 0; face < 4; ++face) {
+      place += mesh.point(c[face]) / (4.0 * static_cast<double>(cavity.size()));
+      if (is_inside(mesh.mate(4 * t + face))) continue;
+      const auto& corner = mesh::tetrahedron_faces[face];
+      const LocalIndex p = c[corner[0]], q = c[corner[2]], r = c[corner[1]];  // counter-clockwise from inside
+      _trial.new_tets.push_back({p, q, r, middle});
+      _cones.add(mesh.point(p), mesh.point(q), mesh.point(r));
+    }
+  }
+  _trial.before = worst_of(mesh, cavity);
+  _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));
+  if (_trial.after < bar_of(mesh, _trial.before)) return false;
+  mesh.add_vertex(place, mesh.corners(cavity.front())[0]);
+  if (!is_good(mesh, _trial)) {
+    mesh.drop_last_vertex();
+    return false;
+  }
+  mesh.replace(_trial, _placed);
+  return true;
+}
+
+bool CornerRelief::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
+  std::array<LocalIndex, 4> beside;
+  int count = 0;
+  for (int face = 0; face < 4; ++face) {
+    if (const HalfFace other = mesh.mate(4 * t + face); other >= 0) beside[count++] = other >> 2;
+  }
+  for (int last = count; last >= 0; --last) {  // all neighbours, then each alone
+    _cavity = {t};
+    if (last == count)
+      _cavity.insert(_cavity.end(), beside.begin(), beside.begin() + count);
+    else
+      _cavity.push_back(beside[last]);
+    if (fill_around_vertex(mesh, _cavity)) return true;
+  }
+  return false;
+}
+
 int CornerRelief::count_before(const TetMesh& mesh, const Replacement& cavity) {
   int count = 0;
   _sides.clear();
@@ -145,7 +194,7 @@ bool CornerRelief::is_good(const TetMesh& mesh, const Replacement& cavity) {
   return count_after(cavity) < before &&
          std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(),
                      [&](const Corners& c) { return mesh.is_positive(c); }) &&
-         _limits.allow(mesh, cavity);
+         _limits.allow_sizes(mesh, cavity);
 }
 
 }  // namespace aeroloom::improve

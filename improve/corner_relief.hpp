@@ -15,9 +15,10 @@
 namespace aeroloom::improve {
 
 /// For each such tetrahedron, by slot: a face between it and a neighbour gives way to an edge (2-3 swap), or
-/// the edge that is on neither triangle goes (edge removal), or gets a vertex. What leaves fewer of them, the
-/// best worst quality first, is done where no new tetrahedron is below a share of the target, or below the
-/// worst of those that go. The boundary stays as it is.
+/// the edge that is on neither triangle goes (edge removal), or gets a vertex, or the tetrahedron and its
+/// neighbours give way to those of a vertex between them. What leaves fewer of them, the best worst quality
+/// first, is done where no new tetrahedron is below a share of the target, or below the worst of those that
+/// go. Edges keep to sizes; the mean ratio may fall, which angles bound here. The boundary stays as it is.
 class CornerRelief {
 public:
   /// `share`: of the target; below one where what gets worse is improved afterwards.
@@ -31,6 +32,9 @@ private:
   void swap_face(const TetMesh& mesh, LocalIndex t, int face);
   void remove_edge(const TetMesh& mesh, LocalIndex t, int edge);
   bool split_edge(TetMesh& mesh, LocalIndex t, int edge);
+  /// The cavity of these tetrahedra gets a vertex inside, that sees all its faces.
+  bool fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity);
+  bool split_neighbourhood(TetMesh& mesh, LocalIndex t);
   /// Keeps the trial where it is better than what was found so far.
   void consider(const TetMesh& mesh);
   bool is_good(const TetMesh& mesh, const Replacement& cavity);
@@ -47,7 +51,7 @@ private:
   ConeOptimiser _cones;
   Replacement _best, _trial;
   std::vector<std::array<LocalIndex, 3>> _sides;  ///< on the boundary, of what goes
-  std::vector<LocalIndex> _placed;
+  std::vector<LocalIndex> _placed, _cavity;
 };
 
 /// How many faces of a tetrahedron are on the boundary.

@@ -61,14 +61,19 @@ TEST(CornerRelief, LeavesFewWithSeveralFacesOnTheBoundary) {
   EXPECT_EQ(piece.boundary, triangles);
 }
 
-/// A single tetrahedron cannot change, and what is as sharp as the target stays.
+/// A single tetrahedron gives way to four around a vertex, unless its corners are too sharp for that.
 TEST(CornerRelief, LeavesWhatTheCornerForces) {
-  mesh::Piece alone = examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3});
-  examples::close_boundary(alone);
-  const TetQuality measure(15);
-  TetMesh mesh(alone, measure);
   const ChangeLimits limits;
-  EXPECT_EQ(CornerRelief(limits).run(mesh), 0);
+  for (const double target : {15.0, 40.0}) {
+    mesh::Piece alone = examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3});
+    examples::close_boundary(alone);
+    const TetQuality measure(target);
+    TetMesh mesh(alone, measure);
+    EXPECT_EQ(CornerRelief(limits).run(mesh), target < 20 ? 1 : 0) << target;
+    mesh.finish();
+    EXPECT_EQ(alone.cell_count(), target < 20 ? 4 : 1) << target;
+    EXPECT_NEAR(examples::volume(alone), 1.0 / 6, 1e-12);
+  }
 }
 
 }  // namespace
