@@ -23,13 +23,6 @@ NamedShape read_source(const DomainOptions& options) {
   return read_cad_file(options.file);
 }
 
-/// Gaps that elements would show are the user's to close.
-double largest_sewing_tolerance(const DomainOptions& options) {
-  constexpr double share_of_size = 0.1;
-  return options.smallest_size > 0 ? share_of_size * options.smallest_size
-                                   : std::numeric_limits<double>::infinity();
-}
-
 HullComparison compare(const NamedShape& solids, Volumes& volumes) {
   return compare_with_hull(build_model(solids, tag_faces(solids, DomainKind::body, nullptr)),
                            volumes.of(solids.shape));
@@ -62,7 +55,7 @@ struct FluidShape {
 };
 
 FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& changes) {
-  NamedShape solids = make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes);
+  NamedShape solids = make_solids(read_source(options), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
@@ -153,10 +146,9 @@ void export_step(const DomainOptions& options, ExportedPart part, const std::str
   with_source(options, [&] {
     Changes changes;
     Volumes volumes;
-    const NamedShape shape =
-        part == ExportedPart::domain
-            ? make_fluid(options, volumes, changes).shape
-            : make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes);
+    const NamedShape shape = part == ExportedPart::domain
+                                 ? make_fluid(options, volumes, changes).shape
+                                 : make_solids(read_source(options), options.smallest_size, volumes, changes);
     write_step(shape, file);
   });
 }
