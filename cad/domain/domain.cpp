@@ -7,6 +7,7 @@
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>
@@ -59,13 +60,17 @@ FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& c
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
+  const bool single = solids_of(solids.shape).size() == 1;
   if (decision.kind == DomainKind::fluid) {
-    const bool single = solids_of(solids.shape).size() == 1;
     solids = join_regions(std::move(solids), volumes, changes);
-    if (!single) hull.reset();  // joined ones have other faces
+    if (!single) {
+      solids = close_noise(std::move(solids), options.smallest_size, changes);
+      hull.reset();  // joined ones have other faces
+    }
   } else {
-    solids = surround(unite_bodies(std::move(solids), volumes, changes),
-                      options.far_field.value_or(FarFieldOptions{}), volumes, changes);
+    solids = unite_bodies(std::move(solids), volumes, changes);
+    if (!single) solids = close_noise(std::move(solids), options.smallest_size, changes);
+    solids = surround(std::move(solids), options.far_field.value_or(FarFieldOptions{}), volumes, changes);
   }
   return {std::move(solids), std::move(decision), hull, triangulated};
 }

@@ -174,8 +174,7 @@ NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes,
   for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));
   repair_edges(named.shape, 1e-6 * all.diagonal(), changes);
   require_volume(solids, boxes, volumes);
-  return close_noise(std::move(named), noise_tolerance(all.diagonal(), named.precision, smallest_size),
-                     changes);
+  return close_noise(std::move(named), smallest_size, changes);
 }
 
 }  // namespace aeroloom::cad

@@ -1,6 +1,6 @@
 #include "cad/repair/noise.hpp"
 
-#include "cad/model/model.hpp"
+#include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/noise_closing.hpp"
 #include "cad/repair/noise_faces.hpp"
@@ -147,7 +147,8 @@ double noise_tolerance(double diagonal, double precision, double smallest_size) 
   return smallest_size > 0 ? std::min(tolerance, share_of_size * smallest_size) : tolerance;
 }
 
-NamedShape close_noise(NamedShape named, double tolerance, Changes& changes) {
+NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes) {
+  const double tolerance = noise_tolerance(tight_box(named.shape).diagonal(), named.precision, smallest_size);
   const std::vector<NoiseItem> items = find_items(named.shape, named.labels, tolerance);
   if (items.empty()) return named;
   tell_step("closing noise");

@@ -12,9 +12,10 @@ namespace aeroloom::cad {
 /// the smallest size asked for (0: none asked for).
 double noise_tolerance(double diagonal, double precision, double smallest_size);
 
-/// The shape without faces narrower than `tolerance` and edges shorter than that. The sides of such a face
+/// The shape without faces narrower than the tolerance and edges shorter than that. The sides of such a face
 /// become one edge, the ends of such an edge one vertex half-way; surfaces stay as they are. Shells that
-/// were closed are so still. What cannot be closed stays. All of it is appended to `changes`.
-NamedShape close_noise(NamedShape named, double tolerance, Changes& changes);
+/// were closed are so still. `smallest_size`: as above. What cannot be closed stays. All of it is appended to
+/// `changes`.
+NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes);
 
 }  // namespace aeroloom::cad

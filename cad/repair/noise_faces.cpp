@@ -42,7 +42,7 @@ double away_from_others(const std::vector<SampledEdge>& border, std::size_t own,
 }  // namespace
 
 std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance) {
-  constexpr double shares[] = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.04, 0.96};
+  constexpr double shares[] = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.01, 0.99};
   const std::vector<SampledEdge> border = sample_border(face);
   if (border.size() < 2) return std::nullopt;
   std::vector<std::size_t> order(border.size());
