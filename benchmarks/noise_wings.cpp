@@ -1,13 +1,15 @@
 // noise_wings: writes bodies with strips far too narrow for any element, to see that they are closed.
 //
-// usage: noise_wings skin|ring|collar|regions SHARE FILE [UNIT]
+// usage: noise_wings skin|ring|edge|collar|slit|regions SHARE FILE [UNIT]
 //
 // SHARE: width of the strip over the wing's length, 1e-8 and more. FILE: .step or .igs; IGES is written as
 // faces that share no edges (regions as solids). UNIT: MM (default), INCH, M.
 //
 // skin: a strip along the span in the middle of the upper side.
 // ring: three strips around the section half-way to the tip: upper side, lower side, trailing edge.
+// edge: a blunt trailing edge as thin as that.
 // collar: a pod with a strip around it, one face between two closed edges.
+// slit: a pod whose side is one face but for a strip from end to end.
 // regions: two solids that meet half-way to the tip, in a section with a strip along the chord.
 //
 // x aft, y to the tip, z up; chord 1000, length 3000 (a tenth of that in inches), trailing edge 2 % of the
@@ -130,14 +132,22 @@ void add_cut_section(const Section& section, double width, std::vector<TopoDS_Fa
   face({BRepBuilderAPI_MakeEdge(lower).Edge(), edge(point_of(section, 1, -1), end), edge(end, nose)});
 }
 
-std::vector<TopoDS_Face> pod(const Sizes& sizes) {
+std::vector<TopoDS_Face> pod(const Sizes& sizes, bool slit) {
   const double radius = 0.2 * sizes.chord, half = 0.5 * sizes.length;
   const Handle(Geom_Surface) side = new Geom_CylindricalSurface(gp_Ax3(gp::Origin(), gp::DY()), radius);
   std::vector<TopoDS_Face> faces;
-  const double turn = 2 * std::numbers::pi;
-  for (const auto& [from, to] : {std::pair(0.0, half), std::pair(half, half + sizes.width),
-                                 std::pair(half + sizes.width, sizes.length)})
-    faces.push_back(BRepBuilderAPI_MakeFace(side, 0, turn, from, to, 1e-9).Face());
+  const double turn = 2 * std::numbers::pi, cut = sizes.width / radius;
+  const auto add = [&](double u0, double u1, double v0, double v1) {
+    faces.push_back(BRepBuilderAPI_MakeFace(side, u0, u1, v0, v1, 1e-9).Face());
+  };
+  if (slit) {
+    add(0, cut, 0, sizes.length);
+    add(cut, turn, 0, sizes.length);
+  } else {
+    add(0, turn, 0, half);
+    add(0, turn, half, half + sizes.width);
+    add(0, turn, half + sizes.width, sizes.length);
+  }
   for (const double y : {0.0, sizes.length}) {
     const gp_Ax2 axes(gp_Pnt(0, y, 0), gp::DY());
     BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(gp_Circ(axes, radius)).Edge());
@@ -158,10 +168,10 @@ TopoDS_Solid solid_of(const std::vector<TopoDS_Face>& faces, double width) {
 }
 
 std::vector<std::vector<TopoDS_Face>> bodies(const std::string& kind, const Sizes& sizes) {
-  const double end = 0.02;
+  const double end = kind == "edge" ? sizes.width / sizes.chord : 0.02;
   const Section root{0, 0, sizes.chord, end}, tip{0.2 * sizes.chord, sizes.length, 0.7 * sizes.chord, end};
   const Section middle{0.1 * sizes.chord, 0.5 * sizes.length, 0.85 * sizes.chord, end};
-  if (kind == "collar") return {pod(sizes)};
+  if (kind == "collar" || kind == "slit") return {pod(sizes, kind == "slit")};
   if (kind == "regions") {
     std::vector<TopoDS_Face> inner = wing(root, middle, nullptr, nullptr),
                              outer = wing(middle, tip, nullptr, nullptr);
@@ -173,9 +183,15 @@ std::vector<std::vector<TopoDS_Face>> bodies(const std::string& kind, const Size
   // Along the curve, in its parameter, which is an angle: 1 - cos(angle) chords.
   const Cut chordwise{0.9, sizes.width / (sizes.chord * std::sin(0.9))};
   const Cut spanwise{0.5, sizes.width / sizes.length};
-  if (kind != "skin" && kind != "ring") throw std::runtime_error("no such kind");
-  std::vector<TopoDS_Face> faces =
-      kind == "skin" ? wing(root, tip, &chordwise, nullptr) : wing(root, tip, nullptr, &spanwise);
+  std::vector<TopoDS_Face> faces;
+  if (kind == "skin")
+    faces = wing(root, tip, &chordwise, nullptr);
+  else if (kind == "ring")
+    faces = wing(root, tip, nullptr, &spanwise);
+  else if (kind == "edge")
+    faces = wing(root, tip, nullptr, nullptr);
+  else
+    throw std::runtime_error("no such kind");
   faces.push_back(cap(root)), faces.push_back(cap(tip));
   return {faces};
 }
@@ -208,7 +224,7 @@ void write(const std::vector<std::vector<TopoDS_Face>>& parts, double width, con
 
 int main(int argc, char** argv) {
   if (argc < 4 || argc > 5) {
-    std::fprintf(stderr, "usage: noise_wings skin|ring|collar|regions SHARE FILE [MM|INCH|M]\n");
+    std::fprintf(stderr, "usage: noise_wings skin|ring|edge|collar|slit|regions SHARE FILE [MM|INCH|M]\n");
     return 2;
   }
   try {

@@ -23,7 +23,7 @@
 
 namespace aeroloom::mutations {
 
-inline constexpr int intervals = 48;  // of curves that are drawn anew
+inline constexpr int intervals = 400;  // of curves that are drawn anew
 
 struct Stretch {
   Handle(Geom_Curve) curve;

@@ -181,6 +181,20 @@ TEST(Noise, SameFaceOnBothSidesOfAStrip) {
                1, 2 * std::numbers::pi);
 }
 
+TEST(Noise, LooseStripsAsWideAsWhatIsSewn) {
+  // Sewing with a tolerance of the strip's width would lay its neighbour's two ends on one another.
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
+  const double diagonal = std::sqrt(12);
+  for (const double share : {3e-8, 0.98e-7, 3e-7}) {
+    const double cut = share * diagonal;
+    BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(circle, 0, cut).Edge(),
+                                 BRepBuilderAPI_MakeEdge(circle, cut, 2 * std::numbers::pi).Edge());
+    const TopoDS_Shape cylinder =
+        BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, 2)).Shape();
+    closed_model(shapes::compound_of(shapes::loose_faces(cylinder)), 3, 1, 2 * std::numbers::pi);
+  }
+}
+
 TEST(Noise, StripBetweenSplines) {
   const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1);
   BRepBuilderAPI_MakeWire wire(
