@@ -3,8 +3,8 @@
 
 usage: cad_mutations.py [--build BUILD] [--count N] [--seed S] [--target T] [--arbiter ARBITER] [--keep FOLDER] FILE...
 
-Mutation i takes file i modulo their number and seed S + i; what it is follows from the seed (mutate_cad.cpp). Written as
-STEP and BREP by turns of five, IGES files as IGES at the former; loosened tolerances as BREP. Each must end in a valid mesh, or in
+N seeds from S on, each with the file that is its number modulo that of files; what a mutation is follows from its seed
+(mutate_cad.cpp). Written as STEP and BREP by turns of five, IGES files as IGES instead of STEP; loosened tolerances as BREP. Each must end in a valid mesh, or in
 a message that names a place, within 120 s, and no zone be tried more than twice.
 """
 import argparse
@@ -94,8 +94,8 @@ def main():
     print("| file | seed | mutation | share of the diagonal | exit | smallest dihedral | tetrahedra | retries | s | closed | message |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     bad = 0
-    for i in range(options.count):
-        row = one(options, options.files[i % len(options.files)], options.seed + i)
+    for seed in range(options.seed, options.seed + options.count):
+        row = one(options, options.files[seed % len(options.files)], seed)
         bad += not row.good
         angle = "" if row.angle is None else f"{row.angle:.1f}"
         code = "not mutated" if row.code is None else row.code
