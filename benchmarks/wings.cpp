@@ -8,10 +8,10 @@
 // partly_sharp: STEP; trailing edge 0.2 % of the chord at the root, sharp at the tip.
 //
 // In millimetres: x aft, y to the tip, z up; the root in the plane y = 0.
-#include <cmath>
+#include "benchmarks/wing_sections.hpp"
+
 #include <cstdio>
 #include <exception>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,13 +23,9 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
-#include <GeomAPI_Interpolate.hxx>
 #include <GeomFill.hxx>
-#include <Geom_BSplineCurve.hxx>
 #include <IGESControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
-#include <TColStd_HArray1OfReal.hxx>
-#include <TColgp_HArray1OfPnt.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
@@ -38,40 +34,7 @@
 
 namespace {
 
-/// A section of the wing: where its leading edge is, its chord, the thickness of its trailing edge over
-/// chord.
-struct Section {
-  double x, y, chord, trailing_edge;
-};
-
-constexpr double thickness = 0.12;  // over chord
-constexpr int intervals = 20;       // of the interpolated upper and lower side
-
-/// Half the thickness of the four-digit section (Jacobs, Ward and Pinkerton, NACA report 460, 1933) at x of a
-/// unit chord, closed at the trailing edge, whose own thickness is then added linearly.
-double half_thickness(double x, double trailing_edge) {
-  const double closed = 0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)));
-  return 5 * thickness * closed + 0.5 * trailing_edge * x;
-}
-
-gp_Pnt point_of(const Section& section, double x, double sign) {
-  return {section.x + section.chord * x, section.y,
-          sign * section.chord * half_thickness(x, section.trailing_edge)};
-}
-
-/// One side from the leading to the trailing edge; the same parameters on every section.
-Handle(Geom_BSplineCurve) side_of(const Section& section, double sign) {
-  const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, intervals + 1);
-  const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, intervals + 1);
-  for (int i = 0; i <= intervals; ++i) {
-    const double angle = 0.5 * std::numbers::pi * i / intervals;
-    points->SetValue(i + 1, point_of(section, i == intervals ? 1 : 1 - std::cos(angle), sign));
-    parameters->SetValue(i + 1, angle);
-  }
-  GeomAPI_Interpolate interpolate(points, parameters, Standard_False, 1e-9);
-  interpolate.Perform();
-  return interpolate.Curve();
-}
+using namespace aeroloom::wings;
 
 TopoDS_Face between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), 1e-9).Face();

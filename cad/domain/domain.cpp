@@ -7,6 +7,7 @@
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>
@@ -21,13 +22,6 @@ namespace {
 NamedShape read_source(const DomainOptions& options) {
   if (options.transport) return make_transport(*options.transport);
   return read_cad_file(options.file);
-}
-
-/// Gaps that elements would show are the user's to close.
-double largest_sewing_tolerance(const DomainOptions& options) {
-  constexpr double share_of_size = 0.1;
-  return options.smallest_size > 0 ? share_of_size * options.smallest_size
-                                   : std::numeric_limits<double>::infinity();
 }
 
 HullComparison compare(const NamedShape& solids, Volumes& volumes) {
@@ -62,17 +56,21 @@ struct FluidShape {
 };
 
 FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& changes) {
-  NamedShape solids = make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes);
+  NamedShape solids = make_solids(read_source(options), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
+  const bool single = solids_of(solids.shape).size() == 1;
   if (decision.kind == DomainKind::fluid) {
-    const bool single = solids_of(solids.shape).size() == 1;
     solids = join_regions(std::move(solids), volumes, changes);
-    if (!single) hull.reset();  // joined ones have other faces
+    if (!single) {
+      solids = close_noise(std::move(solids), options.smallest_size, changes);
+      hull.reset();  // joined ones have other faces
+    }
   } else {
-    solids = surround(unite_bodies(std::move(solids), volumes, changes),
-                      options.far_field.value_or(FarFieldOptions{}), volumes, changes);
+    solids = unite_bodies(std::move(solids), volumes, changes);
+    if (!single) solids = close_noise(std::move(solids), options.smallest_size, changes);
+    solids = surround(std::move(solids), options.far_field.value_or(FarFieldOptions{}), volumes, changes);
   }
   return {std::move(solids), std::move(decision), hull, triangulated};
 }
@@ -153,10 +151,9 @@ void export_step(const DomainOptions& options, ExportedPart part, const std::str
   with_source(options, [&] {
     Changes changes;
     Volumes volumes;
-    const NamedShape shape =
-        part == ExportedPart::domain
-            ? make_fluid(options, volumes, changes).shape
-            : make_solids(read_source(options), largest_sewing_tolerance(options), volumes, changes);
+    const NamedShape shape = part == ExportedPart::domain
+                                 ? make_fluid(options, volumes, changes).shape
+                                 : make_solids(read_source(options), options.smallest_size, volumes, changes);
     write_step(shape, file);
   });
 }

@@ -37,7 +37,8 @@ struct NamedShape {
   FaceLabels labels;
   std::string unit_name;      ///< "m", "mm", "in", ...; empty when the source declares none
   double unit_in_metres = 1;  ///< lengths of `shape` are in this unit
-  double gap = 0;             ///< the widest one that sewing closed
+  double gap = 0;             ///< the widest one that was closed: by sewing, or as noise
+  double precision = 0;       ///< what the file says points are exact to; 0: nothing
 };
 
 /// The built-in aircraft: one closed solid in metres with named faces. Throws CadError for dimensions that

@@ -10,12 +10,15 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <vector>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -108,6 +111,19 @@ private:
   std::streambuf* _buffer;
 };
 
+/// Half of the vertices are exact to this.
+double median_tolerance(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  std::vector<double> tolerances;
+  for (int i = 1; i <= vertices.Extent(); ++i)
+    tolerances.push_back(BRep_Tool::Tolerance(TopoDS::Vertex(vertices(i))));
+  if (tolerances.empty()) return 0;
+  const auto middle = tolerances.begin() + static_cast<std::ptrdiff_t>(tolerances.size() / 2);
+  std::nth_element(tolerances.begin(), middle, tolerances.end());
+  return *middle;
+}
+
 /// The stream throws where the file ends too early: the readers would go round in circles for ever.
 NamedShape read_brep(const std::string& file, bool binary) {
   NamedShape named;
@@ -124,6 +140,7 @@ NamedShape read_brep(const std::string& file, bool binary) {
     throw CadError(fmt::format("'{}': a BREP file that is damaged or ends too early", file));
   }
   require(!named.shape.IsNull(), file, "a BREP file that is damaged: no shape could be read");
+  named.precision = median_tolerance(named.shape);
   return named;
 }
 

@@ -3,6 +3,8 @@
 #include "cad/read/length_unit.hpp"
 #include "cad/read/xde_document.hpp"
 
+#include <algorithm>
+
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -64,6 +66,7 @@ NamedShape read_iges(const std::string& file) {
   NamedShape named = collect_parts(document, entity_names(reader));
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
+  named.precision = std::max(0.0, reader.IGESModel()->GlobalSection().Resolution());
   document->Close();
   return named;
 }

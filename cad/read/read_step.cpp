@@ -3,8 +3,11 @@
 #include "cad/read/length_unit.hpp"
 #include "cad/read/xde_document.hpp"
 
+#include <algorithm>
+
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Controller.hxx>
+#include <StepBasic_UncertaintyMeasureWithUnit.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_Face.hxx>
@@ -29,6 +32,17 @@ const LengthUnit* declared_unit(STEPControl_Reader& reader) {
     if (const LengthUnit* unit = find_length_unit(name.ToCString())) return unit;
   }
   return nullptr;
+}
+
+/// The largest uncertainty of lengths that the file states; 0 where it states none.
+double stated_uncertainty(STEPControl_Reader& reader) {
+  double largest = 0;
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto measure = Handle(StepBasic_UncertaintyMeasureWithUnit)::DownCast(model->Value(i));
+    if (!measure.IsNull()) largest = std::max(largest, measure->ValueComponent());
+  }
+  return largest;
 }
 
 /// Names in the file's faces, shells and solids themselves: the framework keeps only those of products.
@@ -69,6 +83,7 @@ NamedShape read_step(const std::string& file) {
   NamedShape named = collect_parts(document, entity_names(reader.ChangeReader()));
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
+  named.precision = stated_uncertainty(reader.ChangeReader());
   document->Close();
   return named;
 }

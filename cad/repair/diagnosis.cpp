@@ -4,6 +4,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/read/cad_reader.hpp"
+#include "cad/repair/noise_faces.hpp"
 #include "cad/repair/sewing.hpp"
 
 #include <algorithm>
@@ -75,9 +76,12 @@ void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis
     BRepGProp::SurfaceProperties(faces(i), surface, area_precision);
     BRepGProp::LinearProperties(faces(i), rim);
     const double length = 0.5 * rim.Mass();  // of a strip
-    const double width = length > 0 ? std::abs(surface.Mass()) / length : 0;
+    double width = length > 0 ? std::abs(surface.Mass()) / length : 0;
     if (width > sliver_width * diagonal || width > sliver_slenderness * length) continue;
     if (++diagnosis.counts.sliver_faces > shown_of_a_kind) continue;
+    // Areas of such faces are inexact.
+    if (const auto strip = examine_noise(TopoDS::Face(faces(i)), sliver_width * diagonal))
+      width = strip->widest;
     diagnosis.findings.push_back({fmt::format("a sliver face '{}' {:.3g} wide and {:.3g} long",
                                               name_of(named, faces(i), i - 1), width, length),
                                   tight_box(faces(i)).center()});

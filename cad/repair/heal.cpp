@@ -2,12 +2,15 @@
 
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/repair/noise.hpp"
 #include "cad/repair/repair_edges.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -91,6 +94,12 @@ void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
   result.insert(result.end(), split.begin(), split.end());
 }
 
+/// Gaps that elements would show are the user's to close.
+double largest_sewing_tolerance(double smallest_size) {
+  constexpr double share_of_size = 0.1;
+  return smallest_size > 0 ? share_of_size * smallest_size : std::numeric_limits<double>::infinity();
+}
+
 void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
                 Changes& changes) {
   TopTools_IndexedMapOfShape used;
@@ -137,7 +146,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
   return compound;
 }
 
-NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volumes, Changes& changes) {
+NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
   tell_step("healing the shape");
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
@@ -150,7 +159,8 @@ NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volu
     parts.loose_faces.Clear();
   }
   if (!parts.open_faces.IsEmpty()) {
-    const SewnShells sewn = sew(parts.open_faces, largest_tolerance, named.labels, changes);
+    const SewnShells sewn =
+        sew(parts.open_faces, largest_sewing_tolerance(smallest_size), named.labels, changes);
     shells.insert(shells.end(), sewn.shells.begin(), sewn.shells.end());
     named.gap = sewn.gap;
   }
@@ -164,7 +174,7 @@ NamedShape make_solids(NamedShape named, double largest_tolerance, Volumes& volu
   for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));
   repair_edges(named.shape, 1e-6 * all.diagonal(), changes);
   require_volume(solids, boxes, volumes);
-  return named;
+  return close_noise(std::move(named), smallest_size, changes);
 }
 
 }  // namespace aeroloom::cad

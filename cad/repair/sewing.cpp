@@ -4,10 +4,13 @@
 #include "cad/model/model_topology.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/caps.hpp"
+#include "cad/repair/noise.hpp"
+#include "cad/repair/noise_faces.hpp"
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -194,6 +197,45 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
   return capped;
 }
 
+/// Faces to sew, and how.
+struct Attempt {
+  TopTools_IndexedMapOfShape faces;
+  double share = 0;
+  std::vector<std::pair<int, NoiseFace>> left_out;  ///< numbers of faces that are noise
+};
+
+/// Tolerances ascending. Where strips are no wider than a few of them sewing would lay their sides on one
+/// another and leave the strip: it is tried with less, and without the strips.
+std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double diagonal) {
+  constexpr double part_of_strip = 0.1, near = 5;
+  const double limit = noise_tolerance(diagonal, 0, 0);
+  std::vector<std::pair<int, NoiseFace>> strips;
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const auto noise = examine_noise(TopoDS::Face(faces(i)), limit);
+    if (!noise) continue;
+    strips.emplace_back(i, *noise);
+    narrowest = std::min(narrowest, noise->widest);
+  }
+  std::vector<Attempt> attempts;
+  if (narrowest < near * shares[0] * diagonal)
+    attempts.push_back({faces, part_of_strip * narrowest / diagonal, {}});
+  for (const double share : shares) {
+    if (narrowest < near * share * diagonal && static_cast<int>(strips.size()) < faces.Extent()) {
+      Attempt without{{}, share, strips};
+      for (int i = 1, next = 0; i <= faces.Extent(); ++i) {
+        if (next < static_cast<int>(strips.size()) && strips[next].first == i)
+          ++next;
+        else
+          without.faces.Add(faces(i));
+      }
+      attempts.push_back(std::move(without));
+    }
+    attempts.push_back({faces, share, {}});
+  }
+  return attempts;
+}
+
 /// The name of the only face around an edge, or of its solid; empty where the file names neither.
 std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, const FaceLabels& labels) {
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
@@ -241,12 +283,23 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
   const Box box = tight_box(std::vector<TopoDS_Shape>(faces.cbegin(), faces.cend()));
   const double diagonal = box.diagonal();
   std::vector<Sewn> tried;
-  for (const double share : shares) {
-    if (!tried.empty() && share * diagonal > largest_tolerance) break;
-    Sewn& sewn = tried.emplace_back(sew_once(faces, share * diagonal, labels));
-    sewn.share = share;
-    if (!sewn.complete) continue;
-    const double gap = tell_sewn(sewn, faces.Extent(), changes);
+  for (const Attempt& attempt : attempts_of(faces, diagonal)) {
+    if (!tried.empty() && attempt.share * diagonal > largest_tolerance) break;
+    Sewn& sewn = tried.emplace_back(sew_once(attempt.faces, attempt.share * diagonal, labels));
+    sewn.share = attempt.share;
+    if (!sewn.complete) {
+      if (!attempt.left_out.empty()) tried.pop_back();
+      continue;
+    }
+    for (const auto& [index, noise] : attempt.left_out) {
+      const FaceLabel* label = labels.Seek(faces(index));
+      changes.push_back(
+          {fmt::format("strip '{}', {:.4g} long and at most {:.4g} wide, is below the noise: left out and "
+                       "its sides sewn",
+                       label ? shown_name(*label) : std::string(), noise.length, noise.widest),
+           noise.place, noise.widest});
+    }
+    const double gap = tell_sewn(sewn, attempt.faces.Extent(), changes);
     labels = sewn.labels;
     return {sewn.closed, gap};
   }

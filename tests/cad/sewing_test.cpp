@@ -50,7 +50,7 @@ NamedShape heal(const TopoDS_Shape& shape, Changes& changes) {
   NamedShape named;
   named.shape = shape;
   Volumes volumes;
-  return make_solids(named, std::numeric_limits<double>::infinity(), volumes, changes);
+  return make_solids(named, 0, volumes, changes);
 }
 
 TEST(Sewing, LooseFacesBecomeASolid) {
@@ -171,7 +171,7 @@ TEST(Sewing, FacesKeepTheirLabels) {
   }
   Changes changes;
   Volumes volumes;
-  const NamedShape healed = make_solids(named, 1, volumes, changes);
+  const NamedShape healed = make_solids(named, 10, volumes, changes);
   for (const TopoDS_Face& face : shapes::faces_of(healed.shape)) {
     const FaceLabel* label = healed.labels.Seek(face);
     ASSERT_NE(label, nullptr);

@@ -1,0 +1,58 @@
+#include "cad/repair/edge_on_face.hpp"
+
+#include "cad/model/model.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <Geom2dAPI_Interpolate.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_HArray1OfPnt2d.hxx>
+
+namespace aeroloom::cad {
+
+Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
+                                  const Handle(Geom2d_Curve) & image, bool against, double tolerance) {
+  constexpr int fewest = 16, most = 1024;
+  const SampledEdge own(edge.edge), beside(other.edge);
+  const auto along = [](const EdgePart& part, double share) {
+    return part.first + share * (part.last - part.first);
+  };
+  // Where on the other: ends belong to ends.
+  const auto foot = [&](double share) {
+    const double guess = along(other, against ? 1 - share : share);
+    if (share <= 0 || share >= 1) return guess;
+    const Vec3 point = own.point(along(edge, share));
+    SampledEdge::Foot found = beside.nearest_around(point, guess);
+    if (found.away > 2 * tolerance) found = beside.nearest(point, 2 * tolerance);
+    return std::clamp(found.parameter, other.first, other.last);
+  };
+  Handle(Geom2d_BSplineCurve) curve;
+  for (int count = fewest; count <= most; count *= 2) {
+    const Handle(TColgp_HArray1OfPnt2d) uv = new TColgp_HArray1OfPnt2d(1, count + 1);
+    const Handle(TColStd_HArray1OfReal) at = new TColStd_HArray1OfReal(1, count + 1);
+    for (int i = 0; i <= count; ++i) {
+      const double share = static_cast<double>(i) / count;
+      uv->SetValue(i + 1, image->Value(foot(share)));
+      at->SetValue(i + 1, i == count ? edge.last : along(edge, share));
+    }
+    Geom2dAPI_Interpolate interpolation(uv, at, false, 0);
+    interpolation.Perform();
+    if (!interpolation.IsDone())
+      throw CadError("an edge beside a strip has no parameter curve that follows it");
+    curve = interpolation.Curve();
+    double apart = 0, extent = 0;
+    const gp_Pnt2d start = uv->Value(1);
+    for (int i = 0; i < count; ++i) {
+      const double share = (i + 0.5) / count;
+      const gp_Pnt2d exact = image->Value(foot(share));
+      apart = std::max(apart, curve->Value(along(edge, share)).Distance(exact));
+      extent = std::max(extent, exact.Distance(start));
+    }
+    if (apart <= 1e-7 * extent) break;
+  }
+  return curve;
+}
+
+}  // namespace aeroloom::cad
