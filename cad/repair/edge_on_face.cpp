@@ -3,8 +3,9 @@
 #include "cad/model/model.hpp"
 
 #include <algorithm>
-#include <optional>
 
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Geom2dAPI_Interpolate.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <TColStd_HArray1OfReal.hxx>
@@ -53,6 +54,19 @@ Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
     if (apart <= 1e-7 * extent) break;
   }
   return curve;
+}
+
+void add_image(const TopoDS_Edge& edge, const Handle(Geom2d_Curve) & image, const TopoDS_Face& face,
+               bool forward, double tolerance) {
+  BRep_Builder builder;
+  double low, high;
+  const Handle(Geom2d_Curve) known = BRep_Tool::CurveOnSurface(edge, face, low, high);
+  if (known.IsNull())
+    builder.UpdateEdge(edge, image, face, tolerance);
+  else if (forward)
+    builder.UpdateEdge(edge, image, known, face, tolerance);
+  else
+    builder.UpdateEdge(edge, known, image, face, tolerance);
 }
 
 }  // namespace aeroloom::cad

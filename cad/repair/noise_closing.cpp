@@ -2,6 +2,7 @@
 
 #include "cad/model/model.hpp"
 #include "cad/repair/edge_on_face.hpp"
+#include "cad/repair/edge_pieces.hpp"
 #include "cad/repair/sampled_edge.hpp"
 #include "cad/repair/united_vertices.hpp"
 
@@ -32,11 +33,6 @@ namespace {
 /// Vertices unite as far apart as this, in tolerances: a noise face may lie beside another.
 constexpr double widest_union = 3;
 
-Vec3 place_of_vertex(const TopoDS_Vertex& vertex) {
-  const gp_Pnt p = BRep_Tool::Pnt(vertex);
-  return {p.X(), p.Y(), p.Z()};
-}
-
 /// Plans the closing; numbers of vertices, edges and faces are those of the shape's maps, from 0.
 class NoiseClosing {
 public:
@@ -65,23 +61,6 @@ public:
   }
 
 private:
-  struct Cut {
-    double parameter;
-    int vertex;
-  };
-  /// A stretch of an edge between vertices or cuts.
-  struct Piece {
-    Piece(int edge, double first, double last, int start, int end)
-        : edge(edge), first(first), last(last), start(start), end(end) {}
-    int edge;
-    double first, last;
-    int start, end;        // vertices' roots
-    double length = 0;     // where it matters
-    int like = -1;         // the piece that takes its place; itself
-    bool against = false;  // runs against that one
-    TopoDS_Edge made = {};
-  };
-
   [[noreturn]] static void refuse(Vec3 at, const char* why) {
     throw CadError(fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", why, at.x, at.y, at.z));
   }
@@ -368,16 +347,7 @@ private:
       const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(edge(lost.edge), face, first, last);
       if (image.IsNull()) refuse(middle_of(lost), "an edge beside a strip has no parameter curve");
       const Handle(Geom2d_Curve) now = image_beside(own, other, image, lost.against, _tolerance);
-      double low, high;
-      const Handle(Geom2d_Curve) known = BRep_Tool::CurveOnSurface(taken.made, face, low, high);
-      const double tolerance = 1.5 * _tolerance;
-      if (known.IsNull()) {
-        builder.UpdateEdge(taken.made, now, face, tolerance);
-      } else if (is_passed_forward(lost.edge, face) != lost.against) {
-        builder.UpdateEdge(taken.made, now, known, face, tolerance);
-      } else {
-        builder.UpdateEdge(taken.made, known, now, face, tolerance);
-      }
+      add_image(taken.made, now, face, is_passed_forward(lost.edge, face) != lost.against, 1.5 * _tolerance);
       builder.Range(taken.made, face, taken.first, taken.last);
     }
     builder.SameRange(taken.made, true);
