@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -87,6 +88,9 @@ struct TerminationWatch::State {
       std::fprintf(stderr, "error: ended by SIG%s\n", sigabbrev_np(signal));
       const std::lock_guard guard(last_words().mutex);
       if (last_words().say) last_words().say(signal);
+    } else {
+      // The first that aborts ends all: rank 0 is left the time to speak.
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
     }
     abort_all_ranks(128 + signal);
   }
