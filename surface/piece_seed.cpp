@@ -1,41 +1,19 @@
 #include "surface/piece_seed.hpp"
 
+#include "sizing/facet_integral.hpp"
 #include "surface/support_topology.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace aeroloom::surface {
-namespace {
-
-using geometry::Vec3;
-
-constexpr double part_per_size = 3;  // edge of a part of a facet that one size stands for
-constexpr int most_bisections = 30;
-
-double integrate(const sizing::SizeField& field, const std::array<Vec3, 3>& t, int depth) {
-  int longest = 0;
-  double length = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double edge = distance(t[i], t[(i + 1) % 3]);
-    if (edge > length) length = edge, longest = i;
-  }
-  const double h = field((t[0] + t[1] + t[2]) / 3.0);
-  if (length <= part_per_size * h || depth == most_bisections)
-    return 2 / std::numbers::sqrt3 * norm(cross(t[1] - t[0], t[2] - t[0])) / (h * h);
-  const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
-  return integrate(field, {a, middle, c}, depth + 1) + integrate(field, {middle, b, c}, depth + 1);
-}
-
-}  // namespace
 
 double integrate_triangles(const Support& support, const sizing::SizeField& field) {
-  double triangles = 0;
+  double sum = 0;
   for (const auto& [a, b, c] : support.triangles)
-    triangles += integrate(field, {support.points[a], support.points[b], support.points[c]}, 0);
-  return triangles;
+    sum += sizing::integrate_facet(field, {support.points[a], support.points[b], support.points[c]});
+  return 4 / std::numbers::sqrt3 * sum;
 }
 
 double predict_triangles(const Support& support, const sizing::SizeField& field) {
