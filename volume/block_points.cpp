@@ -22,9 +22,6 @@ constexpr double smallest_edge = 0.3, largest_edge = 1.5;
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
 
-/// A slot's place in its leaf, in halves of the leaf's edge.
-constexpr int slot_places[slots_per_leaf][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
-                                                {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
 /// Slots that hang: a point stands there if one of the cells of the leaf's level is split that touch the
 /// place from below: their offsets.
 struct Touching {
@@ -48,8 +45,27 @@ double largest_size(const LatticeSource& source, BlockIndex b) {
   return std::min(source.field.maximum(), source.field(center) + slope * half_diagonal);
 }
 
+/// How far the surface is from corners and centres of leaves of the core, in space.
+double core_reach(const LatticeSource& source, BlockIndex b) {
+  return core_clearance * source.frame.edge(source.tree.leaf_level(b));
+}
+
 double clearance_of(const LatticeSource& source, BlockIndex b) {
   return source.options.clearance * std::pow(step_factor, source.changes[b].farther);
+}
+
+/// Whether there are far smaller triangles within reach of the points of a block.
+bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
+  constexpr int far_finer = 4;  // levels
+  const GridCube cube = source.tree.cube(b);
+  return source.tree.any_block_in(GridBox::of(cube).dilated(reach), [&](BlockIndex n) {
+    return source.tree.cube(n).level >= cube.level + far_finer && source.table.is_met(n);
+  });
+}
+
+/// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.
+bool may_have_core(const LatticeSource& source, BlockIndex b) {
+  return !sees_far_finer(source, b, source.frame.grid_distance(core_reach(source, b)));
 }
 
 /// Makes the points of one block after the other.
@@ -64,6 +80,7 @@ public:
         _within(source.frame, source.tree, source.table, surface) {}
 
   void make(BlockIndex b) {
+    _result.clear_leaves.push_back(0);
     const bool met = _source.table.is_met(b);
     if (!met && _source.regions[b] == mesh::no_region) return;
     _block = b;
@@ -72,6 +89,7 @@ public:
     for (int child = 0; child < _source.tree.leaf_count(b); ++child) make_leaf(child);
     const bool near = met || is_near();
     if (near) find_triangles();
+    _result.clear_leaves.back() = clear_leaves();
     for (const Offer& offer : _offered) {
       mesh::RegionId region = _source.regions[b];
       if (near && !is_clear(offer)) continue;
@@ -108,15 +126,39 @@ private:
     _triangles.collect(_surface.distance(), _box, largest_edge * clearance_of(_source, _block) * largest);
   }
 
+  /// The leaves whose corners and centre keep off the surface as far as those of the core do.
+  std::uint8_t clear_leaves() {
+    const LatticeTree& tree = _source.tree;
+    if (!may_have_core(_source, _block)) return 0;
+    const double reach = core_reach(_source, _block);
+    const GridBox whole = GridBox::of(tree.cube(_block));
+    if (_surface.empty()) return tree.all_leaves(_block);
+    geometry::Box box;
+    for (int corner = 0; corner < 8; ++corner) box.add(_source.frame.to_space(whole.corner(corner)));
+    if (!_surface.distance().any_in(box.dilated(reach))) return tree.all_leaves(_block);
+    _around.collect(_surface.distance(), box, reach);
+    std::uint8_t clear = 0;
+    for (int child = 0; child < tree.leaf_count(_block); ++child) {
+      const GridBox leaf = GridBox::of(tree.leaf(_block, child));
+      const auto is_near = [&](Vec3 grid) {
+        return _around.any_nearer(_source.frame.to_space(grid), {1, reach, reach});
+      };
+      bool near = is_near(0.5 * (leaf.low + leaf.high));
+      for (int corner = 0; corner < 8 && !near; ++corner) near = is_near(leaf.corner(corner));
+      if (!near) clear |= static_cast<std::uint8_t>(1U << child);
+    }
+    return clear;
+  }
+
   void make_leaf(int child) {
     const GridCube leaf = _source.tree.leaf(_block, child);
-    offer(leaf, child, 0);
+    offer(child, 0);
     for (const Touching& touching : hanging) {
       const auto is_split = [&](const int(&offset)[3]) { return is_neighbour_split(leaf, offset); };
       if (std::any_of(touching.offsets, touching.offsets + touching.count, is_split))
-        offer(leaf, child, touching.slot);
+        offer(child, touching.slot);
     }
-    offer(leaf, child, 7);
+    offer(child, 7);
   }
 
   bool is_neighbour_split(const GridCube& leaf, const int (&offset)[3]) const {
@@ -130,26 +172,10 @@ private:
          leaf.level});
   }
 
-  void offer(const GridCube& leaf, int child, int slot) {
-    const double half = 0.5 * leaf.edge();
-    const int(&place)[3] = slot_places[slot];
-    const Vec3 grid = GridBox::of(leaf).low + Vec3{half * place[0], half * place[1], half * place[2]};
-    const Vec3 p = _source.frame.to_space(grid) + perturbation(leaf, slot);
+  void offer(int child, int slot) {
+    const Vec3 p = lattice_point(_source, {_block, child}, slot);
     _offered.push_back({p, 0, static_cast<std::uint8_t>(child * slots_per_leaf + slot)});
     _box.add(p);
-  }
-
-  Vec3 perturbation(const GridCube& leaf, int slot) const {
-    std::uint64_t state = mesh::mix_in(_source.changes[_block].variant, static_cast<std::uint64_t>(slot));
-    state = mesh::mix_in(state, static_cast<std::uint64_t>(leaf.level));
-    state = mesh::mix_in(state, sizing::morton_key(leaf.low));
-    const double width = _source.options.perturbation * mean_edge_of_cell * _source.frame.edge(leaf.level);
-    Vec3 shift;
-    for (int axis = 0; axis < 3; ++axis) {
-      state = mesh::mix_in(state, 0);
-      shift[axis] = width * (static_cast<double>(state >> 11) * 0x1p-53 - 0.5);
-    }
-    return shift;
   }
 
   bool is_clear(const Offer& offer) const {
@@ -181,20 +207,12 @@ private:
   std::vector<Offer> _offered;  // in the block
   geometry::Box _box;           // of them
   NearTriangles _triangles;     // near them
+  NearTriangles _around;        // near leaves that may be core
   std::int32_t _guess = -1;
   EmptyBalls _balls;
 };
 
 constexpr double more_for_shear = 1.1;
-
-/// Whether there are far smaller triangles within reach of the points of a block.
-bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
-  constexpr int far_finer = 4;  // levels
-  const GridCube cube = source.tree.cube(b);
-  return source.tree.any_block_in(GridBox::of(cube).dilated(reach), [&](BlockIndex n) {
-    return source.tree.cube(n).level >= cube.level + far_finer && source.table.is_met(n);
-  });
-}
 
 /// How far from a block the way may lead from one of its points to a triangle whose box meets it.
 double reach_from_within(const LatticeSource& source, BlockIndex b) {
@@ -202,7 +220,28 @@ double reach_from_within(const LatticeSource& source, BlockIndex b) {
   return more_for_shear * source.frame.grid_distance(source.table.longest_edge[b]) + perturbation;
 }
 
+Vec3 perturbation(const LatticeSource& source, const Leaf& which, const GridCube& leaf, int slot) {
+  std::uint64_t state = mesh::mix_in(source.changes[which.block].variant, static_cast<std::uint64_t>(slot));
+  state = mesh::mix_in(state, static_cast<std::uint64_t>(leaf.level));
+  state = mesh::mix_in(state, sizing::morton_key(leaf.low));
+  const double width = source.options.perturbation * mean_edge_of_cell * source.frame.edge(leaf.level);
+  Vec3 shift;
+  for (int axis = 0; axis < 3; ++axis) {
+    state = mesh::mix_in(state, 0);
+    shift[axis] = width * (static_cast<double>(state >> 11) * 0x1p-53 - 0.5);
+  }
+  return shift;
+}
+
 }  // namespace
+
+Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot) {
+  const GridCube cube = source.tree.leaf(leaf);
+  const double half = 0.5 * cube.edge();
+  const int(&place)[3] = slot_places[slot];
+  const Vec3 grid = GridBox::of(cube).low + Vec3{half * place[0], half * place[1], half * place[2]};
+  return source.frame.to_space(grid) + perturbation(source, leaf, cube, slot);
+}
 
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
@@ -222,7 +261,9 @@ SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, Bloc
       from_within = far == FarBlocks::from_within && sees_far_finer(source, b, nearest);
       if (from_within) nearest = reach_from_within(source, b);
     }
-    reach.of_blocks.push_back({smallest_edge * clear, largest_edge * clear, nearest, from_within});
+    double least = smallest_edge * clear;
+    if (may_have_core(source, b)) least = std::max(least, source.frame.grid_distance(core_reach(source, b)));
+    reach.of_blocks.push_back({least, largest_edge * clear, nearest, from_within});
   }
   return reach;
 }

@@ -23,16 +23,31 @@ struct LatticeOptions {
 struct BlockChange {
   std::uint8_t variant = 0;  ///< another number gives other perturbations
   std::uint8_t farther = 0;  ///< steps by which its points keep farther off the surface
+  std::uint8_t shell = 0;    ///< leaves that may not be core, a bit each (core_leaves.hpp)
 };
 
 /// A lattice point stands at the low corner of a leaf, in the middle of one of three edges or faces there
 /// (where smaller leaves touch it), or in its centre: eight *slots* of each of the eight leaves of a block.
 inline constexpr int slots_per_leaf = 8, slots_per_block = 64;
 
+/// A slot's place in its leaf, in halves of the leaf's edge.
+inline constexpr int slot_places[slots_per_leaf][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                                       {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+/// The slot of a place at the low corner of a leaf (0) or half an edge from it (1) along each axis.
+inline int slot_at(int x, int y, int z) {
+  constexpr int slots[8] = {0, 1, 2, 4, 3, 5, 6, 7};
+  return slots[x + 2 * y + 4 * z];
+}
+
 /// Which block and slot a point of the lattice has, by a running number: its token behind those of the
 /// surface.
 inline std::int64_t lattice_number(BlockIndex block, int slot) {
   return std::int64_t{block} * slots_per_block + slot;
+}
+/// The leaf that such a point belongs to.
+inline Leaf leaf_of_lattice(std::int64_t number) {
+  return {static_cast<BlockIndex>(number / slots_per_block),
+          static_cast<int>(number % slots_per_block) / slots_per_leaf};
 }
 
 /// The points of consecutive blocks. Point i of block b: [starts[b - first] + i], by slot.
@@ -42,6 +57,8 @@ struct BlockPoints {
   std::vector<std::uint8_t> slots;
   std::vector<geometry::Vec3> points;
   std::vector<mesh::RegionId> regions;
+  /// Per block: the leaves whose corners and centre keep `core_clearance` leaf edges off the surface.
+  std::vector<std::uint8_t> clear_leaves;
 
   BlockIndex last() const { return first + static_cast<BlockIndex>(starts.size()) - 1; }
   std::int64_t count(BlockIndex b) const { return starts[b - first + 1] - starts[b - first]; }
@@ -57,6 +74,15 @@ struct LatticeSource {
   LatticeOptions options;
   std::span<const BlockChange> changes;  ///< per block
 };
+
+/// Where the point of a slot stands if there is one: perturbed by a hash of its place.
+geometry::Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot);
+
+/// How far the corners and the centre of a leaf of the core keep off the surface, in leaf edges. Above 0.58
+/// nothing between them can reach into the leaf; at 0.87 no point of the surface stands in a ball through the
+/// corners of a square whose emptiness proves it (core_leaves.hpp). In between the mesh of the shell is
+/// asked.
+inline constexpr double core_clearance = 0.6;
 
 /// How regions are told in blocks far from a body, which are as large as it is far off and where one of its
 /// many triangles may be the nearest.

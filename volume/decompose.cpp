@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace aeroloom::volume {
 
@@ -71,10 +72,11 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
 void divide(const VolumeInput& input, Decomposition::Data& data, parallel::StageClock& clock) {
   const ScopedCpu repeated(clock, ScopedCpu::As::serial);
   const std::vector<double> loads = block_loads(data.table, data.counts);
-  data.report.expected_tetrahedra = std::accumulate(loads.begin(), loads.end(), 0.0);
-  const double expected = data.report.expected_tetrahedra;
-  const ZoneIndex count =
-      wanted_zones(expected, input.options.piece_tets.value_or(partition::suitable_piece_tets(expected)));
+  const double of_shell = std::accumulate(loads.begin(), loads.end(), 0.0);
+  data.report.expected_tetrahedra = of_shell + static_cast<double>(data.report.core_tetrahedra);
+  data.piece_tets =
+      input.options.piece_tets.value_or(partition::suitable_piece_tets(data.report.expected_tetrahedra));
+  const ZoneIndex count = wanted_zones(of_shell, data.piece_tets);
   data.zones = std::make_unique<Zones>(bisect(*data.tree, loads, count));
   data.expected.assign(count, 0);
   for (BlockIndex b = 0; b < data.tree->block_count(); ++b) data.expected[data.zones->of(b, 0)] += loads[b];
@@ -107,21 +109,36 @@ const DecompositionReport& Decomposition::report() const {
   return _data->report;
 }
 
-void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                     Decomposition::Data& data, parallel::StageClock& clock) {
+std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
+                                        Decomposition::Data& data, parallel::StageClock& clock) {
   const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
-  std::vector<std::uint8_t> mine;
+  BlockPoints points;
   std::vector<SurfaceTriangle> again;
   if (!data.surface) again = gather_triangles(communicator, input, data, clock);
   parallel::agree(communicator, [&] {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     if (!data.surface) data.surface = std::make_unique<NearSurface>(again);
-    data.points = make_points(data.source(input), first, last, *data.surface, data.reach);
+    points = make_points(data.source(input), first, last, *data.surface, data.reach);
     data.surface.reset();
-    for (BlockIndex b = first; b < last; ++b) mine.push_back(static_cast<std::uint8_t>(data.points.count(b)));
   });
-  data.counts = communicator.all_gather_items<std::uint8_t>(mine);
-  data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(data.points.points.size()));
+  data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(points.points.size()));
+  const std::unique_ptr<const CoreLeaves> before = std::exchange(
+      data.core, std::make_unique<CoreLeaves>(communicator, data.source(input), data.shares, points, clock));
+  std::vector<std::uint8_t> counts, borders;
+  std::vector<BlockIndex> changed;
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    data.shell = find_shell(*data.tree, *data.core, *data.squares, std::move(points));
+    for (BlockIndex b = first; b < last; ++b) {
+      counts.push_back(static_cast<std::uint8_t>(data.shell.points.count(b)));
+      borders.push_back(!data.shell.borders.of(b).empty());
+      if (before && before->of(b) != data.core->of(b)) changed.push_back(b);
+    }
+  }
+  data.counts = communicator.all_gather_items<std::uint8_t>(counts);
+  data.borders = communicator.all_gather_items<std::uint8_t>(borders);
+  data.report.core_tetrahedra = communicator.sum(data.shell.core_cells());
+  return communicator.all_gather_items<BlockIndex>(changed);
 }
 
 Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
@@ -131,6 +148,7 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
   data->frame = std::make_unique<LatticeFrame>(input.field, box);
   data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field,
                                              data->frame->grid_box(box), clock);
+  data->squares = std::make_unique<CoreSquares>(*data->frame);
   data->report.blocks = data->tree->block_count();
   share_surface(communicator, input, *data, clock);
   BlockRegions regions =

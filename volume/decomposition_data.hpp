@@ -3,6 +3,7 @@
 
 #include "volume/block_points.hpp"
 #include "volume/block_regions.hpp"
+#include "volume/core_border.hpp"
 #include "volume/halo.hpp"
 #include "volume/near_surface.hpp"
 #include "volume/volume_mesher.hpp"
@@ -22,9 +23,12 @@ struct Decomposition::Data {
   std::vector<mesh::RegionId> regions;  ///< per block
   std::vector<BlockChange> changes;     ///< per block
   std::vector<BlockIndex> shares;       ///< see share_blocks
-  std::vector<std::uint8_t> counts;     ///< points per block
+  std::vector<std::uint8_t> counts;     ///< points of the shell per block
+  std::vector<std::uint8_t> borders;    ///< per block: whether triangles of the core's border lie in it
+  std::unique_ptr<const CoreSquares> squares;
   std::unique_ptr<Zones> zones;
-  std::vector<double> expected;  ///< tetrahedra per zone
+  std::vector<double> expected;  ///< tetrahedra per zone, without the core's
+  std::int64_t piece_tets = 0;   ///< wanted tetrahedra of a zone, and of a piece of the core
   DecompositionReport report;
 
   // Of this rank's blocks.
@@ -32,10 +36,11 @@ struct Decomposition::Data {
   std::vector<SurfaceTriangle> triangles;      ///< that meet them
   std::unique_ptr<const NearSurface> surface;  ///< while points are made
   std::unique_ptr<const TrianglesOfBlocks> of_blocks;
-  BlockPoints points;
+  std::unique_ptr<const CoreLeaves> core;
+  ShellShare shell;
   ZonePlan plan;  ///< of all zones
 
-  BlockTables tables() const { return {*frame, *tree, table, counts, *zones}; }
+  BlockTables tables() const { return {*frame, *tree, table, counts, borders, *zones}; }
   LatticeSource source(const VolumeInput& input) const {
     return {*frame, *tree,   input.field,
             table,  regions, {input.options.lattice_clearance, input.options.perturbation},
@@ -43,9 +48,10 @@ struct Decomposition::Data {
   }
 };
 
-/// Makes the points of this rank's blocks (anew) and counts those of all; the surface they were made with is
-/// let go. Collective.
-void make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                     Decomposition::Data& data, parallel::StageClock& clock);
+/// Makes the points of this rank's blocks (anew), tells core from shell, and counts what the shells of all
+/// have; the surface they were made with is let go. Returns the blocks whose core is another than before, of
+/// all ranks. Collective.
+std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
+                                        Decomposition::Data& data, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

@@ -3,6 +3,7 @@
 #include "parallel/log.hpp"
 #include "parallel/progress.hpp"
 #include "volume/agreement.hpp"
+#include "volume/core_pieces.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
 #include "volume/filling_limits.hpp"
@@ -52,6 +53,13 @@ public:
   }
 
 private:
+  /// A core leaf beside a triangle of the border that a zone's mesh does not have.
+  struct LeavingLeaf {
+    LeafNumber leaf;
+    ZoneIndex zone;
+    static constexpr auto fields() { return std::tuple(&LeavingLeaf::leaf, &LeavingLeaf::zone); }
+  };
+
   // --- one round of filling
 
   void fill(ZonePlan plan) {
@@ -60,9 +68,10 @@ private:
     parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.wants.size()), "tetrahedra");
     std::int64_t waves = 0, made = 0;
     for (const std::vector<ZoneWant>& wants : plan.wants) {
-      std::vector<ZoneContent> contents =
-          supply_zones(_communicator, _data.tables(), {_data.points, _data.triangles, *_data.of_blocks},
-                       _finder, _data.shares, plan.widths, wants, _clock);
+      std::vector<ZoneContent> contents = supply_zones(
+          _communicator, _data.tables(),
+          {_data.shell.points, _data.triangles, *_data.of_blocks, _data.shell.borders, *_data.core}, _finder,
+          _data.shares, plan.widths, wants, _clock);
       parallel::agree(_communicator, [&] {
         for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
           made += fill_one(contents[i]);
@@ -93,6 +102,11 @@ private:
         "volume: zone {}: {} points and {} triangles known, {} tetrahedra of its own, {:.3g} CPU s",
         content.zone, content.problem.points.size(), content.problem.triangles.size(),
         filling.owned.cells.size(), filling.cpu_seconds));
+    if (filling.filled && !filling.owned.missing_borders.empty()) {
+      for (const std::int32_t t : filling.owned.missing_borders)
+        _leaving.push_back({content.border_leaves[t], content.zone});
+      return 0;
+    }
     if (filling.filled) {
       _clock.add_pieces(1);
       const ZoneResult& made = _results[content.zone] = make_pieces(content, filling, _finder);
@@ -129,11 +143,20 @@ private:
   /// Changes what the zones that failed are made of; returns those to be filled again.
   std::vector<ZoneIndex> change_failed() {
     const std::vector<ZoneFailure> failures = gather_failures(_communicator, std::exchange(_failures, {}));
-    if (failures.empty()) return {};
-    _evidence.stop_at_defects(_communicator);
+    const std::vector<LeavingLeaf> leaving =
+        _communicator.all_gather_items<LeavingLeaf>(std::exchange(_leaving, {}));
+    if (failures.empty() && leaving.empty()) return {};
+    if (!failures.empty()) _evidence.stop_at_defects(_communicator);
     std::vector<std::uint8_t> touched(_data.tree->block_count(), 0);
     std::vector<ZoneIndex> pending;
-    bool points_change = false;
+    bool points_change = !leaving.empty();
+    for (const auto& [number, zone] : leaving) {
+      const Leaf leaf = leaf_of_number(number);
+      touched[leaf.block] = 1;
+      _data.changes[leaf.block].shell |= static_cast<std::uint8_t>(1U << leaf.child);
+      pending.push_back(zone);
+      parallel::log_verbose(fmt::format("volume: zone {}: a triangle of the core's border is missing", zone));
+    }
     for (const ZoneFailure& failure : failures) {
       const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
       const std::span<const BlockIndex> own = blocks.of(failure.zone);
@@ -163,7 +186,9 @@ private:
                                      failure.reason.substr(0, failure.reason.find('\n'))));
       _report.retries.push_back({failure.zone, change, failure.reason});
     }
-    if (points_change) make_all_points(_communicator, _input, _data, _clock);
+    if (points_change) {
+      for (const BlockIndex b : make_all_points(_communicator, _input, _data, _clock)) touched[b] = 1;
+    }
     add_those_that_see(touched, pending);
     return pending;
   }
@@ -333,29 +358,39 @@ private:
 
   mesh::DistributedMesh assemble() {
     _report.load_error_90 = load_error();
+    for (const auto& [zone, result] : _results) _report.tetrahedra += result.tetrahedra;
+    const LatticeSource lattice = _data.source(_input);
+    CoreMesh core = make_core(
+        _communicator,
+        {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _finder, _data.piece_tets},
+        _results, _clock);
+    _report.tetrahedra += core.tetrahedra;
     struct Row {
-      ZoneIndex zone;
+      std::int32_t place;  ///< a zone, or a range of the core behind them
       mesh::RegionId region;
-      static constexpr auto fields() { return std::tuple(&Row::zone, &Row::region); }
+      static constexpr auto fields() { return std::tuple(&Row::place, &Row::region); }
       auto operator<=>(const Row&) const = default;
     };
+    const ZoneIndex zones = _data.zones->count();
     std::vector<Row> rows;
     for (const auto& [zone, result] : _results) {
       for (const mesh::Piece& piece : result.pieces) rows.push_back({zone, piece.region});
-      _report.tetrahedra += result.tetrahedra;
       _report.steiner_points += result.steiner_points;
     }
+    for (const mesh::Piece& piece : core.pieces) rows.push_back({zones + piece.id, piece.region});
     rows = _communicator.all_gather_items<Row>(rows);
     std::sort(rows.begin(), rows.end());
     mesh::DistributedMesh mesh;
     mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
+    const auto add = [&](std::int32_t place, mesh::Piece& piece) {
+      piece.id = static_cast<mesh::PieceId>(
+          std::lower_bound(rows.begin(), rows.end(), Row{place, piece.region}) - rows.begin());
+      mesh.pieces.push_back(std::move(piece));
+    };
     for (auto& [zone, result] : _results) {
-      for (mesh::Piece& piece : result.pieces) {
-        piece.id = static_cast<mesh::PieceId>(
-            std::lower_bound(rows.begin(), rows.end(), Row{zone, piece.region}) - rows.begin());
-        mesh.pieces.push_back(std::move(piece));
-      }
+      for (mesh::Piece& piece : result.pieces) add(zone, piece);
     }
+    for (mesh::Piece& piece : core.pieces) add(zones + piece.id, piece);
     mesh.patches = _input.surface.patches;
     mesh.faces = _input.surface.faces;
     mesh.regions = _input.surface.regions;
@@ -378,6 +413,7 @@ private:
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   std::vector<ZoneFailure> _failures;        // of this rank in this round
+  std::vector<LeavingLeaf> _leaving;         // as well
   Evidence _evidence;
 };
 

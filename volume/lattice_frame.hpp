@@ -36,6 +36,9 @@ struct GridBox {
   GridBox dilated(double by) const {
     return {low - geometry::Vec3{by, by, by}, high + geometry::Vec3{by, by, by}};
   }
+  geometry::Vec3 corner(int which) const {
+    return {(which & 1 ? high : low).x, (which & 2 ? high : low).y, (which & 4 ? high : low).z};
+  }
   bool overlaps(const GridBox& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
            low.z <= b.high.z && b.low.z <= high.z;
@@ -65,6 +68,12 @@ public:
   sizing::GridPoint cell_at(geometry::Vec3 grid) const;
   /// Edge of the cubic cells of a level, in space and before the shear.
   double edge(int level) const { return _unit * (sizing::grid_size >> level); }
+  /// The three edges of a finest cell in space.
+  std::array<geometry::Vec3, 3> steps() const {
+    return {geometry::Vec3{_forward[0].x, _forward[1].x, _forward[2].x},
+            {_forward[0].y, _forward[1].y, _forward[2].y},
+            {_forward[0].z, _forward[1].z, _forward[2].z}};
+  }
   /// What a distance in space is in the grid, at most.
   double grid_distance(double space) const { return space * _stretch; }
   /// The box in the grid that holds a box of space.

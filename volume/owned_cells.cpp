@@ -25,22 +25,87 @@ LocalTriangle face_of(const LocalCell& cell, int face) {
   return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
 }
 
+/// What bounds cells: triangles of the surface, then those of the core's border, with nothing behind them.
+class Bounds {
+public:
+  explicit Bounds(const ZoneProblem& problem) : _problem(problem) {}
+
+  std::size_t count() const { return _problem.triangles.size() + _problem.borders.size(); }
+  bool is_border(std::size_t t) const { return t >= _problem.triangles.size(); }
+  const LocalTriangle& triangle(std::size_t t) const {
+    return is_border(t) ? _problem.borders[t - _problem.triangles.size()] : _problem.triangles[t];
+  }
+  RegionId front(std::size_t t) const {
+    return is_border(t) ? _problem.border_regions[t - _problem.triangles.size()] : _problem.front[t];
+  }
+  RegionId back(std::size_t t) const { return is_border(t) ? mesh::no_region : _problem.back[t]; }
+  /// Which points stand on the core's border.
+  std::vector<std::uint8_t> at_border() const {
+    std::vector<std::uint8_t> at(_problem.points.size(), 0);
+    for (const LocalTriangle& t : _problem.borders) {
+      for (const LocalIndex v : t) at[v] = 1;
+    }
+    return at;
+  }
+
+private:
+  const ZoneProblem& _problem;
+};
+
+LocalTriangle sorted(LocalTriangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+/// Makes faces of the mesh that are triangles of the core's border known as such.
+void look_up_borders(const ZoneProblem& problem, const Bounds& bounds, TetgenMesh& mesh) {
+  if (problem.borders.empty()) return;
+  struct Known {
+    LocalTriangle vertices;
+    std::int32_t triangle;
+    bool operator<(const Known& other) const { return vertices < other.vertices; }
+  };
+  std::vector<Known> known;
+  known.reserve(problem.borders.size());
+  for (const LocalTriangle& t : problem.borders)
+    known.push_back({sorted(t), static_cast<std::int32_t>(problem.triangles.size() + known.size())});
+  std::sort(known.begin(), known.end());
+  const std::vector<std::uint8_t> at_border = bounds.at_border();
+  const auto stands_there = [&](LocalIndex v) {
+    return static_cast<std::size_t>(v) < at_border.size() && at_border[v] != 0;
+  };
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const LocalCell& cell = mesh.cells[c];
+    if (std::count_if(cell.begin(), cell.end(), stands_there) < 3) continue;
+    for (int face = 0; face < 4; ++face) {
+      const LocalTriangle t = face_of(cell, face);
+      if (mesh.neighbours[c][face] <= -2 || !std::all_of(t.begin(), t.end(), stands_there)) continue;
+      const auto at = std::lower_bound(known.begin(), known.end(), Known{sorted(t), 0});
+      if (at != known.end() && at->vertices == sorted(t)) mesh.neighbours[c][face] = -2 - at->triangle;
+    }
+  }
+}
+
 /// Finds the region of cells without lattice vertices.
 class RegionSearch {
 public:
-  RegionSearch(const ZoneProblem& problem, const TetgenMesh& mesh)
+  RegionSearch(const ZoneProblem& problem, const Bounds& bounds, const TetgenMesh& mesh)
       : _problem(problem),
+        _bounds(bounds),
+        _at_border(bounds.at_border()),
         _mesh(mesh),
         _first_lattice(static_cast<LocalIndex>(problem.surface_points())),
         _first_added(static_cast<LocalIndex>(problem.points.size())),
         _visit(mesh.cells.size(), 0),
         _found(mesh.cells.size(), unknown_region) {}
 
-  /// The region told by a lattice vertex of the zone among the cell's vertices; false: there is none. Those
-  /// of other zones do not count: the cell may reach them through triangles that this zone does not know.
+  /// The region told by a lattice vertex of the zone, off the core, among the cell's vertices; false: there
+  /// is none. Those of other zones do not count: the cell may reach them through triangles that this zone
+  /// does not know.
   bool told_by_vertex(std::int32_t cell, RegionId& region) const {
     for (const LocalIndex v : _mesh.cells[cell]) {
       if (v < _first_lattice || v >= _first_added || _problem.owners[v] != Owner::mine) continue;
+      if (_at_border[v]) continue;
       region = _problem.regions[v - _first_lattice];
       return true;
     }
@@ -58,8 +123,8 @@ public:
   }
 
   RegionId region_beside(std::int32_t cell, int face, std::int32_t triangle) const {
-    const bool front = same_turn(face_of(_mesh.cells[cell], face), _problem.triangles[triangle]);
-    return front ? _problem.front[triangle] : _problem.back[triangle];
+    const bool front = same_turn(face_of(_mesh.cells[cell], face), _bounds.triangle(triangle));
+    return front ? _bounds.front(triangle) : _bounds.back(triangle);
   }
 
 private:
@@ -97,7 +162,8 @@ private:
     }
     for (const std::int32_t c : star) {
       for (const LocalIndex w : _mesh.cells[c]) {
-        if (w >= _first_lattice && w < _first_added) return _problem.regions[w - _first_lattice];
+        if (w >= _first_lattice && w < _first_added && !_at_border[w])
+          return _problem.regions[w - _first_lattice];
       }
       for (int face = 0; face < 4; ++face) {
         const std::int32_t triangle = -2 - _mesh.neighbours[c][face];
@@ -108,6 +174,8 @@ private:
   }
 
   const ZoneProblem& _problem;
+  const Bounds& _bounds;
+  std::vector<std::uint8_t> _at_border;
   const TetgenMesh& _mesh;
   LocalIndex _first_lattice, _first_added;
   std::vector<std::int32_t> _visit;
@@ -117,27 +185,30 @@ private:
 };
 
 /// Every triangle at a vertex of the zone must have become a face of the mesh, and faces be what they are
-/// said to.
-void require_triangles(const ZoneProblem& problem, const TetgenMesh& mesh) {
-  std::vector<std::uint8_t> seen(problem.triangles.size(), 0);
+/// said to. Returns the triangles of the core's border that did not.
+std::vector<std::int32_t> require_triangles(const ZoneProblem& problem, const Bounds& bounds,
+                                            const TetgenMesh& mesh) {
+  std::vector<std::uint8_t> seen(bounds.count(), 0);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     for (int face = 0; face < 4; ++face) {
       const std::int32_t next = mesh.neighbours[c][face];
       if (next > -2) continue;
       const std::int32_t t = -2 - next;
-      LocalTriangle a = face_of(mesh.cells[c], face), b = problem.triangles[t];
-      std::sort(a.begin(), a.end());
-      std::sort(b.begin(), b.end());
-      if (a != b) throw std::runtime_error("a triangle of the surface was changed");
+      if (sorted(face_of(mesh.cells[c], face)) != sorted(bounds.triangle(t)))
+        throw std::runtime_error("a triangle of the surface was changed");
       seen[t] = 1;
     }
   }
+  std::vector<std::int32_t> missing;
   for (std::size_t t = 0; t < seen.size(); ++t) {
-    const auto& v = problem.triangles[t];
-    if (!seen[t] &&
-        std::any_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.owners[w] == Owner::mine; }))
-      throw std::runtime_error("a triangle of the surface is missing");
+    const auto& v = bounds.triangle(t);
+    if (seen[t] ||
+        std::none_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.owners[w] == Owner::mine; }))
+      continue;
+    if (!bounds.is_border(t)) throw std::runtime_error("a triangle of the surface is missing");
+    missing.push_back(static_cast<std::int32_t>(t - problem.triangles.size()));
   }
+  return missing;
 }
 
 /// Points of the surface that cells of other zones may have too: those of other zones in cells that are kept,
@@ -193,12 +264,15 @@ std::vector<Owner> owners_of(const ZoneProblem& problem, const TetgenMesh& mesh,
 
 }  // namespace
 
-OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std::span<const Vec3> points) {
-  require_triangles(problem, mesh);
-  const std::vector<Owner> owners = owners_of(problem, mesh, points.size());
-  RegionSearch search(problem, mesh);
-  TouchedPoints touched(problem.surface_points(), owners);
+OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<const Vec3> points) {
+  const Bounds bounds(problem);
+  look_up_borders(problem, bounds, mesh);
   OwnedCells result;
+  result.missing_borders = require_triangles(problem, bounds, mesh);
+  if (!result.missing_borders.empty()) return result;
+  const std::vector<Owner> owners = owners_of(problem, mesh, points.size());
+  RegionSearch search(problem, bounds, mesh);
+  TouchedPoints touched(problem.surface_points(), owners);
   std::vector<std::int32_t> kept(mesh.cells.size(), -1);
   std::vector<std::int32_t> origin;  // of the kept ones
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
@@ -234,6 +308,8 @@ OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh, std:
           result.crossings.push_back({static_cast<std::int32_t>(k), face});
         else if (result.regions[kept[next]] != result.regions[k])
           throw std::runtime_error("two regions touch without a triangle of the surface between them");
+      } else if (bounds.is_border(-2 - next)) {
+        result.borders.push_back({static_cast<std::int32_t>(k), face});
       } else if (same_turn(face_of(result.cells[k], face), problem.triangles[-2 - next])) {
         result.triangles.push_back(-2 - next);
       }

@@ -28,15 +28,20 @@ struct ZoneProblem {
   std::vector<mesh::RegionId> front,
       back;  ///< regions on either side of each triangle; front: it is seen from outside
   std::vector<mesh::RegionId> regions;  ///< of the lattice points
+  /// Triangles between the shell, which is filled, and the core: those at points that are `mine`, and near
+  /// them, counter-clockwise seen from the core. They are not asked for but looked up.
+  std::vector<LocalTriangle> borders;
+  std::vector<mesh::RegionId> border_regions;
 
   static constexpr auto fields() {
     return std::tuple(&ZoneProblem::points, &ZoneProblem::owners, &ZoneProblem::triangles,
-                      &ZoneProblem::front, &ZoneProblem::back, &ZoneProblem::regions);
+                      &ZoneProblem::front, &ZoneProblem::back, &ZoneProblem::regions, &ZoneProblem::borders,
+                      &ZoneProblem::border_regions);
   }
   std::size_t surface_points() const { return points.size() - regions.size(); }
 };
 
-/// A face of a cell behind which another zone's cell must be.
+/// A face of a cell behind which another zone's cell must be, or one of the core.
 struct Crossing {
   std::int32_t cell;
   std::int32_t face;  ///< opposite to this vertex
@@ -52,21 +57,24 @@ struct OwnedCells {
   std::vector<std::int32_t> triangles;  ///< whose front side they cover
   /// Points of the surface that cells of other zones may have too, be it in a corner alone; ascending.
   std::vector<mesh::LocalIndex> touched;
+  std::vector<Crossing> borders;  ///< faces on the core's border
+  /// Triangles of the border that are no faces of the mesh: then there are no cells.
+  std::vector<std::int32_t> missing_borders;
 
   static constexpr auto fields() {
     return std::tuple(&OwnedCells::cells, &OwnedCells::regions, &OwnedCells::crossings,
-                      &OwnedCells::triangles, &OwnedCells::touched);
+                      &OwnedCells::triangles, &OwnedCells::touched, &OwnedCells::borders,
+                      &OwnedCells::missing_borders);
   }
 };
 
-/// A tetrahedron with a lattice vertex lies in the region of that. At another the star of a vertex of the
-/// zone is searched, without crossing the surface, up to a triangle or a lattice vertex: no tetrahedron
-/// elsewhere in the halo counts, since some reach through triangles that the zone does not know. A point
-/// TetGen added belongs to the lowest zone in its star. `points` has what TetGen added behind the others. The
-/// mesh has all cells, or those with a vertex of the zone where TetGen added no points. Throws
-/// std::runtime_error when a triangle at a vertex of the zone is missing, or a cell is flat, inverted, or
-/// open.
-OwnedCells select_owned(const ZoneProblem& problem, const TetgenMesh& mesh,
-                        std::span<const geometry::Vec3> points);
+/// A tetrahedron with a lattice vertex off the core lies in the region of that. At another the star of a
+/// vertex of the zone is searched, without crossing the surface, up to a triangle, one of the core's border
+/// included, or such a lattice vertex: no tetrahedron elsewhere in the halo counts, since some reach through
+/// triangles that the zone does not know. A point TetGen added belongs to the lowest zone in its star.
+/// `points` has what TetGen added behind the others. The mesh has all cells, or those with a vertex of the
+/// zone where TetGen added no points. Throws std::runtime_error when a triangle at a vertex of the zone is
+/// missing, or a cell is flat, inverted, or open.
+OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<const geometry::Vec3> points);
 
 }  // namespace aeroloom::volume

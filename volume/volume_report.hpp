@@ -14,14 +14,15 @@ namespace aeroloom::volume {
 struct DecompositionReport {
   std::int64_t blocks = 0;  ///< of the lattice
   std::int64_t lattice_points = 0;
-  double expected_tetrahedra = 0;  ///< from points and triangles
+  std::int64_t core_tetrahedra = 0;  ///< that come from a table, the others from TetGen
+  double expected_tetrahedra = 0;    ///< from points and triangles, with the core's
   std::int32_t zones = 0;
   double imbalance = 1;  ///< heaviest zone over the mean, halo included
 
   static constexpr auto fields() {
     return std::tuple(&DecompositionReport::blocks, &DecompositionReport::lattice_points,
-                      &DecompositionReport::expected_tetrahedra, &DecompositionReport::zones,
-                      &DecompositionReport::imbalance);
+                      &DecompositionReport::core_tetrahedra, &DecompositionReport::expected_tetrahedra,
+                      &DecompositionReport::zones, &DecompositionReport::imbalance);
   }
 };
 

@@ -58,11 +58,15 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
     sorted.cells.push_back(owned.cells[c]);
     sorted.regions.push_back(owned.regions[c]);
   }
-  for (const Crossing& crossing : owned.crossings)
-    sorted.crossings.push_back({place[crossing.cell], crossing.face});
-  std::sort(sorted.crossings.begin(), sorted.crossings.end(), [](const Crossing& a, const Crossing& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
-  });
+  const auto sort_faces = [&](const std::vector<Crossing>& from, std::vector<Crossing>& to) {
+    to.reserve(from.size());
+    for (const Crossing& face : from) to.push_back({place[face.cell], face.face});
+    std::sort(to.begin(), to.end(), [](const Crossing& a, const Crossing& b) {
+      return a.cell != b.cell ? a.cell < b.cell : a.face < b.face;
+    });
+  };
+  sort_faces(owned.crossings, sorted.crossings);
+  sort_faces(owned.borders, sorted.borders);
   sorted.touched = std::move(owned.touched);
   sorted.triangles = std::move(owned.triangles);
   std::sort(sorted.triangles.begin(), sorted.triangles.end());
@@ -86,13 +90,13 @@ Bytes fill_task(std::span<const std::byte> input) {
     std::vector<std::uint8_t> mine;
     mine.reserve(problem.owners.size());
     for (const Owner owner : problem.owners) mine.push_back(owner == Owner::mine);
-    const TetgenMesh mesh = run_tetgen(unit, problem.triangles, mine);
+    TetgenMesh mesh = run_tetgen(unit, problem.triangles, mine);
     for (std::size_t s = 0; s < mesh.added.size(); s += 3)
       added.push_back(frame.from_unit({mesh.added[s], mesh.added[s + 1], mesh.added[s + 2]}));
     points.insert(points.end(), added.begin(), added.end());
-    owned = select_owned(problem, mesh, points);
+    owned = select_owned(problem, std::move(mesh), points);
   }
-  sort_cells(points, owned);
+  if (owned.missing_borders.empty()) sort_cells(points, owned);
   return parallel::to_wire(std::tie(owned, added));
 }
 

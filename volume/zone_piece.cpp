@@ -20,7 +20,7 @@ public:
     mark_shared();
   }
 
-  Piece make(RegionId region) const {
+  Piece make(RegionId region, CoreSide& side) const {
     const OwnedCells& owned = _filling.owned;
     Piece piece;
     piece.id = region;
@@ -33,6 +33,7 @@ public:
       for (const LocalIndex v : owned.cells[c]) number[v] = 0;
     }
     add_vertices(region, number, piece);
+    note_core_side(region, number, side);
     piece.cells.reserve(4 * count);
     for (std::size_t c = 0; c < owned.cells.size(); ++c) {
       if (owned.regions[c] != region) continue;
@@ -70,6 +71,21 @@ public:
   }
 
 private:
+  /// `number` has the piece's vertices by those of the zone.
+  void note_core_side(RegionId region, const std::vector<LocalIndex>& number, CoreSide& side) const {
+    for (std::size_t v = _content.problem.surface_points(); v < given(); ++v) {
+      if (number[v] < 0) continue;
+      if (side.lattice.empty()) side.first_lattice = number[v];
+      side.lattice.push_back(_finder.lattice_number_of(_content.tokens[v]));
+    }
+    for (const Crossing& border : _filling.owned.borders) {
+      if (_filling.owned.regions[border.cell] != region) continue;
+      const int* corner = mesh::tetrahedron_faces[border.face];
+      const LocalCell& cell = _filling.owned.cells[border.cell];
+      side.borders.push_back({number[cell[corner[0]]], number[cell[corner[1]]], number[cell[corner[2]]]});
+    }
+  }
+
   std::size_t given() const { return _content.problem.points.size(); }
   mesh::SharedToken token(LocalIndex v) const {
     if (static_cast<std::size_t>(v) < given()) return _content.tokens[v];
@@ -142,7 +158,8 @@ ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, c
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
   const PieceMaker maker(content, filling, finder);
-  for (const RegionId region : regions) result.pieces.push_back(maker.make(region));
+  for (const RegionId region : regions)
+    result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));
   result.faces = maker.faces();
   result.steiner_points = static_cast<std::int64_t>(filling.added.size());
   result.tetrahedra = static_cast<std::int64_t>(filling.owned.cells.size());

@@ -26,10 +26,18 @@ struct ZoneFace {
   }
 };
 
+/// Where a piece meets the core.
+struct CoreSide {
+  mesh::LocalIndex first_lattice = 0;  ///< the first vertex of the lattice
+  std::vector<std::int64_t> lattice;   ///< running numbers of those, ascending
+  std::vector<LocalTriangle> borders;  ///< faces of its cells on the core's border
+};
+
 /// A zone's part of the mesh.
 struct ZoneResult {
   ZoneIndex zone = no_zone;
-  std::vector<mesh::Piece> pieces;  ///< by region; ids are those of regions so far
+  std::vector<mesh::Piece> pieces;   ///< by region; ids are those of regions so far
+  std::vector<CoreSide> core_sides;  ///< per piece, until the core's cells have come
   std::vector<ZoneFace> faces;
   std::int64_t steiner_points = 0;
   std::int64_t tetrahedra = 0;

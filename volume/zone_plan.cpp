@@ -15,7 +15,7 @@ ZoneLoad look_at(const BlockTables& blocks, ZoneIndex zone, std::span<const Take
                  std::vector<ZoneWant>& wants) {
   ZoneLoad load{zone, 0, 0};
   for (const auto& [block, leaves] : taken) {
-    if (blocks.points[block] == 0 && !blocks.table.is_met(block)) continue;
+    if (blocks.points[block] == 0 && !blocks.borders[block] && !blocks.table.is_met(block)) continue;
     const float part =
         static_cast<float>(__builtin_popcount(leaves)) / static_cast<float>(blocks.tree.leaf_count(block));
     load.points += part * blocks.points[block];

@@ -3,6 +3,7 @@
 #include "mesh/delivery.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -35,6 +36,19 @@ struct TriangleOfZone {
   }
 };
 
+struct BorderOfZone {
+  ZoneIndex zone;
+  parallel::Rank rank;
+  std::array<std::int64_t, 3> points;  ///< of the lattice
+  LeafNumber leaf;
+  mesh::RegionId region;
+
+  static constexpr auto fields() {
+    return std::tuple(&BorderOfZone::zone, &BorderOfZone::rank, &BorderOfZone::points, &BorderOfZone::leaf,
+                      &BorderOfZone::region);
+  }
+};
+
 /// What this rank sends.
 class Answer {
 public:
@@ -55,10 +69,16 @@ public:
       _sent_to[t] = want.zone;
       triangles.push_back({want.zone, want.rank, _store.triangles[t]});
     }
+    for (const BorderTriangle& t : _store.borders.of(want.block)) {
+      if ((want.leaves >> t.child & 1) == 0) continue;
+      borders.push_back({want.zone, want.rank, t.points, leaf_number({want.block, t.child}),
+                         _store.core.region(want.block)});
+    }
   }
 
   std::vector<PointOfZone> points;
   std::vector<TriangleOfZone> triangles;
+  std::vector<BorderOfZone> borders;
 
 private:
   bool meets(const ZoneWant& want, const SurfaceTriangle& triangle) const {
@@ -82,7 +102,8 @@ public:
   ContentBuilder(ZoneIndex zone, const ZoneFinder& finder) : _finder(finder) { _content.zone = zone; }
 
   /// Both by number; triangles that come from several ranks may come several times.
-  ZoneContent build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles) {
+  ZoneContent build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles,
+                    std::span<const BorderOfZone> borders) {
     std::vector<Corner> corners;
     for (const auto& [zone, rank, t] : triangles) {
       for (int k = 0; k < 3; ++k)
@@ -107,6 +128,7 @@ public:
       add_point(_finder.token_of(p.number), p.point);
       _content.problem.regions.push_back(p.region);
     }
+    for (const BorderOfZone& t : borders) add_border(t);
     return std::move(_content);
   }
 
@@ -125,6 +147,21 @@ private:
     _content.problem.owners.push_back(zone == _content.zone  ? Owner::mine
                                       : zone < _content.zone ? Owner::lower
                                                              : Owner::higher);
+  }
+
+  void add_border(const BorderOfZone& t) {
+    const std::vector<mesh::SharedToken>& tokens = _content.tokens;
+    LocalTriangle local;
+    for (int k = 0; k < 3; ++k) {
+      const mesh::SharedToken token = _finder.token_of(t.points[k]);
+      const auto at = std::lower_bound(tokens.begin(), tokens.end(), token);
+      if (at == tokens.end() || *at != token)
+        throw std::logic_error("a zone does not know a point of the core's border");
+      local[k] = static_cast<mesh::LocalIndex>(at - tokens.begin());
+    }
+    _content.problem.borders.push_back(local);
+    _content.problem.border_regions.push_back(t.region);
+    _content.border_leaves.push_back(t.leaf);
   }
 
   void add_triangle(const SurfaceTriangle& t, const std::vector<Corner>& corners) {
@@ -156,14 +193,34 @@ public:
         _own_blocks(list_blocks(blocks.tree, blocks.zones)),
         _surroundings(blocks.frame, blocks.tree, blocks.table, blocks.zones) {}
 
-  void trim(ZoneIndex zone, std::vector<PointOfZone>& points, std::vector<TriangleOfZone>& triangles) {
+  void trim(ZoneIndex zone, std::vector<PointOfZone>& points, std::vector<TriangleOfZone>& triangles,
+            std::vector<BorderOfZone>& borders) {
     _surroundings.move_to(zone, _own_blocks.of(zone));
     const double width = _widths[zone];
+    const auto is_own_point = [&](std::int64_t number) {
+      return _finder.zone_of(leaf_of_lattice(number)) == zone;
+    };
+    // Triangles at the zone's own points come with all of theirs; others where their points are known anyway.
+    std::vector<std::int64_t> at_border;
+    for (const BorderOfZone& t : borders) {
+      if (std::any_of(t.points.begin(), t.points.end(), is_own_point))
+        at_border.insert(at_border.end(), t.points.begin(), t.points.end());
+    }
+    std::sort(at_border.begin(), at_border.end());
     std::erase_if(points, [&](const PointOfZone& p) {
-      const Leaf leaf = ZoneFinder::leaf_of_lattice(p.number);
+      const Leaf leaf = leaf_of_lattice(p.number);
       if (_finder.zone_of(leaf) == zone) return false;
+      if (std::binary_search(at_border.begin(), at_border.end(), p.number)) return false;
       const Vec3 place = _frame.to_grid(p.point);
       return !_surroundings.is_near({place, place}, leaf.block, width);
+    });
+    std::erase_if(borders, [&](const BorderOfZone& t) {
+      return !std::all_of(t.points.begin(), t.points.end(), [&](std::int64_t number) {
+        const auto at =
+            std::lower_bound(points.begin(), points.end(), number,
+                             [](const PointOfZone& p, std::int64_t wanted) { return p.number < wanted; });
+        return at != points.end() && at->number == number;
+      });
     });
     std::erase_if(triangles, [&](const TriangleOfZone& t) {
       const auto& p = t.triangle.points;
@@ -213,8 +270,11 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
       mesh::deliver(communicator, std::move(answer.points), [](const PointOfZone& p) { return p.rank; });
   std::vector<TriangleOfZone> triangles = mesh::deliver(communicator, std::move(answer.triangles),
                                                         [](const TriangleOfZone& t) { return t.rank; });
+  std::vector<BorderOfZone> borders =
+      mesh::deliver(communicator, std::move(answer.borders), [](const BorderOfZone& t) { return t.rank; });
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   sort_by_zone(points);
+  sort_by_zone(borders);
   std::sort(triangles.begin(), triangles.end(), [](const TriangleOfZone& a, const TriangleOfZone& b) {
     return a.zone != b.zone ? a.zone < b.zone : a.triangle.number < b.triangle.number;
   });
@@ -222,6 +282,7 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
   std::vector<ZoneContent> contents;
   auto p = points.begin();
   auto t = triangles.begin();
+  auto c = borders.begin();
   while (p != points.end() || t != triangles.end()) {
     const ZoneIndex zone =
         std::min(p != points.end() ? p->zone : INT32_MAX, t != triangles.end() ? t->zone : INT32_MAX);
@@ -229,10 +290,13 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
     const auto last_p = std::find_if(p, points.end(), is_of_another);
     const auto last_t = std::find_if(t, triangles.end(), is_of_another);
     std::vector<PointOfZone> its_points(p, last_p);
+    c = std::find_if(c, borders.end(), [&](const BorderOfZone& item) { return item.zone >= zone; });
+    const auto last_c = std::find_if(c, borders.end(), is_of_another);
     std::vector<TriangleOfZone> its_triangles(t, last_t);
-    trimmer.trim(zone, its_points, its_triangles);
-    contents.push_back(ContentBuilder(zone, finder).build(its_points, its_triangles));
-    p = last_p, t = last_t;
+    std::vector<BorderOfZone> its_borders(c, last_c);
+    trimmer.trim(zone, its_points, its_triangles, its_borders);
+    contents.push_back(ContentBuilder(zone, finder).build(its_points, its_triangles, its_borders));
+    p = last_p, t = last_t, c = last_c;
   }
   return contents;
 }

@@ -6,6 +6,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
 #include "volume/block_points.hpp"
+#include "volume/core_border.hpp"
 #include "volume/halo.hpp"
 #include "volume/owned_cells.hpp"
 #include "volume/surface_share.hpp"
@@ -26,6 +27,7 @@ struct ZoneContent {
   std::vector<std::int8_t> dimension;  ///< per surface point
   std::vector<std::int32_t> entity;    ///< per surface point
   std::vector<std::int32_t> face, patch;  ///< per triangle
+  std::vector<LeafNumber> border_leaves;  ///< per triangle of the core's border: the core leaf beside it
 };
 
 /// What everyone knows of the blocks.
@@ -33,7 +35,8 @@ struct BlockTables {
   const LatticeFrame& frame;
   const LatticeTree& tree;
   const SurfaceTable& table;
-  std::span<const std::uint8_t> points;  ///< of the lattice, per block
+  std::span<const std::uint8_t> points;   ///< of the shell, per block
+  std::span<const std::uint8_t> borders;  ///< whether a block has triangles of the core's border
   const Zones& zones;
 };
 
@@ -49,11 +52,13 @@ struct ZoneWant {
   }
 };
 
-/// What a rank has of the volume: the points of its blocks and the triangles that meet them.
+/// What a rank has of the shell: the points of its blocks, the triangles that meet them, the core's border.
 struct BlockStore {
   const BlockPoints& points;
   std::span<const SurfaceTriangle> triangles;
   const TrianglesOfBlocks& of_blocks;
+  const BlockBorders& borders;
+  const CoreLeaves& core;
 };
 
 /// Where tokens and places belong.
@@ -68,10 +73,6 @@ public:
     const BlockIndex b = _tree.block_at(cell);
     return {b, _tree.child_at(b, cell)};
   }
-  static Leaf leaf_of_lattice(std::int64_t lattice_number) {
-    return {static_cast<BlockIndex>(lattice_number / slots_per_block),
-            static_cast<int>(lattice_number % slots_per_block) / slots_per_leaf};
-  }
   /// The leaf of a vertex with this token at this place.
   Leaf leaf_of(mesh::SharedToken token, geometry::Vec3 p) const {
     return is_surface(token) ? leaf_of_place(p)
@@ -79,6 +80,9 @@ public:
   }
   ZoneIndex zone_of(const Leaf& leaf) const { return _zones.of(leaf.block, leaf.child); }
   bool is_surface(mesh::SharedToken token) const { return token < mesh::running_token(_surface_vertices); }
+  std::int64_t lattice_number_of(mesh::SharedToken token) const {
+    return static_cast<std::int64_t>(token) - _surface_vertices;
+  }
   mesh::SharedToken token_of(std::int64_t lattice_number) const {
     return mesh::running_token(_surface_vertices + lattice_number);
   }
@@ -91,8 +95,8 @@ private:
 };
 
 /// Brings together what zones want, each at the rank that its wants name: of the leaves that are wanted the
-/// points and triangles that are the zone's or near it, `widths` being those of the zones' halos. By zone.
-/// Collective.
+/// points and triangles that are the zone's or near it, and the triangles of the core's border at its points,
+/// `widths` being those of the zones' halos. By zone. Collective.
 std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const BlockTables& blocks,
                                       const BlockStore& store, const ZoneFinder& finder,
                                       std::span<const BlockIndex> shares, std::span<const double> widths,

@@ -1,0 +1,65 @@
+/// The tetrahedra of the core, and the triangles of its border, block by block.
+///
+/// Three cases. Between two core leaves of one size: a tetrahedron for each part of an edge of their square,
+/// around the line between their centres. Between unequal ones: the pyramid of each centre over the finer
+/// square, cut in two, by the same diagonal on both sides. Towards the shell: the pyramid over the finer
+/// square, cut with the points that stand on its edges.
+#pragma once
+
+#include "volume/core_leaves.hpp"
+#include "volume/core_squares.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A tetrahedron of the core, positive volume in VTK's order.
+struct CoreCell {
+  std::array<std::int64_t, 4> points;  ///< running numbers of the lattice
+  std::uint8_t child;                  ///< the leaf it is counted to
+  std::uint8_t of_shell;               ///< points that belong to the shell too, a bit each
+};
+
+/// A triangle between core and shell, counter-clockwise seen from the core.
+struct BorderTriangle {
+  std::array<std::int64_t, 3> points;
+  std::uint8_t child;  ///< the core leaf beside it
+};
+
+/// Makes those of this rank's blocks, one after the other.
+class CoreCells {
+public:
+  CoreCells(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares);
+
+  void make(BlockIndex b);
+  /// Whether no point of the shell stands on a leaf of the block made last.
+  bool is_deep(int child);
+  /// Of the block made last.
+  std::span<const CoreCell> cells() const { return _cells; }
+  std::span<const BorderTriangle> borders() const { return _borders; }
+
+private:
+  /// A point of the lattice at a half place of the block.
+  struct Point {
+    std::int64_t number;
+    bool of_shell;
+  };
+  const Point& point(const HalfPlace& at);
+  void make_side(int child, const HalfPlace& leaf, int axis, int sign);
+  void add_cell(int child, const std::array<const Point*, 4>& points);
+
+  const CoreLeaves& _core;
+  const CoreSquares& _squares;
+  LeafSurroundings _around;
+  std::array<Point, 125> _points;
+  std::array<std::uint8_t, 125> _known{};
+  std::array<Point, 8> _square;  // in turn, as square_places
+  SquarePattern _pattern = 0;    // of it
+  std::vector<CoreCell> _cells;
+  std::vector<BorderTriangle> _borders;
+};
+
+}  // namespace aeroloom::volume

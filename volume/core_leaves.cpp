@@ -1,0 +1,114 @@
+#include "volume/core_leaves.hpp"
+
+#include <utility>
+
+namespace aeroloom::volume {
+
+using mesh::RegionId;
+using parallel::ScopedCpu;
+
+CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
+                       std::span<const BlockIndex> shares, const BlockPoints& points,
+                       parallel::StageClock& clock)
+    : _ghosts(communicator, source.tree, shares), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+      const std::int64_t first = points.starts[i], last = points.starts[i + 1];
+      if (first == last) continue;
+      const RegionId region = points.regions[first];
+      bool is_one = true;
+      for (std::int64_t p = first; p < last; ++p) {
+        _present[i].slots |= std::uint64_t{1} << points.slots[p];
+        is_one = is_one && points.regions[p] == region;
+      }
+      if (is_one) _present[i].region = region;
+    }
+  }
+  _ghosts.update(communicator, _present);
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    choose(source, points);
+  }
+  _ghosts.update(communicator, _core);
+  settle(communicator, source.tree, clock);
+  _regions.reserve(_ghosts.own_count());
+  for (std::size_t i = 0; i < _ghosts.own_count(); ++i) _regions.push_back(_present[i].region);
+  std::vector<Present>().swap(_present);
+}
+
+/// Leaves that have all their points, clear of the surface.
+void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) {
+  LeafSurroundings around(source.tree);
+  for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+    const BlockIndex b = _ghosts.first() + static_cast<BlockIndex>(i);
+    const RegionId region = _present[i].region;
+    const auto candidates = static_cast<std::uint8_t>(points.clear_leaves[i] & ~source.changes[b].shell);
+    if (region == mesh::no_region || candidates == 0) continue;
+    around.move_to(b);
+    const auto exists = [&](const HalfPlace& at) {
+      const std::int64_t number = around.number(at);
+      if (number < 0) return false;
+      const Present& has = _present[_ghosts.place(static_cast<BlockIndex>(number / slots_per_block))];
+      return has.region == region && (has.slots >> number % slots_per_block & 1) != 0;
+    };
+    for (int child = 0; child < source.tree.leaf_count(b); ++child) {
+      if ((candidates >> child & 1) && around.all_points_of(around.place_of(child), exists))
+        _core[i] |= static_cast<std::uint8_t>(1U << child);
+    }
+  }
+}
+
+/// Whether a core leaf of the block has a plain square to the shell and points of the shell around it.
+bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const {
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, b = (axis + 1) % 3, d = (axis + 2) % 3, sign = side % 2 == 0 ? -1 : 1;
+    HalfPlace beyond = leaf;
+    beyond[axis] += sign;
+    const LeafSurroundings::Cube& cube = around.cube(beyond);
+    if (cube.size != LeafSurroundings::Size::same || is_core(cube.leaf)) continue;
+    HalfPlace center{2 * leaf[0] + 1, 2 * leaf[1] + 1, 2 * leaf[2] + 1};
+    HalfPlace square = center, opposite = center;
+    square[axis] += sign;
+    opposite[axis] -= sign;
+    const auto moved = [](HalfPlace at, int along, int by) {
+      at[along] += by;
+      return at;
+    };
+    if (around.has_point(moved(square, b, -1)) || around.has_point(moved(square, b, 1)) ||
+        around.has_point(moved(square, d, -1)) || around.has_point(moved(square, d, 1)))
+      continue;
+    const auto stands_at = [&](const HalfPlace& at) {
+      return around.has_point(at) && is_of_shell(around, at);
+    };
+    for (int across = 0; across < 4; ++across) {
+      if (stands_at(moved(moved(center, b, across & 1 ? 1 : -1), d, across & 2 ? 1 : -1))) return true;
+    }
+    if (stands_at(opposite)) return true;
+  }
+  return false;
+}
+
+void CoreLeaves::settle(const parallel::Communicator& communicator, const LatticeTree& tree,
+                        parallel::StageClock& clock) {
+  LeafSurroundings around(tree);
+  for (bool changed = true; changed;) {
+    changed = false;
+    {
+      const ScopedCpu task(clock, ScopedCpu::As::task);
+      for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+        if (_core[i] == 0) continue;
+        around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
+        for (int child = 0; child < 8; ++child) {
+          if (!(_core[i] >> child & 1) || !leaves_core(around, around.place_of(child))) continue;
+          _core[i] &= static_cast<std::uint8_t>(~(1U << child));
+          changed = true;
+        }
+      }
+    }
+    changed = communicator.maximum(std::int64_t{changed}) > 0;
+    if (changed) _ghosts.update(communicator, _core);
+  }
+}
+
+}  // namespace aeroloom::volume

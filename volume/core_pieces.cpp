@@ -1,0 +1,435 @@
+#include "volume/core_pieces.hpp"
+
+#include "geometry/predicates.hpp"
+#include "mesh/delivery.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::Piece;
+using mesh::RegionId;
+using parallel::ScopedCpu;
+
+namespace {
+
+/// A cell by running numbers of the lattice.
+struct NumberedCell {
+  std::array<std::int64_t, 4> points;
+  std::uint8_t shared;  ///< points that other pieces may know, a bit each
+};
+
+/// A cell on its way to the piece it belongs to.
+struct Parcel {
+  std::int32_t target;  ///< a zone, or a range of the curve behind all of them
+  parallel::Rank rank;
+  RegionId region;
+  std::uint8_t shared;
+  std::array<std::int64_t, 4> points;
+
+  static constexpr auto fields() {
+    return std::tuple(&Parcel::target, &Parcel::rank, &Parcel::region, &Parcel::shared, &Parcel::points);
+  }
+};
+
+/// Points of the lattice and what pieces call them.
+class Naming {
+public:
+  explicit Naming(const CoreSource& source) : _source(source) {}
+  Vec3 place(std::int64_t number) const {
+    return lattice_point(_source.lattice, leaf_of_lattice(number), static_cast<int>(number % slots_per_leaf));
+  }
+  void add_vertex(std::int64_t number, RegionId region, Piece& piece) const {
+    const Vec3 p = place(number);
+    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+    piece.vertex_dimension.push_back(3);
+    piece.vertex_entity.push_back(region);
+  }
+  mesh::SharedToken token(std::int64_t number) const { return _source.finder.token_of(number); }
+
+private:
+  const CoreSource& _source;
+};
+
+void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
+  if (!geometry::has_positive_volume(piece.point(cell[0]), piece.point(cell[1]), piece.point(cell[2]),
+                                     piece.point(cell[3])))
+    throw std::logic_error("a tetrahedron of the core is flat or inverted");
+  piece.cells.insert(piece.cells.end(), cell.begin(), cell.end());
+}
+
+/// A piece of the core from its cells; vertices by number.
+Piece make_piece(const Naming& naming, RegionId region, std::span<const NumberedCell> cells, BlockIndex first,
+                 BlockIndex last) {
+  // Most numbers are those of the range: a place in a table each. The others are sorted.
+  const std::int64_t low = lattice_number(first, 0), high = lattice_number(last, 0);
+  constexpr LocalIndex unused = -1, used = 0;
+  std::vector<LocalIndex> local(static_cast<std::size_t>(high - low), unused);
+  std::vector<std::uint8_t> shared(local.size(), 0);
+  struct Other {
+    std::int64_t number;
+    bool shared;
+    LocalIndex local;
+  };
+  std::vector<Other> others;
+  for (const NumberedCell& cell : cells) {
+    for (int k = 0; k < 4; ++k) {
+      const std::int64_t n = cell.points[k];
+      const bool is_shared = cell.shared >> k & 1;
+      if (n >= low && n < high) {
+        local[n - low] = used;
+        shared[n - low] |= is_shared;
+      } else {
+        others.push_back({n, is_shared, unused});
+      }
+    }
+  }
+  std::sort(others.begin(), others.end(), [](const Other& a, const Other& b) {
+    return a.number != b.number ? a.number < b.number : a.shared > b.shared;
+  });
+  others.erase(std::unique(others.begin(), others.end(),
+                           [](const Other& a, const Other& b) { return a.number == b.number; }),
+               others.end());
+  Piece piece;
+  piece.region = region;
+  const auto add = [&](std::int64_t number, bool is_shared) {
+    const LocalIndex v = piece.vertex_count();
+    naming.add_vertex(number, region, piece);
+    if (is_shared) {
+      piece.shared_vertices.push_back(v);
+      piece.shared_tokens.push_back(naming.token(number));
+    }
+    return v;
+  };
+  std::size_t next = 0;
+  for (; next < others.size() && others[next].number < low; ++next)
+    others[next].local = add(others[next].number, others[next].shared);
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] == used) local[i] = add(low + static_cast<std::int64_t>(i), shared[i] != 0);
+  }
+  for (; next < others.size(); ++next) others[next].local = add(others[next].number, others[next].shared);
+  const auto local_of = [&](std::int64_t n) {
+    if (n >= low && n < high) return local[n - low];
+    return std::lower_bound(others.begin(), others.end(), n,
+                            [](const Other& other, std::int64_t wanted) { return other.number < wanted; })
+        ->local;
+  };
+  piece.cells.reserve(4 * cells.size());
+  for (const NumberedCell& cell : cells) {
+    std::array<LocalIndex, 4> corners;
+    for (int k = 0; k < 4; ++k) corners[k] = local_of(cell.points[k]);
+    add_cell(corners, piece);
+  }
+  return piece;
+}
+
+/// Adds cells of the core to a zone's piece. What does not meet a face there is known elsewhere.
+void extend_piece(const Naming& naming, std::span<const Parcel> cells, CoreSide& side, Piece& piece) {
+  std::vector<std::int64_t> added;
+  const auto find = [](const std::vector<std::int64_t>& numbers, std::int64_t n) {
+    const auto at = std::lower_bound(numbers.begin(), numbers.end(), n);
+    return at != numbers.end() && *at == n ? static_cast<LocalIndex>(at - numbers.begin()) : -1;
+  };
+  for (const Parcel& cell : cells) {
+    for (const std::int64_t n : cell.points) {
+      if (find(side.lattice, n) < 0) added.push_back(n);
+    }
+  }
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
+  const LocalIndex first_added = piece.vertex_count();
+  for (const std::int64_t n : added) naming.add_vertex(n, piece.region, piece);
+  const auto local_of = [&](std::int64_t n) {
+    const LocalIndex known = find(side.lattice, n);
+    return known >= 0 ? side.first_lattice + known : first_added + find(added, n);
+  };
+  std::vector<LocalTriangle> faces = std::move(side.borders);
+  for (const Parcel& parcel : cells) {
+    std::array<LocalIndex, 4> cell;
+    for (int k = 0; k < 4; ++k) cell[k] = local_of(parcel.points[k]);
+    add_cell(cell, piece);
+    for (const auto& corners : mesh::tetrahedron_faces)
+      faces.push_back({cell[corners[0]], cell[corners[1]], cell[corners[2]]});
+  }
+  for (LocalTriangle& face : faces) std::sort(face.begin(), face.end());
+  std::sort(faces.begin(), faces.end());
+  std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t next = i + 1;
+    while (next < faces.size() && faces[next] == faces[i]) ++next;
+    if (next - i == 1) {
+      for (const LocalIndex v : faces[i]) shared[v] = 1;
+    }
+    i = next;
+  }
+  std::vector<LocalIndex> vertices;
+  std::vector<mesh::SharedToken> tokens;
+  std::size_t known = 0;
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+    const bool was = known < piece.shared_vertices.size() && piece.shared_vertices[known] == v;
+    if (was || shared[v]) {
+      vertices.push_back(v);
+      tokens.push_back(was ? piece.shared_tokens[known]
+                           : naming.token(v >= first_added ? added[v - first_added]
+                                                           : side.lattice[v - side.first_lattice]));
+    }
+    known += was;
+  }
+  piece.shared_vertices = std::move(vertices);
+  piece.shared_tokens = std::move(tokens);
+}
+
+/// The piece of a zone in a region, and where it meets the core.
+std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
+  const auto at = std::lower_bound(result.pieces.begin(), result.pieces.end(), region,
+                                   [](const Piece& piece, RegionId wanted) { return piece.region < wanted; });
+  const auto place = at - result.pieces.begin();
+  if (at == result.pieces.end() || at->region != region) {
+    Piece piece;
+    piece.id = piece.region = region;
+    result.pieces.insert(at, std::move(piece));
+    result.core_sides.insert(result.core_sides.begin() + place, CoreSide{});
+  }
+  return {&result.pieces[place], &result.core_sides[place]};
+}
+
+/// Ranges of the curve, and what stays within one.
+class Ranges {
+public:
+  Ranges(const parallel::Communicator& communicator, const CoreSource& source, parallel::StageClock& clock)
+      : _source(source) {
+    const GhostBlocks& ghosts = source.core.ghosts();
+    const std::vector<std::uint16_t>& weights = source.share.inner_cells;
+    const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
+    const std::vector<std::int64_t> all = communicator.all_gather_items<std::int64_t>(std::array{mine});
+    const std::int64_t total = std::accumulate(all.begin(), all.end(), std::int64_t{0});
+    std::int64_t before = std::accumulate(all.begin(), all.begin() + communicator.rank(), std::int64_t{0});
+    _count = wanted_zones(static_cast<double>(total), source.piece_tets);
+    _range.assign(ghosts.count(), -1);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (total > 0) _range[i] = static_cast<std::int32_t>(std::min(before, total - 1) * _count / total);
+      before += weights[i];
+    }
+    _deep = source.share.deep;
+    _deep.resize(ghosts.count(), 0);
+    ghosts.update(communicator, _range);
+    ghosts.update(communicator, _deep);
+    _inner.assign(ghosts.count(), 0);
+    {
+      const ScopedCpu task(clock, ScopedCpu::As::task);
+      find_inner();
+    }
+    ghosts.update(communicator, _inner);
+    find_ranks(communicator);
+  }
+
+  std::int32_t of(BlockIndex own) const { return _range[_source.core.ghosts().place(own)]; }
+  parallel::Rank rank(std::int32_t range) const { return _ranks[range]; }
+  std::int32_t count() const { return _count; }
+  /// The points of a cell without points of the shell that cells of other pieces may have.
+  std::uint8_t shared_of(BlockIndex b, const CoreCell& cell) const {
+    constexpr int center_slot = 7;
+    if (!is_inner({b, cell.child})) return 0xf;
+    std::uint8_t shared = 0;
+    for (int k = 0; k < 4; ++k) {
+      if (cell.points[k] % slots_per_leaf == center_slot && !is_inner(leaf_of_lattice(cell.points[k])))
+        shared |= static_cast<std::uint8_t>(1U << k);
+    }
+    return shared;
+  }
+
+private:
+  /// All leaves that touch it are of its range, and none of them has points of the shell.
+  bool is_inner(const Leaf& leaf) const {
+    return _inner[_source.core.ghosts().place(leaf.block)] >> leaf.child & 1;
+  }
+
+  void find_inner() {
+    const GhostBlocks& ghosts = _source.core.ghosts();
+    LeafSurroundings around(_source.lattice.tree);
+    for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
+      if (_deep[i] == 0) continue;
+      around.move_to(ghosts.first() + static_cast<BlockIndex>(i));
+      const auto is_elsewhere = [&](const Leaf& leaf) {
+        const std::size_t place = ghosts.place(leaf.block);
+        return _range[place] != _range[i] || !(_deep[place] >> leaf.child & 1);
+      };
+      for (int child = 0; child < 8; ++child) {
+        if ((_deep[i] >> child & 1) && around.all_points_of(around.place_of(child), [&](const HalfPlace& at) {
+              return !around.any_leaf_at(at, is_elsewhere);
+            }))
+          _inner[i] |= static_cast<std::uint8_t>(1U << child);
+      }
+    }
+  }
+
+  /// A range is made into pieces by the lowest rank that has some of it.
+  void find_ranks(const parallel::Communicator& communicator) {
+    struct Row {
+      std::int32_t range;
+      parallel::Rank rank;
+      static constexpr auto fields() { return std::tuple(&Row::range, &Row::rank); }
+    };
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < _source.core.ghosts().own_count(); ++i) {
+      if (_range[i] >= 0 && (rows.empty() || rows.back().range != _range[i]))
+        rows.push_back({_range[i], communicator.rank()});
+    }
+    _ranks.assign(_count, communicator.size());
+    for (const Row& row : communicator.all_gather_items<Row>(rows))
+      _ranks[row.range] = std::min(_ranks[row.range], row.rank);
+  }
+
+  const CoreSource& _source;
+  std::int32_t _count = 0;
+  std::vector<std::int32_t> _range;         // of blocks, by place
+  std::vector<std::uint8_t> _deep, _inner;  // leaves of blocks, by place
+  std::vector<parallel::Rank> _ranks;       // per range
+};
+
+/// Makes and deals out.
+class CoreMaker {
+public:
+  CoreMaker(const parallel::Communicator& communicator, const CoreSource& source,
+            std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock)
+      : _communicator(communicator),
+        _source(source),
+        _results(results),
+        _clock(clock),
+        _naming(source),
+        _ranges(communicator, source, clock),
+        _cells(source.lattice.tree, source.core, source.squares) {}
+
+  CoreMesh run() {
+    std::vector<Parcel> parcels = make_parcels(ranks_of_zones());
+    parcels = mesh::deliver(_communicator, std::move(parcels), [](const Parcel& p) { return p.rank; });
+    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    std::stable_sort(parcels.begin(), parcels.end(), [](const Parcel& a, const Parcel& b) {
+      return a.target != b.target ? a.target < b.target : a.region < b.region;
+    });
+    auto at = parcels.begin();
+    while (at != parcels.end() && at->target < _source.zones.count()) {
+      const auto end = end_of_group(at, parcels.end());
+      const auto [piece, side] = piece_in(at->region, _results.at(at->target));
+      extend_piece(_naming, std::span(at, end), *side, *piece);
+      _mesh.tetrahedra += end - at;
+      at = end;
+    }
+    make_pieces(std::span(at, parcels.end()));
+    for (auto& [zone, result] : _results) result.core_sides.clear();
+    return std::move(_mesh);
+  }
+
+private:
+  using Parcels = std::vector<Parcel>::iterator;
+  static Parcels end_of_group(Parcels at, Parcels last) {
+    return std::find_if(at, last,
+                        [&](const Parcel& p) { return p.target != at->target || p.region != at->region; });
+  }
+
+  std::vector<parallel::Rank> ranks_of_zones() const {
+    struct Row {
+      ZoneIndex zone;
+      parallel::Rank rank;
+      static constexpr auto fields() { return std::tuple(&Row::zone, &Row::rank); }
+    };
+    std::vector<Row> rows;
+    for (const auto& [zone, result] : _results) rows.push_back({zone, _communicator.rank()});
+    std::vector<parallel::Rank> ranks(_source.zones.count(), -1);
+    for (const Row& row : _communicator.all_gather_items<Row>(rows)) ranks[row.zone] = row.rank;
+    return ranks;
+  }
+
+  /// Cells of zones, and of ranges that other ranks make into pieces.
+  std::vector<Parcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
+    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    std::vector<Parcel> parcels;
+    const GhostBlocks& ghosts = _source.core.ghosts();
+    for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
+      const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
+      if (_source.core.of(b) == 0) continue;
+      const std::int32_t range = _ranges.of(b);
+      const bool goes = range >= 0 && _ranges.rank(range) != _communicator.rank();
+      if (!goes && _source.share.border_cells[i] == 0) continue;
+      const RegionId region = _source.core.region(b);
+      _cells.make(b);
+      for (const CoreCell& cell : _cells.cells()) {
+        if (cell.of_shell != 0) {
+          const ZoneIndex zone = lowest_zone(cell);
+          parcels.push_back({zone, ranks_of_zones[zone], region, 0, cell.points});
+        } else if (goes) {
+          parcels.push_back({_source.zones.count() + range, _ranges.rank(range), region,
+                             _ranges.shared_of(b, cell), cell.points});
+        }
+      }
+    }
+    return parcels;
+  }
+
+  ZoneIndex lowest_zone(const CoreCell& cell) const {
+    ZoneIndex lowest = _source.zones.count();
+    for (int k = 0; k < 4; ++k) {
+      if (cell.of_shell >> k & 1)
+        lowest = std::min(lowest, _source.finder.zone_of(leaf_of_lattice(cell.points[k])));
+    }
+    return lowest;
+  }
+
+  /// Of the ranges that are this rank's; what others have of them lies behind along the curve.
+  void make_pieces(std::span<const Parcel> arrived) {
+    const GhostBlocks& ghosts = _source.core.ghosts();
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < ghosts.own_count();) {
+      const std::size_t first = i;
+      const std::int32_t range = _ranges.of(ghosts.first() + static_cast<BlockIndex>(i));
+      std::map<RegionId, std::vector<NumberedCell>> cells;
+      const bool is_mine = range >= 0 && _ranges.rank(range) == _communicator.rank();
+      for (; i < ghosts.own_count(); ++i) {
+        const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
+        if (_ranges.of(b) != range) break;
+        if (!is_mine || _source.share.inner_cells[i] == 0) continue;
+        _cells.make(b);
+        std::vector<NumberedCell>& of_region = cells[_source.core.region(b)];
+        for (const CoreCell& cell : _cells.cells()) {
+          if (cell.of_shell == 0) of_region.push_back({cell.points, _ranges.shared_of(b, cell)});
+        }
+      }
+      if (!is_mine) continue;
+      for (; next < arrived.size() && arrived[next].target == _source.zones.count() + range; ++next)
+        cells[arrived[next].region].push_back({arrived[next].points, arrived[next].shared});
+      for (auto& [region, of_region] : cells) {
+        if (of_region.empty()) continue;
+        Piece piece = make_piece(_naming, region, of_region, ghosts.first() + static_cast<BlockIndex>(first),
+                                 ghosts.first() + static_cast<BlockIndex>(i));
+        piece.id = range;
+        _mesh.tetrahedra += piece.cell_count();
+        _mesh.pieces.push_back(std::move(piece));
+      }
+    }
+  }
+
+  const parallel::Communicator& _communicator;
+  const CoreSource& _source;
+  std::map<ZoneIndex, ZoneResult>& _results;
+  parallel::StageClock& _clock;
+  Naming _naming;
+  Ranges _ranges;
+  CoreCells _cells;
+  CoreMesh _mesh;
+};
+
+}  // namespace
+
+CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
+                   std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock) {
+  return CoreMaker(communicator, source, results, clock).run();
+}
+
+}  // namespace aeroloom::volume

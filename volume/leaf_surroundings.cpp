@@ -1,0 +1,81 @@
+#include "volume/leaf_surroundings.hpp"
+
+namespace aeroloom::volume {
+
+void LeafSurroundings::move_to(BlockIndex b) {
+  _block = b;
+  const GridCube whole = _tree.cube(b);
+  _low = whole.low;
+  _width = _tree.leaf_count(b) == 8 ? 2 : 1;
+  _edge = whole.edge() / static_cast<std::uint32_t>(_width);
+  const int level = _tree.leaf_level(b);
+  for (int k = -1; k <= _width; ++k) {
+    for (int j = -1; j <= _width; ++j) {
+      for (int i = -1; i <= _width; ++i) {
+        Cube& cube = _cubes[(i + 1) + 4 * (j + 1) + 16 * (k + 1)];
+        const bool own = i >= 0 && j >= 0 && k >= 0 && i < _width && j < _width && k < _width;
+        if (own) {
+          cube = {Size::same, {b, i + 2 * j + 4 * k}};
+          continue;
+        }
+        const sizing::GridPoint low = grid_place({i, j, k}, _edge);
+        if (low.x >= sizing::grid_size || low.y >= sizing::grid_size || low.z >= sizing::grid_size) {
+          cube = {};
+          continue;
+        }
+        cube.leaf = leaf_at(low);
+        const int other = _tree.leaf_level(cube.leaf.block);
+        cube.size = other > level ? Size::finer : other < level ? Size::coarser : Size::same;
+      }
+    }
+  }
+}
+
+Leaf LeafSurroundings::finer(const HalfPlace& at, int octant) const {
+  const std::uint32_t half = _edge / 2;
+  sizing::GridPoint low = grid_place(at, _edge);
+  if (octant & 1) low.x += half;
+  if (octant & 2) low.y += half;
+  if (octant & 4) low.z += half;
+  return leaf_at(low);
+}
+
+bool LeafSurroundings::has_point(const HalfPlace& at) const {
+  const int odd = (at[0] & 1) + (at[1] & 1) + (at[2] & 1);
+  if (odd == 0 || odd == 3) return true;
+  for (int touch = 0; touch < 8; ++touch) {
+    HalfPlace where;
+    bool known = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int below = touch >> axis & 1;
+      if (at[axis] & 1) known = known && below == 0;
+      where[axis] = (at[axis] >> 1) - below;
+    }
+    if (known && cube(where).size == Size::finer) return true;
+  }
+  return false;
+}
+
+std::int64_t LeafSurroundings::number(const HalfPlace& at) const {
+  const HalfPlace where{at[0] >> 1, at[1] >> 1, at[2] >> 1};
+  const Cube& c = cube(where);
+  const auto of = [](const Leaf& leaf, int slot) {
+    return lattice_number(leaf.block, leaf.child * slots_per_leaf + slot);
+  };
+  const std::array<int, 3> half{at[0] & 1, at[1] & 1, at[2] & 1};
+  switch (c.size) {
+    case Size::outside:
+      return -1;
+    case Size::same:
+      return of(c.leaf, slot_at(half[0], half[1], half[2]));
+    case Size::finer:
+      return of(finer(where, half[0] + 2 * half[1] + 4 * half[2]), 0);
+    case Size::coarser:
+      break;
+  }
+  const GridCube leaf = _tree.leaf(c.leaf);
+  const sizing::GridPoint p = grid_place(where, _edge);  // it stands at corners of the block's leaves
+  return of(c.leaf, slot_at(p.x != leaf.low.x, p.y != leaf.low.y, p.z != leaf.low.z));
+}
+
+}  // namespace aeroloom::volume
