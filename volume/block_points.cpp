@@ -45,6 +45,10 @@ double largest_size(const LatticeSource& source, BlockIndex b) {
   return std::min(source.field.maximum(), source.field(center) + slope * half_diagonal);
 }
 
+/// Radius of the balls around core leaves that no point of the surface stands in, in leaf edges: half a
+/// diagonal of the leaf, and what shear and perturbation make of it.
+constexpr double core_ball = 0.9;
+
 /// How far the surface is from corners and centres of leaves of the core, in space.
 double core_reach(const LatticeSource& source, BlockIndex b) {
   return core_clearance * source.frame.edge(source.tree.leaf_level(b));
@@ -145,6 +149,13 @@ private:
       };
       bool near = is_near(0.5 * (leaf.low + leaf.high));
       for (int corner = 0; corner < 8 && !near; ++corner) near = is_near(leaf.corner(corner));
+      // Balls through the corners of squares: of the leaf, and of its octants where finer leaves touch it.
+      const double ball = core_ball * _source.frame.edge(tree.leaf_level(_block));
+      near = near || _around.any_corner_nearer(_source.frame.to_space(0.5 * (leaf.low + leaf.high)), ball);
+      for (int corner = 0; corner < 8 && !near; ++corner) {
+        const Vec3 middle = 0.25 * leaf.corner(corner) + 0.75 * leaf.corner(7 - corner);
+        near = _around.any_corner_nearer(_source.frame.to_space(middle), 0.5 * ball);
+      }
       if (!near) clear |= static_cast<std::uint8_t>(1U << child);
     }
     return clear;

@@ -43,6 +43,15 @@ bool NearTriangles::any_nearer(Vec3 p, const Clearance& clearance) const {
   return false;
 }
 
+bool NearTriangles::any_corner_nearer(Vec3 p, double distance) const {
+  for (std::size_t i = 0; i < _balls.size(); ++i) {
+    if (dot(p - _balls[i].center, p - _balls[i].center) > square(distance + _balls[i].radius)) continue;
+    const auto& [a, b, c] = _triangles[i].corners;
+    if (std::min({dot(a - p, a - p), dot(b - p, b - p), dot(c - p, c - p)}) < square(distance)) return true;
+  }
+  return false;
+}
+
 std::optional<BoundaryDistance::Nearest> NearTriangles::nearest(Vec3 p) const {
   BoundaryDistance::Nearest nearest;
   double best = _reach, best_squared = square(_reach);

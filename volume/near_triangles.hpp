@@ -25,6 +25,8 @@ public:
 
   /// Whether a triangle lies nearer to p, a point of the box, than the clearance from it, at most `reach`.
   bool any_nearer(geometry::Vec3 p, const Clearance& clearance) const;
+  /// Whether a corner of a triangle lies nearer to p, a point of the box, than `distance`, at most `reach`.
+  bool any_corner_nearer(geometry::Vec3 p, double distance) const;
   /// The nearest triangle to p, a point of the box; nothing where it is not nearer than `reach`.
   std::optional<BoundaryDistance::Nearest> nearest(geometry::Vec3 p) const;
 
