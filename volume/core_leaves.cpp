@@ -75,9 +75,10 @@ bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& le
       at[along] += by;
       return at;
     };
-    if (around.has_point(moved(square, b, -1)) || around.has_point(moved(square, b, 1)) ||
-        around.has_point(moved(square, d, -1)) || around.has_point(moved(square, d, 1)))
-      continue;
+    const int on_edges = around.has_point(moved(square, b, -1)) + around.has_point(moved(square, b, 1)) +
+                         around.has_point(moved(square, d, -1)) + around.has_point(moved(square, d, 1));
+    if (on_edges == 4) return true;
+    if (on_edges > 0) continue;
     const auto stands_at = [&](const HalfPlace& at) {
       return around.has_point(at) && is_of_shell(around, at);
     };

@@ -4,7 +4,8 @@
 /// A leaf may be core where all points of the lattice on it exist, in one region, `core_clearance` off the
 /// surface. Of those a leaf leaves the core that has a plain square, without points on its edges, to a leaf
 /// of its own size in the shell, while a point of the shell stands in the middle of one of the four edges
-/// across that square, or of the square opposite; this until nothing changes, which ends in one result
+/// across that square, or of the square opposite. So does one with points on all four edges of such a square: they
+/// lie on one circle. This until nothing changes, which ends in one result
 /// whatever the order. Then every triangle of the core's *border* is in the Delaunay mesh of the shell's
 /// points without being asked for: of a square of edge s the ball through its corners whose centre lies
 /// between s/4 and s/2 inside the core holds no point of the shell (compare Labelle and Shewchuk, *Isosurface
