@@ -29,6 +29,7 @@ struct ShellShare {
   /// Per block: cells of the core without points of the shell, and those with some.
   std::vector<std::uint16_t> inner_cells, border_cells;
 
+  /// About, since cells in the midst of the core are not counted one by one.
   std::int64_t core_cells() const {
     return std::accumulate(inner_cells.begin(), inner_cells.end(), std::int64_t{0}) +
            std::accumulate(border_cells.begin(), border_cells.end(), std::int64_t{0});

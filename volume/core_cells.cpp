@@ -15,13 +15,20 @@ std::int64_t center_of(const Leaf& leaf) {
 CoreCells::CoreCells(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares)
     : _core(core), _squares(squares), _around(tree) {}
 
-void CoreCells::make(BlockIndex b) {
+void CoreCells::move_to(BlockIndex b) {
   _cells.clear();
   _borders.clear();
-  const std::uint8_t core = _core.of(b);
-  if (core == 0) return;
   _around.move_to(b);
   _known.fill(0);
+}
+
+void CoreCells::make(BlockIndex b) {
+  move_to(b);
+  make_here();
+}
+
+void CoreCells::make_here() {
+  const std::uint8_t core = _core.of(_around.block());
   for (int child = 0; child < 8; ++child) {
     if (!(core >> child & 1)) continue;
     for (int side = 0; side < 6; ++side)

@@ -35,7 +35,12 @@ public:
   CoreCells(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares);
 
   void make(BlockIndex b);
-  /// Whether no point of the shell stands on a leaf of the block made last.
+  /// Moves to a block and makes nothing there; what is asked for is known of it.
+  void move_to(BlockIndex b);
+  void make_here();
+  const LeafSurroundings& around() const { return _around; }
+  bool is_of_shell(const HalfPlace& at) { return point(at).of_shell; }
+  /// Whether no point of the shell stands on a leaf of the block.
   bool is_deep(int child);
   /// Of the block made last.
   std::span<const CoreCell> cells() const { return _cells; }

@@ -37,6 +37,23 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
   std::vector<Present>().swap(_present);
 }
 
+/// Whether all leaves around have one size and all their points in a region: nothing is to be looked for
+/// then.
+bool CoreLeaves::has_all_around(const LeafSurroundings& around, RegionId region) const {
+  constexpr std::uint64_t corner_and_center = 0x81;
+  bool all = true;
+  around.for_each_cube([&](const LeafSurroundings::Cube& cube) {
+    if (!all || cube.size != LeafSurroundings::Size::same) {
+      all = false;
+      return;
+    }
+    const Present& has = _present[_ghosts.place(cube.leaf.block)];
+    const std::uint64_t wanted = corner_and_center << cube.leaf.child * slots_per_leaf;
+    all = has.region == region && (has.slots & wanted) == wanted;
+  });
+  return all;
+}
+
 /// Leaves that have all their points, clear of the surface.
 void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) {
   LeafSurroundings around(source.tree);
@@ -46,6 +63,10 @@ void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) 
     const auto candidates = static_cast<std::uint8_t>(points.clear_leaves[i] & ~source.changes[b].shell);
     if (region == mesh::no_region || candidates == 0) continue;
     around.move_to(b);
+    if (has_all_around(around, region)) {
+      _core[i] = candidates & source.tree.all_leaves(b);
+      continue;
+    }
     const auto exists = [&](const HalfPlace& at) {
       const std::int64_t number = around.number(at);
       if (number < 0) return false;
@@ -90,25 +111,63 @@ bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& le
   return false;
 }
 
+bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
+  bool found = false;
+  around.for_each_cube([&](const LeafSurroundings::Cube& cube) {
+    using Size = LeafSurroundings::Size;
+    found = found || cube.size == Size::outside || cube.size == Size::finer || !is_core(cube.leaf);
+  });
+  return found;
+}
+
 void CoreLeaves::settle(const parallel::Communicator& communicator, const LatticeTree& tree,
                         parallel::StageClock& clock) {
   LeafSurroundings around(tree);
+  std::vector<std::size_t> open;  // own blocks that leaves may leave: others have only core around them
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+      if (_core[i] == 0) continue;
+      around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
+      if (is_beside_shell(around)) open.push_back(i);
+    }
+  }
+  std::vector<std::uint8_t> is_open(_ghosts.own_count(), 0);
+  for (const std::size_t i : open) is_open[i] = 1;
+  const auto open_beside = [&](BlockIndex b) {
+    tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
+      if (!_ghosts.is_own(n) || is_open[_ghosts.place(n)]) return;
+      is_open[_ghosts.place(n)] = 1;
+      open.push_back(_ghosts.place(n));
+    });
+  };
   for (bool changed = true; changed;) {
     changed = false;
     {
       const ScopedCpu task(clock, ScopedCpu::As::task);
-      for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        const std::size_t i = open[k];
         if (_core[i] == 0) continue;
         around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
+        const std::uint8_t before = _core[i];
         for (int child = 0; child < 8; ++child) {
-          if (!(_core[i] >> child & 1) || !leaves_core(around, around.place_of(child))) continue;
-          _core[i] &= static_cast<std::uint8_t>(~(1U << child));
-          changed = true;
+          if ((_core[i] >> child & 1) && leaves_core(around, around.place_of(child)))
+            _core[i] &= static_cast<std::uint8_t>(~(1U << child));
         }
+        if (_core[i] == before) continue;
+        changed = true;
+        open_beside(around.block());
       }
     }
     changed = communicator.maximum(std::int64_t{changed}) > 0;
-    if (changed) _ghosts.update(communicator, _core);
+    if (!changed || communicator.size() == 1) continue;
+    const std::vector<std::uint8_t> before(_core.begin() + static_cast<std::ptrdiff_t>(_ghosts.own_count()),
+                                           _core.end());
+    _ghosts.update(communicator, _core);
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    for (std::size_t g = 0; g < before.size(); ++g) {
+      if (before[g] != _core[_ghosts.own_count() + g]) open_beside(_ghosts.ghost(g));
+    }
   }
 }
 

@@ -4,13 +4,13 @@
 /// A leaf may be core where all points of the lattice on it exist, in one region, `core_clearance` off the
 /// surface. Of those a leaf leaves the core that has a plain square, without points on its edges, to a leaf
 /// of its own size in the shell, while a point of the shell stands in the middle of one of the four edges
-/// across that square, or of the square opposite. So does one with points on all four edges of such a square: they
-/// lie on one circle. This until nothing changes, which ends in one result
-/// whatever the order. Then every triangle of the core's *border* is in the Delaunay mesh of the shell's
-/// points without being asked for: of a square of edge s the ball through its corners whose centre lies
-/// between s/4 and s/2 inside the core holds no point of the shell (compare Labelle and Shewchuk, *Isosurface
-/// stuffing*, ACM Trans. Graph. 26, 2007, doi:10.1145/1276377.1276448). It is looked up all the same, and a
-/// leaf with a triangle that is missing leaves the core.
+/// across that square, or of the square opposite. So does one with points on all four edges of such a square:
+/// they lie on one circle. This until nothing changes, which ends in one result whatever the order. Then
+/// every triangle of the core's *border* is in the Delaunay mesh of the shell's points without being asked
+/// for: of a square of edge s the ball through its corners whose centre lies between s/4 and s/2 inside the
+/// core holds no point of the shell (compare Labelle and Shewchuk, *Isosurface stuffing*, ACM Trans. Graph.
+/// 26, 2007, doi:10.1145/1276377.1276448). It is looked up all the same, and a leaf with a triangle that is
+/// missing leaves the core.
 #pragma once
 
 #include "parallel/timers.hpp"
@@ -40,6 +40,9 @@ public:
   /// The region of the core leaves of one of this rank's blocks.
   mesh::RegionId region(BlockIndex b) const { return _regions[_ghosts.place(b)]; }
 
+  /// Whether leaves of the shell are among those of a block and those that touch it; finer ones count as
+  /// such.
+  bool is_beside_shell(const LeafSurroundings& around) const;
   /// Whether a point of the lattice belongs to the shell: one of the leaves that touch it does.
   bool is_of_shell(const LeafSurroundings& around, const HalfPlace& at) const {
     return around.any_leaf_at(at, [&](const Leaf& leaf) { return !is_core(leaf); });
@@ -47,6 +50,7 @@ public:
 
 private:
   void choose(const LatticeSource& source, const BlockPoints& points);
+  bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
   void settle(const parallel::Communicator& communicator, const LatticeTree& tree,
               parallel::StageClock& clock);
   bool leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const;

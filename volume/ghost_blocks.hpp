@@ -23,6 +23,7 @@ public:
   std::size_t count() const { return own_count() + _ghosts.size(); }
   bool is_own(BlockIndex b) const { return b >= _first && b < _last; }
   BlockIndex first() const { return _first; }
+  BlockIndex ghost(std::size_t i) const { return _ghosts[i]; }
   /// Of an own block, or one that touches one.
   std::size_t place(BlockIndex b) const {
     if (is_own(b)) return static_cast<std::size_t>(b - _first);

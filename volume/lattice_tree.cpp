@@ -117,12 +117,6 @@ GridCube LatticeTree::leaf(BlockIndex b, int child) const {
   return _split[b] ? SplitSearch::child_of(cube(b), child) : cube(b);
 }
 
-int LatticeTree::child_at(BlockIndex b, sizing::GridPoint p) const {
-  if (!_split[b]) return 0;
-  const std::uint32_t half = cube(b).edge() >> 1;
-  return (p.x & half ? 1 : 0) | (p.y & half ? 2 : 0) | (p.z & half ? 4 : 0);
-}
-
 bool LatticeTree::is_split(const GridCube& cube) const {
   const BlockIndex b = block_at(cube.low);
   return _blocks.levels[b] > cube.level || (_blocks.levels[b] == cube.level && _split[b]);

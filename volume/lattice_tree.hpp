@@ -47,6 +47,7 @@ public:
 
   BlockIndex block_count() const { return static_cast<BlockIndex>(_blocks.keys.size()); }
   GridCube cube(BlockIndex b) const { return {sizing::grid_point(_blocks.keys[b]), _blocks.levels[b]}; }
+  int level(BlockIndex b) const { return _blocks.levels[b]; }
   int leaf_count(BlockIndex b) const { return _split[b] ? 8 : 1; }
   int leaf_level(BlockIndex b) const { return _blocks.levels[b] + _split[b]; }
   GridCube leaf(BlockIndex b, int child) const;
@@ -56,7 +57,11 @@ public:
 
   BlockIndex block_at(sizing::GridPoint p) const { return _table.find(sizing::morton_key(p)); }
   /// Which leaf of its block holds a finest cube.
-  int child_at(BlockIndex b, sizing::GridPoint p) const;
+  int child_at(BlockIndex b, sizing::GridPoint p) const {
+    if (!_split[b]) return 0;
+    const int shift = sizing::finest_level - 1 - _blocks.levels[b];
+    return static_cast<int>((p.x >> shift & 1) | (p.y >> shift & 1) << 1 | (p.z >> shift & 1) << 2);
+  }
   /// Whether a cube has children.
   bool is_split(const GridCube& cube) const;
 

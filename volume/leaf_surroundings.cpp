@@ -8,24 +8,41 @@ void LeafSurroundings::move_to(BlockIndex b) {
   _low = whole.low;
   _width = _tree.leaf_count(b) == 8 ? 2 : 1;
   _edge = whole.edge() / static_cast<std::uint32_t>(_width);
-  const int level = _tree.leaf_level(b);
-  for (int k = -1; k <= _width; ++k) {
-    for (int j = -1; j <= _width; ++j) {
-      for (int i = -1; i <= _width; ++i) {
+  // What lies beside the block lies in one other block more often than not: one look for all of it.
+  for (int side = 0; side < 27; ++side) {
+    const HalfPlace sides{side % 3 - 1, side / 3 % 3 - 1, side / 9 - 1};
+    HalfPlace first, last;
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = sides[axis] < 0 ? -1 : sides[axis] > 0 ? _width : 0;
+      last[axis] = sides[axis] == 0 ? _width - 1 : first[axis];
+    }
+    look_at(first, last);
+  }
+}
+
+/// Finds the cubes from `first` to `last`, all of them on one side of the block.
+void LeafSurroundings::look_at(const HalfPlace& first, const HalfPlace& last) {
+  const sizing::GridPoint corner = grid_place(first, _edge);
+  const bool outside =
+      corner.x >= sizing::grid_size || corner.y >= sizing::grid_size || corner.z >= sizing::grid_size;
+  BlockIndex b = outside ? 0 : _tree.block_at(corner);
+  const bool is_one = !outside && _tree.level(b) <= _tree.level(_block);
+  const int level = _tree.leaf_level(_block);
+  for (int k = first[2]; k <= last[2]; ++k) {
+    for (int j = first[1]; j <= last[1]; ++j) {
+      for (int i = first[0]; i <= last[0]; ++i) {
         Cube& cube = _cubes[(i + 1) + 4 * (j + 1) + 16 * (k + 1)];
-        const bool own = i >= 0 && j >= 0 && k >= 0 && i < _width && j < _width && k < _width;
-        if (own) {
-          cube = {Size::same, {b, i + 2 * j + 4 * k}};
-          continue;
-        }
-        const sizing::GridPoint low = grid_place({i, j, k}, _edge);
-        if (low.x >= sizing::grid_size || low.y >= sizing::grid_size || low.z >= sizing::grid_size) {
+        if (outside) {
           cube = {};
           continue;
         }
-        cube.leaf = leaf_at(low);
-        const int other = _tree.leaf_level(cube.leaf.block);
-        cube.size = other > level ? Size::finer : other < level ? Size::coarser : Size::same;
+        const sizing::GridPoint low = grid_place({i, j, k}, _edge);
+        if (!is_one) b = _tree.block_at(low);
+        const int other = _tree.leaf_level(b);
+        cube = {other > level   ? Size::finer
+                : other < level ? Size::coarser
+                                : Size::same,
+                {b, _tree.child_at(b, low)}};
       }
     }
   }

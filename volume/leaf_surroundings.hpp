@@ -42,6 +42,16 @@ public:
   /// The leaf in an octant of a cube that is split.
   Leaf finer(const HalfPlace& at, int octant) const;
 
+  /// Calls visit(cube) for all of them.
+  template <class Visit>
+  void for_each_cube(const Visit& visit) const {
+    for (int k = -1; k <= _width; ++k) {
+      for (int j = -1; j <= _width; ++j) {
+        for (int i = -1; i <= _width; ++i) visit(cube({i, j, k}));
+      }
+    }
+  }
+
   /// Whether a point of the lattice stands at a half place of the block: at all corners and centres, in the
   /// middle of edges and faces that finer leaves touch.
   bool has_point(const HalfPlace& at) const;
@@ -55,6 +65,7 @@ public:
   bool any_leaf_at(const HalfPlace& at, const Holds& holds) const;
 
 private:
+  void look_at(const HalfPlace& first, const HalfPlace& last);
   sizing::GridPoint grid_place(const HalfPlace& cube, std::uint32_t unit) const {
     return {_low.x + static_cast<std::uint32_t>(cube[0]) * unit,
             _low.y + static_cast<std::uint32_t>(cube[1]) * unit,
