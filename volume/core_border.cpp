@@ -35,8 +35,8 @@ ShellShare find_shell(const LatticeTree& tree, const CoreLeaves& core, const Cor
     const std::uint8_t leaves = core.of(b);
     std::uint8_t deep = 0;
     std::uint16_t inner_cells = 0, border_cells = 0;
-    if (begin != end || leaves != 0) cells.move_to(b);
-    const bool all_core = leaves != 0 && !core.is_beside_shell(cells.around());
+    const bool all_core = leaves != 0 && !core.is_beside_shell(b);
+    if (!all_core && (begin != end || leaves != 0)) cells.move_to(b);
     if (all_core) {
       deep = leaves;
       inner_cells = static_cast<std::uint16_t>(cells_per_leaf * __builtin_popcount(leaves));

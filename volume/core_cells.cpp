@@ -100,13 +100,23 @@ void CoreCells::make_side(int child, const HalfPlace& leaf, int axis, int sign) 
   }
   if (cube.size == Size::same && sign < 0 && _core.is_core(cube.leaf)) return;
   take_square(2 * leaf[b], 2 * leaf[d], 2);
-  if (cube.size == Size::coarser || !_core.is_core(cube.leaf)) return cover(cube.leaf, true);
-  const Point across{center_of(cube.leaf), false};
-  const Point* last = _pattern >> 3 & 1 ? &_square[7] : &_square[6];
-  for (int k = 0; k < 8; ++k) {
+  const bool is_core = cube.size == Size::same && _core.is_core(cube.leaf);
+  const unsigned claims = cube.size == Size::same && !is_core ? _core.claims(cube.leaf) : 0;
+  if (!is_core && !(claims >> (2 * axis + (sign < 0)) & 1)) return cover(cube.leaf, true);
+  const Point across{center_of(cube.leaf), !is_core && claims != CoreLeaves::all_sides};
+  const Point &below = sign > 0 ? center : across, &above = sign > 0 ? across : center;
+  // Beyond each edge of the square lies another side of the leaf across it.
+  const int beyond_edge[4] = {2 * d, 2 * b + 1, 2 * d + 1, 2 * b};
+  const Point* last = &_square[0];
+  for (int k = 1; k <= 8; ++k) {
     if (k % 2 == 1 && !(_pattern >> k / 2 & 1)) continue;
-    add_cell(child, {&center, last, &_square[k], &across});
-    last = &_square[k];
+    const Point* next = &_square[k % 8];
+    add_cell(child, {&below, last, next, &above});
+    if (!is_core && !(claims >> beyond_edge[k / 2 - 1] & 1)) {
+      const Point *x = sign > 0 ? next : last, *y = sign > 0 ? last : next;
+      _borders.push_back({{x->number, y->number, across.number}, static_cast<std::uint8_t>(child)});
+    }
+    last = next;
   }
 }
 

@@ -1,9 +1,10 @@
 /// The tetrahedra of the core, and the triangles of its border, block by block.
 ///
 /// Three cases. Between two core leaves of one size: a tetrahedron for each part of an edge of their square,
-/// around the line between their centres. Between unequal ones: the pyramid of each centre over the finer
-/// square, cut in two, by the same diagonal on both sides. Towards the shell: the pyramid over the finer
-/// square, cut with the points that stand on its edges.
+/// around the line between their centres; the same across a plain square to a leaf of the shell that has its
+/// centre, and the border goes around that leaf's pyramid. Between unequal ones: the pyramid of each centre
+/// over the finer square, cut in two, by the same diagonal on both sides. Towards the shell: the pyramid over
+/// the finer square, cut with the points that stand on its edges.
 #pragma once
 
 #include "volume/core_leaves.hpp"

@@ -1,5 +1,6 @@
 #include "volume/core_leaves.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -32,6 +33,11 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
   }
   _ghosts.update(communicator, _core);
   settle(communicator, source.tree, clock);
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    claim(source.tree);
+  }
+  _ghosts.update(communicator, _claims);
   _regions.reserve(_ghosts.own_count());
   for (std::size_t i = 0; i < _ghosts.own_count(); ++i) _regions.push_back(_present[i].region);
   std::vector<Present>().swap(_present);
@@ -88,27 +94,66 @@ bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& le
     beyond[axis] += sign;
     const LeafSurroundings::Cube& cube = around.cube(beyond);
     if (cube.size != LeafSurroundings::Size::same || is_core(cube.leaf)) continue;
-    HalfPlace center{2 * leaf[0] + 1, 2 * leaf[1] + 1, 2 * leaf[2] + 1};
-    HalfPlace square = center, opposite = center;
-    square[axis] += sign;
-    opposite[axis] -= sign;
+    const int on_edges = around.points_on_edges(leaf, side);
+    if (on_edges == 4) return true;
+    if (on_edges > 0) continue;
+    const HalfPlace center{2 * leaf[0] + 1, 2 * leaf[1] + 1, 2 * leaf[2] + 1};
     const auto moved = [](HalfPlace at, int along, int by) {
       at[along] += by;
       return at;
     };
-    const int on_edges = around.has_point(moved(square, b, -1)) + around.has_point(moved(square, b, 1)) +
-                         around.has_point(moved(square, d, -1)) + around.has_point(moved(square, d, 1));
-    if (on_edges == 4) return true;
-    if (on_edges > 0) continue;
     const auto stands_at = [&](const HalfPlace& at) {
       return around.has_point(at) && is_of_shell(around, at);
     };
     for (int across = 0; across < 4; ++across) {
       if (stands_at(moved(moved(center, b, across & 1 ? 1 : -1), d, across & 2 ? 1 : -1))) return true;
     }
-    if (stands_at(opposite)) return true;
+    if (stands_at(moved(center, axis, -sign))) return true;
   }
   return false;
+}
+
+/// A leaf of the shell has none at a corner where the core claims all three sides, and none at its centre
+/// where it claims all six.
+bool CoreLeaves::has_shell_at(const Leaf& leaf, const LeafSurroundings& around, const HalfPlace& at) const {
+  if (is_core(leaf)) return false;
+  if (_claims.empty()) return true;  // while leaves still leave the core
+  const unsigned claimed = claims(leaf);
+  if (claimed == 0) return true;
+  if ((at[0] & 1) && (at[1] & 1) && (at[2] & 1)) return claimed != all_sides;
+  unsigned sides = 0;
+  const std::array<Along, 3> where = around.place_in(leaf, at);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (where[axis] == Along::between) return true;
+    sides |= 1U << (2 * axis + (where[axis] == Along::high));
+  }
+  return (claimed & sides) != sides;
+}
+
+/// Finds the plain squares between leaves of the shell that have their centre and core leaves of their size.
+void CoreLeaves::claim(const LatticeTree& tree) {
+  constexpr int center_slot = 7;
+  _claims.assign(_ghosts.count(), 0);
+  LeafSurroundings around(tree);
+  for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+    const BlockIndex b = _ghosts.first() + static_cast<BlockIndex>(i);
+    if (_core[i] == tree.all_leaves(b) || _present[i].region == mesh::no_region) continue;
+    around.move_to(b);
+    for (int child = 0; child < tree.leaf_count(b); ++child) {
+      if ((_core[i] >> child & 1) || !(_present[i].slots >> (child * slots_per_leaf + center_slot) & 1))
+        continue;
+      const HalfPlace leaf = around.place_of(child);
+      for (int side = 0; side < 6; ++side) {
+        HalfPlace beyond = leaf;
+        beyond[side / 2] += side % 2 == 0 ? -1 : 1;
+        const LeafSurroundings::Cube& cube = around.cube(beyond);
+        if (cube.size == LeafSurroundings::Size::same && is_core(cube.leaf) &&
+            _present[_ghosts.place(cube.leaf.block)].region == _present[i].region &&
+            around.points_on_edges(leaf, side) == 0)
+          _claims[i] |= std::uint64_t{1} << (6 * child + side);
+      }
+    }
+  }
 }
 
 bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
@@ -123,21 +168,22 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
 void CoreLeaves::settle(const parallel::Communicator& communicator, const LatticeTree& tree,
                         parallel::StageClock& clock) {
   LeafSurroundings around(tree);
-  std::vector<std::size_t> open;  // own blocks that leaves may leave: others have only core around them
+  std::vector<std::size_t> open;  // own blocks that leaves may have to leave
+  _beside_shell.assign(_ghosts.own_count(), 0);
   {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
       if (_core[i] == 0) continue;
       around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
-      if (is_beside_shell(around)) open.push_back(i);
+      if (!is_beside_shell(around)) continue;
+      _beside_shell[i] = 1;
+      open.push_back(i);
     }
   }
-  std::vector<std::uint8_t> is_open(_ghosts.own_count(), 0);
-  for (const std::size_t i : open) is_open[i] = 1;
   const auto open_beside = [&](BlockIndex b) {
     tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
-      if (!_ghosts.is_own(n) || is_open[_ghosts.place(n)]) return;
-      is_open[_ghosts.place(n)] = 1;
+      if (!_ghosts.is_own(n) || of(n) == 0) return;
+      _beside_shell[_ghosts.place(n)] = 1;
       open.push_back(_ghosts.place(n));
     });
   };
@@ -145,9 +191,9 @@ void CoreLeaves::settle(const parallel::Communicator& communicator, const Lattic
     changed = false;
     {
       const ScopedCpu task(clock, ScopedCpu::As::task);
-      for (std::size_t k = 0; k < open.size(); ++k) {
-        const std::size_t i = open[k];
-        if (_core[i] == 0) continue;
+      std::sort(open.begin(), open.end());
+      open.erase(std::unique(open.begin(), open.end()), open.end());
+      for (const std::size_t i : std::exchange(open, {})) {
         around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
         const std::uint8_t before = _core[i];
         for (int child = 0; child < 8; ++child) {

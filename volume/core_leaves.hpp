@@ -40,24 +40,35 @@ public:
   /// The region of the core leaves of one of this rank's blocks.
   mesh::RegionId region(BlockIndex b) const { return _regions[_ghosts.place(b)]; }
 
-  /// Whether leaves of the shell are among those of a block and those that touch it; finer ones count as
-  /// such.
-  bool is_beside_shell(const LeafSurroundings& around) const;
-  /// Whether a point of the lattice belongs to the shell: one of the leaves that touch it does.
+  /// Whether leaves of the shell may be among those of an own block with core leaves and those that touch it.
+  bool is_beside_shell(BlockIndex own) const { return _beside_shell[_ghosts.place(own)] != 0; }
+  /// The sides of a leaf of the shell, a bit each, where the pyramid of its centre belongs to the core: plain
+  /// squares to core leaves of its size. The ball that proves such a square goes through that centre.
+  static constexpr unsigned all_sides = 63;
+  unsigned claims(const Leaf& leaf) const {
+    return static_cast<unsigned>(_claims[_ghosts.place(leaf.block)] >> 6 * leaf.child & all_sides);
+  }
+  /// Whether a point of the lattice belongs to the shell: one of the leaves that touch it does, with a part
+  /// there that the core does not claim.
   bool is_of_shell(const LeafSurroundings& around, const HalfPlace& at) const {
-    return around.any_leaf_at(at, [&](const Leaf& leaf) { return !is_core(leaf); });
+    return around.any_leaf_at(at, [&](const Leaf& leaf) { return has_shell_at(leaf, around, at); });
   }
 
 private:
+  bool has_shell_at(const Leaf& leaf, const LeafSurroundings& around, const HalfPlace& at) const;
   void choose(const LatticeSource& source, const BlockPoints& points);
   bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
+  bool is_beside_shell(const LeafSurroundings& around) const;
   void settle(const parallel::Communicator& communicator, const LatticeTree& tree,
               parallel::StageClock& clock);
+  void claim(const LatticeTree& tree);
   bool leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const;
 
   GhostBlocks _ghosts;
-  std::vector<std::uint8_t> _core;       // by place
-  std::vector<mesh::RegionId> _regions;  // of this rank's blocks
+  std::vector<std::uint8_t> _core;          // by place
+  std::vector<std::uint64_t> _claims;       // by place: six sides of each leaf, a bit each
+  std::vector<std::uint8_t> _beside_shell;  // of this rank's blocks
+  std::vector<mesh::RegionId> _regions;     // of this rank's blocks
   /// What a block has, by place.
   struct Present {
     std::uint64_t slots = 0;                  ///< points, a bit each

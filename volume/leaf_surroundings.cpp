@@ -73,6 +73,29 @@ bool LeafSurroundings::has_point(const HalfPlace& at) const {
   return false;
 }
 
+std::array<Along, 3> LeafSurroundings::place_in(const Leaf& leaf, const HalfPlace& at) const {
+  const GridCube cube = _tree.leaf(leaf);
+  const std::uint32_t low[3] = {cube.low.x, cube.low.y, cube.low.z}, origin[3] = {_low.x, _low.y, _low.z};
+  std::array<Along, 3> where;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t p = origin[axis] + static_cast<std::uint32_t>(at[axis]) * _edge / 2;
+    where[axis] = p == low[axis] ? Along::low : p == low[axis] + cube.edge() ? Along::high : Along::between;
+  }
+  return where;
+}
+
+int LeafSurroundings::points_on_edges(const HalfPlace& leaf, int side) const {
+  const int axis = side / 2;
+  int count = 0;
+  for (int edge = 0; edge < 4; ++edge) {
+    HalfPlace at{2 * leaf[0] + 1, 2 * leaf[1] + 1, 2 * leaf[2] + 1};
+    at[axis] += side % 2 == 0 ? -1 : 1;
+    at[(axis + 1 + edge / 2) % 3] += edge % 2 == 0 ? -1 : 1;
+    count += has_point(at);
+  }
+  return count;
+}
+
 std::int64_t LeafSurroundings::number(const HalfPlace& at) const {
   const HalfPlace where{at[0] >> 1, at[1] >> 1, at[2] >> 1};
   const Cube& c = cube(where);

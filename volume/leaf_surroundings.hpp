@@ -14,6 +14,9 @@ namespace aeroloom::volume {
 /// three: the middle of an edge, a face, a leaf.
 using HalfPlace = std::array<int, 3>;
 
+/// Where a place stands in a leaf that it touches, along one axis.
+enum class Along : std::int8_t { low, between, high };
+
 /// Eight leaves of one parent, or a leaf alone, seen with the leaves that touch them. These differ by one
 /// level at most, so all points of the lattice on faces of the block's leaves stand at half places.
 class LeafSurroundings {
@@ -55,8 +58,12 @@ public:
   /// Whether a point of the lattice stands at a half place of the block: at all corners and centres, in the
   /// middle of edges and faces that finer leaves touch.
   bool has_point(const HalfPlace& at) const;
-  /// Its running number; -1 where the leaf that it would belong to lies outside of the root.
+  /// How many points stand in the middles of edges of a leaf's square: side 2 a of axis a is its low one.
+  int points_on_edges(const HalfPlace& leaf, int side) const;
+  /// The running number of such a point; -1 where the leaf that it would belong to lies outside of the root.
   std::int64_t number(const HalfPlace& at) const;
+  /// Where a half place stands in a leaf that touches it.
+  std::array<Along, 3> place_in(const Leaf& leaf, const HalfPlace& at) const;
   /// Whether holds(half place) for all points of the lattice on a leaf of the block.
   template <class Holds>
   bool all_points_of(const HalfPlace& leaf, const Holds& holds) const;
