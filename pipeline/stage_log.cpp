@@ -123,8 +123,10 @@ void log_surface_again(const std::string& reason) {
 
 void log_decompose(const RunRecord& record) {
   const volume::DecompositionReport& report = record.decomposition;
-  log_info(fmt::format("decompose: {} zone(s) of {} blocks, {} lattice points; heaviest {:.2f} of the mean",
-                       report.zones, report.blocks, report.lattice_points, report.imbalance));
+  log_info(fmt::format(
+      "decompose: {} zone(s) for {} of {} lattice points, about {} tetrahedra from a table; heaviest "
+      "zone {:.2f} of the mean",
+      report.zones, report.shell_points, report.lattice_points, report.core_tetrahedra, report.imbalance));
 }
 
 void warn_of_count(const RunRecord& record) {

@@ -2,10 +2,10 @@
 
 #include "geometry/predicates.hpp"
 #include "mesh/delivery.hpp"
+#include "volume/core_ranges.hpp"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -200,100 +200,6 @@ std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
   return {&result.pieces[place], &result.core_sides[place]};
 }
 
-/// Ranges of the curve, and what stays within one.
-class Ranges {
-public:
-  Ranges(const parallel::Communicator& communicator, const CoreSource& source, parallel::StageClock& clock)
-      : _source(source) {
-    const GhostBlocks& ghosts = source.core.ghosts();
-    const std::vector<std::uint16_t>& weights = source.share.inner_cells;
-    const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
-    const std::vector<std::int64_t> all = communicator.all_gather_items<std::int64_t>(std::array{mine});
-    const std::int64_t total = std::accumulate(all.begin(), all.end(), std::int64_t{0});
-    std::int64_t before = std::accumulate(all.begin(), all.begin() + communicator.rank(), std::int64_t{0});
-    _count = wanted_zones(static_cast<double>(total), source.piece_tets);
-    _range.assign(ghosts.count(), -1);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      if (total > 0) _range[i] = static_cast<std::int32_t>(std::min(before, total - 1) * _count / total);
-      before += weights[i];
-    }
-    _deep = source.share.deep;
-    _deep.resize(ghosts.count(), 0);
-    ghosts.update(communicator, _range);
-    ghosts.update(communicator, _deep);
-    _inner.assign(ghosts.count(), 0);
-    {
-      const ScopedCpu task(clock, ScopedCpu::As::task);
-      find_inner();
-    }
-    ghosts.update(communicator, _inner);
-    find_ranks(communicator);
-  }
-
-  std::int32_t of(BlockIndex own) const { return _range[_source.core.ghosts().place(own)]; }
-  parallel::Rank rank(std::int32_t range) const { return _ranks[range]; }
-  std::int32_t count() const { return _count; }
-  /// The points of a cell without points of the shell that cells of other pieces may have.
-  std::uint8_t shared_of(BlockIndex b, const CoreCell& cell) const {
-    constexpr int center_slot = 7;
-    if (!is_inner({b, cell.child})) return 0xf;
-    std::uint8_t shared = 0;
-    for (int k = 0; k < 4; ++k) {
-      if (cell.points[k] % slots_per_leaf == center_slot && !is_inner(leaf_of_lattice(cell.points[k])))
-        shared |= static_cast<std::uint8_t>(1U << k);
-    }
-    return shared;
-  }
-
-private:
-  /// All leaves that touch it are of its range, and none of them has points of the shell.
-  bool is_inner(const Leaf& leaf) const {
-    return _inner[_source.core.ghosts().place(leaf.block)] >> leaf.child & 1;
-  }
-
-  void find_inner() {
-    const GhostBlocks& ghosts = _source.core.ghosts();
-    LeafSurroundings around(_source.lattice.tree);
-    for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
-      if (_deep[i] == 0) continue;
-      around.move_to(ghosts.first() + static_cast<BlockIndex>(i));
-      const auto is_elsewhere = [&](const Leaf& leaf) {
-        const std::size_t place = ghosts.place(leaf.block);
-        return _range[place] != _range[i] || !(_deep[place] >> leaf.child & 1);
-      };
-      for (int child = 0; child < 8; ++child) {
-        if ((_deep[i] >> child & 1) && around.all_points_of(around.place_of(child), [&](const HalfPlace& at) {
-              return !around.any_leaf_at(at, is_elsewhere);
-            }))
-          _inner[i] |= static_cast<std::uint8_t>(1U << child);
-      }
-    }
-  }
-
-  /// A range is made into pieces by the lowest rank that has some of it.
-  void find_ranks(const parallel::Communicator& communicator) {
-    struct Row {
-      std::int32_t range;
-      parallel::Rank rank;
-      static constexpr auto fields() { return std::tuple(&Row::range, &Row::rank); }
-    };
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < _source.core.ghosts().own_count(); ++i) {
-      if (_range[i] >= 0 && (rows.empty() || rows.back().range != _range[i]))
-        rows.push_back({_range[i], communicator.rank()});
-    }
-    _ranks.assign(_count, communicator.size());
-    for (const Row& row : communicator.all_gather_items<Row>(rows))
-      _ranks[row.range] = std::min(_ranks[row.range], row.rank);
-  }
-
-  const CoreSource& _source;
-  std::int32_t _count = 0;
-  std::vector<std::int32_t> _range;         // of blocks, by place
-  std::vector<std::uint8_t> _deep, _inner;  // leaves of blocks, by place
-  std::vector<parallel::Rank> _ranks;       // per range
-};
-
 /// Makes and deals out.
 class CoreMaker {
 public:
@@ -304,7 +210,7 @@ public:
         _results(results),
         _clock(clock),
         _naming(source),
-        _ranges(communicator, source, clock),
+        _ranges(communicator, source.lattice.tree, source.core, source.share, source.piece_tets, clock),
         _cells(source.lattice.tree, source.core, source.squares) {}
 
   CoreMesh run() {
@@ -319,8 +225,16 @@ public:
       const auto end = end_of_group(at, parcels.end());
       const auto [piece, side] = piece_in(at->region, _results.at(at->target));
       extend_piece(_naming, std::span(at, end), *side, *piece);
+      *side = {};
       _mesh.tetrahedra += end - at;
       at = end;
+    }
+    // Where all the cells behind a piece's part of the border are of lower zones.
+    for (auto& [zone, result] : _results) {
+      for (std::size_t i = 0; i < result.pieces.size(); ++i) {
+        if (!result.core_sides[i].borders.empty())
+          extend_piece(_naming, {}, result.core_sides[i], result.pieces[i]);
+      }
     }
     make_pieces(std::span(at, parcels.end()));
     for (auto& [zone, result] : _results) result.core_sides.clear();
@@ -420,7 +334,7 @@ private:
   std::map<ZoneIndex, ZoneResult>& _results;
   parallel::StageClock& _clock;
   Naming _naming;
-  Ranges _ranges;
+  CoreRanges _ranges;
   CoreCells _cells;
   CoreMesh _mesh;
 };

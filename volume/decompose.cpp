@@ -71,7 +71,7 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
 /// Zones of equal expected size.
 void divide(const VolumeInput& input, Decomposition::Data& data, parallel::StageClock& clock) {
   const ScopedCpu repeated(clock, ScopedCpu::As::serial);
-  const std::vector<double> loads = block_loads(data.table, data.counts);
+  const std::vector<double> loads = block_loads(data.table, data.counts, data.borders);
   const double of_shell = std::accumulate(loads.begin(), loads.end(), 0.0);
   data.report.expected_tetrahedra = of_shell + static_cast<double>(data.report.core_tetrahedra);
   data.piece_tets =
@@ -131,12 +131,14 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
     data.shell = find_shell(*data.tree, *data.core, *data.squares, std::move(points));
     for (BlockIndex b = first; b < last; ++b) {
       counts.push_back(static_cast<std::uint8_t>(data.shell.points.count(b)));
-      borders.push_back(!data.shell.borders.of(b).empty());
+      borders.push_back(
+          static_cast<std::uint8_t>(std::min<std::size_t>(data.shell.borders.of(b).size(), 255)));
       if (before && before->of(b) != data.core->of(b)) changed.push_back(b);
     }
   }
   data.counts = communicator.all_gather_items<std::uint8_t>(counts);
   data.borders = communicator.all_gather_items<std::uint8_t>(borders);
+  data.report.shell_points = communicator.sum(static_cast<std::int64_t>(data.shell.points.points.size()));
   data.report.core_tetrahedra = communicator.sum(data.shell.core_cells());
   return communicator.all_gather_items<BlockIndex>(changed);
 }

@@ -24,7 +24,7 @@ struct Decomposition::Data {
   std::vector<BlockChange> changes;     ///< per block
   std::vector<BlockIndex> shares;       ///< see share_blocks
   std::vector<std::uint8_t> counts;     ///< points of the shell per block
-  std::vector<std::uint8_t> borders;    ///< per block: whether triangles of the core's border lie in it
+  std::vector<std::uint8_t> borders;    ///< per block: triangles of the core's border, 255 at most
   std::unique_ptr<const CoreSquares> squares;
   std::unique_ptr<Zones> zones;
   std::vector<double> expected;  ///< tetrahedra per zone, without the core's
@@ -41,6 +41,7 @@ struct Decomposition::Data {
   ZonePlan plan;  ///< of all zones
 
   BlockTables tables() const { return {*frame, *tree, table, counts, borders, *zones}; }
+  BlockStore store() const { return {shell.points, triangles, *of_blocks, shell.borders, *core}; }
   LatticeSource source(const VolumeInput& input) const {
     return {*frame, *tree,   input.field,
             table,  regions, {input.options.lattice_clearance, input.options.perturbation},

@@ -42,7 +42,7 @@ public:
   mesh::DistributedMesh run() {
     fill(std::move(_data.plan));
     _report.overlap = static_cast<double>(_communicator.sum(_known_points)) /
-                      static_cast<double>(std::max<std::int64_t>(1, _data.report.lattice_points));
+                      static_cast<double>(std::max<std::int64_t>(1, _data.report.shell_points));
     for (_report.rounds = 1;; ++_report.rounds) {
       std::vector<ZoneIndex> pending = change_failed();
       if (pending.empty()) pending = settle_disputes();
@@ -68,10 +68,8 @@ private:
     parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.wants.size()), "tetrahedra");
     std::int64_t waves = 0, made = 0;
     for (const std::vector<ZoneWant>& wants : plan.wants) {
-      std::vector<ZoneContent> contents = supply_zones(
-          _communicator, _data.tables(),
-          {_data.shell.points, _data.triangles, *_data.of_blocks, _data.shell.borders, *_data.core}, _finder,
-          _data.shares, plan.widths, wants, _clock);
+      std::vector<ZoneContent> contents = supply_zones(_communicator, _data.tables(), _data.store(), _finder,
+                                                       _data.shares, plan.widths, wants, _clock);
       parallel::agree(_communicator, [&] {
         for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
           made += fill_one(contents[i]);
@@ -153,9 +151,10 @@ private:
     for (const auto& [number, zone] : leaving) {
       const Leaf leaf = leaf_of_number(number);
       touched[leaf.block] = 1;
-      _data.changes[leaf.block].shell |= static_cast<std::uint8_t>(1U << leaf.child);
+      std::uint8_t& shell = _data.changes[leaf.block].shell;
+      _report.left_core += 1 - (shell >> leaf.child & 1);
+      shell |= static_cast<std::uint8_t>(1U << leaf.child);
       pending.push_back(zone);
-      parallel::log_verbose(fmt::format("volume: zone {}: a triangle of the core's border is missing", zone));
     }
     for (const ZoneFailure& failure : failures) {
       const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
@@ -358,43 +357,19 @@ private:
 
   mesh::DistributedMesh assemble() {
     _report.load_error_90 = load_error();
-    for (const auto& [zone, result] : _results) _report.tetrahedra += result.tetrahedra;
     const LatticeSource lattice = _data.source(_input);
     CoreMesh core = make_core(
         _communicator,
         {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _finder, _data.piece_tets},
         _results, _clock);
-    _report.tetrahedra += core.tetrahedra;
-    struct Row {
-      std::int32_t place;  ///< a zone, or a range of the core behind them
-      mesh::RegionId region;
-      static constexpr auto fields() { return std::tuple(&Row::place, &Row::region); }
-      auto operator<=>(const Row&) const = default;
-    };
-    const ZoneIndex zones = _data.zones->count();
-    std::vector<Row> rows;
+    _report.tetrahedra = core.tetrahedra;
+    _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
     for (const auto& [zone, result] : _results) {
-      for (const mesh::Piece& piece : result.pieces) rows.push_back({zone, piece.region});
+      _report.tetrahedra += result.tetrahedra;
       _report.steiner_points += result.steiner_points;
     }
-    for (const mesh::Piece& piece : core.pieces) rows.push_back({zones + piece.id, piece.region});
-    rows = _communicator.all_gather_items<Row>(rows);
-    std::sort(rows.begin(), rows.end());
-    mesh::DistributedMesh mesh;
-    mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
-    const auto add = [&](std::int32_t place, mesh::Piece& piece) {
-      piece.id = static_cast<mesh::PieceId>(
-          std::lower_bound(rows.begin(), rows.end(), Row{place, piece.region}) - rows.begin());
-      mesh.pieces.push_back(std::move(piece));
-    };
-    for (auto& [zone, result] : _results) {
-      for (mesh::Piece& piece : result.pieces) add(zone, piece);
-    }
-    for (mesh::Piece& piece : core.pieces) add(zones + piece.id, piece);
-    mesh.patches = _input.surface.patches;
-    mesh.faces = _input.surface.faces;
-    mesh.regions = _input.surface.regions;
-    mesh.sides = _input.surface.sides;
+    mesh::DistributedMesh mesh =
+        assemble_mesh(_communicator, _input.surface, _results, std::move(core.pieces), _data.zones->count());
     _report.tetrahedra = _communicator.sum(_report.tetrahedra);
     _report.steiner_points = _communicator.sum(_report.steiner_points);
     return mesh;

@@ -166,4 +166,39 @@ ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, c
   return result;
 }
 
+mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
+                                    const mesh::DistributedMesh& surface,
+                                    std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
+                                    ZoneIndex zones) {
+  struct Row {
+    std::int32_t place;  ///< a zone, or a range of the core behind them
+    RegionId region;
+    static constexpr auto fields() { return std::tuple(&Row::place, &Row::region); }
+    auto operator<=>(const Row&) const = default;
+  };
+  std::vector<Row> rows;
+  for (const auto& [zone, result] : results) {
+    for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
+  }
+  for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
+  rows = communicator.all_gather_items<Row>(rows);
+  std::sort(rows.begin(), rows.end());
+  mesh::DistributedMesh mesh;
+  mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
+  const auto add = [&](std::int32_t place, Piece& piece) {
+    piece.id = static_cast<mesh::PieceId>(
+        std::lower_bound(rows.begin(), rows.end(), Row{place, piece.region}) - rows.begin());
+    mesh.pieces.push_back(std::move(piece));
+  };
+  for (auto& [zone, result] : results) {
+    for (Piece& piece : result.pieces) add(zone, piece);
+  }
+  for (Piece& piece : core) add(zones + piece.id, piece);
+  mesh.patches = surface.patches;
+  mesh.faces = surface.faces;
+  mesh.regions = surface.regions;
+  mesh.sides = surface.sides;
+  return mesh;
+}
+
 }  // namespace aeroloom::volume

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <tuple>
 #include <vector>
 
@@ -42,6 +43,13 @@ struct ZoneResult {
   std::int64_t steiner_points = 0;
   std::int64_t tetrahedra = 0;
 };
+
+/// The mesh of the zones' pieces, by zone, then region, and of the core's behind them, whose ids are those of
+/// their ranges. What is said of patches, faces and regions is the surface's. Collective.
+mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
+                                    const mesh::DistributedMesh& surface,
+                                    std::map<ZoneIndex, ZoneResult>& results, std::vector<mesh::Piece> core,
+                                    ZoneIndex zones);
 
 ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder);
 

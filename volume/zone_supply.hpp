@@ -36,7 +36,7 @@ struct BlockTables {
   const LatticeTree& tree;
   const SurfaceTable& table;
   std::span<const std::uint8_t> points;   ///< of the shell, per block
-  std::span<const std::uint8_t> borders;  ///< whether a block has triangles of the core's border
+  std::span<const std::uint8_t> borders;  ///< triangles of the core's border, per block
   const Zones& zones;
 };
 

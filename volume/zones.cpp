@@ -128,10 +128,12 @@ void Zones::merge(ZoneIndex from, ZoneIndex to) {
   }
 }
 
-std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points) {
+std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points,
+                                std::span<const std::uint8_t> borders) {
   std::vector<double> loads(points.size());
   for (std::size_t b = 0; b < points.size(); ++b)
-    loads[b] = tetrahedra_per_point * points[b] + tetrahedra_per_triangle * table.triangles[b];
+    loads[b] = std::max(0.0, tetrahedra_per_point * points[b] + tetrahedra_per_triangle * table.triangles[b] -
+                                 fewer_per_border * borders[b]);
   return loads;
 }
 

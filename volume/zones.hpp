@@ -14,8 +14,10 @@ namespace aeroloom::volume {
 using ZoneIndex = std::int32_t;
 inline constexpr ZoneIndex no_zone = -1;
 
-/// Tetrahedra around a lattice point, and next to the surface, per triangle.
-inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2;
+/// Tetrahedra of the shell around a lattice point, and next to the surface, per triangle. For each triangle
+/// of the core's border there are fewer: half a point stands there, half of whose tetrahedra are the core's.
+inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2,
+                        fewer_per_border = 0.5 * tetrahedra_per_point - 2;
 
 /// Which zone each leaf of the lattice belongs to: that of its block, unless the leaf was given away. The
 /// same on every rank.
@@ -45,8 +47,9 @@ private:
   ZoneIndex _count;
 };
 
-/// Expected tetrahedra of each block from its points and triangles.
-std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points);
+/// Expected tetrahedra of the shell in each block, from its points, triangles and border.
+std::vector<double> block_loads(const SurfaceTable& table, std::span<const std::uint8_t> points,
+                                std::span<const std::uint8_t> borders);
 
 /// How many zones of about `piece_tets` tetrahedra: a volume of less than one and a half is one zone, and
 /// others are rounded to three leading binary digits, so that zones of equal load divide well among ranks.

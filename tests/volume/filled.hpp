@@ -5,10 +5,12 @@
 #include "mesh/validity.hpp"
 #include "parallel/log.hpp"
 #include "tests/volume/steps.hpp"
+#include "volume/decomposition_data.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -24,12 +26,14 @@ class Quiet : public testing::Environment {
 };
 inline const testing::Environment* const quiet = testing::AddGlobalTestEnvironment(new Quiet);
 
-/// Runs both halves of the stage.
+/// Runs both halves of the stage; `change` may do something in between.
 struct Filled {
+  using Change = std::function<void(const Problem&, Decomposition::Data&)>;
   Filled(const parallel::Communicator& communicator, const surfaces::Surface& surface,
-         const sizing::SizeField& field, VolumeOptions options = {})
+         const sizing::SizeField& field, VolumeOptions options = {}, const Change& change = {})
       : problem(communicator, surface, field, options) {
     Decomposition decomposition = decompose(communicator, problem.input(), clock);
+    if (change) change(problem, decomposition.data());
     decomposed = decomposition.report();
     mesh = fill_zones(communicator, problem.input(), std::move(decomposition), clock, report);
     numbering = mesh::number_mesh(communicator, mesh);

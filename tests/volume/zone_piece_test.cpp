@@ -46,9 +46,8 @@ protected:
     const ZoneFinder finder(*data.frame, *data.tree, *data.zones, problem->numbering.vertex_count);
     zones = new std::vector<Zone>;
     for (const std::vector<ZoneWant>& wants : data.plan.wants) {
-      for (ZoneContent& content :
-           supply_zones(*communicator, data.tables(), {data.points, data.triangles, *data.of_blocks}, finder,
-                        data.shares, data.plan.widths, wants, clock)) {
+      for (ZoneContent& content : supply_zones(*communicator, data.tables(), data.store(), finder,
+                                               data.shares, data.plan.widths, wants, clock)) {
         ZoneFilling filling = fill_zone(content.problem, parallel::Sabotage::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(content, filling, finder);

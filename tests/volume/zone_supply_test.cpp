@@ -41,8 +41,8 @@ struct Divided {
   }
 
   std::vector<ZoneContent> supply(const std::vector<ZoneWant>& wants) {
-    return supply_zones(problem.communicator, data.tables(), {data.points, data.triangles, *data.of_blocks},
-                        finder, data.shares, widths, wants, clock);
+    return supply_zones(problem.communicator, data.tables(), data.store(), finder, data.shares, widths, wants,
+                        clock);
   }
   std::vector<ZoneContent> supply_all() {
     std::vector<ZoneContent> contents;
@@ -180,7 +180,7 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     static constexpr auto fields() { return std::tuple(&Row::number, &Row::point, &Row::region); }
   };
   std::vector<Row> mine;
-  const BlockPoints& points = divided.data.points;
+  const BlockPoints& points = divided.data.shell.points;
   for (BlockIndex b = points.first; b < points.last(); ++b) {
     for (std::int64_t i = points.starts[b - points.first]; i < points.starts[b - points.first + 1]; ++i)
       mine.push_back({lattice_number(b, points.slots[i]), points.points[i], points.regions[i]});
@@ -194,7 +194,7 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     std::size_t at = content.problem.surface_points();
     const std::size_t first = at;
     for (const Row& row : all) {
-      const Leaf leaf = ZoneFinder::leaf_of_lattice(row.number);
+      const Leaf leaf = leaf_of_lattice(row.number);
       const Vec3 place = divided.data.frame->to_grid(row.point);
       if (!nearness.holds({place, place}, leaf.block)) continue;
       EXPECT_TRUE(leaves.count({leaf.block, leaf.child}));
@@ -273,8 +273,8 @@ TEST(SupplyZones, tells_whose_each_vertex_is) {
           if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
         }
       } else {
-        leaf = ZoneFinder::leaf_of_lattice(static_cast<std::int64_t>(content.tokens[v]) -
-                                           divided.problem.numbering.vertex_count);
+        leaf = leaf_of_lattice(static_cast<std::int64_t>(content.tokens[v]) -
+                               divided.problem.numbering.vertex_count);
       }
       const ZoneIndex zone = divided.data.zones->of(leaf.block, leaf.child);
       const Owner expected = zone == content.zone  ? Owner::mine

@@ -134,7 +134,9 @@ TEST(BlockLoads, count_tetrahedra_at_points_and_triangles) {
   table.triangles = {0, 3, 0, 10};
   table.longest_edge = {0, 1, 0, 1};
   const std::vector<std::uint8_t> points{0, 0, 16, 4};
-  EXPECT_EQ(block_loads(table, points), (std::vector<double>{0, 6, 92, 43}));
+  const std::vector<std::uint8_t> none(4, 0), borders{4, 0, 16, 0};
+  EXPECT_EQ(block_loads(table, points, none), (std::vector<double>{0, 6, 92, 43}));
+  EXPECT_EQ(block_loads(table, points, borders), (std::vector<double>{0, 6, 78, 43}));
 }
 
 TEST(Zones, give_leaves_away) {

@@ -1,0 +1,121 @@
+/// Core and shell: what comes from the table fits what TetGen makes of the rest.
+#include "tests/volume/fields.hpp"
+#include "tests/volume/filled.hpp"
+
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::volume {
+namespace {
+
+using geometry::Vec3;
+using parallel::Communicator;
+
+const bool tasks_are_known = (register_volume_tasks(), true);
+
+// --- the squares
+
+class Squares : public OnOneRank {};
+
+/// The area that triangles cover, in quarters of the square.
+int covered(const std::span<const CoreSquares::Triangle>& triangles) {
+  int twice = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const auto &p = square_places[a], &q = square_places[b], &r = square_places[c];
+    twice += (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  }
+  return twice / 2;
+}
+
+TEST_F(Squares, are_covered_whatever_points_stand_on_their_edges) {
+  const sizing::SizeField field = fields::uniform(0.3);
+  const LatticeFrame frame(field, {{-1, -1, -1}, {1, 1, 1}});
+  const CoreSquares squares(frame);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (SquarePattern pattern = 0; pattern < square_patterns; ++pattern) {
+      const auto triangles = squares.triangles(axis, pattern);
+      EXPECT_EQ(triangles.size(), 2u + static_cast<unsigned>(__builtin_popcount(pattern)));
+      EXPECT_EQ(covered(triangles), 4);
+    }
+  }
+}
+
+// --- cores of any shape
+
+/// Leaves and blocks leave the core by chance: it has holes and stairs, and is one leaf thick in places.
+void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  const auto chance = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
+  const double of_leaf = 0.6 * chance(), of_block = 0.3 * chance();
+  for (BlockChange& change : data.changes) {
+    for (int child = 0; child < 8; ++child) {
+      if (chance() < of_leaf) change.shell |= static_cast<std::uint8_t>(1U << child);
+    }
+    if (chance() < of_block) change.shell = 0xff;
+  }
+  const std::int64_t before = data.report.core_tetrahedra;
+  parallel::StageClock clock;
+  make_all_points(problem.communicator, problem.input(), data, clock);
+  EXPECT_LT(data.report.core_tetrahedra, before);
+  std::vector<ZoneIndex> all(data.zones->count());
+  std::iota(all.begin(), all.end(), 0);
+  data.plan = plan_zones(problem.communicator, data.tables(), all,
+                         std::vector(all.size(), problem.options.halo), clock);
+}
+
+VolumeOptions in_zones_of(std::int64_t tets) {
+  VolumeOptions options;
+  options.piece_tets = tets;
+  return options;
+}
+
+class RaggedCore : public testing::TestWithParam<int> {};
+
+/// Every triangle of the border is a face of the shell's mesh, through zones with halos.
+TEST_P(RaggedCore, has_its_border_in_the_mesh_of_the_shell) {
+  const Communicator world = Communicator::world();
+  const int seed = GetParam();
+  const surfaces::Surface surface = seed % 2 == 0 ? surfaces::shaken(surfaces::cube_with_ball(10, 9), 0.03)
+                                                  : surfaces::shaken(surfaces::nested_cubes(8), 0.03);
+  const sizing::SizeField field =
+      seed % 2 == 0 ? fields::around_unit_sphere(0.1, 0.5) : fields::around_unit_sphere(0.08, 0.3);
+  const Filled ragged(
+      world, surface, field, in_zones_of(seed % 3 == 0 ? 100'000'000 : 2500),
+      [&](const Problem& problem, Decomposition::Data& data) { make_ragged(problem, data, seed); });
+  EXPECT_GT(ragged.report.core_tetrahedra, ragged.report.tetrahedra / 20);
+  EXPECT_EQ(ragged.report.left_core, 0);
+  EXPECT_TRUE(ragged.report.retries.empty());
+  EXPECT_TRUE(ragged.report.disagreements.empty());
+  expect_valid(ragged, surface);
+}
+
+INSTANTIATE_TEST_SUITE_P(seeds, RaggedCore, testing::Range(1, 13));
+
+// --- leaves that leave
+
+TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
+  const Communicator world = Communicator::world();
+  const surfaces::Surface surface = surfaces::shaken(surfaces::cube_with_ball(10, 9), 0.03);
+  const Problem problem(world, surface, fields::around_unit_sphere(0.1, 0.5));
+  parallel::StageClock clock;
+  Decomposition decomposition = decompose(world, problem.input(), clock);
+  Decomposition::Data& data = decomposition.data();
+  // A block in the midst of the core.
+  const BlockIndex first = data.core->ghosts().first();
+  std::int64_t chosen = INT64_MAX;
+  for (BlockIndex b = first; b < data.shell.points.last(); ++b) {
+    if (data.shell.deep[b - first] == 0xff) chosen = std::min<std::int64_t>(chosen, b);
+  }
+  const auto block = static_cast<BlockIndex>(world.minimum(chosen));
+  data.changes[block].shell = 0xff;
+  const std::int64_t before = data.report.shell_points;
+  const std::vector<BlockIndex> changed = make_all_points(world, problem.input(), data, clock);
+  EXPECT_NE(std::find(changed.begin(), changed.end(), block), changed.end());
+  // The point between its leaves, their centres, and more where not all sides are claimed.
+  EXPECT_GE(data.report.shell_points, before + 9);
+}
+
+}  // namespace
+}  // namespace aeroloom::volume
