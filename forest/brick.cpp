@@ -15,14 +15,17 @@ using geometry::finest_level;
 using geometry::GridPoint;
 
 // A tree of p4est has one level more in its coordinates than its leaves may have.
-static_assert(finest_level == tree_level + P8EST_QMAXLEVEL && P8EST_MAXLEVEL == P8EST_QMAXLEVEL + 1);
+static_assert(finest_level == many_trees + P8EST_QMAXLEVEL && P8EST_MAXLEVEL == P8EST_QMAXLEVEL + 1);
 
-constexpr int per_axis = 1 << tree_level;
-constexpr std::uint64_t key_in_tree = (1ULL << 3 * (finest_level - tree_level)) - 1;
+p8est_connectivity_t* connect(int tree_level) {
+  const int per_axis = 1 << tree_level;
+  return p8est_connectivity_new_brick(per_axis, per_axis, per_axis, 0, 0, 0);
+}
 
 /// Leaves as p4est reads them: x, y, z, level, of their tree.
 struct Columns {
   static constexpr int width = 4;
+  int tree_level;
   std::vector<p4est_qcoord_t> places;
   std::vector<std::int32_t> weights;
   std::vector<std::int64_t> trees;  // those that begin here, and after how many leaves of this rank
@@ -35,20 +38,22 @@ struct Columns {
     }
     const GridPoint p = geometry::grid_point(in_tree);
     for (const std::uint32_t along : {p.x, p.y, p.z})
-      places.push_back(static_cast<p4est_qcoord_t>(along) << (P8EST_MAXLEVEL - P8EST_QMAXLEVEL));
+      places.push_back(static_cast<p4est_qcoord_t>(along >> (many_trees - tree_level))
+                       << (P8EST_MAXLEVEL - P8EST_QMAXLEVEL));
     places.push_back(level);
     weights.push_back(weight);
   }
 };
 
-Columns columns_of(const Octants& leaves, std::span<const std::int32_t> weights) {
-  Columns columns;
+Columns columns_of(const Octants& leaves, int tree_level, std::span<const std::int32_t> weights) {
+  Columns columns{tree_level, {}, {}, {}};
+  const int shift = 3 * (finest_level - tree_level);
   columns.places.reserve(Columns::width * leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const int tree = static_cast<int>(leaves.keys[i] >> 3 * (finest_level - tree_level));
+    const int tree = static_cast<int>(leaves.keys[i] >> shift);
     const int level = leaves.levels[i] - tree_level;
     const std::int32_t weight = weights.empty() ? 1 : weights[i];
-    columns.add(tree, leaves.keys[i] & key_in_tree, std::max(level, 0), weight);
+    columns.add(tree, leaves.keys[i] & ((1ULL << shift) - 1), std::max(level, 0), weight);
     for (int t = 1; t < 1 << 3 * std::max(-level, 0); ++t) columns.add(tree + t, 0, 0, 0);
   }
   return columns;
@@ -56,9 +61,8 @@ Columns columns_of(const Octants& leaves, std::span<const std::int32_t> weights)
 
 }  // namespace
 
-Brick::Brick(const parallel::Communicator& communicator)
-    : _communicator(communicator),
-      _connectivity(p8est_connectivity_new_brick(per_axis, per_axis, per_axis, 0, 0, 0)) {
+Brick::Brick(const parallel::Communicator& communicator, int tree_level)
+    : _communicator(communicator), _tree_level(tree_level), _connectivity(connect(tree_level)) {
   _forest.reset(p8est_new_ext(parallel::host_communicator(_communicator), _connectivity.get(), 0, 0, 1, 0,
                               nullptr, nullptr));
 }
@@ -66,18 +70,19 @@ Brick::Brick(const parallel::Communicator& communicator)
 Brick::Brick(const parallel::Communicator& communicator, const Forest& forest,
              std::span<const std::int32_t> weights)
     : _communicator(communicator),
+      _tree_level(forest._tree_level),
       _within(forest._within),
-      _connectivity(p8est_connectivity_new_brick(per_axis, per_axis, per_axis, 0, 0, 0)) {
-  Columns columns = columns_of(forest._local, weights);
+      _connectivity(connect(_tree_level)) {
+  Columns columns = columns_of(forest._local, _tree_level, weights);
   std::vector<p4est_gloidx_t> firsts{0};
   const std::vector<std::int64_t> mine{columns.count()};
   for (const std::int64_t count : communicator.all_gather_items<std::int64_t>(mine))
     firsts.push_back(firsts.back() + count);
-  std::array<p4est_gloidx_t, tree_count + 1> of_trees{};
-  of_trees[tree_count] = firsts.back();
   for (std::size_t i = 1; i < columns.trees.size(); i += 2) columns.trees[i] += firsts[communicator.rank()];
   const std::vector<std::int64_t> begins = communicator.all_gather_items<std::int64_t>(columns.trees);
+  std::array<p4est_gloidx_t, tree_count + 1> of_trees{};
   for (std::size_t i = 0; i < begins.size(); i += 2) of_trees[begins[i]] = begins[i + 1];
+  of_trees[begins.size() / 2] = firsts.back();
   sc_array_t view;
   sc_array_init_data(&view, columns.places.data(), sizeof(p4est_qcoord_t), columns.places.size());
   _forest.reset(p8est_inflate(parallel::host_communicator(_communicator), _connectivity.get(), firsts.data(),
@@ -86,16 +91,16 @@ Brick::Brick(const parallel::Communicator& communicator, const Forest& forest,
   for_each_octant([&](int, p8est_quadrant_t& octant) { octant.p.user_int = columns.weights[i++]; });
 }
 
-std::uint64_t Brick::key_of(int tree, const p8est_quadrant_t& octant) {
-  const auto finest = [](p4est_qcoord_t along) {
-    return static_cast<std::uint32_t>(along) >> (P8EST_MAXLEVEL - P8EST_QMAXLEVEL);
+std::uint64_t Brick::key_of(int tree, const p8est_quadrant_t& octant) const {
+  const auto finest = [this](p4est_qcoord_t along) {
+    return static_cast<std::uint32_t>(along) >> (P8EST_MAXLEVEL - P8EST_QMAXLEVEL)
+                                                    << (many_trees - _tree_level);
   };
   return key_of(tree) | geometry::morton_key({finest(octant.x), finest(octant.y), finest(octant.z)});
 }
 
 int Brick::level_at(int tree) const {
-  if (tree == 0 && _within == ~TreeSet{1}) return 0;
-  return tree % 8 == 0 && has(_within, tree + 1) ? 1 : tree_level;
+  return _tree_level == many_trees && tree % 8 == 0 && has(_within, tree + 1) ? many_trees - 1 : _tree_level;
 }
 
 TreeSet Brick::split_trees() const {
@@ -110,20 +115,19 @@ TreeSet Brick::split_trees() const {
 }
 
 Forest Brick::take() const {
-  const TreeSet split = split_trees();
   Forest result;
+  result._tree_level = _tree_level;
   result._within = _within;
   Octants& local = result._local;
   local.keys.reserve(_forest->local_num_quadrants);
   local.levels.reserve(_forest->local_num_quadrants);
-  // Leaves that are whole trees, or several, are in families, too: they go with the first.
-  constexpr TreeSet all_but_eldest = 0xfefefefefefefefe;
-  const int family = _within == all_but_eldest ? tree_count : 8;
+  // Where eight trees with a parent are leaves they go with the first.
+  const TreeSet split = _tree_level == one_tree ? ~TreeSet{0} : split_trees();
   for_each_octant([&](int tree, const p8est_quadrant_t& octant) {
     if ((split >> (tree & ~7) & 0xff) != 0)
-      local.add(key_of(tree, octant), octant.level + tree_level);
-    else if (tree % family == 0) {
-      for (int t = tree; t < tree + family; ++t) {
+      local.add(key_of(tree, octant), octant.level + _tree_level);
+    else if (tree % 8 == 0) {
+      for (int t = tree; t < tree + 8; ++t) {
         if (!has(_within, t)) local.add(key_of(t), level_at(t));
       }
     }

@@ -1,5 +1,5 @@
-/// The forest of p4est behind a Forest: the root cut into 4 x 4 x 4 trees, which lets it have two levels more
-/// than one tree. Internal to forest/.
+/// The forest of p4est behind a Forest: one tree, or the root cut into 4 x 4 x 4 trees, which have two levels
+/// more, but cost several times as much to balance where leaves lie along their borders. Internal to forest/.
 #pragma once
 
 #include "forest/forest.hpp"
@@ -12,9 +12,10 @@
 
 namespace aeroloom::forest {
 
-/// The level at which trees begin; how many there are. Trees lie along the Morton curve, eight to a cube of
-/// level 1, so that all leaves in their order are along it.
-inline constexpr int tree_level = 2, tree_count = 64;
+/// The level at which trees begin. Many lie along the Morton curve, eight to a cube of level 1, so that all
+/// leaves in their order are along it.
+inline constexpr int one_tree = 0, many_trees = 2;
+inline constexpr int tree_count = 1 << 3 * many_trees;
 
 /// One bit per tree.
 using TreeSet = std::uint64_t;
@@ -26,13 +27,16 @@ inline bool has(TreeSet set, int tree) {
 class Brick {
 public:
   /// Each tree a leaf. Collective.
-  explicit Brick(const parallel::Communicator& communicator);
+  Brick(const parallel::Communicator& communicator, int tree_level);
   /// The leaves of a forest, larger ones as the trees in them. Each leaf of this rank has its weight in
   /// p.user_int, where there are weights. Collective.
   Brick(const parallel::Communicator& communicator, const Forest& forest,
         std::span<const std::int32_t> weights = {});
 
   p8est_t& forest() { return *_forest; }
+  int tree_level() const { return _tree_level; }
+  /// The level of the smallest leaves there may be.
+  int finest() const { return _tree_level + P8EST_QMAXLEVEL; }
   /// The trees with more than one leaf. Collective.
   TreeSet split_trees() const;
   /// Trees that are parts of leaves which begin in another tree; so far each leaf has begun in its own, or
@@ -53,12 +57,12 @@ public:
     }
   }
 
-  static std::uint64_t key_of(int tree) {
-    return static_cast<std::uint64_t>(tree) << 3 * (geometry::finest_level - tree_level);
+  std::uint64_t key_of(int tree) const {
+    return static_cast<std::uint64_t>(tree) << 3 * (geometry::finest_level - _tree_level);
   }
-  static std::uint64_t key_of(int tree, const p8est_quadrant_t& octant);
-  static geometry::GridCube cube_of(int tree, const p8est_quadrant_t& octant) {
-    return {geometry::grid_point(key_of(tree, octant)), octant.level + tree_level};
+  std::uint64_t key_of(int tree, const p8est_quadrant_t& octant) const;
+  geometry::GridCube cube_of(int tree, const p8est_quadrant_t& octant) const {
+    return {geometry::grid_point(key_of(tree, octant)), octant.level + _tree_level};
   }
 
 private:
@@ -67,6 +71,7 @@ private:
     void operator()(p8est_t* forest) const { p8est_destroy(forest); }
   };
   parallel::Communicator _communicator;
+  int _tree_level;
   TreeSet _within = 0;
   std::unique_ptr<p8est_connectivity_t, Free> _connectivity;
   std::unique_ptr<p8est_t, Free> _forest;

@@ -9,6 +9,8 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <p8est_extended.h>
@@ -26,21 +28,16 @@ using parallel::ScopedCpu;
 /// Bytes that a leaf takes at most, while the forest is balanced and copied.
 constexpr std::int64_t bytes_per_octant = 100;
 
-/// What is known of the cubes above the trees.
+/// What is known of the cubes above trees. Many of them are there because one is split, and so is the root.
 struct Crown {
-  TreeSet open = 0;  ///< trees that may be split
-  bool root_wanted = false;
+  TreeSet open = 1;         ///< trees that may be split
   std::uint8_t wanted = 0;  ///< cubes of level 1 that are to be split, a bit each
 };
 
 Crown judge_crown(const Judge& judge) {
-  Crown crown;
-  const GridCube root;
-  const Verdict of_root = judge(root);
-  if (of_root == Verdict::keep) return crown;
-  crown.root_wanted = of_root == Verdict::split;
+  Crown crown{0, 0};
   for (int c = 0; c < 8; ++c) {
-    const Verdict verdict = judge(root.child(c));
+    const Verdict verdict = judge(GridCube{}.child(c));
     if (verdict != Verdict::keep) crown.open |= TreeSet{0xff} << 8 * c;
     if (verdict == Verdict::split) crown.wanted |= static_cast<std::uint8_t>(1 << c);
   }
@@ -48,7 +45,7 @@ Crown judge_crown(const Judge& judge) {
 }
 
 /// The trees that are parts of larger leaves which begin in another: those of cubes of level 1 that nobody
-/// wants split and that touch no split tree, and all of them where the root is a leaf.
+/// wants split and that touch no split tree.
 TreeSet trees_within(const Crown& crown, TreeSet split) {
   unsigned parents = crown.wanted;
   for (int t = 0; t < tree_count; ++t) {
@@ -59,7 +56,6 @@ TreeSet trees_within(const Crown& crown, TreeSet split) {
       if (touches(p.x, c & 1) && touches(p.y, c & 2) && touches(p.z, c & 4)) parents |= 1U << c;
     }
   }
-  if (parents == 0 && !crown.root_wanted) return ~TreeSet{1};
   TreeSet within = 0;
   for (int c = 0; c < 8; ++c)
     if ((parents >> c & 1) == 0) within |= TreeSet{0xfe} << 8 * c;
@@ -69,11 +65,12 @@ TreeSet trees_within(const Crown& crown, TreeSet split) {
 /// The state of a forest that grows, behind its user_pointer.
 struct Growth {
   const Judge& judge;
+  const Brick& brick;
   TreeSet open;
   std::int64_t limit;
-  std::int64_t count = 0;                    ///< leaves of this rank
-  int from = tree_level, to = finest_level;  ///< levels whose cubes are judged, the last not included
-  bool is_full = false;
+  std::int64_t count = 0;  ///< leaves of this rank
+  int from = 0, to = 0;    ///< levels whose cubes are judged, the last not included
+  bool is_full = false, is_too_deep = false;
   std::exception_ptr failure = nullptr;  ///< C code on the way: it has to wait
 };
 
@@ -92,11 +89,15 @@ bool is_split(const Judge& judge, const GridCube& cube) {
 
 int refine_if_split(p8est_t* forest, p4est_topidx_t tree, p8est_quadrant_t* octant) {
   Growth& growth = growth_of(forest);
-  const int level = octant->level + tree_level;
+  const int level = octant->level + growth.brick.tree_level();
   if (level < growth.from || level >= growth.to || !has(growth.open, tree)) return 0;
-  if (growth.is_full || growth.failure) return 0;
+  if (growth.is_full || growth.is_too_deep || growth.failure) return 0;
   try {
-    if (!is_split(growth.judge, Brick::cube_of(tree, *octant))) return 0;
+    const GridCube cube = growth.brick.cube_of(tree, *octant);
+    if (!is_split(growth.judge, cube)) return 0;
+    // Its children are as small as leaves of this tree can be: they are not asked for again.
+    for (int c = 0; c < 8 && level + 1 == growth.brick.finest(); ++c)
+      growth.is_too_deep = growth.is_too_deep || is_split(growth.judge, cube.child(c));
   } catch (...) {
     growth.failure = std::current_exception();
     return 0;
@@ -115,7 +116,8 @@ void count_octant(p8est_t* forest, p4est_topidx_t, p8est_quadrant_t*) {
 /// Leaves that will be judged weigh more: below them there may be others.
 int weight_while_growing(p8est_t* forest, p4est_topidx_t, p8est_quadrant_t* octant) {
   constexpr int of_judged = 16;
-  return octant->level + tree_level >= growth_of(forest).from ? of_judged : 1;
+  const Growth& growth = growth_of(forest);
+  return octant->level + growth.brick.tree_level() >= growth.from ? of_judged : 1;
 }
 
 int given_weight(p8est_t*, p4est_topidx_t, p8est_quadrant_t* octant) {
@@ -129,13 +131,14 @@ std::int64_t most_octants(const Communicator& communicator, const Limits& limits
   return std::min<std::int64_t>(bytes / bytes_per_octant, std::numeric_limits<p4est_locidx_t>::max());
 }
 
-/// Splits what is judged so; on several ranks level by level, dealt out anew after each.
-void refine(const Communicator& communicator, Brick& brick, Growth& growth, parallel::StageClock& clock) {
+/// Splits what is judged so; on several ranks level by level, dealt out anew after each. False: the trees
+/// have too few levels.
+bool refine(const Communicator& communicator, Brick& brick, Growth& growth, parallel::StageClock& clock) {
   p8est_t& forest = brick.forest();
   const bool is_alone = communicator.size() == 1;
-  for (int level = tree_level; level < finest_level; ++level) {
+  for (int level = brick.tree_level(); level < brick.finest(); ++level) {
     growth.from = level;
-    growth.to = is_alone ? finest_level : level + 1;
+    growth.to = is_alone ? brick.finest() : level + 1;
     growth.count = forest.local_num_quadrants;
     const std::int64_t before = forest.global_num_quadrants;
     {
@@ -155,22 +158,17 @@ void refine(const Communicator& communicator, Brick& brick, Growth& growth, para
         fmt::format("the octree of the lattice would take more than {} cubes on one rank, more than its "
                     "memory allows. Ask for larger elements (SizingOptions::minimum), or use more ranks",
                     growth.limit));
+  return communicator.maximum(std::int64_t{growth.is_too_deep}) == 0;
 }
 
-}  // namespace
-
-Forest grow(const Communicator& communicator, const Judge& judge, parallel::StageClock& clock,
-            Limits limits) {
-  Crown crown;
-  parallel::agree(communicator, [&] {
-    const ScopedCpu repeated(clock, ScopedCpu::As::serial);
-    crown = judge_crown(judge);
-  });
-  Growth growth{judge, crown.open, most_octants(communicator, limits)};
+/// Nothing where the trees have too few levels.
+std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, const Crown& crown,
+                              const Judge& judge, std::int64_t limit, parallel::StageClock& clock) {
   LibraryScope library(communicator.rank(), "refining");
-  Brick brick(communicator);
+  Brick brick(communicator, tree_level);
+  Growth growth{judge, brick, crown.open, limit};
   brick.forest().user_pointer = &growth;
-  refine(communicator, brick, growth, clock);
+  if (!refine(communicator, brick, growth, clock)) return std::nullopt;
   library.now("balancing");
   growth.count = brick.forest().local_num_quadrants;
   {
@@ -179,9 +177,23 @@ Forest grow(const Communicator& communicator, const Judge& judge, parallel::Stag
   }
   library.now("partitioning");
   p8est_partition_ext(&brick.forest(), 1, nullptr);
-  brick.unite(trees_within(crown, brick.split_trees()));
+  if (tree_level == many_trees) brick.unite(trees_within(crown, brick.split_trees()));
   const ScopedCpu task(clock, ScopedCpu::As::task);
   return brick.take();
+}
+
+}  // namespace
+
+Forest grow(const Communicator& communicator, const Judge& judge, parallel::StageClock& clock,
+            Limits limits) {
+  const std::int64_t limit = most_octants(communicator, limits);
+  Crown crown;
+  if (auto grown = grow_in(communicator, one_tree, crown, judge, limit, clock)) return std::move(*grown);
+  parallel::agree(communicator, [&] {
+    const ScopedCpu repeated(clock, ScopedCpu::As::serial);
+    crown = judge_crown(judge);
+  });
+  return *grow_in(communicator, many_trees, crown, judge, limit, clock);
 }
 
 Forest deal_out(const Communicator& communicator, const Forest& forest, std::span<const std::int32_t> weights,
@@ -215,9 +227,9 @@ Ghosts find_ghosts(const Communicator& communicator, const Forest& forest, paral
     if (!found.numbers.empty() && found.numbers.back() == number) continue;
     found.numbers.push_back(number);
     if (octant.level > 0)
-      found.octants.add(Brick::key_of(tree, octant), octant.level + tree_level);
+      found.octants.add(brick.key_of(tree, octant), octant.level + brick.tree_level());
     else
-      found.octants.add(Brick::key_of(first), brick.level_at(first));
+      found.octants.add(brick.key_of(first), brick.level_at(first));
   }
   return found;
 }

@@ -46,6 +46,7 @@ private:
   std::vector<std::int64_t> _firsts;  // per rank, and one beyond
   std::vector<std::uint64_t>
       _keys;                  // per rank: where its leaves begin, those of a rank without any the next's
+  int _tree_level = 0;        // of p4est, that it was made with
   std::uint64_t _within = 0;  // trees of the brick that lie in leaves that begin in another
 };
 

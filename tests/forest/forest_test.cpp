@@ -64,6 +64,8 @@ std::vector<Splits> examples() {
     for (unsigned i = 0; i < seed % 4 + 1; ++i)
       splits.add(random_cube(random, 1, 2 + static_cast<int>(seed % 3)));
     all.push_back(splits);
+    splits.add(random_cube(random, finest_level - 2, finest_level - 1));
+    all.push_back(splits);
   }
   for (unsigned seed = 1; seed <= 4; ++seed) {
     std::mt19937_64 random(seed);
