@@ -16,13 +16,7 @@ namespace aeroloom::volume {
 /// fourteen neighbours six are 1 and eight are sqrt(3)/2 away.
 inline constexpr double mean_edge_of_cell = (6.0 + 8.0 * 0.5 * std::numbers::sqrt3) / 14.0;
 
-/// An octree cell: its low corner on the finest grid, and its level.
-struct GridCube {
-  sizing::GridPoint low;
-  int level = 0;
-
-  std::uint32_t edge() const { return sizing::grid_size >> level; }
-};
+using geometry::GridCube;
 
 /// A box of the grid, in units of the finest cells.
 struct GridBox {
