@@ -179,9 +179,9 @@ TEST(Forest, IsDealtOutByWeight) {
     expect_whole_families(forest, expected);
     expect_ghosts(world, forest, expected);
     if (world.size() == 1 || expected.size() < 100 * static_cast<std::size_t>(world.size())) continue;
-    const std::int64_t weighty = grown.count() - grown.count() / 2;
-    EXPECT_NEAR(static_cast<double>(forest.first(1)),
-                static_cast<double>(grown.count() - weighty + weighty / world.size()), 8);
+    const std::int64_t weighty = grown.count() - grown.count() / 2, share = weighty / world.size();
+    EXPECT_NEAR(static_cast<double>(forest.first(1)), static_cast<double>(grown.count() - weighty + share),
+                8);
   }
 }
 
