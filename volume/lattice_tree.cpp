@@ -20,13 +20,12 @@ namespace {
 /// may miss one in a corner, children are looked at where that is possible.
 class SplitSearch {
 public:
-  SplitSearch(const LatticeFrame& frame, const sizing::SizeField& field, const GridBox& box)
+  SplitSearch(const LatticeFrame& frame, const sizing::SizeField& field, const geometry::Box& box)
       : _frame(frame), _field(field), _box(box), _slope(slope_margin * std::log(field.options().growth)) {}
 
   Verdict operator()(const GridCube& cube) const {
-    if (!GridBox::of(cube).overlaps(_box)) return Verdict::keep;
-    const double edge = _frame.edge(cube.level), half = 0.5 * cube.edge();
-    const double size = _field(_frame.to_space(GridBox::of(cube).low + Vec3{half, half, half}));
+    if (!_frame.box_around(cube).overlaps(_box)) return Verdict::keep;
+    const double edge = _frame.edge(cube.level), size = _field(_frame.middle_of(cube));
     if (edge * mean_edge_of_cell > LatticeTree::coarsest_edge * size) return Verdict::split;
     constexpr double half_diagonal = 0.5 * std::numbers::sqrt3;
     constexpr double harmless = mean_edge_of_cell / LatticeTree::coarsest_edge / half_diagonal;
@@ -38,7 +37,7 @@ public:
 private:
   const LatticeFrame& _frame;
   const sizing::SizeField& _field;
-  GridBox _box;
+  geometry::Box _box;
   double _slope;
 };
 
@@ -64,7 +63,8 @@ std::vector<std::uint64_t> blocks_of(const forest::Octants& leaves) {
 }  // namespace
 
 LatticeTree::LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                         const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock) {
+                         const sizing::SizeField& field, const geometry::Box& box,
+                         parallel::StageClock& clock) {
   std::vector<std::uint64_t> mine;
   {
     const forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box), clock);
