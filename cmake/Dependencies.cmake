@@ -32,6 +32,9 @@ find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
+find_path(P4EST_INCLUDE_DIR p8est.h REQUIRED)
+find_library(P4EST_LIBRARY p4est REQUIRED)
+find_library(SC_LIBRARY sc REQUIRED)
 
 # mpirun as tests use it: more ranks than cores, also as root in a container.
 set(AEROLOOM_MPIRUN ${CMAKE_SOURCE_DIR}/scripts/mpirun_local.sh)

@@ -1,6 +1,7 @@
 #include "pipeline/library_versions.hpp"
 
 #include "cad/library_version.hpp"
+#include "forest/library_version.hpp"
 #include "geometry/library_version.hpp"
 #include "io/library_versions.hpp"
 #include "parallel/library_versions.hpp"
@@ -22,6 +23,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
           {"VTK", io::vtk_version()},
           {"HDF5", io::hdf5_version()},
           {"METIS", partition::metis_version()},
+          {"p4est", forest::p4est_version()},
           {"CGAL", geometry::cgal_version()},
           {"Eigen", AEROLOOM_EIGEN_VERSION},
           {"MPI", parallel::mpi_version()},

@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache git
   libopenmpi-dev openmpi-bin
-  libmetis-dev libtet1.5-dev libcgal-dev libeigen3-dev
+  libmetis-dev libp4est-dev libtet1.5-dev libcgal-dev libeigen3-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
   libvtk9-dev libhdf5-openmpi-dev libpng-dev

@@ -1,49 +1,14 @@
-/// Morton keys: grid coordinates interleaved so that sorting by key walks a space-filling curve.
+/// The grid of octrees under the names it has here.
 #pragma once
 
-#include <cstdint>
+#include "geometry/morton.hpp"
 
 namespace aeroloom::sizing {
 
-/// The finest level of the octree. A root cube of 1e6 has leaves of edge 1 there, and corners of leaves (2^20
-/// included) still fit a 64-bit key.
-inline constexpr int finest_level = 20;
-inline constexpr std::uint32_t grid_size = 1U << finest_level;  ///< finest cells per axis
-
-/// A corner of the finest grid, or the finest cell whose low corner it is.
-struct GridPoint {
-  std::uint32_t x = 0, y = 0, z = 0;
-
-  friend bool operator==(const GridPoint&, const GridPoint&) = default;
-};
-
-/// Moves the 21 low bits of v three places apart.
-inline std::uint64_t spread_bits(std::uint64_t v) {
-  v &= 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffffULL;
-  v = (v | v << 16) & 0x1f0000ff0000ffULL;
-  v = (v | v << 8) & 0x100f00f00f00f00fULL;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-  return (v | v << 2) & 0x1249249249249249ULL;
-}
-
-/// Undoes spread_bits.
-inline std::uint32_t gather_bits(std::uint64_t v) {
-  v &= 0x1249249249249249ULL;
-  v = (v | v >> 2) & 0x10c30c30c30c30c3ULL;
-  v = (v | v >> 4) & 0x100f00f00f00f00fULL;
-  v = (v | v >> 8) & 0x1f0000ff0000ffULL;
-  v = (v | v >> 16) & 0x1f00000000ffffULL;
-  return static_cast<std::uint32_t>((v | v >> 32) & 0x1fffff);
-}
-
-/// Child c of a cell lies at offset (c & 1, c >> 1 & 1, c >> 2).
-inline std::uint64_t morton_key(GridPoint p) {
-  return spread_bits(p.x) | spread_bits(p.y) << 1 | spread_bits(p.z) << 2;
-}
-
-inline GridPoint grid_point(std::uint64_t key) {
-  return {gather_bits(key), gather_bits(key >> 1), gather_bits(key >> 2)};
-}
+using geometry::finest_level;
+using geometry::grid_point;
+using geometry::grid_size;
+using geometry::GridPoint;
+using geometry::morton_key;
 
 }  // namespace aeroloom::sizing

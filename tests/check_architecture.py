@@ -9,11 +9,12 @@ import sys
 import tempfile
 
 # What each stage may include, besides itself.
-STAGE = {"geometry", "cad", "front", "parallel", "mesh", "cavities", "sizing", "partition"}
+STAGE = {"geometry", "cad", "forest", "front", "parallel", "mesh", "cavities", "sizing", "partition"}
 # What each folder may include, besides itself.
 ALLOWED = {
     "parallel": set(),
     "geometry": set(),
+    "forest": {"geometry", "parallel"},
     "cad": {"geometry"},
     "front": {"geometry"},
     "mesh": {"geometry", "parallel"},
@@ -34,6 +35,7 @@ ALLOWED = {
 # Third-party headers: pattern, folders that may include them, how many files may.
 ROOMS = [
     (re.compile(r"mpi\.h$"), {"parallel"}, None),
+    (re.compile(r"p[468]est\w*\.h$|sc(_\w+)?\.h$"), {"forest", "tests"}, None),
     (re.compile(r"metis\.h$"), {"partition"}, None),
     (re.compile(r"tetgen\.h$"), {"volume"}, 1),
     (re.compile(r"vtk[A-Z]\w*\.h$|hdf5\.h$"), {"io", "tests"}, None),
@@ -102,6 +104,8 @@ def self_test():
         "surface/occ.cpp": "#include <BRep_Tool.hxx>\n",
         "geometry/occ.cpp": "#include <gp_Pnt.hxx>\n",
         "front/mpi.cpp": '#include "mesh/piece.hpp"\n',
+        "volume/forest.cpp": "#include <p8est_ghost.h>\n",
+        "mesh/sc.cpp": "#include <sc.h>\n",
         "io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
     }
     clean = {"mesh/down.cpp": '#include "geometry/vec.hpp"\n', "cad/model/occ.cpp": "#include <gp_Pnt.hxx>\n"}

@@ -32,6 +32,8 @@ DEPENDENCIES = {
     "TETGEN": ({"libtet1.5-dev"}, "tetgen"),
     "XXHASH": ({"libxxhash-dev"}, "xxhash"),
     "METIS": ({"libmetis-dev"}, "metis"),
+    "P4EST": ({"libp4est-dev"}, "p4est"),
+    "SC": ({"libp4est-dev"}, "p4est"),
 }
 # What is no dependency of the code.
 TOOLS = {"build-essential", "cmake", "ninja-build", "ccache", "git", "file"}

@@ -23,13 +23,14 @@ struct Contradiction {
 
 struct BlockRegions {
   /// Per block: mesh::no_region outside of all, and also where the surface meets it (there each point is
-  /// asked for itself).
+  /// asked for itself), or another rank has it.
   std::vector<mesh::RegionId> of_block;
   std::optional<Contradiction> contradiction;  ///< when there is one, the regions are not to be used
 };
 
 /// Blocks that share a face are of one region; all places where such a set touches a block that the surface
-/// meets are looked at, each by the rank that has that block. The same on every rank. Collective.
+/// meets are looked at, each by the rank that has that block. What is found does not depend on the shares.
+/// Collective.
 BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
                                 const LatticeTree& tree, const SurfaceTable& table,
                                 std::span<const BlockIndex> shares,

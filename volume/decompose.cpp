@@ -148,8 +148,7 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
   auto data = std::make_unique<Decomposition::Data>();
   const geometry::Box box = box_of(communicator, input.surface);
   data->frame = std::make_unique<LatticeFrame>(input.field, box);
-  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field,
-                                             data->frame->grid_box(box), clock);
+  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field, box, clock);
   data->squares = std::make_unique<CoreSquares>(*data->frame);
   data->report.blocks = data->tree->block_count();
   share_surface(communicator, input, *data, clock);

@@ -20,7 +20,7 @@ struct Decomposition::Data {
   std::unique_ptr<const LatticeFrame> frame;
   std::unique_ptr<const LatticeTree> tree;
   SurfaceTable table;
-  std::vector<mesh::RegionId> regions;  ///< per block
+  std::vector<mesh::RegionId> regions;  ///< per block, of those of this rank
   std::vector<BlockChange> changes;     ///< per block
   std::vector<BlockIndex> shares;       ///< see share_blocks
   std::vector<std::uint8_t> counts;     ///< points of the shell per block

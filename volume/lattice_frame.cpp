@@ -71,6 +71,7 @@ LatticeFrame::LatticeFrame(const sizing::SizeField& field, const Box& box)
   for (int row = 0; row < 3; ++row) {
     _forward[row] = _unit * sheared[row];
     _backward[row] = inverse[row] / _unit;
+    _spread[row] = std::abs(_forward[row].x) + std::abs(_forward[row].y) + std::abs(_forward[row].z);
   }
   _stretch = (1 + std::sqrt(squares)) / _unit;
 }

@@ -16,13 +16,7 @@ namespace aeroloom::volume {
 /// fourteen neighbours six are 1 and eight are sqrt(3)/2 away.
 inline constexpr double mean_edge_of_cell = (6.0 + 8.0 * 0.5 * std::numbers::sqrt3) / 14.0;
 
-/// An octree cell: its low corner on the finest grid, and its level.
-struct GridCube {
-  sizing::GridPoint low;
-  int level = 0;
-
-  std::uint32_t edge() const { return sizing::grid_size >> level; }
-};
+using geometry::GridCube;
 
 /// A box of the grid, in units of the finest cells.
 struct GridBox {
@@ -76,6 +70,15 @@ public:
   }
   /// What a distance in space is in the grid, at most.
   double grid_distance(double space) const { return space * _stretch; }
+  /// The middle of a cube, and the box in space around it.
+  geometry::Vec3 middle_of(const GridCube& cube) const {
+    const double half = 0.5 * cube.edge();
+    return to_space(GridBox::of(cube).low + geometry::Vec3{half, half, half});
+  }
+  geometry::Box box_around(const GridCube& cube) const {
+    const geometry::Vec3 middle = middle_of(cube), reach = 0.5 * cube.edge() * _spread;
+    return {middle - reach, middle + reach};
+  }
   /// The box in the grid that holds a box of space.
   GridBox grid_box(const geometry::Box& box) const;
 
@@ -88,6 +91,7 @@ private:
   geometry::Vec3 _anchor, _middle;
   double _unit = 1;  ///< edge of a finest cell in space
   double _stretch = 1;
+  geometry::Vec3 _spread;  ///< of a finest cell in space, along the axes
   Matrix _forward{}, _backward{};
 };
 

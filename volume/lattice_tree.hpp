@@ -40,9 +40,9 @@ inline Leaf leaf_of_number(LeafNumber number) {
 class LatticeTree {
 public:
   /// A cube is split where the mean edge of its lattice is above `coarsest_edge` times the size at its
-  /// centre. Cubes off `box` are not split. Ranks share the asking for sizes. Collective.
+  /// centre. Cubes off `box`, in space, are not split. Ranks share the work but for the tables. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
-              const sizing::SizeField& field, const GridBox& box, parallel::StageClock& clock);
+              const sizing::SizeField& field, const geometry::Box& box, parallel::StageClock& clock);
   static constexpr double coarsest_edge = 1.53;
 
   BlockIndex block_count() const { return static_cast<BlockIndex>(_blocks.keys.size()); }

@@ -36,6 +36,8 @@ class Aeroloom(CMakePackage):
     depends_on("tetgen@1.5")
     depends_on("xxhash@0.8:")
     depends_on("metis@5.1:")
+    # One tree has 18 levels there.
+    depends_on("p4est@2.2: +mpi")
     depends_on("googletest", type="test")
     depends_on("benchmark", type="test")
 

@@ -24,7 +24,12 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
   std::vector<int> counts(surfaces::region_count(surface) + 1, 0);
   int wrong = 0;
   EXPECT_EQ(static_cast<BlockIndex>(around.regions.size()), lattice.tree.block_count());
+  const Communicator& ranks = problem.communicator;
   for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
+    if (b < lattice.first(ranks) || b >= lattice.last(ranks)) {
+      EXPECT_EQ(around.regions[b], no_region);
+      continue;
+    }
     if (lattice.table.is_met(b)) {
       EXPECT_EQ(around.regions[b], no_region);
       continue;
@@ -41,6 +46,7 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
     }
   }
   EXPECT_EQ(wrong, 0);
+  for (int& count : counts) count = static_cast<int>(ranks.sum(std::int64_t{count}));
   return counts;
 }
 

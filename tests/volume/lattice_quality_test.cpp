@@ -21,9 +21,7 @@ class EndlessLattice : public OnOneRank {};
 /// In all space, without any surface.
 struct Endless {
   Endless(const sizing::SizeField& sizes, const geometry::Box& box)
-      : field(sizes),
-        frame(field, box),
-        tree(Communicator::self(), frame, field, frame.grid_box(box), clock) {
+      : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, box, clock) {
     const auto blocks = static_cast<std::size_t>(tree.block_count());
     table.longest_edge.assign(blocks, 0);
     table.triangles.assign(blocks, 0);

@@ -116,6 +116,23 @@ TEST(LatticeFrame, bounds_distances_and_boxes_in_the_grid) {
   EXPECT_GT(tightest, 0.95);
 }
 
+TEST(LatticeFrame, has_tight_boxes_around_cubes) {
+  const LatticeFrame frame(fields::uniform(0.1), fields::domain);
+  for (const GridCube& cube : {GridCube{}, GridCube{{1 << 18, 0, 3 << 18}, 2}, GridCube{{6, 8, 10}, 19}}) {
+    const GridBox grid = GridBox::of(cube);
+    Box corners;
+    for (int corner = 0; corner < 8; ++corner)
+      corners.add(
+          frame.to_space({corner & 1 ? grid.high.x : grid.low.x, corner & 2 ? grid.high.y : grid.low.y,
+                          corner & 4 ? grid.high.z : grid.low.z}));
+    const Box around = frame.box_around(cube);
+    const double rounding = 1e-12 * frame.edge(0);
+    EXPECT_LT(distance(around.low, corners.low), rounding);
+    EXPECT_LT(distance(around.high, corners.high), rounding);
+    EXPECT_LT(distance(frame.middle_of(cube), corners.center()), rounding);
+  }
+}
+
 TEST(LatticeFrame, finds_the_nearest_cell_of_any_place) {
   const LatticeFrame frame(fields::uniform(0.1), fields::domain);
   const sizing::GridPoint inside = frame.cell_at({5.99, 7, 0.01});
@@ -160,12 +177,12 @@ struct Grown {
                  const Box& box = fields::domain)
       : field(std::move(sizes)),
         frame(field, box),
-        wanted(frame.grid_box(box)),
+        wanted(box),
         tree(communicator, frame, field, wanted, clock) {}
 
   /// Whether sizes ask for a cell to be split.
   bool is_too_coarse(const GridCube& cell) const {
-    if (!GridBox::of(cell).overlaps(wanted)) return false;
+    if (!frame.box_around(cell).overlaps(wanted)) return false;
     const double half = 0.5 * cell.edge();
     const double size = field(frame.to_space(GridBox::of(cell).low + Vec3{half, half, half}));
     return mean_edge_of_cell * frame.edge(cell.level) > LatticeTree::coarsest_edge * size;
@@ -174,7 +191,7 @@ struct Grown {
   sizing::SizeField field;
   parallel::StageClock clock;
   LatticeFrame frame;
-  GridBox wanted;
+  Box wanted;
   LatticeTree tree;
 };
 
@@ -218,8 +235,7 @@ TEST(LatticeTree, keeps_neighbours_within_one_level) {
   }
 }
 
-TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
-  const Grown grown(graded());
+void expect_no_split_without_need(const Grown& grown) {
   const LatticeTree& tree = grown.tree;
   const std::vector<LeafOfBlock> leaves = all_leaves(tree);
   int split = 0;
@@ -238,12 +254,23 @@ TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
   EXPECT_GT(split, 10);
 }
 
+TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
+  expect_no_split_without_need(Grown(graded()));
+}
+
+/// Half a model: sizes are as small on the other side, which the sheared cubes reach.
+TEST(LatticeTree, does_not_split_what_lies_off_the_box) {
+  Box half = fields::domain;
+  half.low.y = half.center().y;
+  expect_no_split_without_need(Grown(graded(), Communicator::self(), half));
+}
+
 TEST(LatticeTree, is_no_finer_than_the_sizes_off_the_box) {
   const Grown grown(fields::uniform(0.1), Communicator::self(), {{1, 1, 1}, {1.5, 1.5, 1.5}});
   int inside = 0;
   for (const LeafOfBlock& leaf : all_leaves(grown.tree)) {
     const double ratio = mean_edge_of_cell * grown.frame.edge(leaf.cell.level) / 0.1;
-    if (GridBox::of(leaf.cell).overlaps(grown.wanted)) {
+    if (grown.frame.box_around(leaf.cell).overlaps(grown.wanted)) {
       EXPECT_NEAR(ratio, 1, 1e-9);
       ++inside;
     } else {

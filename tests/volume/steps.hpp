@@ -51,7 +51,7 @@ inline geometry::Box box_of(const surfaces::Surface& surface) {
 struct Lattice {
   Lattice(const Problem& problem, const geometry::Box& box)
       : frame(problem.field, box),
-        tree(problem.communicator, frame, problem.field, frame.grid_box(box), clock),
+        tree(problem.communicator, frame, problem.field, box, clock),
         table(tabulate_surface(problem.communicator, frame, tree, problem.surface, clock)),
         shares(share_blocks(tree, table, problem.communicator.size())),
         changes(tree.block_count()) {}

@@ -231,7 +231,7 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   const auto field = fields::uniform(0.5);
   parallel::StageClock clock;
   const LatticeFrame frame(field, fields::domain);
-  const LatticeTree tree(Communicator::self(), frame, field, frame.grid_box(fields::domain), clock);
+  const LatticeTree tree(Communicator::self(), frame, field, fields::domain, clock);
   const Zones zones(std::vector<ZoneIndex>(tree.block_count(), 0), 6);
   const ZoneResult result = make_pieces(content, filling, ZoneFinder(frame, tree, zones, 100));
   ASSERT_EQ(result.pieces.size(), 1u);
