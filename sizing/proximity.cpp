@@ -26,9 +26,10 @@ constexpr double closing_reach = 2;
 // The middle of a facet's parameters is no point beside it where it is farther away, over the longest edge.
 constexpr double middle_off_facet = 0.25;
 // An open gap between facets over what those may be off by, at least: the distance of both from their
-// surfaces and the accuracy of the model, what was sewn or this part of the widest gap; one between surfaces
-// over the accuracy alone.
-constexpr double gap_over_error = 2, accuracy = 1e-5;
+// surfaces and the accuracy of the model, what was sewn or this part of the widest gap. One between surfaces
+// over the accuracy, and over what facets are off by: where that is far more they are no guide to what is
+// opposite.
+constexpr double gap_over_error = 2, accuracy = 1e-5, surface_gap_over_error = 0.25;
 // What a projection on a surface counts, by the time it takes.
 constexpr std::int64_t nodes_per_projection = 100;
 // Parts that are so many times as long as gaps ask for were hardly looked at.
@@ -213,9 +214,10 @@ private:
     if (is_edge_within(wedge_slenderness * away, from, wall.face)) return {};
     const Seen closed{away, nowhere};
     if (!meshed) return closed;
-    if (away < gap_over_error * (_deviations[facet] + wall.deviation + _accuracy)) {
-      away = distance_of_surfaces(from, direction, away, facet, wall);
-      if (!(away >= gap_over_error * _accuracy)) return closed;
+    const double off = _deviations[facet] + wall.deviation;
+    if (away < gap_over_error * (off + _accuracy)) {
+      away = off > 0 ? distance_of_surfaces(from, direction, away, facet, wall) : 0;
+      if (away < std::max(gap_over_error * _accuracy, surface_gap_over_error * off)) return closed;
     }
     const double turn = norm(cross(_walls.normals[crossing.triangle], direction));
     const bool closes = turn > 0 && is_edge_within(nowhere, from, wall.face, away / (closing_reach * turn));
