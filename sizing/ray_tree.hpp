@@ -27,7 +27,8 @@ public:
   };
   /// The nearest of the triangles that a line crosses within `reach` of a point, ahead of it and behind it,
   /// and that `counts(triangle)`; the lower one where two are as near. The direction is a unit vector;
-  /// `corners(triangle)` are those of the trees. Adds the nodes that were visited to `nodes`.
+  /// `corners(triangle)` are those of the trees. No line slips between triangles that share an edge. Adds the
+  /// nodes that were visited to `nodes`.
   template <class Counts, class Corners>
   std::array<Crossing, 2> nearest_crossings(geometry::Vec3 point, geometry::Vec3 direction, double reach,
                                             const Corners& corners, const Counts& counts,
@@ -122,9 +123,10 @@ std::array<RayTree::Crossing, 2> RayTree::nearest_crossings(geometry::Vec3 point
                                                             double reach, const Corners& corners,
                                                             const Counts& counts, std::int64_t& nodes) const {
   std::array<Crossing, 2> nearest{Crossing{-1, reach}, Crossing{-1, reach}};
+  const ShearedLine sheared(point, direction);
   const auto meet = [&](std::int32_t triangle) {
     if (!counts(triangle)) return;
-    const double along = place_on_line(corners(triangle), point, direction), away = std::abs(along);
+    const double along = sheared.place_of(corners(triangle)), away = std::abs(along);
     Crossing& best = nearest[along > 0 ? 0 : 1];
     if (away < best.distance || (away == best.distance && (best.triangle < 0 || triangle < best.triangle)))
       best = {triangle, away};

@@ -1,5 +1,7 @@
 #include "sizing/triangle_tree.hpp"
 
+#include "geometry/predicates.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,6 +10,8 @@ namespace aeroloom::sizing {
 namespace {
 
 using geometry::Box;
+using geometry::orient2d;
+using geometry::Vec2;
 using geometry::Vec3;
 
 constexpr std::int32_t triangles_per_leaf = 4;
@@ -60,16 +64,36 @@ std::array<Triangle, 2> bisect(const Triangle& t, int from) {
   return {{{a, middle, c}, {middle, b, c}}};
 }
 
-// Moeller and Trumbore, J. Graphics Tools 2, 1997, doi:10.1080/10867651.1997.10487468.
-double place_on_line(const Triangle& t, Vec3 point, Vec3 direction) {
+ShearedLine::ShearedLine(Vec3 point, Vec3 direction) : _point(point) {
+  const double x = std::abs(direction.x), y = std::abs(direction.y), z = std::abs(direction.z);
+  _axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  _first = (_axis + 1) % 3;
+  _second = (_axis + 2) % 3;
+  _scale = 1 / direction[_axis];
+  _shear = _scale * Vec2{direction[_first], direction[_second]};
+}
+
+double ShearedLine::place_of(const Triangle& t) const {
   constexpr double missed = std::numeric_limits<double>::infinity();
-  const Vec3 edge1 = t[1] - t[0], edge2 = t[2] - t[0], p = cross(direction, edge2);
-  const double determinant = dot(edge1, p);
-  if (determinant == 0) return missed;
-  const Vec3 s = point - t[0], q = cross(s, edge1);
-  const double u = dot(s, p) / determinant, v = dot(direction, q) / determinant;
-  const double away = dot(edge2, q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && away != 0 ? away : missed;
+  const std::array corners{sheared(t[0]), sheared(t[1]), sheared(t[2])};
+  std::array<double, 3> weights;
+  bool left = false, right = false;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &from = corners[(i + 1) % 3], &to = corners[(i + 2) % 3];
+    weights[i] = from.x * to.y - from.y * to.x;
+    // Rounding is monotone: the difference of two products has the right sign or none.
+    const int side =
+        weights[i] != 0 ? (weights[i] > 0 ? 1 : -1) : orient2d({0, 0}, {from.x, from.y}, {to.x, to.y});
+    left = left || side > 0;
+    right = right || side < 0;
+  }
+  if (left == right) return missed;
+  const double sum = weights[0] + weights[1] + weights[2];
+  // Where all weights are rounded to nothing the triangle is next to a line itself.
+  const double place =
+      sum != 0 ? (weights[0] * corners[0].z + weights[1] * corners[1].z + weights[2] * corners[2].z) / sum
+               : (corners[0].z + corners[1].z + corners[2].z) / 3;
+  return place != 0 ? place : missed;
 }
 
 TriangleTree::TriangleTree(std::vector<Triangle> triangles) {
@@ -117,10 +141,11 @@ void TriangleTree::keep_overlapping(Vec3 low, double edge, std::span<const std::
 bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {
   constexpr double missed = std::numeric_limits<double>::infinity();
   const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
+  const ShearedLine line(point, direction);
   bool odd = false;
   _tree.search([&](const Box& box) { return entry(box, point, inverse) < missed; },
                [&](std::int32_t place) {
-                 const double along = place_on_line(_triangles[place], point, direction);
+                 const double along = line.place_of(_triangles[place]);
                  if (along > 0 && along < missed) odd = !odd;
                });
   return odd;

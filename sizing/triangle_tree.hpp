@@ -24,9 +24,31 @@ LongestEdge longest_edge(const Triangle& t);
 /// The halves of a triangle, cut in the middle of the edge from that corner to the next one.
 std::array<Triangle, 2> bisect(const Triangle& t, int from);
 
-/// How far along the line a triangle is, negative behind the point; infinity where the line misses it or
-/// meets it in the point. The direction is a unit vector.
-double place_on_line(const Triangle& t, geometry::Vec3 point, geometry::Vec3 direction);
+/// A line that does not slip between triangles which share an edge or a corner: each corner is sheared by
+/// itself to where the line is the third axis, so those triangles have the same corners there too, and on
+/// which side of an edge the line is gets an exact sign. Woop, Benthin and Wald, J. Computer Graphics
+/// Techniques 2(1), 2013, https://jcgt.org/published/0002/01/05/.
+class ShearedLine {
+public:
+  /// The direction is a unit vector.
+  ShearedLine(geometry::Vec3 point, geometry::Vec3 direction);
+
+  /// How far along the line a triangle is, border included, negative behind the point; infinity where the
+  /// line misses it, meets it in the point, or lies in its plane.
+  double place_of(const Triangle& t) const;
+
+private:
+  geometry::Vec3 sheared(geometry::Vec3 p) const {
+    const geometry::Vec3 from = p - _point;
+    const double along = from[_axis];
+    return {from[_first] - _shear.x * along, from[_second] - _shear.y * along, _scale * along};
+  }
+
+  geometry::Vec3 _point;
+  int _axis, _first, _second;  // the one that the line runs along most, and the others
+  geometry::Vec2 _shear;
+  double _scale;
+};
 
 /// For estimates: floating point throughout, and the surface may have gaps of facets that do not match.
 class TriangleTree {

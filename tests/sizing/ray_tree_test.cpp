@@ -22,7 +22,7 @@ void add_pipe(Vec3 from, double radius, std::vector<Triangle>& triangles) {
              third = cross(axis, across);
   constexpr int facets = 24;
   const auto point = [&](int i, double along) {
-    const double turn = 2 * std::numbers::pi * i / facets;
+    const double turn = 2 * std::numbers::pi * (i % facets) / facets;
     return from + along * axis + radius * (std::cos(turn) * across + std::sin(turn) * third);
   };
   for (int i = 0; i < facets; ++i) {
@@ -57,8 +57,9 @@ TEST(RayTree, FindsWhatALineCrossesFirstAheadAndBehind) {
     const auto counts = [&](std::int32_t t) { return (t + i) % 3 > 0; };
     const auto found = search(p, direction, 4, counts);
     std::array<RayTree::Crossing, 2> expected{RayTree::Crossing{-1, 4}, RayTree::Crossing{-1, 4}};
+    const ShearedLine line(p, direction);
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles.size()); ++t) {
-      const double along = place_on_line(triangles[t], p, direction);
+      const double along = line.place_of(triangles[t]);
       RayTree::Crossing& side = expected[along > 0 ? 0 : 1];
       if (counts(t) && std::abs(along) < side.distance) side = {t, std::abs(along)};
     }
@@ -81,8 +82,8 @@ TEST(RayTree, LooksNoFartherThanTheFirstWall) {
     for (int j = 0; j < 20; ++j) add_pipe(0.3 * i * across + 0.3 * j * third, 0.1, triangles);
   }
   Search search{triangles};
-  // Not through the edges between facets, which rounding may miss.
-  const Vec3 direction = std::cos(0.06) * across + std::sin(0.06) * third;
+  // Through the edges between facets.
+  const Vec3 direction = across;
   const int rays = 1000;
   for (int i = 0; i < rays; ++i) {
     const Vec3 middle = 0.3 * (i % 20) * across + 0.3 * (i / 20 % 20) * third + (1 + 0.008 * i) * axis;
@@ -91,4 +92,37 @@ TEST(RayTree, LooksNoFartherThanTheFirstWall) {
     EXPECT_NEAR(found[1].distance, 0.1, 0.002);
   }
   EXPECT_LT(search.nodes, 400 * rays);
+}
+
+/// Rays from within a closed surface, through its edges and corners: each meets a wall on both sides.
+TEST(RayTree, NoLineSlipsThroughAnEdge) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Triangle> triangles;
+  constexpr int around = 24, along = 12;
+  const auto point = [&](int i, int j) {
+    const double turn = 2 * std::numbers::pi * (i % around) / around, fall = std::numbers::pi * j / along;
+    return Vec3{0.3, 0.1, -0.7} + 1.7 * Vec3{std::sin(fall) * std::cos(turn),
+                                             j == 0 || j == along ? 0 : std::sin(fall) * std::sin(turn),
+                                             std::cos(fall)};
+  };
+  const auto corner = [&](int i, int j) { return j == 0 || j == along ? point(0, j) : point(i, j); };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < along; ++j) {
+      if (j > 0) triangles.push_back({corner(i, j), corner(i, j + 1), corner(i + 1, j)});
+      if (j + 1 < along) triangles.push_back({corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)});
+    }
+  }
+  Search search{triangles};
+  int missed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 from = Vec3{0.3, 0.1, -0.7} + 0.5 * point_at_random(random);
+    const Triangle& t = triangles[random() % triangles.size()];
+    const double share = i % 4 == 0 ? 0 : uniform(random);
+    const Vec3 to = (1 - share) * t[i % 3] + share * t[(i + 1) % 3];
+    const auto found = search(from, normalized(to - from), 5, [](std::int32_t) { return true; });
+    for (const RayTree::Crossing& crossing : found) missed += crossing.triangle < 0;
+    EXPECT_NEAR(found[0].distance, distance(from, to), 1e-9);
+  }
+  EXPECT_EQ(missed, 0);
 }
