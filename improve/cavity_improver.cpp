@@ -181,7 +181,9 @@ std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavit
                                                            ImproveReport& report) {
   order_vertices(cavity);
   build_piece(cavity);
-  const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered);
+  ImproveOptions options = _options;
+  options.corner_trials = 0;  // were done piece by piece
+  const ImproveReport mine = improve_piece(_piece, options, _source, &_numbered);
   if (mine.smoothed + mine.slid + mine.swaps == 0 || is_worse_than(cavity)) return std::nullopt;
   report.add_changes(mine);
   return build_refilling(cavity);

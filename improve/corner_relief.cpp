@@ -21,12 +21,6 @@ double CornerRelief::bar_of(const TetMesh& mesh, double before) const {
   return std::min(before, _share * mesh.measure().target());
 }
 
-int count_boundary_faces(const TetMesh& mesh, LocalIndex t) {
-  int count = 0;
-  for (int face = 0; face < 4; ++face) count += is_triangle(mesh.mate(4 * t + face)) ? 1 : 0;
-  return count;
-}
-
 std::int64_t CornerRelief::run(TetMesh& mesh) {
   std::int64_t relieved = 0;
   for (int pass = 0; pass < passes; ++pass) {
@@ -38,17 +32,43 @@ std::int64_t CornerRelief::run(TetMesh& mesh) {
 }
 
 bool CornerRelief::relieve(TetMesh& mesh, LocalIndex t) {
-  _best.clear();
+  _found.clear();
+  find_swaps(mesh, t);
+  if (_found.empty()) find_new_vertices(mesh, t);
+  if (_found.empty()) return false;
+  sort_found();
+  apply(mesh, _found.front());
+  return true;
+}
+
+const std::vector<Relief>& CornerRelief::find(TetMesh& mesh, LocalIndex t) {
+  _found.clear();
+  find_swaps(mesh, t);
+  find_new_vertices(mesh, t);
+  sort_found();
+  return _found;
+}
+
+const std::vector<LocalIndex>& CornerRelief::apply(TetMesh& mesh, const Relief& relief) {
+  if (relief.place) mesh.add_vertex(*relief.place, mesh.corners(relief.cavity.old_tets.front())[0]);
+  mesh.replace(relief.cavity, _placed);
+  return _placed;
+}
+
+void CornerRelief::sort_found() {
+  std::stable_sort(_found.begin(), _found.end(),
+                   [](const Relief& a, const Relief& b) { return a.cavity.after > b.cavity.after; });
+}
+
+void CornerRelief::find_swaps(const TetMesh& mesh, LocalIndex t) {
   for (int face = 0; face < 4; ++face) swap_face(mesh, t, face);
   for (int edge = 0; edge < 6; ++edge) remove_edge(mesh, t, edge);
-  if (!_best.new_tets.empty()) {
-    mesh.replace(_best, _placed);
-    return true;
-  }
-  for (int edge = 0; edge < 6; ++edge) {
-    if (split_edge(mesh, t, edge)) return true;
-  }
-  return split_neighbourhood(mesh, t);
+}
+
+void CornerRelief::find_new_vertices(TetMesh& mesh, LocalIndex t) {
+  for (int edge = 0; edge < 6; ++edge) split_edge(mesh, t, edge);
+  split_neighbourhood(mesh, t);
+  fill_stars(mesh, t);
 }
 
 void CornerRelief::swap_face(const TetMesh& mesh, LocalIndex t, int face) {
@@ -80,15 +100,24 @@ void CornerRelief::consider(const TetMesh& mesh) {
   _trial.before = worst_of(mesh, _trial.old_tets);
   _trial.after = std::numeric_limits<double>::max();
   for (const Corners& c : _trial.new_tets) _trial.after = std::min(_trial.after, mesh.quality_of(c));
-  if (_trial.after > _best.after && is_good(mesh, _trial)) std::swap(_best, _trial);
+  if (is_good(mesh, _trial)) _found.push_back({_trial, {}});
+}
+
+/// The trial's new tetrahedra are the cones of a vertex, which starts from there.
+void CornerRelief::consider_vertex(TetMesh& mesh, Vec3 place) {
+  _trial.before = worst_of(mesh, _trial.old_tets);
+  _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));
+  if (_trial.after < bar_of(mesh, _trial.before)) return;
+  mesh.add_vertex(place, mesh.corners(_trial.old_tets.front())[0]);
+  if (is_good(mesh, _trial)) _found.push_back({_trial, place});
+  mesh.drop_last_vertex();
 }
 
 /// An interior edge gets a vertex where the worst tetrahedron around it is best.
-bool CornerRelief::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
+void CornerRelief::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
   if (!mesh.collect_edge_ring(t, edge, RingFilling::largest_ring, _edge_ring) || _edge_ring.ring.size() < 3)
-    return false;
+    return;
   const auto& [start, end, tets, ring] = _edge_ring;
-  Vec3 place = 0.5 * (mesh.point(start) + mesh.point(end));
   const LocalIndex middle = mesh.vertex_count();
   _trial.clear();
   _trial.old_tets = tets;
@@ -100,19 +129,10 @@ bool CornerRelief::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
       _cones.add(mesh.point(p), mesh.point(q), mesh.point(r));
     }
   }
-  _trial.before = worst_of(mesh, tets);
-  _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));
-  if (_trial.after < bar_of(mesh, _trial.before)) return false;
-  mesh.add_vertex(place, start);
-  if (!is_good(mesh, _trial)) {
-    mesh.drop_last_vertex();
-    return false;
-  }
-  mesh.replace(_trial, _placed);
-  return true;
+  consider_vertex(mesh, 0.5 * (mesh.point(start) + mesh.point(end)));
 }
 
-bool CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity) {
+void CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity) {
   const auto is_inside = [&](HalfFace side) {
     return side >= 0 && std::find(cavity.begin(), cavity.end(), side >> 2) != cavity.end();
   };
@@ -132,66 +152,41 @@ bool CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalInde
       _cones.add(mesh.point(p), mesh.point(q), mesh.point(r));
     }
   }
-  _trial.before = worst_of(mesh, cavity);
-  _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));
-  if (_trial.after < bar_of(mesh, _trial.before)) return false;
-  mesh.add_vertex(place, mesh.corners(cavity.front())[0]);
-  if (!is_good(mesh, _trial)) {
-    mesh.drop_last_vertex();
-    return false;
-  }
-  mesh.replace(_trial, _placed);
-  return true;
+  consider_vertex(mesh, place);
 }
 
-bool CornerRelief::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
-  std::array<LocalIndex, 4> beside;
-  int count = 0;
+void CornerRelief::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
+  _cavity.assign(1, t);
   for (int face = 0; face < 4; ++face) {
-    if (const HalfFace other = mesh.mate(4 * t + face); other >= 0) beside[count++] = other >> 2;
+    if (const HalfFace other = mesh.mate(4 * t + face); other >= 0) _cavity.push_back(other >> 2);
   }
-  for (int last = count; last >= 0; --last) {  // all neighbours, then each alone
-    _cavity = {t};
-    if (last == count)
-      _cavity.insert(_cavity.end(), beside.begin(), beside.begin() + count);
-    else
-      _cavity.push_back(beside[last]);
-    if (fill_around_vertex(mesh, _cavity)) return true;
-  }
-  return false;
+  const std::vector<LocalIndex> all = _cavity;
+  fill_around_vertex(mesh, all);
+  if (all.size() == 2) return;
+  for (std::size_t i = 1; i < all.size(); ++i) fill_around_vertex(mesh, {t, all[i]});
 }
 
-int CornerRelief::count_before(const TetMesh& mesh, const Replacement& cavity) {
-  int count = 0;
-  _sides.clear();
-  for (const LocalIndex t : cavity.old_tets) {
-    count += count_boundary_faces(mesh, t) > 1 ? 1 : 0;
-    const Corners& c = mesh.corners(t);
-    for (int face = 0; face < 4; ++face) {
-      const auto& corner = mesh::tetrahedron_faces[face];
-      if (is_triangle(mesh.mate(4 * t + face)))
-        _sides.push_back(sorted(c[corner[0]], c[corner[1]], c[corner[2]]));
+void CornerRelief::fill_stars(TetMesh& mesh, LocalIndex t) {
+  std::vector<LocalIndex> both;
+  const Corners corners = mesh.corners(t);
+  for (const auto& [i, k] : mesh::tetrahedron_edges) {
+    mesh.collect_star(corners[i], _cavity);
+    both = _cavity;
+    mesh.collect_star(corners[k], _cavity);
+    for (const LocalIndex other : _cavity) {
+      if (std::find(both.begin(), both.end(), other) == both.end()) both.push_back(other);
     }
+    fill_around_vertex(mesh, both);
   }
-  return count;
-}
-
-int CornerRelief::count_after(const Replacement& cavity) const {
-  const auto is_side = [&](const Corners& c, const auto& corner) {
-    return std::find(_sides.begin(), _sides.end(), sorted(c[corner[0]], c[corner[1]], c[corner[2]])) !=
-           _sides.end();
-  };
-  return static_cast<int>(
-      std::count_if(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
-        return std::count_if(std::begin(mesh::tetrahedron_faces), std::end(mesh::tetrahedron_faces),
-                             [&](const auto& corner) { return is_side(c, corner); }) > 1;
-      }));
+  for (const LocalIndex v : corners) {
+    mesh.collect_star(v, _cavity);
+    fill_around_vertex(mesh, _cavity);
+  }
 }
 
 bool CornerRelief::is_good(const TetMesh& mesh, const Replacement& cavity) {
   if (cavity.after < bar_of(mesh, cavity.before)) return false;
-  const int before = count_before(mesh, cavity);
-  return count_after(cavity) < before &&
+  return _corners.added_by(mesh, cavity) < 0 &&
          std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(),
                      [&](const Corners& c) { return mesh.is_positive(c); }) &&
          _limits.allow_sizes(mesh, cavity);

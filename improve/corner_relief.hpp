@@ -4,57 +4,70 @@
 #pragma once
 
 #include "improve/change_limits.hpp"
+#include "improve/corner_count.hpp"
 #include "improve/ring_filling.hpp"
 #include "improve/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace aeroloom::improve {
 
+/// A change that leaves fewer of them. With a place, the new tetrahedra share a vertex there, whose number is
+/// the mesh's vertex count.
+struct Relief {
+  Replacement cavity;
+  std::optional<Vec3> place;
+};
+
 /// For each such tetrahedron, by slot: a face between it and a neighbour gives way to an edge (2-3 swap), or
 /// the edge that is on neither triangle goes (edge removal), or gets a vertex, or the tetrahedron and its
-/// neighbours give way to those of a vertex between them. What leaves fewer of them, the best worst quality
-/// first, is done where no new tetrahedron is below a share of the target, or below the worst of those that
-/// go. Edges keep to sizes; the mean ratio may fall, which angles bound here. The boundary stays as it is.
+/// neighbours give way to those of a vertex between them. What leaves fewer of them is done where no new
+/// tetrahedron is below a share of the target, or below the worst of those that go. Edges keep to sizes; the
+/// mean ratio may fall, which angles bound here. The boundary stays as it is.
 class CornerRelief {
 public:
   /// `share`: of the target; below one where what gets worse is improved afterwards.
   explicit CornerRelief(const ChangeLimits& limits, double share = 1) : _limits(limits), _share(share) {}
 
-  /// Returns how many cavities were filled anew.
+  /// Does the best for each, without a new vertex where that is possible. Returns how many cavities were
+  /// filled anew.
   std::int64_t run(TetMesh& mesh);
+  /// All there are for one, the best worst quality first.
+  const std::vector<Relief>& find(TetMesh& mesh, LocalIndex t);
+  /// Returns the slots of the new tetrahedra.
+  const std::vector<LocalIndex>& apply(TetMesh& mesh, const Relief& relief);
 
 private:
   bool relieve(TetMesh& mesh, LocalIndex t);
+  void find_swaps(const TetMesh& mesh, LocalIndex t);
+  void find_new_vertices(TetMesh& mesh, LocalIndex t);
   void swap_face(const TetMesh& mesh, LocalIndex t, int face);
   void remove_edge(const TetMesh& mesh, LocalIndex t, int edge);
-  bool split_edge(TetMesh& mesh, LocalIndex t, int edge);
+  void split_edge(TetMesh& mesh, LocalIndex t, int edge);
   /// The cavity of these tetrahedra gets a vertex inside, that sees all its faces.
-  bool fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity);
-  bool split_neighbourhood(TetMesh& mesh, LocalIndex t);
-  /// Keeps the trial where it is better than what was found so far.
+  void fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity);
+  void split_neighbourhood(TetMesh& mesh, LocalIndex t);
+  /// So do those of the tetrahedra around one or two of the vertices.
+  void fill_stars(TetMesh& mesh, LocalIndex t);
+  void sort_found();
   void consider(const TetMesh& mesh);
+  void consider_vertex(TetMesh& mesh, Vec3 place);
   bool is_good(const TetMesh& mesh, const Replacement& cavity);
   /// What new tetrahedra must reach.
   double bar_of(const TetMesh& mesh, double before) const;
-  /// Of those with several faces on the boundary; leaves the faces in _sides.
-  int count_before(const TetMesh& mesh, const Replacement& cavity);
-  int count_after(const Replacement& cavity) const;
 
   const ChangeLimits& _limits;
   double _share;
   EdgeRing _edge_ring;
   RingFilling _filling;
   ConeOptimiser _cones;
-  Replacement _best, _trial;
-  std::vector<std::array<LocalIndex, 3>> _sides;  ///< on the boundary, of what goes
+  std::vector<Relief> _found;
+  Replacement _trial;
+  CornerCount _corners;
   std::vector<LocalIndex> _placed, _cavity;
 };
-
-/// How many faces of a tetrahedron are on the boundary.
-int count_boundary_faces(const TetMesh& mesh, LocalIndex t);
 
 }  // namespace aeroloom::improve

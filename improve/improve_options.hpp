@@ -18,6 +18,8 @@ struct ImproveOptions {
   int sweeps = 12;           ///< at most; ends earlier when sweeps gain little
   int relaxation = 1;        ///< passes of smoothing for the average (relaxation.hpp, border_relaxation.hpp)
   bool boundary_may_change = true;  ///< its triangles may flip and edges contract within one CAD face
+  int corner_trials = 20;  ///< changes tried, at most, where a tetrahedron in a corner of the boundary is
+                           ///< relieved only at the cost of angles around it (corner_trials.hpp)
   int shifted_rounds = 3;  ///< at most, across the borders of pieces; ends earlier when nothing is left
   /// Where one is missed afterwards, the stage works once more with its angle, at most 50 degrees, as the
   /// target, the least angle first.

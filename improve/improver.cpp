@@ -5,6 +5,7 @@
 #include "improve/border_relaxation.hpp"
 #include "improve/cavity_improver.hpp"
 #include "improve/corner_relief.hpp"
+#include "improve/corner_trials.hpp"
 #include "improve/relaxation.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
@@ -41,9 +42,7 @@ double expected_work(const mesh::Piece& piece, const TetQuality& measure) {
   return static_cast<double>(piece.cell_count()) + per_bad * static_cast<double>(bad);
 }
 
-/// Corners are relieved down to this share of the target, for so many sweeps to make it good. Less leaves
-/// fewer of them, and now and then a tetrahedron that no sweep mends.
-constexpr double sparing_share = 0.97;
+/// Sweeps over what misses the target once corners are relieved, which gives it other surroundings.
 constexpr int sweeps_after_relief = 3;
 
 }  // namespace
@@ -73,12 +72,13 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   Schedule schedule(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
   std::optional<Schedule> again;
-  if (const std::int64_t relieved = CornerRelief(limits, sparing_share).run(mesh); relieved > 0) {
+  if (const std::int64_t relieved = CornerRelief(limits).run(mesh); relieved > 0) {
     report.swaps += relieved;
     again.emplace(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
     again->run(sweeps_after_relief);
     report.swaps += CornerRelief(limits).run(mesh);
   }
+  report.swaps += CornerTrials(source.sizes, options.corner_trials, effort).run(mesh);
   report.smoothed += Relaxation().run(mesh, options.relaxation);
   const BadState after = examine(mesh);
   mesh.finish();

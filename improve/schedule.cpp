@@ -69,6 +69,14 @@ void Schedule::run(int sweeps) {
   }
 }
 
+void Schedule::follow_relief(const std::vector<LocalIndex>& fresh) {
+  std::fill(_attempt.begin(), _attempt.end(), _now);
+  std::fill(_attempt_means.begin(), _attempt_means.end(), Means::new_vertices);
+  for (const LocalIndex t : fresh) _attempt[t] = 0;
+  note_change(fresh, -1);
+  _corners.emplace();
+}
+
 Schedule::Sweep Schedule::sweep(Means means) {
   fill_queue();
   Sweep done{static_cast<std::int64_t>(_queue.size()), 0};
@@ -255,11 +263,12 @@ bool Schedule::reconnect(LocalIndex t) {
   return true;
 }
 
-bool Schedule::is_allowed(const Replacement& cavity) const {
+bool Schedule::is_allowed(const Replacement& cavity) {
   for (const Corners& c : cavity.new_tets) {
     if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
   }
-  return _reach.pays(_mesh, cavity) && _limits.allow(_mesh, cavity);
+  return _reach.pays(_mesh, cavity) && _limits.allow(_mesh, cavity) &&
+         (!_corners || _corners->added_by(_mesh, cavity) <= 0);
 }
 
 bool Schedule::apply(const Replacement& cavity) {

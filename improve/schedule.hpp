@@ -3,6 +3,7 @@
 
 #include "improve/boundary_flip.hpp"
 #include "improve/cavity_insertion.hpp"
+#include "improve/corner_count.hpp"
 #include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
@@ -28,6 +29,10 @@ public:
   Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, Effort effort = Effort::sparing,
            cad::PointLocator* locator = nullptr);
 
+  /// For a mesh that was improved already, but for these tetrahedra, which relieved a corner: others rest
+  /// until something around them changes, and no change brings more tetrahedra with several faces on the
+  /// boundary.
+  void follow_relief(const std::vector<LocalIndex>& fresh);
   /// At most `sweeps` sweeps; ends earlier when one gains hardly anything.
   void run(int sweeps);
   std::int64_t smoothed() const { return _smoothed; }
@@ -59,7 +64,7 @@ private:
   /// Whether `_trial` may be done, whose new vertex stands there.
   bool is_allowed_with_vertex(Vec3 position, LocalIndex beside);
   bool reconnect(LocalIndex t);
-  bool is_allowed(const Replacement& cavity) const;
+  bool is_allowed(const Replacement& cavity);
   bool apply(const Replacement& cavity);
   /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
   void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
@@ -81,6 +86,7 @@ private:
   FaceRemoval _face_removal;
   Smoothing _smoothing;
   std::optional<Sliding> _sliding;
+  std::optional<CornerCount> _corners;  ///< where their number must not rise
   EdgeContraction _contraction;
   CavityInsertion _insertion;
   SmallPolyhedron _polyhedron;

@@ -1,5 +1,6 @@
 #include "improve/corner_relief.hpp"
 
+#include "improve/corner_trials.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>
@@ -11,14 +12,15 @@ namespace aeroloom::improve {
 namespace {
 
 /// A cube of n^3 small ones, six tetrahedra each: along its edges some have two faces on the boundary.
-mesh::Piece six_in_each_cube(int n) {
+/// With a shear, two of its angles are smaller.
+mesh::Piece six_in_each_cube(int n, double shear = 0) {
   std::vector<Vec3> points;
   const auto at = [n](int i, int j, int k) {
     return static_cast<LocalIndex>((k * (n + 1) + j) * (n + 1) + i);
   };
   for (int k = 0; k <= n; ++k) {
     for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) points.push_back({double(i), double(j), double(k)});
+      for (int i = 0; i <= n; ++i) points.push_back({i + shear * j, double(j), double(k)});
     }
   }
   std::vector<LocalIndex> cells;
@@ -59,6 +61,54 @@ TEST(CornerRelief, LeavesFewWithSeveralFacesOnTheBoundary) {
   mesh.finish();
   EXPECT_NEAR(examples::volume(piece), 64, 1e-9);
   EXPECT_EQ(piece.boundary, triangles);
+}
+
+double worst_of(const TetMesh& mesh) {
+  double worst = 1;
+  for (LocalIndex t = 0; t < mesh.slot_count(); ++t)
+    worst = mesh.is_alive(t) ? std::min(worst, mesh.quality(t)) : worst;
+  return worst;
+}
+
+std::vector<double> boundary_points(const mesh::Piece& piece) {
+  std::vector<double> points;
+  for (const LocalIndex v : piece.boundary) {
+    const Vec3 p = piece.point(v);
+    points.insert(points.end(), {p.x, p.y, p.z});
+  }
+  return points;
+}
+
+/// What is relieved at the cost of angles is kept where they come back to what they were.
+TEST(CornerTrials, RelievesWhatNoSingleChangeDoes) {
+  mesh::Piece piece = six_in_each_cube(4, 0.4);
+  examples::close_boundary(piece);
+  const std::vector<double> triangles = boundary_points(piece);
+  TetMesh mesh(piece, TetQuality(32.6));
+  ASSERT_GE(worst_of(mesh), mesh.measure().target());
+  const ChangeLimits limits;
+  CornerRelief(limits).run(mesh);
+  const int before = count_in_corners(mesh);
+  ASSERT_GE(before, 10);
+  EXPECT_EQ(CornerTrials(nullptr, 0, Effort::sparing).run(mesh), 0);
+  EXPECT_GT(CornerTrials(nullptr, 20, Effort::sparing).run(mesh), 0);
+  EXPECT_LE(count_in_corners(mesh), before / 8);
+  EXPECT_GE(worst_of(mesh), mesh.measure().target());
+  mesh.finish();
+  EXPECT_NEAR(examples::volume(piece), 64, 1e-9);
+  EXPECT_EQ(boundary_points(piece), triangles);
+}
+
+/// Where two faces enclose less than twice the target, there is nothing to be tried, and no change is kept
+/// that leaves a tetrahedron worse than the worst before.
+TEST(CornerTrials, LeavesWhatIsForced) {
+  mesh::Piece piece = six_in_each_cube(4, -1.0);
+  examples::close_boundary(piece);
+  TetMesh mesh(piece, TetQuality(28));
+  const double worst = worst_of(mesh);
+  CornerTrials(nullptr, 20, Effort::sparing).run(mesh);
+  EXPECT_GT(count_in_corners(mesh), 0);
+  EXPECT_GE(worst_of(mesh), std::min(worst, mesh.measure().target()));
 }
 
 /// A single tetrahedron gives way to four around a vertex, unless its corners are too sharp for that.
