@@ -18,7 +18,7 @@ using parallel::Communicator;
 
 struct Tree {
   explicit Tree(const sizing::SizeField& field, const geometry::Box& box = fields::domain)
-      : frame(field, box), tree(Communicator::self(), frame, field, frame.grid_box(box), clock) {}
+      : frame(field, box), tree(Communicator::self(), frame, field, box, clock) {}
 
   /// A load for each block in the box, in proportion to its leaves, and a little chance.
   std::vector<double> loads(const geometry::Box& box = fields::domain) const {
