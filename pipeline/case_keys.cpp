@@ -83,7 +83,7 @@ void declare_volume(KeyTable& keys, Case& result) {
   keys.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"),
               "Distance of lattice points from the boundary. The default suits nearly every mesh.");
   keys.number("perturbation", result.volume.perturbation,
-              Range::between(0, 0.05, "mean edges of the lattice"),
+              Range::between(0, 0.01, "mean edges of the lattice"),
               "Perturbation of lattice points, which keeps them from lying on common spheres.");
   keys.number("halo", result.volume.halo, Range::between(0.5, 5, "largest sizes nearby"),
               "Width of what a zone knows around it. Zones with narrower ones may disagree, wider ones cost "

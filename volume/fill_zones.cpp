@@ -53,13 +53,6 @@ public:
   }
 
 private:
-  /// A core leaf beside a triangle of the border that a zone's mesh does not have.
-  struct LeavingLeaf {
-    LeafNumber leaf;
-    ZoneIndex zone;
-    static constexpr auto fields() { return std::tuple(&LeavingLeaf::leaf, &LeavingLeaf::zone); }
-  };
-
   // --- one round of filling
 
   void fill(ZonePlan plan) {

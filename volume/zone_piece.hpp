@@ -27,6 +27,13 @@ struct ZoneFace {
   }
 };
 
+/// A core leaf beside a triangle of the border that a zone's mesh does not have.
+struct LeavingLeaf {
+  LeafNumber leaf;
+  ZoneIndex zone;
+  static constexpr auto fields() { return std::tuple(&LeavingLeaf::leaf, &LeavingLeaf::zone); }
+};
+
 /// Where a piece meets the core.
 struct CoreSide {
   mesh::LocalIndex first_lattice = 0;  ///< the first vertex of the lattice

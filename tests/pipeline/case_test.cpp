@@ -223,7 +223,7 @@ TEST_F(CaseTest, ValuesOutOfRangeNameTheRange) {
       "case.yaml:2:22: 'volume.piece_tets' is 1e300, but must be at least 100 and at most 1e9 elements");
   EXPECT_EQ(
       error_of(transport + "volume: {perturbation: 0.1}\n"),
-      "case.yaml:2:24: 'volume.perturbation' is 0.1, but must be at least 0 and at most 0.05 mean edges of "
+      "case.yaml:2:24: 'volume.perturbation' is 0.1, but must be at least 0 and at most 0.01 mean edges of "
       "the lattice");
   EXPECT_EQ(
       error_of(transport + "volume: {halo: 0}\n"),

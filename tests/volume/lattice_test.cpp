@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -17,19 +16,6 @@ using geometry::Vec3;
 using parallel::Communicator;
 
 constexpr double root_size = sizing::grid_size;
-
-class Random {
-public:
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(_engine);
-  }
-  Vec3 in(const Box& box) {
-    return {between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};
-  }
-
-private:
-  std::mt19937_64 _engine{7};
-};
 
 // --- frame
 

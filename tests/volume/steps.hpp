@@ -7,6 +7,7 @@
 #include "volume/near_surface.hpp"
 #include "volume/volume_mesher.hpp"
 
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,6 +20,20 @@ protected:
   void SetUp() override {
     if (parallel::Communicator::world().size() > 1) GTEST_SKIP();
   }
+};
+
+/// Numbers by chance, the same each time.
+class Random {
+public:
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(_engine);
+  }
+  geometry::Vec3 in(const geometry::Box& box) {
+    return {between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};
+  }
+
+private:
+  std::mt19937_64 _engine{7};
 };
 
 /// A surface on its ranks, with sizes: what the stage starts from.
