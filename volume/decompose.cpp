@@ -74,9 +74,11 @@ void divide(const VolumeInput& input, Decomposition::Data& data, parallel::Stage
   const std::vector<double> loads = block_loads(data.table, data.counts, data.borders);
   const double of_shell = std::accumulate(loads.begin(), loads.end(), 0.0);
   data.report.expected_tetrahedra = of_shell + static_cast<double>(data.report.core_tetrahedra);
-  data.piece_tets =
-      input.options.piece_tets.value_or(partition::suitable_piece_tets(data.report.expected_tetrahedra));
-  const ZoneIndex count = wanted_zones(of_shell, data.piece_tets);
+  const auto suitable = [&](double tetrahedra) {
+    return input.options.piece_tets.value_or(partition::suitable_piece_tets(tetrahedra));
+  };
+  data.core_piece_tets = suitable(data.report.expected_tetrahedra);
+  const ZoneIndex count = wanted_zones(of_shell, suitable(of_shell));
   data.zones = std::make_unique<Zones>(bisect(*data.tree, loads, count));
   data.expected.assign(count, 0);
   for (BlockIndex b = 0; b < data.tree->block_count(); ++b) data.expected[data.zones->of(b, 0)] += loads[b];

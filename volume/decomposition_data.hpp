@@ -27,8 +27,8 @@ struct Decomposition::Data {
   std::vector<std::uint8_t> borders;    ///< per block: triangles of the core's border, 255 at most
   std::unique_ptr<const CoreSquares> squares;
   std::unique_ptr<Zones> zones;
-  std::vector<double> expected;  ///< tetrahedra per zone, without the core's
-  std::int64_t piece_tets = 0;   ///< wanted tetrahedra of a zone, and of a piece of the core
+  std::vector<double> expected;      ///< tetrahedra per zone, without the core's
+  std::int64_t core_piece_tets = 0;  ///< wanted tetrahedra of a piece of the core
   DecompositionReport report;
 
   // Of this rank's blocks.

@@ -353,7 +353,7 @@ private:
     const LatticeSource lattice = _data.source(_input);
     CoreMesh core = make_core(
         _communicator,
-        {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _finder, _data.piece_tets},
+        {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _finder, _data.core_piece_tets},
         _results, _clock);
     _report.tetrahedra = core.tetrahedra;
     _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
