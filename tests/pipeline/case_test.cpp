@@ -40,7 +40,7 @@ farfield: {shape: box, extent: 12.5}
 sizing: {minimum: 0.01, maximum: 1.5, surface_maximum: 0.5, curvature_angle: 15, growth: 1.2, target_tetrahedra: 2e6,
          feature_minimum: 0.002, chordal_deviation: 1e-4}
 surface: {piece_triangles: 1000, decomposition: faces}
-volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.02, halo: 2, inject: aborts, inject_zone: 3}
+volume: {piece_tets: 3e5, lattice_clearance: 0.5, perturbation: 0.008, halo: 2, inject: aborts, inject_zone: 3}
 improve: {enabled: false, target_angle: 18, sweeps: 3}
 output: {directory: out/a, log: verbose}
 )";
@@ -111,7 +111,7 @@ TEST_F(CaseTest, ReadsEveryKeyOfTheStages) {
   EXPECT_EQ(input.surface.decomposition, surface::SurfaceDecomposition::faces);
   EXPECT_EQ(input.volume.piece_tets, 300'000);
   EXPECT_EQ(input.volume.lattice_clearance, 0.5);
-  EXPECT_EQ(input.volume.perturbation, 0.02);
+  EXPECT_EQ(input.volume.perturbation, 0.008);
   EXPECT_EQ(input.volume.halo, 2);
   EXPECT_EQ(input.volume.sabotage, parallel::Sabotage::aborts);
   EXPECT_EQ(input.volume.sabotaged_zone, 3);

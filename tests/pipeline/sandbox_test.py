@@ -45,8 +45,8 @@ def main():
         code, text = run(program, folder, forbidden=False)
         assert code == 0 and json.loads(report.read_text())["mesh"]["hash"] == found, text
 
-        for crash, where in (("volume.inject=aborts", "stage volume, zone 1"), ("geometry.inject=aborts", "stage geometry, ")):
-            code, text = run(program, folder, "parallel.sandbox=none", crash, "volume.inject_zone=1")
+        for crash, where in (("volume.inject=aborts", "stage volume, zone 0"), ("geometry.inject=aborts", "stage geometry, ")):
+            code, text = run(program, folder, "parallel.sandbox=none", crash, "volume.inject_zone=0")
             assert code != 0 and f"error: {where}" in text and "crashed with SIGABRT" in text, text
 
 

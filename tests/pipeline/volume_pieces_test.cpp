@@ -32,7 +32,7 @@ Case pieces_case(const Folder& folder, const TopoDS_Shape& shape, double target,
 
 TEST(VolumePieces, AreOneMeshForAnyNumberOfRanks) {
   const Folder folder;
-  const Case input = pieces_case(folder, box_with_sphere(), 60'000, 4'000);
+  const Case input = pieces_case(folder, box_with_sphere(), 60'000, 2'500);
   std::string alone;
   const RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
@@ -67,7 +67,7 @@ TEST(VolumePieces, OfTwoRegionsKeepThemApart) {
   builder.MakeCompound(both);
   builder.Add(both, BRepAlgoAPI_Cut(block, rod).Shape());
   builder.Add(both, rod);
-  const Case input = pieces_case(folder, both, 40'000, 5'000);
+  const Case input = pieces_case(folder, both, 40'000, 3'000);
   std::string alone;
   const RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
