@@ -136,23 +136,39 @@ void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions) {
 
 namespace {
 
-/// What is said where a region does not have the volume of the CAD's; a far field may be coarse.
-std::string missed_volume(const QualityGate& gate, const RunRecord& record) {
+/// What is said of a region that does not have the volume of the CAD's.
+std::string describe_missed_volume(const RegionRow& region, double most, const RunRecord& record) {
+  return fmt::format(
+      "region '{}' has a volume of {:.6g}, in the CAD {:.6g}, {:.3g} of it apart, not {:g} at most; remedy: "
+      "smaller sizes (sizing.minimum {:.3g} and sizing.surface_maximum {:.3g} were used)",
+      region.name, region.volume, region.cad_volume, std::abs(region.volume / region.cad_volume - 1), most,
+      record.sizes.minimum, record.sizes.surface_maximum);
+}
+
+/// Whether a region is so few of the smallest elements wide that these explain what it misses: the square of
+/// their share of its breadth, as chords of arcs do.
+bool is_coarse(const RegionRow& region, double deviation, const RunRecord& record) {
+  const double chord = record.sizes.minimum / std::cbrt(region.cad_volume);
+  return deviation <= chord * chord;
+}
+
+/// The region that misses the volume of the CAD's most, among those that are coarse or among the others; a
+/// far field may be coarse.
+const RegionRow* most_missed(const QualityGate& gate, const RunRecord& record, bool coarse) {
   const RegionRow* worst = nullptr;
   double most = gate.area_deviation;
   for (const RegionRow& region : record.regions_filled) {
     if (region.in_far_field || region.cad_volume <= 0) continue;
     const double deviation = std::abs(region.volume / region.cad_volume - 1);
-    if (deviation > most) most = deviation, worst = &region;
+    if (deviation > most && is_coarse(region, deviation, record) == coarse) most = deviation, worst = &region;
   }
+  return worst;
+}
+
+std::string missed_volume(const QualityGate& gate, const RunRecord& record) {
+  const RegionRow* worst = most_missed(gate, record, false);
   if (worst == nullptr) return {};
-  return fmt::format(
-      "improve.gate.area_deviation: region '{}' has a volume of {:.6g}, in the CAD {:.6g}, {:.3g} of it "
-      "apart, not "
-      "{:g} at most; remedy: smaller sizes (sizing.minimum {:.3g} and sizing.surface_maximum {:.3g} were "
-      "used)",
-      worst->name, worst->volume, worst->cad_volume, most, gate.area_deviation, record.sizes.minimum,
-      record.sizes.surface_maximum);
+  return "improve.gate.area_deviation: " + describe_missed_volume(*worst, gate.area_deviation, record);
 }
 
 /// What is said where the walls do not have the area of the CAD; empty where they have, or there is none.
@@ -179,6 +195,13 @@ std::string missed_area(const QualityGate& gate, const RunRecord& record) {
 }
 
 }  // namespace
+
+std::string coarse_region(const QualityGate& gate, const RunRecord& record) {
+  const RegionRow* region = most_missed(gate, record, true);
+  if (region == nullptr) return {};
+  return describe_missed_volume(*region, gate.area_deviation, record) +
+         "; it is a few of the smallest elements wide";
+}
 
 void require_quality(const QualityGate& gate, const RunRecord& record) {
   std::string missed =

@@ -34,6 +34,9 @@ void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions);
 std::vector<PatchRow> table_of_patches(const parallel::Communicator& communicator,
                                        const mesh::DistributedMesh& volume);
 
+/// What is to be warned of: a region that misses the volume of the CAD's by more than the gate allows, but is
+/// so few of the smallest elements wide that these explain it. Empty where there is none.
+std::string coarse_region(const QualityGate& gate, const RunRecord& record);
 /// Throws StageFailure when the finished mesh misses the limits.
 void require_quality(const QualityGate& gate, const RunRecord& record);
 

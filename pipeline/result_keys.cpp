@@ -39,7 +39,7 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
   keys.number("area_deviation", gate.area_deviation, Range::between(0, 1),
               "By which share the area of all walls, and the volume of a region without far field, may miss "
               "that of the CAD: more means that elements are too large for the body, or the unit is "
-              "another.");
+              "another. Of a region that is a few of the smallest elements wide it is a warning.");
 }
 
 void declare_improve(KeyTable& keys, Case& result) {

@@ -351,7 +351,11 @@ private:
              const FinishedSurface& surface) {
     const SurfaceView view{surface.mesh, surface.numbering};
     write_outputs(_communicator, volume, numbering, &view, _input.output);
-    if (_communicator.is_root()) warn_of_units(_record, _input.output);
+    if (_communicator.is_root()) {
+      warn_of_units(_record, _input.output);
+      if (const std::string coarse = coarse_region(_input.gate, _record); !coarse.empty())
+        parallel::log_warning("quality gate: " + coarse);
+    }
   }
 
   const Communicator& _communicator;

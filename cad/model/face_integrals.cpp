@@ -126,8 +126,11 @@ private:
     integrate(_across, [&](double u, double width) {
       const SurfaceJet jet = _surface.jet({u, to.y}, 1);
       const Vec3 normal = cross(jet.du, jet.dv);
+      const Vec3 at = jet.point - _reference;
       _sums.area += weight * width * norm(normal);
-      _sums.flux += weight * width * dot(jet.point - _reference, normal) / 3;
+      _sums.flux += weight * width * dot(at, normal) / 3;
+      _sums.area_vector += weight * width * normal;
+      _sums.moment += weight * width * norm(normal) * at;
     });
   }
 

@@ -10,7 +10,9 @@ namespace aeroloom::cad {
 /// What a face turned forward (its normal along du x dv) adds up to.
 struct FaceIntegrals {
   double area = 0;
-  double flux = 0;  ///< a third of the flux of the position seen from the reference point: a volume
+  double flux = 0;   ///< a third of the flux of the position seen from the reference point: a volume
+  Vec3 area_vector;  ///< of the normal: what the flux seen from elsewhere differs by
+  Vec3 moment;       ///< of the position seen from the reference point: by the area, the face's centre
 };
 
 /// By Green's theorem from the parameter curves of the face's edges, all of the surface's range where it has

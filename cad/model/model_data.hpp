@@ -95,6 +95,7 @@ struct FaceEvaluator {
   std::vector<UseCurve> uses;  ///< by (edge, use)
   mutable double area = -1;    ///< computed on demand, and with it
   mutable double flux = 0;     ///< what it adds to a volume it bounds, seen from the middle of the model
+  mutable Vec3 area_vector, moment;  ///< FaceIntegrals, likewise
   mutable std::shared_ptr<const KeptFacets> kept;
 
   const UseCurve& use(const EdgeUse& wanted) const;

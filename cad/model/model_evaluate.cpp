@@ -274,13 +274,26 @@ double Model::face_area(FaceId id) const {
 
 double Model::region_volume(RegionId id) const {
   if (const JoinedFaces* joined = _data->joined.get()) return joined->base.region_volume(id);
+  // Seen from the middle of the region: from far off, what integrals lack is a part of areas times distances,
+  // which may be more than the volume of a small region.
+  Vec3 middle;
+  double area = 0;
+  for (FaceId f = 0; f < face_count(); ++f) {
+    const Face& face = _data->faces[f];
+    if (face.front != id && face.back != id) continue;
+    const FaceEvaluator& evaluator = _data->integrated(f);
+    middle += evaluator.moment;
+    area += evaluator.area;
+  }
+  if (area > 0) middle = middle / area;
   double volume = 0;
   for (FaceId f = 0; f < face_count(); ++f) {
     const Face& face = _data->faces[f];
     if (face.front != id && face.back != id) continue;
     const FaceEvaluator& evaluator = _data->integrated(f);
+    const double flux = evaluator.flux - dot(middle, evaluator.area_vector) / 3;
     // The flux is along du x dv; the normal points out of the front region.
-    const double out_of_front = evaluator.reversed ? -evaluator.flux : evaluator.flux;
+    const double out_of_front = evaluator.reversed ? -flux : flux;
     if (face.front == id) volume += out_of_front;
     if (face.back == id) volume -= out_of_front;
   }
@@ -293,6 +306,8 @@ const FaceEvaluator& Model::Data::integrated(FaceId id) const {
   guarded("integrating the area of " + describe_face(id), [&] {
     const FaceIntegrals found = integrate_face(face.shape, face.surface, bounds.center());
     face.flux = found.flux;
+    face.area_vector = found.area_vector;
+    face.moment = (found.area < 0 ? -1.0 : 1.0) * found.moment;
     face.area = std::abs(found.area);
   });
   return face;

@@ -2,6 +2,7 @@
 
 #include "cad_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +13,9 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <TopoDS_Compound.hxx>
 #include <gp_Ax2.hxx>
 #include <gtest/gtest.h>
 
@@ -79,6 +82,26 @@ TEST(FaceIntegrals, OfFaceWithoutEdgesAreOfItsWholeSurface) {
   TopoDS_Face bare;
   BRep_Builder().MakeFace(bare, BRep_Tool::Surface(sphere), 1e-7);
   EXPECT_NEAR(integrate_face(bare, SurfaceEvaluator(BRep_Tool::Surface(bare)), anywhere).area, 16 * pi, 1e-6);
+}
+
+/// What integrals lack counts by the distance from which the region is seen.
+TEST(RegionVolume, OfASmallRegionFarFromTheOthersIsPrecise) {
+  const TopoDS_Shape half =
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(0.01, 0.004).Shape(),
+                      BRepPrimAPI_MakeBox(gp_Pnt(-1, -1, -1), gp_Pnt(1, 0.003, 1)).Shape())
+          .Shape();
+  const TopoDS_Shape splines = BRepBuilderAPI_NurbsConvert(half).Shape();
+  gp_Trsf far;
+  far.SetTranslation(gp_Vec(40, 0, 0));
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(1, 1, 1).Shape());
+  builder.Add(both, splines.Moved(TopLoc_Location(far)));
+  const Model alone = shapes::prepare_fluid(splines).model, among = shapes::prepare_fluid(both).model;
+  ASSERT_EQ(among.region_count(), 2);
+  const double expected = alone.region_volume(0);
+  EXPECT_NEAR(std::min(among.region_volume(0), among.region_volume(1)), expected, 2e-3 * expected);
 }
 
 }  // namespace

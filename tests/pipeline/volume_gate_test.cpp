@@ -1,0 +1,35 @@
+/// The gate of volumes: a region is what it is in the CAD, or a few elements wide.
+#include "pipeline/finished_volume.hpp"
+#include "pipeline/run.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::pipeline {
+namespace {
+
+RunRecord with_region(double volume, double cad_volume) {
+  RunRecord record;
+  record.quality = mesh::QualitySummary{};
+  record.sizes.minimum = 0.1;
+  record.regions_filled.push_back({.name = "tank", .volume = volume, .cad_volume = cad_volume});
+  return record;
+}
+
+TEST(VolumeGate, RefusesRegionsOfAnotherVolume) {
+  const QualityGate gate;
+  EXPECT_NO_THROW(require_quality(gate, with_region(0.95, 1)));
+  EXPECT_THROW(require_quality(gate, with_region(0.85, 1)), StageFailure);
+  EXPECT_TRUE(coarse_region(gate, with_region(0.85, 1)).empty());
+}
+
+TEST(VolumeGate, WarnsOfRegionsAFewElementsWide) {
+  const QualityGate gate;
+  const double few = 0.2 * 0.2 * 0.2;
+  EXPECT_NO_THROW(require_quality(gate, with_region(0.85 * few, few)));
+  EXPECT_NE(coarse_region(gate, with_region(0.85 * few, few)).find("'tank'"), std::string::npos);
+  EXPECT_TRUE(coarse_region(gate, with_region(0.95 * few, few)).empty());
+  EXPECT_THROW(require_quality(gate, with_region(0.7 * few, few)), StageFailure);
+}
+
+}  // namespace
+}  // namespace aeroloom::pipeline
