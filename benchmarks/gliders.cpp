@@ -60,16 +60,6 @@ private:
   std::uint64_t _state;
 };
 
-TopoDS_Solid close(const std::vector<TopoDS_Face>& faces) {
-  BRepBuilderAPI_Sewing sewing(1e-7);
-  for (const TopoDS_Face& face : faces) sewing.Add(face);
-  sewing.Perform();
-  if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) throw std::runtime_error("the faces do not close");
-  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
-  BRepLib::OrientClosedSolid(solid);
-  return solid;
-}
-
 /// With a sharp trailing edge.
 TopoDS_Face cap(const Section& section) {
   BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
@@ -81,7 +71,7 @@ TopoDS_Solid wing(const Section& root, const Section& tip) {
   const auto side = [&](double sign) {
     return BRepBuilderAPI_MakeFace(GeomFill::Surface(side_of(root, sign), side_of(tip, sign)), 1e-9).Face();
   };
-  return close({side(1), side(-1), cap(root), cap(tip)});
+  return solid_of({side(1), side(-1), cap(root), cap(tip)}, 1e-7);
 }
 
 /// The half wing turned about the x axis by an angle, degrees, about the span by another, and moved.

@@ -3,11 +3,19 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <vector>
 
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Solid.hxx>
 #include <gp_Pnt.hxx>
 
 namespace aeroloom::wings {
@@ -45,6 +53,17 @@ inline Handle(Geom_BSplineCurve) side_of(const Section& section, double sign) {
   GeomAPI_Interpolate interpolate(points, parameters, Standard_False, 1e-9);
   interpolate.Perform();
   return interpolate.Curve();
+}
+
+/// The solid inside of faces whose edges are less than `tolerance` apart.
+inline TopoDS_Solid solid_of(const std::vector<TopoDS_Face>& faces, double tolerance) {
+  BRepBuilderAPI_Sewing sewing(tolerance);
+  for (const TopoDS_Face& face : faces) sewing.Add(face);
+  sewing.Perform();
+  if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) throw std::runtime_error("the faces do not close");
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
 }
 
 }  // namespace aeroloom::wings

@@ -61,16 +61,6 @@ std::vector<TopoDS_Face> faces_between(const Section& root, const Section& tip) 
           cap(tip), trailing_edge(root, tip)};
 }
 
-TopoDS_Solid solid_of(const std::vector<TopoDS_Face>& faces) {
-  BRepBuilderAPI_Sewing sewing(1e-6);
-  for (const TopoDS_Face& face : faces) sewing.Add(face);
-  sewing.Perform();
-  if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) throw std::runtime_error("the faces do not close");
-  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
-  BRepLib::OrientClosedSolid(solid);
-  return solid;
-}
-
 /// IGES as many programs write it: surfaces trimmed one by one.
 void write_separate(const std::vector<TopoDS_Face>& faces, const char* file) {
   IGESControl_Writer writer("MM", 0);
@@ -81,7 +71,7 @@ void write_separate(const std::vector<TopoDS_Face>& faces, const char* file) {
 
 void write_solid(const std::vector<TopoDS_Face>& faces, const char* file) {
   STEPControl_Writer writer;
-  writer.Transfer(solid_of(faces), STEPControl_AsIs);
+  writer.Transfer(solid_of(faces, 1e-6), STEPControl_AsIs);
   if (writer.Write(file) != IFSelect_RetDone) throw std::runtime_error("the file cannot be written");
 }
 
