@@ -7,7 +7,6 @@
 #include <numbers>
 
 namespace aeroloom::improve {
-namespace {
 
 using mesh::LocalIndex;
 using mesh::Piece;
@@ -16,8 +15,6 @@ std::array<geometry::Vec3, 4> points_of(const Piece& piece, LocalIndex cell) {
   const LocalIndex* c = piece.cell(cell);
   return {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
 }
-
-}  // namespace
 
 double quality_of(const Piece& piece, LocalIndex cell, const TetQuality& measure) {
   const auto p = points_of(piece, cell);

@@ -31,6 +31,8 @@ private:
   double _bound = 2;
 };
 
+std::array<geometry::Vec3, 4> points_of(const mesh::Piece& piece, mesh::LocalIndex cell);
+
 /// The quality of a piece's cell.
 double quality_of(const mesh::Piece& piece, mesh::LocalIndex cell, const TetQuality& measure);
 

@@ -67,6 +67,44 @@ TEST(ImproveMesh, OnlyLooksWhenDisabled) {
   EXPECT_EQ(mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh)), hash);
 }
 
+TEST(ImproveMesh, LeavesALatticeAsItIs) {
+  const auto self = parallel::Communicator::self();
+  constexpr int n = 8, low = 2, high = 6;
+  mesh::examples::WholeMesh whole = mesh::examples::whole_cube(n, 1);
+  // The second piece is off the boundary.
+  const auto is_inside = [&](int v) {
+    const geometry::Vec3 p = n * whole.points[v];
+    const auto within = [](double t) { return t > low - 0.5 && t < high + 0.5; };
+    return within(p.x) && within(p.y) && within(p.z);
+  };
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    const std::vector<int>& cell = whole.cells[c];
+    whole.piece_of_cell[c] = std::all_of(cell.begin(), cell.end(), is_inside);
+  }
+  const DistributedMesh before = mesh::examples::distribute(self, whole, 2);
+  ASSERT_EQ(before.pieces[1].boundary_count(), 0);
+  ASSERT_EQ(examine({before.pieces[1]}, 33).bad, 0);
+  const auto moved_inside = [&](double target) {
+    DistributedMesh mesh = before;
+    ImproveOptions options;
+    options.target_angle = target;
+    parallel::StageClock clock;
+    const ImproveReport report = improve_mesh(self, mesh, options, clock);
+    EXPECT_EQ(report.min_angle_before, examine(before.pieces, target).angle);
+    expect_valid(self, mesh);
+    int moved = 0;
+    const mesh::Piece &was = before.pieces[1], &is = mesh.pieces[1];
+    for (mesh::LocalIndex v = 0; v < was.vertex_count(); ++v) {
+      const bool shared = std::count(was.shared_vertices.begin(), was.shared_vertices.end(), v) > 0;
+      moved += !shared && !(was.point(v) == is.point(v));
+    }
+    EXPECT_NE(mesh.pieces[0].coordinates, before.pieces[0].coordinates);
+    return moved;
+  };
+  EXPECT_EQ(moved_inside(28), 0);
+  EXPECT_GT(moved_inside(34), 0) << "a lattice does not promise that";
+}
+
 TEST(ImproveMesh, WorksOnAFewRanksWithoutPieces) {
   const auto world = parallel::Communicator::world();
   DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(4, 1, 10, 6), 1);
