@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -130,16 +131,67 @@ Piece make_piece(const Naming& naming, RegionId region, std::span<const Numbered
   return piece;
 }
 
+/// Running numbers met lately and what they stand for: cells next to each other on the curve share most.
+class RecentNumbers {
+public:
+  /// What `find(number)` gives, if not asked for lately.
+  template <class Find>
+  LocalIndex operator()(std::int64_t number, const Find& find) {
+    Slot& slot = _slots[static_cast<std::size_t>(number) % slot_count];
+    if (slot.number != number) slot = {number, find(number)};
+    return slot.local;
+  }
+
+private:
+  static constexpr std::size_t slot_count = 1 << 12;
+  struct Slot {
+    std::int64_t number = -1;
+    LocalIndex local = -1;
+  };
+  std::vector<Slot> _slots = std::vector<Slot>(slot_count);
+};
+
+/// Which vertices have a face that is there once.
+std::vector<std::uint8_t> find_open_vertices(std::vector<LocalTriangle> faces, LocalIndex vertex_count) {
+  // By the lowest vertex; the other two in one number.
+  std::vector<std::int64_t> starts(static_cast<std::size_t>(vertex_count) + 1, 0);
+  for (LocalTriangle& face : faces) {
+    std::sort(face.begin(), face.end());
+    ++starts[face[0] + 1];
+  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::uint64_t> others(faces.size());
+  std::vector<std::int64_t> next(starts.begin(), starts.end() - 1);
+  for (const LocalTriangle& face : faces)
+    others[next[face[0]]++] = static_cast<std::uint64_t>(face[1]) << 32 | static_cast<std::uint32_t>(face[2]);
+  std::vector<std::uint8_t> open(vertex_count, 0);
+  for (LocalIndex v = 0; v < vertex_count; ++v) {
+    const auto first = others.begin() + starts[v], last = others.begin() + starts[v + 1];
+    std::sort(first, last);
+    for (auto at = first; at != last;) {
+      const auto end = std::find_if(at, last, [&](std::uint64_t other) { return other != *at; });
+      if (end - at == 1) open[v] = open[*at >> 32] = open[static_cast<std::uint32_t>(*at)] = 1;
+      at = end;
+    }
+  }
+  return open;
+}
+
 /// Adds cells of the core to a zone's piece. What does not meet a face there is known elsewhere.
 void extend_piece(const Naming& naming, std::span<const Parcel> cells, CoreSide& side, Piece& piece) {
-  std::vector<std::int64_t> added;
   const auto find = [](const std::vector<std::int64_t>& numbers, std::int64_t n) {
     const auto at = std::lower_bound(numbers.begin(), numbers.end(), n);
     return at != numbers.end() && *at == n ? static_cast<LocalIndex>(at - numbers.begin()) : -1;
   };
+  std::vector<std::int64_t> added;
+  RecentNumbers met;
   for (const Parcel& cell : cells) {
     for (const std::int64_t n : cell.points) {
-      if (find(side.lattice, n) < 0) added.push_back(n);
+      met(n, [&](std::int64_t number) {
+        const LocalIndex known = find(side.lattice, number);
+        if (known < 0) added.push_back(number);
+        return known;
+      });
     }
   }
   std::sort(added.begin(), added.end());
@@ -151,24 +203,16 @@ void extend_piece(const Naming& naming, std::span<const Parcel> cells, CoreSide&
     return known >= 0 ? side.first_lattice + known : first_added + find(added, n);
   };
   std::vector<LocalTriangle> faces = std::move(side.borders);
+  faces.reserve(faces.size() + 4 * cells.size());
+  RecentNumbers locals;
   for (const Parcel& parcel : cells) {
     std::array<LocalIndex, 4> cell;
-    for (int k = 0; k < 4; ++k) cell[k] = local_of(parcel.points[k]);
+    for (int k = 0; k < 4; ++k) cell[k] = locals(parcel.points[k], local_of);
     add_cell(cell, piece);
     for (const auto& corners : mesh::tetrahedron_faces)
       faces.push_back({cell[corners[0]], cell[corners[1]], cell[corners[2]]});
   }
-  for (LocalTriangle& face : faces) std::sort(face.begin(), face.end());
-  std::sort(faces.begin(), faces.end());
-  std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
-  for (std::size_t i = 0; i < faces.size();) {
-    std::size_t next = i + 1;
-    while (next < faces.size() && faces[next] == faces[i]) ++next;
-    if (next - i == 1) {
-      for (const LocalIndex v : faces[i]) shared[v] = 1;
-    }
-    i = next;
-  }
+  const std::vector<std::uint8_t> shared = find_open_vertices(std::move(faces), piece.vertex_count());
   std::vector<LocalIndex> vertices;
   std::vector<mesh::SharedToken> tokens;
   std::size_t known = 0;

@@ -3,6 +3,8 @@
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -57,31 +59,62 @@ LocalTriangle sorted(LocalTriangle t) {
   return t;
 }
 
-/// Makes faces of the mesh that are triangles of the core's border known as such.
-void look_up_borders(const ZoneProblem& problem, const Bounds& bounds, TetgenMesh& mesh) {
-  if (problem.borders.empty()) return;
+/// The triangles of the core's border by their lowest vertex, a few each.
+class BorderTable {
+public:
+  explicit BorderTable(const ZoneProblem& problem) : _starts(problem.points.size() + 1, 0) {
+    for (const LocalTriangle& t : problem.borders) ++_starts[*std::min_element(t.begin(), t.end()) + 1];
+    std::partial_sum(_starts.begin(), _starts.end(), _starts.begin());
+    _triangles.resize(problem.borders.size());
+    std::vector<std::int32_t> next(_starts.begin(), _starts.end() - 1);
+    for (std::size_t t = 0; t < problem.borders.size(); ++t) {
+      const LocalTriangle vertices = sorted(problem.borders[t]);
+      _triangles[next[vertices[0]]++] = {vertices, static_cast<std::int32_t>(t)};
+    }
+  }
+
+  /// The one with these vertices, -1 where there is none.
+  std::int32_t find(const LocalTriangle& t) const {
+    const LocalTriangle vertices = sorted(t);
+    for (std::int32_t i = _starts[vertices[0]]; i < _starts[vertices[0] + 1]; ++i) {
+      if (_triangles[i].vertices == vertices) return _triangles[i].triangle;
+    }
+    return -1;
+  }
+
+private:
   struct Known {
     LocalTriangle vertices;
     std::int32_t triangle;
-    bool operator<(const Known& other) const { return vertices < other.vertices; }
   };
-  std::vector<Known> known;
-  known.reserve(problem.borders.size());
-  for (const LocalTriangle& t : problem.borders)
-    known.push_back({sorted(t), static_cast<std::int32_t>(problem.triangles.size() + known.size())});
-  std::sort(known.begin(), known.end());
-  const std::vector<std::uint8_t> at_border = bounds.at_border();
-  const auto stands_there = [&](LocalIndex v) {
-    return static_cast<std::size_t>(v) < at_border.size() && at_border[v] != 0;
-  };
+  std::vector<std::int32_t> _starts;
+  std::vector<Known> _triangles;
+};
+
+/// Makes faces of the mesh that are triangles of the core's border known as such.
+void look_up_borders(const ZoneProblem& problem, const Bounds& bounds, TetgenMesh& mesh) {
+  if (problem.borders.empty()) return;
+  const BorderTable known(problem);
+  // Vertices that TetGen added stand nowhere near.
+  std::vector<std::uint8_t> stands_there = bounds.at_border();
+  for (const LocalCell& cell : mesh.cells) {
+    for (const LocalIndex v : cell) {
+      if (static_cast<std::size_t>(v) >= stands_there.size()) stands_there.resize(v + 1, 0);
+    }
+  }
+  const auto first = static_cast<std::int32_t>(problem.triangles.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const LocalCell& cell = mesh.cells[c];
-    if (std::count_if(cell.begin(), cell.end(), stands_there) < 3) continue;
+    std::array<int, 4> there;
+    for (int k = 0; k < 4; ++k) there[k] = stands_there[cell[k]];
+    const int count = there[0] + there[1] + there[2] + there[3];
+    if (count < 3) continue;
     for (int face = 0; face < 4; ++face) {
-      const LocalTriangle t = face_of(cell, face);
-      if (mesh.neighbours[c][face] <= -2 || !std::all_of(t.begin(), t.end(), stands_there)) continue;
-      const auto at = std::lower_bound(known.begin(), known.end(), Known{sorted(t), 0});
-      if (at != known.end() && at->vertices == sorted(t)) mesh.neighbours[c][face] = -2 - at->triangle;
+      const int* corner = mesh::tetrahedron_faces[face];
+      if (mesh.neighbours[c][face] <= -2 || there[corner[0]] + there[corner[1]] + there[corner[2]] < 3)
+        continue;
+      const std::int32_t triangle = known.find(face_of(cell, face));
+      if (triangle >= 0) mesh.neighbours[c][face] = -2 - first - triangle;
     }
   }
 }
