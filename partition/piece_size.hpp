@@ -7,11 +7,11 @@
 
 namespace aeroloom::partition {
 
-/// A sixteenth of so many tetrahedra: two pieces for each of eight ranks. No fewer than 40,000: around
-/// smaller pieces halos and borders cost as much as the pieces; no more than 500,000, for the memory of one
-/// filling.
+/// A sixty-fourth of so many tetrahedra: two pieces for each of 32 ranks. No fewer than 40,000: around
+/// smaller pieces halos and borders cost half as much as the pieces; no more than 170,000: a billion, a third
+/// of it filled by zones, has four zones for each of 512 ranks then.
 inline std::int64_t suitable_piece_tets(double tetrahedra) {
-  constexpr double usual_pieces = 16, least = 40'000, most = 500'000;
+  constexpr double usual_pieces = 64, least = 40'000, most = 170'000;
   return std::llround(std::clamp(tetrahedra / usual_pieces, least, most));
 }
 

@@ -79,7 +79,7 @@ void declare_volume(KeyTable& keys, Case& result) {
   keys.integer("piece_tets", result.volume.piece_tets, Range::between(100, 1e9, "elements"),
                {"Wanted tetrahedra of a piece of the volume; a volume of more than one and a half pieces is "
                 "filled in [zones](volume_decomposition.md).",
-                "a sixteenth of all, 40,000 to 500,000", "200000"});
+                "a sixty-fourth of all, 40,000 to 170,000", "200000"});
   keys.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"),
               "Distance of lattice points from the boundary. The default suits nearly every mesh.");
   keys.number("perturbation", result.volume.perturbation,

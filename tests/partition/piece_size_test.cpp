@@ -5,14 +5,14 @@
 namespace aeroloom::partition {
 namespace {
 
-TEST(PieceSize, GivesEightRanksTwoPiecesEachAtAMillion) {
-  EXPECT_EQ(suitable_piece_tets(1'000'000), 62'500);
-  EXPECT_EQ(suitable_piece_tets(3'200'000), 200'000);
+TEST(PieceSize, GivesThirtyTwoRanksTwoPiecesEach) {
+  EXPECT_EQ(suitable_piece_tets(6'400'000), 100'000);
+  EXPECT_EQ(suitable_piece_tets(9'600'000), 150'000);
 }
 
 TEST(PieceSize, StaysWithinWhatPays) {
   EXPECT_EQ(suitable_piece_tets(1000), 40'000);
-  EXPECT_EQ(suitable_piece_tets(1e8), 500'000);
+  EXPECT_EQ(suitable_piece_tets(1e8), 170'000);
 }
 
 }  // namespace
