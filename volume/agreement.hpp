@@ -1,4 +1,4 @@
-/// Whether zones fit together, and where they do not; what is done about it is in fill_zones.cpp.
+/// Whether zones fit together, and where they do not; what is done about it is in zone_ladder.hpp.
 #pragma once
 
 #include "parallel/communicator.hpp"

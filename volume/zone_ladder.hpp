@@ -1,0 +1,66 @@
+/// What is done about zones that cannot be filled or do not fit together. Rungs are in filling_limits.hpp.
+#pragma once
+
+#include "volume/agreement.hpp"
+#include "volume/decomposition_data.hpp"
+#include "volume/evidence.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// How far zones have climbed. The same on every rank. Refers to all it is made from.
+class ZoneLadder {
+public:
+  ZoneLadder(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
+             parallel::StageClock& clock, VolumeReport& report)
+      : _communicator(communicator),
+        _input(input),
+        _data(data),
+        _clock(clock),
+        _report(report),
+        _changes_of(data.zones->count(), 0),
+        _merged(data.zones->count(), 0),
+        _is_gone(data.zones->count(), 0) {}
+
+  /// Rungs that a zone has climbed since it was merged last.
+  int changes_of(ZoneIndex zone) const { return _changes_of[zone]; }
+  bool is_merged(ZoneIndex zone) const { return _merged[zone] != 0; }
+  /// Whether another zone has all that was the zone's.
+  bool is_gone(ZoneIndex zone) const { return _is_gone[zone] != 0; }
+  /// Of the halos of all zones.
+  std::vector<double> widths() const;
+
+  /// Changes what zones that failed are made of, and gives leaves of the core to the shell; returns the zones
+  /// to be filled again. `mine` are those of this rank. Collective. Throws VolumeFailure.
+  std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& mine,
+                                       const std::vector<LeavingLeaf>& leaving, const Evidence& evidence);
+  /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again. `faces` are those
+  /// of this rank's zones. Collective. Throws CollectiveError.
+  std::vector<ZoneIndex> settle_disputes(std::span<const ZoneFace> faces);
+
+private:
+  ZoneIndex widest_neighbour(ZoneIndex zone, std::span<const BlockIndex> own) const;
+  void merge(ZoneIndex a, ZoneIndex b);
+  void add_those_that_see(const std::vector<std::uint8_t>& touched, std::vector<ZoneIndex>& pending);
+  std::vector<ZoneIndex> zones_around(const DisputedPlace& place) const;
+  bool merge_all(const std::vector<ZoneIndex>& zones, std::vector<std::uint8_t>& touched);
+  [[noreturn]] void throw_dispute(geometry::Vec3 where) const;
+  geometry::Vec3 middle_of(const DisputedPlace& place, ZoneIndex zone) const;
+  template <class Visit>
+  void for_each_leaf_around(const DisputedPlace& place, int rings, const Visit& visit) const;
+  void give(const DisputedPlace& place, ZoneIndex to, std::vector<std::uint8_t>& touched);
+
+  const parallel::Communicator& _communicator;
+  const VolumeInput& _input;
+  Decomposition::Data& _data;
+  parallel::StageClock& _clock;
+  VolumeReport& _report;
+  std::vector<int> _changes_of;
+  std::vector<std::uint8_t> _merged, _is_gone;
+  int _rounds_of_giving = 0;
+};
+
+}  // namespace aeroloom::volume
