@@ -21,7 +21,7 @@ struct CoreSource {
   const CoreSquares& squares;
   const ShellShare& share;
   const Zones& zones;
-  const ZoneFinder& finder;
+  ZoneFinder finder;
   std::int64_t piece_tets;  ///< of a piece of the core
 };
 

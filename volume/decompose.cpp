@@ -65,7 +65,6 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
     own.shrink_to_fit();
     data.triangles = std::move(own);
   }
-  data.of_blocks = std::make_unique<TrianglesOfBlocks>(*data.frame, *data.tree, first, last, data.triangles);
 }
 
 /// Zones of equal expected size.
@@ -91,7 +90,7 @@ void plan_all(const parallel::Communicator& communicator, const VolumeInput& inp
   std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<double> widths(all.size(), input.options.halo);
-  data.plan = plan_zones(communicator, data.tables(), all, widths, clock);
+  data.plan = plan_zones(communicator, data.store(input), all, widths, clock);
   double work = 0, heaviest = 0;
   for (const ZoneLoad& load : data.plan.loads) {
     work += load.work();
@@ -142,7 +141,7 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
   data.borders = communicator.all_gather_items<std::uint8_t>(borders);
   data.report.shell_points = communicator.sum(static_cast<std::int64_t>(data.shell.points.points.size()));
   data.report.core_tetrahedra = communicator.sum(data.shell.core_cells());
-  return communicator.all_gather_items<BlockIndex>(changed);
+  return changed;
 }
 
 Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,

@@ -35,13 +35,19 @@ struct Decomposition::Data {
   SurfaceReach reach;                          ///< as triangles were gathered; nothing on one rank
   std::vector<SurfaceTriangle> triangles;      ///< that meet them
   std::unique_ptr<const NearSurface> surface;  ///< while points are made
-  std::unique_ptr<const TrianglesOfBlocks> of_blocks;
   std::unique_ptr<const CoreLeaves> core;
   ShellShare shell;
   ZonePlan plan;  ///< of all zones
 
-  BlockTables tables() const { return {*frame, *tree, table, counts, borders, *zones}; }
-  BlockStore store() const { return {shell.points, triangles, *of_blocks, shell.borders, *core}; }
+  BlockIndex first_block() const { return shell.points.first; }
+  BlockIndex last_block() const { return shell.points.last(); }
+  bool is_own(BlockIndex b) const { return b >= first_block() && b < last_block(); }
+  ZoneFinder finder(const VolumeInput& input) const {
+    return {*frame, *tree, *zones, input.numbering.vertex_count};
+  }
+  ZoneStore store(const VolumeInput& input) const {
+    return {source(input), finder(input), shell.points, triangles, shell.borders, *core};
+  }
   LatticeSource source(const VolumeInput& input) const {
     return {*frame, *tree,   input.field,
             table,  regions, {input.options.lattice_clearance, input.options.perturbation},
@@ -50,8 +56,8 @@ struct Decomposition::Data {
 };
 
 /// Makes the points of this rank's blocks (anew), tells core from shell, and counts what the shells of all
-/// have; the surface they were made with is let go. Returns the blocks whose core is another than before, of
-/// all ranks. Collective.
+/// have; the surface they were made with is let go. Returns those of this rank's blocks whose core is another
+/// than before. Collective.
 std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
                                         Decomposition::Data& data, parallel::StageClock& clock);
 

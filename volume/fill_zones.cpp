@@ -30,7 +30,6 @@ public:
         _data(data),
         _clock(clock),
         _report(report),
-        _finder(*data.frame, *data.tree, *data.zones, input.numbering.vertex_count),
         _ladder(communicator, input, data, clock, report),
         _budget(data.zones->count()) {}
 
@@ -55,11 +54,10 @@ private:
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
     std::erase_if(_results, [&](const auto& result) { return _ladder.is_gone(result.first); });
     constexpr std::int64_t steps = 1000;  // of a wave, whatever its zones
-    parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.wants.size()), "tetrahedra");
+    parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.batches.size()), "tetrahedra");
     std::int64_t waves = 0, made = 0;
-    for (const std::vector<ZoneWant>& wants : plan.wants) {
-      std::vector<ZoneContent> contents = supply_zones(_communicator, _data.tables(), _data.store(), _finder,
-                                                       _data.shares, plan.widths, wants, _clock);
+    for (const ZoneShipment& batch : plan.batches) {
+      std::vector<ZoneContent> contents = supply_zones(_communicator, _data.store(_input), batch, _clock);
       parallel::agree(_communicator, [&] {
         for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
           made += fill_one(contents[i]);
@@ -71,7 +69,7 @@ private:
   }
 
   ZonePlan plan(const std::vector<ZoneIndex>& pending) {
-    return plan_zones(_communicator, _data.tables(), pending, _ladder.widths(), _clock);
+    return plan_zones(_communicator, _data.store(_input), pending, _ladder.widths(), _clock);
   }
 
   std::vector<ZoneFace> faces() const {
@@ -102,7 +100,7 @@ private:
     }
     if (filling.filled) {
       _clock.add_pieces(1);
-      const ZoneResult& made = _results[content.zone] = make_pieces(content, filling, _finder);
+      const ZoneResult& made = _results[content.zone] = make_pieces(content, filling);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
       _clock.note_task({"zone", content.zone, static_cast<double>(predict_tetrahedra(content.problem)),
@@ -151,7 +149,8 @@ private:
     const LatticeSource lattice = _data.source(_input);
     CoreMesh core = make_core(
         _communicator,
-        {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _finder, _data.core_piece_tets},
+        {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _data.finder(_input),
+         _data.core_piece_tets},
         _results, _clock);
     _report.tetrahedra = core.tetrahedra;
     _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
@@ -171,7 +170,6 @@ private:
   Decomposition::Data& _data;
   parallel::StageClock& _clock;
   VolumeReport& _report;
-  ZoneFinder _finder;
   ZoneLadder _ladder;
   FillingBudget _budget;
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones

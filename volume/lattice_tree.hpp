@@ -81,9 +81,10 @@ public:
   /// Whether holds(b) for a block that touches the box; it is not asked any further then.
   template <class Holds>
   bool any_block_in(const GridBox& box, const Holds& holds) const {
-    return any_block_in(box, holds, [](BlockIndex, BlockIndex) { return false; });
+    return any_block_in(box, holds, [](BlockIndex, BlockIndex, const GridCube&) { return false; });
   }
-  /// As before; of the blocks from `first` to before `last` none is asked where skips(first, last).
+  /// As before; of the blocks from `first` to before `last`, which fill `cube`, none is asked where
+  /// skips(first, last, cube).
   template <class Holds, class Skips>
   bool any_block_in(const GridBox& box, const Holds& holds, const Skips& skips) const;
 
@@ -115,16 +116,17 @@ bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds, const Ski
   const BlockIndex first = _table.find(key), end = block_count();
   const std::uint64_t next = key + (1ULL << shift);
   const BlockIndex last = next >> 3 * sizing::finest_level != 0 ? end : _table.find(next);
-  if (last <= first) return holds(first);
+  if (last <= first) return !skips(first, first + 1, cube(first)) && holds(first);
   return any_below(box, key, sizing::finest_level - shift / 3, first, last, holds, skips);
 }
 
 template <class Holds, class Skips>
 bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first,
                             BlockIndex last, const Holds& holds, const Skips& skips) const {
-  if (skips(first, last)) return false;
+  const GridCube here{sizing::grid_point(key), level};
+  if (skips(first, last, here)) return false;
   if (last - first == 1) return GridBox::of(cube(first)).overlaps(box) && holds(first);
-  const GridBox whole = GridBox::of({sizing::grid_point(key), level});
+  const GridBox whole = GridBox::of(here);
   if (!whole.overlaps(box)) return false;
   // Which halves the box touches, along each axis: looking up where children begin is what costs.
   const geometry::Vec3 middle = 0.5 * (whole.low + whole.high);

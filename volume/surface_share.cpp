@@ -280,25 +280,4 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
   return result;
 }
 
-TrianglesOfBlocks::TrianglesOfBlocks(const LatticeFrame& frame, const LatticeTree& tree, BlockIndex first,
-                                     BlockIndex last, std::span<const SurfaceTriangle> triangles)
-    : _first(first), _starts(last - first + 1, 0) {
-  struct Meeting {
-    BlockIndex block;
-    std::int32_t triangle;
-  };
-  std::vector<Meeting> meetings;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    tree.for_each_block_in(grid_box(frame, triangles[t].points), [&](BlockIndex b) {
-      if (b < first || b >= last) return;
-      meetings.push_back({b, static_cast<std::int32_t>(t)});
-      ++_starts[b - first + 1];
-    });
-  }
-  std::partial_sum(_starts.begin(), _starts.end(), _starts.begin());
-  _triangles.resize(meetings.size());
-  std::vector<std::size_t> next(_starts.begin(), _starts.end() - 1);
-  for (const Meeting& meeting : meetings) _triangles[next[meeting.block - first]++] = meeting.triangle;
-}
-
 }  // namespace aeroloom::volume

@@ -78,20 +78,4 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
                                              const SurfaceReach& reach, const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering, parallel::StageClock& clock);
 
-/// The triangles that meet each block of a range.
-class TrianglesOfBlocks {
-public:
-  TrianglesOfBlocks(const LatticeFrame& frame, const LatticeTree& tree, BlockIndex first, BlockIndex last,
-                    std::span<const SurfaceTriangle> triangles);
-  /// Indices of triangles, ascending.
-  std::span<const std::int32_t> of(BlockIndex b) const {
-    return std::span(_triangles).subspan(_starts[b - _first], _starts[b - _first + 1] - _starts[b - _first]);
-  }
-
-private:
-  BlockIndex _first;
-  std::vector<std::size_t> _starts;
-  std::vector<std::int32_t> _triangles;
-};
-
 }  // namespace aeroloom::volume

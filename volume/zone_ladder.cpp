@@ -3,20 +3,42 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/log.hpp"
 #include "volume/filling_limits.hpp"
+#include "volume/halo.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace aeroloom::volume {
+
+using geometry::Vec3;
+
 namespace {
 
 /// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
 constexpr int most_rounds_of_giving = 3;
 
+template <class T>
+void keep_each_once(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
 }  // namespace
+
+struct ZoneLadder::LeafOfPlace {
+  std::int32_t place;
+  ZoneIndex zone;  ///< that has it
+  LeafNumber leaf;
+  GridBox box;
+
+  static constexpr auto fields() {
+    return std::tuple(&LeafOfPlace::place, &LeafOfPlace::zone, &LeafOfPlace::leaf, &LeafOfPlace::box);
+  }
+};
 
 std::vector<double> ZoneLadder::widths() const {
   std::vector<double> widths;
@@ -24,91 +46,106 @@ std::vector<double> ZoneLadder::widths() const {
   return widths;
 }
 
-/// Calls visit(block, child) for the leaves of a place and those less than `rings` leaves away from one.
-template <class Visit>
-void ZoneLadder::for_each_leaf_around(const DisputedPlace& place, int rings, const Visit& visit) const {
-  const LatticeTree& tree = *_data.tree;
-  for (const LeafNumber number : place.leaves) {
-    const Leaf leaf = leaf_of_number(number);
-    if (rings == 0) {
-      visit(leaf.block, leaf.child);
-      continue;
-    }
-    const GridCube cube = tree.leaf(leaf);
-    const GridBox box = GridBox::of(cube).dilated((rings - 0.5) * cube.edge());
-    tree.for_each_block_in(box, [&](BlockIndex n) {
-      for (int c = 0; c < tree.leaf_count(n); ++c) {
-        if (GridBox::of(tree.leaf(n, c)).overlaps(box)) visit(n, c);
-      }
-    });
-  }
+ZoneLadder::Changed ZoneLadder::nothing() const {
+  return {std::vector<std::uint8_t>(_data.last_block() - _data.first_block(), 0), {}};
 }
 
-std::vector<ZoneIndex> ZoneLadder::change_failed(const std::vector<ZoneFailure>& mine,
-                                                 const std::vector<LeavingLeaf>& leaving_here,
+// --- zones that failed
+
+std::vector<ZoneIndex> ZoneLadder::change_failed(const std::vector<ZoneFailure>& failures,
+                                                 const std::vector<LeavingLeaf>& leaving,
                                                  const Evidence& evidence) {
-  const std::vector<ZoneFailure> failures = gather_failures(_communicator, mine);
-  const std::vector<LeavingLeaf> leaving = _communicator.all_gather_items<LeavingLeaf>(leaving_here);
-  if (failures.empty() && leaving.empty()) return {};
-  if (!failures.empty()) evidence.stop_at_defects(_communicator);
-  std::vector<std::uint8_t> touched(_data.tree->block_count(), 0);
-  std::vector<ZoneIndex> pending;
-  bool points_change = !leaving.empty();
-  for (const auto& [number, zone] : leaving) {
-    const Leaf leaf = leaf_of_number(number);
-    touched[leaf.block] = 1;
-    std::uint8_t& shell = _data.changes[leaf.block].shell;
-    _report.left_core += 1 - (shell >> leaf.child & 1);
-    shell |= static_cast<std::uint8_t>(1U << leaf.child);
-    pending.push_back(zone);
+  const std::vector<ZoneFailure> failed = gather_failures(_communicator, failures);
+  const std::vector<LeavingLeaf> left = _communicator.all_gather_items<LeavingLeaf>(leaving);
+  if (failed.empty() && left.empty()) return {};
+  if (!failed.empty()) evidence.stop_at_defects(_communicator);
+  Changed changed = nothing();
+  bool points_change = give_to_shell(left, changed);
+  for (const ZoneFailure& failure : failed) {
+    if (!is_gone(failure.zone)) points_change = climb(failure, evidence, changed) || points_change;
   }
-  for (const ZoneFailure& failure : failures) {
-    const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
-    const std::span<const BlockIndex> own = blocks.of(failure.zone);
-    if (own.empty()) continue;  // merged with one that failed before it
-    pending.push_back(failure.zone);
-    int& changes = _changes_of[failure.zone];
-    std::string change;
-    if (changes < std::min<int>(_input.options.retries, std::size(ladder))) {
-      const Rung& rung = ladder[changes++];
-      change = rung.name;
-      for (const BlockIndex b : own) {
-        if (!rung.other_points) break;
-        touched[b] = 1;
+  if (points_change) {
+    for (const BlockIndex b : make_all_points(_communicator, _input, _data, _clock))
+      changed.blocks[b - _data.first_block()] = 1;
+  }
+  return those_that_see(std::move(changed));
+}
+
+/// Whether there are any.
+bool ZoneLadder::give_to_shell(const std::vector<LeavingLeaf>& leaving, Changed& changed) {
+  std::vector<LeafNumber> leaves;
+  for (const auto& [number, zone] : leaving) {
+    leaves.push_back(number);
+    changed.zones.push_back(zone);
+  }
+  keep_each_once(leaves);
+  _report.left_core += static_cast<std::int64_t>(leaves.size());
+  for (const LeafNumber number : leaves) {
+    const Leaf leaf = leaf_of_number(number);
+    if (_data.is_own(leaf.block)) changed.blocks[leaf.block - _data.first_block()] = 1;
+    _data.changes[leaf.block].shell |= static_cast<std::uint8_t>(1U << leaf.child);
+  }
+  return !leaves.empty();
+}
+
+/// Whether points change.
+bool ZoneLadder::climb(const ZoneFailure& failure, const Evidence& evidence, Changed& changed) {
+  const ZoneIndex zone = failure.zone;
+  changed.zones.push_back(zone);
+  bool points_change = false;
+  std::string change;
+  if (_changes_of[zone] < std::min<int>(_input.options.retries, std::size(ladder))) {
+    const Rung& rung = ladder[_changes_of[zone]++];
+    change = rung.name;
+    points_change = rung.other_points;
+    if (points_change) {
+      touch_all(zone, changed);
+      for (BlockIndex b = 0; b < _data.tree->block_count(); ++b) {
+        if (!_data.zones->has(zone, b, _data.tree->leaf_count(b))) continue;
         ++_data.changes[b].variant;
         _data.changes[b].farther = rung.farther;
       }
-      points_change = points_change || rung.other_points;
-    } else {
-      const ZoneIndex with = widest_neighbour(failure.zone, own);
-      if (with == no_zone) evidence.give_up(_communicator, failure.zone, _report.retries);
-      change = fmt::format("merged with zone {}", with);
-      for (const BlockIndex b : own) touched[b] = 1;
-      merge(failure.zone, with);
-      pending.push_back(std::min(failure.zone, with));
     }
-    parallel::log_info(fmt::format("volume: zone {}: {}: {}", failure.zone, change,
-                                   failure.reason.substr(0, failure.reason.find('\n'))));
-    _report.retries.push_back({failure.zone, change, failure.reason});
+  } else {
+    const ZoneIndex with = widest_neighbour(zone);
+    if (with == no_zone) evidence.give_up(_communicator, zone, _report.retries);
+    change = fmt::format("merged with zone {}", with);
+    touch_all(zone, changed);
+    merge(zone, with);
+    changed.zones.push_back(std::min(zone, with));
   }
-  if (points_change) {
-    for (const BlockIndex b : make_all_points(_communicator, _input, _data, _clock)) touched[b] = 1;
-  }
-  add_those_that_see(touched, pending);
-  return pending;
+  parallel::log_info(fmt::format("volume: zone {}: {}: {}", zone, change,
+                                 failure.reason.substr(0, failure.reason.find('\n'))));
+  _report.retries.push_back({zone, change, failure.reason});
+  return points_change;
 }
 
-/// The zone with most blocks beside those of this one; none in a volume of one zone.
-ZoneIndex ZoneLadder::widest_neighbour(ZoneIndex zone, std::span<const BlockIndex> own) const {
-  std::vector<std::int32_t> beside(_data.zones->count(), 0);
-  for (const BlockIndex b : own) {
-    _data.tree->for_each_block_in(GridBox::of(_data.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
-      const ZoneIndex z = _data.zones->of(n, 0);
-      if (z != zone && (_data.counts[n] > 0 || _data.table.is_met(n))) ++beside[z];
+/// The zone with most blocks beside those of this one; none in a volume of one zone. Collective.
+ZoneIndex ZoneLadder::widest_neighbour(ZoneIndex zone) const {
+  std::vector<ZoneIndex> beside;
+  for (BlockIndex b = _data.first_block(); b < _data.last_block(); ++b) {
+    if (_data.shell.points.count(b) == 0 && !_data.table.is_met(b)) continue;
+    const GridBox around = GridBox::of(_data.tree->cube(b)).dilated(0.5);
+    const ZoneIndex z = _data.zones->of(b, 0);
+    if (z == zone) continue;
+    _data.tree->for_each_block_in(around, [&](BlockIndex n) {
+      if (_data.zones->has(zone, n, _data.tree->leaf_count(n))) beside.push_back(z);
     });
   }
-  const auto most = std::max_element(beside.begin(), beside.end());
-  return most == beside.end() || *most == 0 ? no_zone : static_cast<ZoneIndex>(most - beside.begin());
+  struct Row {
+    ZoneIndex zone;
+    std::int64_t count;
+    static constexpr auto fields() { return std::tuple(&Row::zone, &Row::count); }
+  };
+  std::vector<std::int64_t> counts(_data.zones->count(), 0);
+  for (const ZoneIndex z : beside) ++counts[z];
+  std::vector<Row> rows;
+  for (ZoneIndex z = 0; z < _data.zones->count(); ++z) {
+    if (counts[z] > 0) rows.push_back({z, std::exchange(counts[z], 0)});
+  }
+  for (const Row& row : _communicator.all_gather_items<Row>(rows)) counts[row.zone] += row.count;
+  const auto most = std::max_element(counts.begin(), counts.end());
+  return *most == 0 ? no_zone : static_cast<ZoneIndex>(most - counts.begin());
 }
 
 void ZoneLadder::merge(ZoneIndex a, ZoneIndex b) {
@@ -120,105 +157,146 @@ void ZoneLadder::merge(ZoneIndex a, ZoneIndex b) {
   _data.expected[low] += _data.expected[high];
 }
 
-/// Adds the zones that know leaves of the touched blocks, sorts, each once; those without blocks go.
-void ZoneLadder::add_those_that_see(const std::vector<std::uint8_t>& touched,
-                                    std::vector<ZoneIndex>& pending) {
-  const LatticeTree& tree = *_data.tree;
-  int most = 0;
-  for (const int changes : _changes_of) most = std::max(most, changes);
-  const double width = _input.options.halo * std::pow(wider, most);
-  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    if (!touched[b]) continue;
-    const double reach =
-        _data.frame->grid_distance(width * largest_size_around(*_data.frame, tree, _data.table, b));
-    tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(reach), [&](BlockIndex n) {
-      for (int child = 0; child < tree.leaf_count(n); ++child) {
-        const ZoneIndex z = _data.zones->of(n, child);
-        if (pending.empty() || pending.back() != z) pending.push_back(z);
-      }
-    });
+void ZoneLadder::touch_all(ZoneIndex zone, Changed& changed) const {
+  for (BlockIndex b = _data.first_block(); b < _data.last_block(); ++b) {
+    if (_data.zones->has(zone, b, _data.tree->leaf_count(b))) changed.blocks[b - _data.first_block()] = 1;
   }
-  std::sort(pending.begin(), pending.end());
-  pending.erase(std::unique(pending.begin(), pending.end()), pending.end());
-  const BlocksOfZones blocks = list_blocks(tree, *_data.zones);
-  std::erase_if(pending, [&](ZoneIndex z) { return blocks.of(z).empty(); });
 }
+
+/// The zones that changed and those that know leaves of the touched blocks, ascending. Collective.
+std::vector<ZoneIndex> ZoneLadder::those_that_see(Changed changed) {
+  std::vector<double> widest = widths();
+  widest.assign(widest.size(), *std::max_element(widest.begin(), widest.end()));
+  ZonesAround around(*_data.frame, *_data.tree, _data.table, *_data.zones, widest);
+  for (BlockIndex b = _data.first_block(); b < _data.last_block(); ++b) {
+    if (!changed.blocks[b - _data.first_block()]) continue;
+    around.move_to(b);
+    for (const NearZone& near : around.zones()) changed.zones.push_back(near.zone);
+  }
+  keep_each_once(changed.zones);
+  changed.zones = _communicator.all_gather_items<ZoneIndex>(changed.zones);
+  keep_each_once(changed.zones);
+  std::erase_if(changed.zones, [&](ZoneIndex z) { return is_gone(z); });
+  return std::move(changed.zones);
+}
+
+// --- zones that disagree
 
 std::vector<ZoneIndex> ZoneLadder::settle_disputes(std::span<const ZoneFace> faces) {
   const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces, _clock);
   if (unmatched.empty()) return {};
   ++_rounds_of_giving;
-  std::vector<std::uint8_t> touched(_data.tree->block_count(), 0);
-  std::vector<ZoneIndex> pending;
-  for (const DisputedPlace& place : find_places(unmatched)) {
-    const ZoneIndex lowest = place.zones.front();
-    const geometry::Vec3 where = middle_of(place, lowest);
-    _report.disagreements.push_back({where, lowest, place.faces, _rounds_of_giving});
-    parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
-                                      place.faces, place.zones.size(), where.x, where.y, where.z));
-    pending.insert(pending.end(), place.zones.begin(), place.zones.end());
-    if (_rounds_of_giving <= most_rounds_of_giving) {
-      give(place, lowest, touched);
-    } else if (!merge_all(zones_around(place), touched)) {
-      throw_dispute(where);
+  Changed changed = nothing();
+  std::vector<DisputedPlace> places = find_places(unmatched);
+  for (DisputedPlace& place : places) {
+    changed.zones.insert(changed.zones.end(), place.zones.begin(), place.zones.end());
+    if (place.leaves.empty()) place.leaves.push_back(lowest_leaf(place.zones.front()));
+  }
+  note_places(places);
+  if (_rounds_of_giving <= most_rounds_of_giving)
+    give(places, changed);
+  else
+    merge_those_around(places, changed);
+  return those_that_see(std::move(changed));
+}
+
+/// Any leaf of a zone will do where TetGen added all the vertices. Collective.
+LeafNumber ZoneLadder::lowest_leaf(ZoneIndex zone) const {
+  std::int64_t lowest = INT64_MAX;
+  for (BlockIndex b = _data.last_block(); b-- > _data.first_block();) {
+    for (int child = _data.tree->leaf_count(b); child-- > 0;) {
+      if (_data.zones->of(b, child) == zone) lowest = leaf_number({b, child});
     }
   }
-  add_those_that_see(touched, pending);
-  return pending;
+  lowest = _communicator.minimum(lowest);
+  return lowest == INT64_MAX ? 0 : lowest;
 }
 
-/// The zones that claim faces at a place or have leaves around it.
-std::vector<ZoneIndex> ZoneLadder::zones_around(const DisputedPlace& place) const {
-  std::vector<ZoneIndex> zones = place.zones;
-  for_each_leaf_around(place, 2,
-                       [&](BlockIndex b, int child) { zones.push_back(_data.zones->of(b, child)); });
-  std::sort(zones.begin(), zones.end());
-  zones.erase(std::unique(zones.begin(), zones.end()), zones.end());
-  return zones;
-}
-
-/// Makes one zone of several, some of which another place may have merged before. False: they were one
-/// already.
-bool ZoneLadder::merge_all(const std::vector<ZoneIndex>& zones, std::vector<std::uint8_t>& touched) {
-  const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones);
-  std::vector<ZoneIndex> left;
-  for (const ZoneIndex z : zones) {
-    if (!blocks.of(z).empty()) left.push_back(z);
-    for (const BlockIndex b : blocks.of(z)) touched[b] = 1;
+/// The leaves of places and those less than `rings` leaves away from one, by place. Collective.
+std::vector<ZoneLadder::LeafOfPlace> ZoneLadder::leaves_around(std::span<const DisputedPlace> places,
+                                                               int rings) const {
+  const LatticeTree& tree = *_data.tree;
+  std::vector<LeafOfPlace> found;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const LeafNumber number : places[i].leaves) {
+      const Leaf leaf = leaf_of_number(number);
+      if (_data.is_own(leaf.block))
+        found.push_back({static_cast<std::int32_t>(i), _data.zones->of(leaf.block, leaf.child), number,
+                         GridBox::of(tree.leaf(leaf))});
+    }
   }
-  for (const ZoneIndex z : left) {
-    if (z != left.front()) merge(left.front(), z);
+  const auto in_order = [](const LeafOfPlace& a, const LeafOfPlace& b) {
+    return std::tie(a.place, a.leaf) < std::tie(b.place, b.leaf);
+  };
+  found = _communicator.all_gather_items<LeafOfPlace>(found);
+  std::sort(found.begin(), found.end(), in_order);
+  if (rings == 0) return found;
+  std::vector<LeafOfPlace> around;
+  for (const LeafOfPlace& center : found) {
+    const GridBox box = center.box.dilated((rings - 0.5) * (center.box.high.x - center.box.low.x));
+    tree.for_each_block_in(box, [&](BlockIndex n) {
+      for (int child = 0; _data.is_own(n) && child < tree.leaf_count(n); ++child) {
+        const GridBox leaf = GridBox::of(tree.leaf(n, child));
+        if (leaf.overlaps(box))
+          around.push_back({center.place, _data.zones->of(n, child), leaf_number({n, child}), leaf});
+      }
+    });
   }
-  return left.size() > 1 || zones.size() > left.size();
+  around = _communicator.all_gather_items<LeafOfPlace>(around);
+  std::sort(around.begin(), around.end(), in_order);
+  around.erase(std::unique(around.begin(), around.end(),
+                           [](const LeafOfPlace& a, const LeafOfPlace& b) {
+                             return a.place == b.place && a.leaf == b.leaf;
+                           }),
+               around.end());
+  return around;
 }
 
-void ZoneLadder::throw_dispute(geometry::Vec3 where) const {
-  throw parallel::CollectiveError(
-      parallel::FailureKind::input,
-      fmt::format(
-          "the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) fit together in no way that was tried. Use other "
-          "sizes there, or another piece size (VolumeOptions::piece_tets)",
-          where.x, where.y, where.z));
-}
-
-/// The middle of a place's first leaf; of the zone's, where none of the vertices there has one.
-geometry::Vec3 ZoneLadder::middle_of(const DisputedPlace& place, ZoneIndex zone) const {
-  Leaf leaf{0, 0};
-  if (!place.leaves.empty()) {
-    leaf = leaf_of_number(place.leaves.front());
-  } else if (const BlocksOfZones blocks = list_blocks(*_data.tree, *_data.zones); !blocks.of(zone).empty()) {
-    leaf.block = blocks.of(zone).front();
+/// Tells where each is: in the middle of its first leaf. Collective.
+void ZoneLadder::note_places(std::span<const DisputedPlace> places) {
+  std::int32_t next = 0;
+  for (const LeafOfPlace& leaf : leaves_around(places, 0)) {
+    if (leaf.place != next) continue;
+    const DisputedPlace& place = places[next++];
+    const Vec3 where = _data.frame->to_space(0.5 * (leaf.box.low + leaf.box.high));
+    _report.disagreements.push_back({where, place.zones.front(), place.faces, _rounds_of_giving});
+    parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
+                                      place.faces, place.zones.size(), where.x, where.y, where.z));
   }
-  const GridBox box = GridBox::of(_data.tree->leaf(leaf));
-  return _data.frame->to_space(0.5 * (box.low + box.high));
 }
 
-/// The leaves of a place, from the second round on with more and more of those around them.
-void ZoneLadder::give(const DisputedPlace& place, ZoneIndex to, std::vector<std::uint8_t>& touched) {
-  for_each_leaf_around(place, _rounds_of_giving - 1, [&](BlockIndex b, int child) {
-    touched[b] = 1;
-    _data.zones->give(b, child, to);
-  });
+/// The leaves of places, from the second round on with more and more of those around them. Collective.
+void ZoneLadder::give(std::span<const DisputedPlace> places, Changed& changed) {
+  for (const LeafOfPlace& given : leaves_around(places, _rounds_of_giving - 1)) {
+    const Leaf leaf = leaf_of_number(given.leaf);
+    if (_data.is_own(leaf.block)) changed.blocks[leaf.block - _data.first_block()] = 1;
+    _data.zones->give(leaf.block, leaf.child, places[given.place].zones.front());
+  }
+}
+
+/// Makes one zone of all that claim faces at a place or have leaves around it. Collective.
+void ZoneLadder::merge_those_around(std::span<const DisputedPlace> places, Changed& changed) {
+  std::vector<std::vector<ZoneIndex>> zones;
+  for (const DisputedPlace& place : places) zones.push_back(place.zones);
+  for (const LeafOfPlace& leaf : leaves_around(places, 2)) zones[leaf.place].push_back(leaf.zone);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    keep_each_once(zones[i]);
+    std::vector<ZoneIndex> left = zones[i];  // another place may have merged some of them
+    std::erase_if(left, [&](ZoneIndex z) { return is_gone(z); });
+    if (left.size() == zones[i].size() && left.size() < 2) {
+      const Vec3 where = _report.disagreements[_report.disagreements.size() - places.size() + i].place;
+      throw parallel::CollectiveError(
+          parallel::FailureKind::input,
+          fmt::format(
+              "the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) fit together in no way that was tried. Use "
+              "other sizes there, or another piece size (VolumeOptions::piece_tets)",
+              where.x, where.y, where.z));
+    }
+    for (const ZoneIndex z : left) touch_all(z, changed);
+    for (const ZoneIndex z : left) {
+      if (z != left.front()) merge(left.front(), z);
+    }
+  }
 }
 
 }  // namespace aeroloom::volume

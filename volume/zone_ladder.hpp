@@ -34,24 +34,33 @@ public:
   std::vector<double> widths() const;
 
   /// Changes what zones that failed are made of, and gives leaves of the core to the shell; returns the zones
-  /// to be filled again. `mine` are those of this rank. Collective. Throws VolumeFailure.
-  std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& mine,
+  /// to be filled again. `failures` and `leaving` are those of this rank. Collective. Throws VolumeFailure.
+  std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& failures,
                                        const std::vector<LeavingLeaf>& leaving, const Evidence& evidence);
   /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again. `faces` are those
   /// of this rank's zones. Collective. Throws CollectiveError.
   std::vector<ZoneIndex> settle_disputes(std::span<const ZoneFace> faces);
 
 private:
-  ZoneIndex widest_neighbour(ZoneIndex zone, std::span<const BlockIndex> own) const;
+  /// A leaf where zones disagree, or beside one.
+  struct LeafOfPlace;
+  /// What becomes of blocks: those that were touched, of this rank, and the zones that were.
+  struct Changed {
+    std::vector<std::uint8_t> blocks;
+    std::vector<ZoneIndex> zones;
+  };
+  Changed nothing() const;
+  bool give_to_shell(const std::vector<LeavingLeaf>& leaving, Changed& changed);
+  bool climb(const ZoneFailure& failure, const Evidence& evidence, Changed& changed);
+  ZoneIndex widest_neighbour(ZoneIndex zone) const;
   void merge(ZoneIndex a, ZoneIndex b);
-  void add_those_that_see(const std::vector<std::uint8_t>& touched, std::vector<ZoneIndex>& pending);
-  std::vector<ZoneIndex> zones_around(const DisputedPlace& place) const;
-  bool merge_all(const std::vector<ZoneIndex>& zones, std::vector<std::uint8_t>& touched);
-  [[noreturn]] void throw_dispute(geometry::Vec3 where) const;
-  geometry::Vec3 middle_of(const DisputedPlace& place, ZoneIndex zone) const;
-  template <class Visit>
-  void for_each_leaf_around(const DisputedPlace& place, int rings, const Visit& visit) const;
-  void give(const DisputedPlace& place, ZoneIndex to, std::vector<std::uint8_t>& touched);
+  void touch_all(ZoneIndex zone, Changed& changed) const;
+  std::vector<ZoneIndex> those_that_see(Changed changed);
+  std::vector<LeafOfPlace> leaves_around(std::span<const DisputedPlace> places, int rings) const;
+  LeafNumber lowest_leaf(ZoneIndex zone) const;
+  void note_places(std::span<const DisputedPlace> places);
+  void give(std::span<const DisputedPlace> places, Changed& changed);
+  void merge_those_around(std::span<const DisputedPlace> places, Changed& changed);
 
   const parallel::Communicator& _communicator;
   const VolumeInput& _input;

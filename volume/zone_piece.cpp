@@ -15,8 +15,8 @@ namespace {
 
 class PieceMaker {
 public:
-  PieceMaker(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder)
-      : _content(content), _filling(filling), _finder(finder), _shared(content.problem.points.size(), 0) {
+  PieceMaker(const ZoneContent& content, const ZoneFilling& filling)
+      : _content(content), _filling(filling), _shared(content.problem.points.size(), 0) {
     mark_shared();
   }
 
@@ -76,7 +76,7 @@ private:
     for (std::size_t v = _content.problem.surface_points(); v < given(); ++v) {
       if (number[v] < 0) continue;
       if (side.lattice.empty()) side.first_lattice = number[v];
-      side.lattice.push_back(_finder.lattice_number_of(_content.tokens[v]));
+      side.lattice.push_back(static_cast<std::int64_t>(_content.tokens[v]) - _content.surface_vertices);
     }
     for (const Crossing& border : _filling.owned.borders) {
       if (_filling.owned.regions[border.cell] != region) continue;
@@ -93,9 +93,7 @@ private:
                              static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
   }
   LeafNumber leaf(LocalIndex v) const {
-    if (static_cast<std::size_t>(v) >= given()) return -1;
-    const Leaf at = _finder.leaf_of(_content.tokens[v], _content.problem.points[v]);
-    return leaf_number(at);
+    return static_cast<std::size_t>(v) < given() ? _content.leaves[v] : -1;
   }
 
   /// Vertices on faces to other zones, and where triangles of several regions meet.
@@ -145,19 +143,18 @@ private:
 
   const ZoneContent& _content;
   const ZoneFilling& _filling;
-  const ZoneFinder& _finder;
   std::vector<std::uint8_t> _shared;  // per given point
 };
 
 }  // namespace
 
-ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder) {
+ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling) {
   ZoneResult result;
   result.zone = content.zone;
   std::vector<RegionId> regions = filling.owned.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  const PieceMaker maker(content, filling, finder);
+  const PieceMaker maker(content, filling);
   for (const RegionId region : regions)
     result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));
   result.faces = maker.faces();

@@ -58,6 +58,6 @@ mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<mesh::Piece> core,
                                     ZoneIndex zones);
 
-ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling, const ZoneFinder& finder);
+ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling);
 
 }  // namespace aeroloom::volume

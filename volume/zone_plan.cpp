@@ -1,8 +1,10 @@
 #include "volume/zone_plan.hpp"
 
 #include "parallel/schedule.hpp"
+#include "volume/halo.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace aeroloom::volume {
 namespace {
@@ -10,19 +12,109 @@ namespace {
 /// Zones that a rank is sent at a time.
 constexpr std::size_t zones_at_a_time = 4;
 
-/// The wants of one zone, and what they add up to.
-ZoneLoad look_at(const BlockTables& blocks, ZoneIndex zone, std::span<const TakenBlock> taken,
-                 std::vector<ZoneWant>& wants) {
-  ZoneLoad load{zone, 0, 0};
-  for (const auto& [block, leaves] : taken) {
-    if (blocks.points[block] == 0 && !blocks.borders[block] && !blocks.table.is_met(block)) continue;
-    const float part =
-        static_cast<float>(__builtin_popcount(leaves)) / static_cast<float>(blocks.tree.leaf_count(block));
-    load.points += part * blocks.points[block];
-    load.triangles += part * static_cast<float>(blocks.table.triangles[block]);
-    wants.push_back({zone, block, 0, leaves});
+/// Triangles by the block that their centre lies in, of a range of blocks.
+class Centres {
+public:
+  Centres(const ZoneStore& store)
+      : _first(store.points.first), _starts(store.points.last() - _first + 1, 0) {
+    std::vector<BlockIndex> blocks;
+    blocks.reserve(store.triangles.size());
+    for (const SurfaceTriangle& t : store.triangles) {
+      const geometry::Vec3 centre = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
+      blocks.push_back(store.finder.leaf_of_place(centre).block);
+      if (is_own(blocks.back())) ++_starts[blocks.back() - _first + 1];
+    }
+    std::partial_sum(_starts.begin(), _starts.end(), _starts.begin());
+    _triangles.resize(_starts.back());
+    std::vector<std::int32_t> next(_starts.begin(), _starts.end() - 1);
+    for (std::size_t t = 0; t < blocks.size(); ++t) {
+      if (is_own(blocks[t])) _triangles[next[blocks[t] - _first]++] = static_cast<std::int32_t>(t);
+    }
   }
-  return load;
+
+  std::span<const std::int32_t> of(BlockIndex b) const {
+    return std::span(_triangles).subspan(_starts[b - _first], _starts[b - _first + 1] - _starts[b - _first]);
+  }
+
+private:
+  bool is_own(BlockIndex b) const {
+    return b >= _first && b - _first + 1 < static_cast<BlockIndex>(_starts.size());
+  }
+  BlockIndex _first;
+  std::vector<std::int32_t> _starts, _triangles;
+};
+
+/// Finds what zones know of a rank's blocks.
+class Finding {
+public:
+  Finding(const ZoneStore& store, std::span<const ZoneIndex> zones, std::span<const double> widths)
+      : _store(store), _is_wanted(widths.size(), 0) {
+    for (const ZoneIndex z : zones) _is_wanted[z] = 1;
+    const Centres centres(store);
+    ZonesAround around(store.lattice.frame, store.lattice.tree, store.lattice.table, store.finder.zones(),
+                       widths);
+    for (BlockIndex b = store.points.first; b < store.points.last(); ++b) {
+      if (store.points.count(b) == 0 && store.borders.of(b).empty() && centres.of(b).empty()) continue;
+      around.move_to(b);
+      for (const NearZone& near : around.zones()) {
+        if (!_is_wanted[near.zone]) continue;
+        look_at(near, b);
+        for (const std::int32_t t : centres.of(b)) {
+          if (near.knows(grid_box(store.lattice.frame, store.triangles[t].points)))
+            found.triangles.push_back({near.zone, t});
+        }
+      }
+    }
+  }
+
+  ZoneShipment found;
+
+private:
+  void look_at(const NearZone& near, BlockIndex b) {
+    const LatticeTree& tree = _store.lattice.tree;
+    ZoneShipment::OfBlock want{near.zone, b, 0, 0};
+    std::uint8_t own = 0;
+    for (int child = 0; child < tree.leaf_count(b); ++child) {
+      const bool is_own = _store.finder.zone_of({b, child}) == near.zone;
+      own |= static_cast<std::uint8_t>(is_own << child);
+      if (is_own || near.knows(GridBox::of(tree.leaf(b, child))))
+        want.leaves |= static_cast<std::uint8_t>(1U << child);
+    }
+    if (want.leaves == 0) return;
+    const BlockPoints& points = _store.points;
+    const std::int64_t first = points.starts[b - points.first];
+    for (std::int64_t i = 0; i < points.count(b); ++i) {
+      const int child = points.slots[first + i] / slots_per_leaf;
+      if (!(want.leaves >> child & 1)) continue;
+      const geometry::Vec3 place = _store.lattice.frame.to_grid(points.points[first + i]);
+      if ((own >> child & 1) || near.knows({place, place})) want.points |= std::uint64_t{1} << i;
+    }
+    if (want.points != 0 || !_store.borders.of(b).empty()) found.blocks.push_back(want);
+  }
+
+  const ZoneStore& _store;
+  std::vector<std::uint8_t> _is_wanted;  // per zone
+};
+
+/// What all ranks have of each zone, by zone.
+std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const ZoneShipment& mine,
+                             std::span<const ZoneIndex> zones, std::size_t all_zones) {
+  std::vector<ZoneLoad> sums(all_zones);
+  for (std::size_t z = 0; z < all_zones; ++z) sums[z] = {static_cast<ZoneIndex>(z), 0, 0};
+  for (const auto& want : mine.blocks) sums[want.zone].points += __builtin_popcountll(want.points);
+  for (const auto& want : mine.triangles) ++sums[want.zone].triangles;
+  std::vector<ZoneLoad> rows;
+  for (ZoneLoad& sum : sums) {
+    if (sum.points > 0 || sum.triangles > 0) rows.push_back(sum);
+    sum.points = sum.triangles = 0;
+  }
+  for (const ZoneLoad& row : communicator.all_gather_items<ZoneLoad>(rows)) {
+    sums[row.zone].points += row.points;
+    sums[row.zone].triangles += row.triangles;
+  }
+  std::vector<ZoneLoad> loads;
+  for (const ZoneIndex z : zones) loads.push_back(sums[z]);
+  return loads;
 }
 
 /// Where a zone is filled, and in which batch.
@@ -31,7 +123,7 @@ struct Turn {
   std::size_t batch = 0;
 };
 
-std::vector<Turn> deal_out(const std::vector<ZoneLoad>& loads, int ranks, ZoneIndex zones) {
+std::vector<Turn> deal_out(const std::vector<ZoneLoad>& loads, int ranks, std::size_t zones) {
   std::vector<double> work;
   work.reserve(loads.size());
   for (const ZoneLoad& load : loads) work.push_back(load.work());
@@ -44,36 +136,35 @@ std::vector<Turn> deal_out(const std::vector<ZoneLoad>& loads, int ranks, ZoneIn
   return turns;
 }
 
+/// Items go to their batches, by zone, in their order within one.
+template <class Item, class Member>
+void divide(std::vector<Item>& items, const std::vector<Turn>& turns, std::vector<ZoneShipment>& batches,
+            Member member) {
+  std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.zone < b.zone; });
+  for (const Item& item : items) (batches[turns[item.zone].batch].*member).push_back(item);
+  std::vector<Item>().swap(items);
+}
+
 }  // namespace
 
-ZonePlan plan_zones(const parallel::Communicator& communicator, const BlockTables& blocks,
-                    const std::vector<ZoneIndex>& zones, std::span<const double> widths,
+ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore& store,
+                    std::span<const ZoneIndex> zones, std::span<const double> widths,
                     parallel::StageClock& clock) {
-  std::vector<ZoneWant> wants;
-  std::vector<ZoneLoad> mine;
+  ZoneShipment mine;
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    const bool whole = blocks.zones.count() == 1;
-    const BlocksOfZones own = list_blocks(blocks.tree, blocks.zones);
-    HaloTaker taker(blocks.frame, blocks.tree, blocks.table, blocks.zones);
-    for (std::size_t i = communicator.rank(); i < zones.size(); i += communicator.size()) {
-      const ZoneIndex z = zones[i];
-      mine.push_back(
-          look_at(blocks, z, whole ? take_all(blocks.tree) : taker.take(z, own.of(z), widths[z]), wants));
-    }
+    mine = std::move(Finding(store, zones, widths).found);
   }
   ZonePlan plan;
-  plan.widths.assign(widths.begin(), widths.end());
-  plan.loads = communicator.all_gather_items<ZoneLoad>(mine);
-  std::sort(plan.loads.begin(), plan.loads.end(),
-            [](const ZoneLoad& a, const ZoneLoad& b) { return a.zone < b.zone; });
-  const std::vector<Turn> turns = deal_out(plan.loads, communicator.size(), blocks.zones.count());
+  plan.loads = add_up(communicator, mine, zones, widths.size());
+  const std::vector<Turn> turns = deal_out(plan.loads, communicator.size(), widths.size());
   std::size_t batches = 0;
   for (const ZoneLoad& load : plan.loads) batches = std::max(batches, turns[load.zone].batch + 1);
-  plan.wants.resize(batches);
-  for (ZoneWant& want : wants) {
-    want.rank = turns[want.zone].rank;
-    plan.wants[turns[want.zone].batch].push_back(want);
+  plan.batches.resize(batches);
+  divide(mine.blocks, turns, plan.batches, &ZoneShipment::blocks);
+  divide(mine.triangles, turns, plan.batches, &ZoneShipment::triangles);
+  for (ZoneShipment& batch : plan.batches) {
+    for (const Turn& turn : turns) batch.ranks.push_back(turn.rank);
   }
   return plan;
 }

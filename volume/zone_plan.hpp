@@ -3,7 +3,6 @@
 
 #include "parallel/communicator.hpp"
 #include "parallel/timers.hpp"
-#include "volume/halo.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <span>
@@ -15,8 +14,8 @@ namespace aeroloom::volume {
 /// What a zone knows, halo included.
 struct ZoneLoad {
   ZoneIndex zone;
-  float points;  ///< of the lattice
-  float triangles;
+  std::int64_t points;  ///< of the lattice
+  std::int64_t triangles;
 
   static constexpr auto fields() {
     return std::tuple(&ZoneLoad::zone, &ZoneLoad::points, &ZoneLoad::triangles);
@@ -24,21 +23,20 @@ struct ZoneLoad {
   /// Expected cost of filling, in that of a lattice point: a triangle brings half a point, and has to be
   /// recovered. Measured on a DLR-F6 in nine zones: about 11 microseconds of CPU for a
   /// point, 13 for a triangle.
-  double work() const { return points + work_per_triangle * triangles; }
+  double work() const { return double(points) + work_per_triangle * double(triangles); }
   static constexpr double work_per_triangle = 1.2;
 };
 
 /// Zones that are to be filled.
 struct ZonePlan {
-  std::vector<ZoneLoad> loads;               ///< of all of them, by zone, the same on every rank
-  std::vector<double> widths;                ///< of the halo, per zone
-  std::vector<std::vector<ZoneWant>> wants;  ///< batch after batch, of the zones this rank has looked at
+  std::vector<ZoneLoad> loads;        ///< of all of them, by zone, the same on every rank
+  std::vector<ZoneShipment> batches;  ///< of what this rank has, batch after batch
 };
 
-/// Finds what zones want, `widths[zone]` being that of their halo, and deals them out, largest first, in
-/// batches of a few zones for each rank. Collective.
-ZonePlan plan_zones(const parallel::Communicator& communicator, const BlockTables& blocks,
-                    const std::vector<ZoneIndex>& zones, std::span<const double> widths,
+/// Finds what zones know of this rank's blocks, `widths[zone]` being that of their halo, and deals zones out,
+/// largest first, in batches of a few for each rank. Collective.
+ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore& store,
+                    std::span<const ZoneIndex> zones, std::span<const double> widths,
                     parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

@@ -30,6 +30,14 @@ public:
   ZoneIndex of(BlockIndex b, int child) const { return _given.empty() ? _of_block[b] : find(b, child); }
   /// Whether all leaves of a block are in one zone.
   bool is_whole(BlockIndex b) const;
+  /// Whether a zone has leaves of a block, which has so many.
+  bool has(ZoneIndex zone, BlockIndex b, int leaf_count) const {
+    if (is_whole(b)) return of(b, 0) == zone;
+    for (int child = 0; child < leaf_count; ++child) {
+      if (of(b, child) == zone) return true;
+    }
+    return false;
+  }
   /// Gives a leaf to another zone.
   void give(BlockIndex b, int child, ZoneIndex zone);
   /// All that is of zone `from` becomes of zone `to`.
