@@ -225,6 +225,14 @@ private:
 
 constexpr double more_for_shear = 1.1;
 
+/// How far a triangle is from any point of a block that the surface meets, at most, and its inside.
+double nearest_in(const LatticeSource& source, BlockIndex b) {
+  constexpr double inward = 0.1;
+  const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.tree.cube(b).edge();
+  return more_for_shear * half_diagonal +
+         source.frame.grid_distance(source.table.nearest[b] + inward * source.table.longest_edge[b]);
+}
+
 /// How far from a block the way may lead from one of its points to a triangle whose box meets it.
 double reach_from_within(const LatticeSource& source, BlockIndex b) {
   const double perturbation = source.options.perturbation * source.tree.cube(b).edge();
@@ -254,10 +262,14 @@ Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot) {
   return source.frame.to_space(grid) + perturbation(source, leaf, cube, slot);
 }
 
+double look_of_block(const LatticeSource& source, BlockIndex b) {
+  const double of_core = source.frame.grid_distance(core_reach(source, b));
+  return source.table.is_met(b) ? std::max(of_core, nearest_in(source, b)) : of_core;
+}
+
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
 SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last, FarBlocks far) {
-  constexpr double inward = 0.1;
   const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
   SurfaceReach reach;
   reach.per_edge = source.frame.grid_distance(farthest);
@@ -266,9 +278,7 @@ SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, Bloc
     double nearest = 0;
     bool from_within = false;
     if (source.table.is_met(b)) {
-      const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.tree.cube(b).edge();
-      nearest = more_for_shear * half_diagonal +
-                source.frame.grid_distance(source.table.nearest[b] + inward * source.table.longest_edge[b]);
+      nearest = nearest_in(source, b);
       from_within = far == FarBlocks::from_within && sees_far_finer(source, b, nearest);
       if (from_within) nearest = reach_from_within(source, b);
     }

@@ -41,13 +41,15 @@ inline int slot_at(int x, int y, int z) {
 
 /// Which block and slot a point of the lattice has, by a running number: its token behind those of the
 /// surface.
-inline std::int64_t lattice_number(BlockIndex block, int slot) {
-  return std::int64_t{block} * slots_per_block + slot;
+inline std::int64_t lattice_number(const LatticeTree& tree, BlockIndex block, int slot) {
+  return tree.number(block) * slots_per_block + slot;
 }
 /// The leaf that such a point belongs to.
-inline Leaf leaf_of_lattice(std::int64_t number) {
-  return {static_cast<BlockIndex>(number / slots_per_block),
-          static_cast<int>(number % slots_per_block) / slots_per_leaf};
+inline LeafNumber leaf_number_of_lattice(std::int64_t number) {
+  return number / slots_per_leaf;
+}
+inline Leaf leaf_of_lattice(const LatticeTree& tree, std::int64_t number) {
+  return tree.leaf_of(leaf_number_of_lattice(number));
 }
 
 /// The points of consecutive blocks. Point i of block b: [starts[b - first] + i], by slot.
@@ -87,6 +89,9 @@ inline constexpr double core_clearance = 0.6;
 /// How regions are told in blocks far from a body, which are as large as it is far off and where one of its
 /// many triangles may be the nearest.
 enum class FarBlocks { by_nearest, from_within };
+
+/// How far from a block other blocks are looked at for that, in the grid.
+double look_of_block(const LatticeSource& source, BlockIndex b);
 
 /// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
 /// the region of points there. Retries included.

@@ -18,16 +18,10 @@ using mesh::RegionId;
 
 namespace {
 
-/// The rank that has a block.
-parallel::Rank owner_of(std::span<const BlockIndex> shares, BlockIndex b) {
-  return static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, b) - shares.begin() -
-                                     1);
-}
-
 /// A face between a block that the surface does not meet and one that it does.
 struct Contact {
-  BlockIndex free, met;
-  BlockIndex set;      ///< that the free block is in, where known
+  BlockNumber free, met;
+  BlockNumber set;     ///< that the free block is in, where known
   std::int64_t order;  ///< of faces, the same on any number of ranks
   Vec3 place;          ///< in the grid
 
@@ -36,19 +30,20 @@ struct Contact {
   }
 };
 
-/// A set of blocks of one rank that has a face in common with a block, or a set, of another.
+/// A set of blocks of one rank that has a face in common with a block, or a set, of another; or what the one
+/// tells the other.
 struct Joint {
-  BlockIndex set, with;
+  BlockNumber set, with;
 
   static constexpr auto fields() { return std::tuple(&Joint::set, &Joint::with); }
   auto operator<=>(const Joint&) const = default;
 };
 
-/// Calls visit(b, n, face centre, number of the face) for the faces of the blocks b from first to last whose
+/// Calls visit(b, n, face centre, number of the face) for the faces of this rank's blocks b whose
 /// other side is one block n.
 template <class Visit>
-void for_each_face(const LatticeTree& tree, BlockIndex first, BlockIndex last, const Visit& visit) {
-  for (BlockIndex b = first; b < last; ++b) {
+void for_each_face(const LatticeTree& tree, const Visit& visit) {
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     const GridCube cell = tree.cube(b);
     const std::uint32_t edge = cell.edge();
     for (int side = 0; side < 6; ++side) {
@@ -60,91 +55,93 @@ void for_each_face(const LatticeTree& tree, BlockIndex first, BlockIndex last, c
       place[axis] += high ? 0.5 * edge : -0.5 * edge;
       low[axis] = high ? low[axis] + edge : low[axis] - 1;
       const BlockIndex n = tree.block_at({low[0], low[1], low[2]});
-      if (tree.cube(n).level <= cell.level) visit(b, n, place, 6 * std::int64_t{b} + side);
+      if (tree.cube(n).level <= cell.level) visit(b, n, place, 6 * tree.number(b) + side);
     }
   }
 }
 
 /// The sets of blocks that are joined over faces, as far as this rank's blocks are concerned; the lowest
-/// block of a set stands for it.
+/// number of a set stands for it.
 class BlockSets {
 public:
-  BlockSets(const LatticeTree& tree, const SurfaceTable& table, BlockIndex first, BlockIndex last)
-      : _first(first), _last(last), _own(last - first) {
-    for_each_face(tree, first, last, [&](BlockIndex b, BlockIndex n, Vec3 place, std::int64_t face) {
+  BlockSets(const LatticeTree& tree, const SurfaceTable& table)
+      : _tree(tree), _own(tree.last() - tree.first()), _set(tree.last() - tree.first()) {
+    for_each_face(tree, [&](BlockIndex b, BlockIndex n, Vec3 place, std::int64_t face) {
       if (table.is_met(b) != table.is_met(n)) {
         const BlockIndex free = table.is_met(n) ? b : n, met = table.is_met(n) ? n : b;
-        _contacts.push_back({free, met, 0, face, place});
+        _contacts.push_back({tree.number(free), tree.number(met), 0, face, place});
       } else if (!table.is_met(b)) {
-        if (is_own(n))
-          _own.unite(b - first, n - first);
+        if (tree.is_own(n))
+          _own.unite(b - tree.first(), n - tree.first());
         else
-          _joints.push_back({b, n});
+          _joints.push_back({tree.number(b), tree.number(n)});
       }
     });
+    for (BlockIndex i = 0; i < tree.last() - tree.first(); ++i) _set[i] = first_of(i);
   }
 
-  /// Collective.
-  void join_those_of_all_ranks(const parallel::Communicator& communicator,
-                               std::span<const BlockIndex> shares) {
+  /// Ranks tell each other of lower sets until there are none. Collective.
+  void join_those_of_all_ranks(const parallel::Communicator& communicator) {
+    if (communicator.size() == 1) return;
     for (Joint& joint : _joints) joint.set = own_set(joint.set);
-    keep_each_once(_joints);
-    _joints = mesh::deliver(communicator, std::move(_joints),
-                            [&](const Joint& joint) { return owner_of(shares, joint.with); });
-    for (Joint& joint : _joints) joint.with = own_set(joint.with);
-    keep_each_once(_joints);
-    const std::vector<Joint> all = communicator.all_gather_items<Joint>(_joints);
-    std::vector<BlockIndex> sets;
-    for (const Joint& joint : all) sets.insert(sets.end(), {joint.set, joint.with});
-    std::sort(sets.begin(), sets.end());
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
-    const auto place_of = [&](BlockIndex set) {
-      return static_cast<BlockIndex>(std::lower_bound(sets.begin(), sets.end(), set) - sets.begin());
-    };
-    geometry::DisjointSets<BlockIndex> joined(sets.size());
-    for (const Joint& joint : all) joined.unite(place_of(joint.set), place_of(joint.with));
-    for (std::size_t i = 0; i < sets.size(); ++i) _joined[sets[i]] = sets[joined.root(static_cast<int>(i))];
+    // Each learns the other's set, and both know the joint.
+    std::vector<Joint> known = deliver(communicator, _joints);
+    for (Joint& joint : known) joint = {own_set(joint.with), joint.set};
+    keep_each_once(known);
+    for (const Joint& joint : deliver(communicator, known)) known.push_back({joint.with, joint.set});
+    keep_each_once(known);
+    for (bool changed = true; changed;) {
+      std::vector<Joint> told;
+      for (const Joint& joint : known) told.push_back({set(joint.set), joint.with});
+      changed = false;
+      for (const Joint& joint : deliver(communicator, std::move(told))) {
+        if (joint.set >= set(joint.with)) continue;
+        set(joint.with) = joint.set;
+        changed = true;
+      }
+      changed = communicator.maximum(std::int64_t{changed}) > 0;
+    }
   }
 
-  /// Of a block of this rank.
-  BlockIndex set_of(BlockIndex b) {
-    const BlockIndex set = own_set(b);
-    const auto joined = _joined.find(set);
-    return joined == _joined.end() ? set : joined->second;
-  }
+  /// Of a block of this rank, by number.
+  BlockNumber set_of(BlockNumber b) { return set(own_set(b)); }
 
   /// The contacts of this rank's met blocks in the order of faces, each with its set. Collective.
-  std::vector<Contact> take_contacts(const parallel::Communicator& communicator,
-                                     std::span<const BlockIndex> shares) {
+  std::vector<Contact> take_contacts(const parallel::Communicator& communicator) {
     std::vector<Contact> contacts =
         mesh::deliver(communicator, std::move(_contacts),
-                      [&](const Contact& contact) { return owner_of(shares, contact.free); });
+                      [&](const Contact& contact) { return _tree.owner(contact.free); });
     for (Contact& contact : contacts) contact.set = set_of(contact.free);
     contacts = mesh::deliver(communicator, std::move(contacts),
-                             [&](const Contact& contact) { return owner_of(shares, contact.met); });
+                             [&](const Contact& contact) { return _tree.owner(contact.met); });
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& a, const Contact& b) { return a.order < b.order; });
     return contacts;
   }
 
 private:
-  bool is_own(BlockIndex b) const { return b >= _first && b < _last; }
-  BlockIndex own_set(BlockIndex b) { return _first + _own.root(b - _first); }
+  BlockNumber first_of(BlockIndex i) { return _tree.number(_tree.first() + _own.root(i)); }
+  BlockNumber own_set(BlockNumber b) { return first_of(_tree.index(b) - _tree.first()); }
+  BlockNumber& set(BlockNumber own) { return _set[_tree.index(own) - _tree.first()]; }
+  std::vector<Joint> deliver(const parallel::Communicator& communicator, std::vector<Joint> joints) const {
+    return mesh::deliver(communicator, std::move(joints),
+                         [&](const Joint& joint) { return _tree.owner(joint.with); });
+  }
   static void keep_each_once(std::vector<Joint>& joints) {
     std::sort(joints.begin(), joints.end());
     joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   }
 
-  BlockIndex _first, _last;
-  geometry::DisjointSets<BlockIndex> _own;   // of this rank's blocks, from the first on
-  std::vector<Joint> _joints;                // at first of blocks, then of sets
-  std::vector<Contact> _contacts;            // that this rank has met
-  std::map<BlockIndex, BlockIndex> _joined;  // sets that are parts of larger ones
+  const LatticeTree& _tree;
+  geometry::DisjointSets<BlockIndex> _own;  // of this rank's blocks, from the first on
+  std::vector<BlockNumber> _set;            // of each own set, at its first block
+  std::vector<Joint> _joints;               // of blocks of this rank with others
+  std::vector<Contact> _contacts;           // that this rank has met
 };
 
 /// What was seen of a set of blocks, from how many places, and the first of them.
 struct Witness {
-  BlockIndex set;
+  BlockNumber set;
   RegionId region;
   std::int64_t contact;
   std::int64_t places;
@@ -203,12 +200,12 @@ private:
   EmptyBalls _balls;
 };
 
-/// What is seen from contacts, of which the blocks from first on are the met ones. The first place of each
+/// What is seen from contacts. The first place of each
 /// kind is looked at for what it tells; others in an empty ball, whose region is known, only count.
-std::vector<Witness> witnesses_of(std::span<const Contact> contacts, BlockIndex first,
+std::vector<Witness> witnesses_of(std::span<const Contact> contacts, const LatticeTree& tree,
                                   std::span<const SurfaceTriangle> triangles, Look& look) {
   std::vector<Witness> mine;
-  std::map<std::pair<BlockIndex, RegionId>, std::size_t> known;  // of `mine`
+  std::map<std::pair<BlockNumber, RegionId>, std::size_t> known;  // of `mine`
   for (const Contact& contact : contacts) {
     const Vec3 p = look.place_of(contact);
     if (const auto region = look.known_region_at(p)) {
@@ -218,7 +215,8 @@ std::vector<Witness> witnesses_of(std::span<const Contact> contacts, BlockIndex 
         continue;
       }
     }
-    const auto seen = look.from(contact.met, contact.met - first, p);
+    const BlockIndex met = tree.index(contact.met);
+    const auto seen = look.from(met, met - tree.first(), p);
     if (!seen) continue;
     const auto [witness, is_new] = known.insert({{contact.set, seen->region}, mine.size()});
     if (is_new)
@@ -238,32 +236,73 @@ std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witn
       std::find_if(first, witnesses.end(), [&](const Witness& w) { return w.set != first->set; });
   const auto [fewest, most] = std::minmax_element(
       first, last, [](const Witness& a, const Witness& b) { return a.places < b.places; });
-  return Contradiction{fewest->place, fewest->triangle, fewest->region, most->region};
+  return Contradiction{first->set, fewest->place, fewest->triangle, fewest->region, most->region};
 }
+
+/// That of the lowest set on all ranks. Collective.
+std::optional<Contradiction> lowest_of(const parallel::Communicator& communicator,
+                                       const std::optional<Contradiction>& mine) {
+  std::vector<Contradiction> all;
+  if (mine) all.push_back(*mine);
+  all = communicator.all_gather_items<Contradiction>(all);
+  if (all.empty()) return std::nullopt;
+  return *std::min_element(all.begin(), all.end(),
+                           [](const Contradiction& a, const Contradiction& b) { return a.set < b.set; });
+}
+
+/// The regions of sets, told by the ranks that have their first blocks, in their order. Collective.
+class RegionsOfSets {
+public:
+  RegionsOfSets(const parallel::Communicator& communicator, const LatticeTree& tree,
+                std::vector<BlockNumber> sets, const std::vector<Witness>& witnesses) {
+    struct Asked {
+      BlockNumber set;
+      parallel::Rank from;
+      RegionId region;
+      static constexpr auto fields() { return std::tuple(&Asked::set, &Asked::from, &Asked::region); }
+    };
+    std::sort(sets.begin(), sets.end());
+    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+    std::vector<Asked> asked;
+    for (const BlockNumber set : sets) asked.push_back({set, communicator.rank(), mesh::no_region});
+    asked = mesh::deliver(communicator, std::move(asked), [&](const Asked& a) { return tree.owner(a.set); });
+    for (Asked& a : asked) {
+      const auto seen = std::partition_point(witnesses.begin(), witnesses.end(),
+                                             [&](const Witness& witness) { return witness.set < a.set; });
+      if (seen != witnesses.end() && seen->set == a.set) a.region = seen->region;
+    }
+    for (const Asked& a :
+         mesh::deliver(communicator, std::move(asked), [](const Asked& told) { return told.from; }))
+      _regions[a.set] = a.region;
+  }
+  RegionId of(BlockNumber set) const { return _regions.at(set); }
+
+private:
+  std::map<BlockNumber, RegionId> _regions;
+};
 
 }  // namespace
 
 BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
                                 const LatticeTree& tree, const SurfaceTable& table,
-                                std::span<const BlockIndex> shares,
                                 std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
                                 const SurfaceReach& reach, parallel::StageClock& clock) {
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-  const BlockIndex first = shares[communicator.rank()], last = shares[communicator.rank() + 1];
-  BlockSets sets(tree, table, first, last);
-  sets.join_those_of_all_ranks(communicator, shares);
-  const std::vector<Contact> contacts = sets.take_contacts(communicator, shares);
+  BlockSets sets(tree, table);
+  sets.join_those_of_all_ranks(communicator);
+  const std::vector<Contact> contacts = sets.take_contacts(communicator);
   Look look(frame, tree, table, surface, reach);
-  const std::vector<Witness> mine = witnesses_of(contacts, first, triangles, look);
-  const std::vector<Witness> witnesses = unite(communicator.all_gather_items<Witness>(mine));
+  const std::vector<Witness> witnesses =
+      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, triangles, look),
+                          [&](const Witness& witness) { return tree.owner(witness.set); }));
   BlockRegions found{std::vector<RegionId>(tree.block_count(), mesh::no_region),
-                     find_contradiction(witnesses)};
-  for (BlockIndex b = first; b < last; ++b) {
-    if (table.is_met(b)) continue;
-    const BlockIndex set = sets.set_of(b);
-    const auto seen = std::partition_point(witnesses.begin(), witnesses.end(),
-                                           [set](const Witness& witness) { return witness.set < set; });
-    if (seen != witnesses.end() && seen->set == set) found.of_block[b] = seen->region;
+                     lowest_of(communicator, find_contradiction(witnesses))};
+  std::vector<BlockNumber> of_blocks;
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b)
+    of_blocks.push_back(table.is_met(b) ? 0 : sets.set_of(tree.number(b)));
+  const RegionsOfSets regions(communicator, tree, of_blocks, witnesses);
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+    if (!table.is_met(b)) found.of_block[b] = regions.of(of_blocks[b - tree.first()]);
   }
   return found;
 }

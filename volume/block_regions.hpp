@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -16,9 +17,15 @@ namespace aeroloom::volume {
 /// Blocks that the surface does not separate and that are seen in different regions: the surface is not
 /// closed, or intersects itself. The place is one of those that fewest places agree with.
 struct Contradiction {
+  BlockNumber set = 0;  ///< of blocks, by the lowest of them
   geometry::Vec3 place;
   mesh::GlobalIndex triangle = 0;  ///< of the surface mesh, nearest to the place
   mesh::RegionId seen = mesh::no_region, elsewhere = mesh::no_region;
+
+  static constexpr auto fields() {
+    return std::tuple(&Contradiction::set, &Contradiction::place, &Contradiction::triangle,
+                      &Contradiction::seen, &Contradiction::elsewhere);
+  }
 };
 
 struct BlockRegions {
@@ -29,11 +36,10 @@ struct BlockRegions {
 };
 
 /// Blocks that share a face are of one region; all places where such a set touches a block that the surface
-/// meets are looked at, each by the rank that has that block. What is found does not depend on the shares.
+/// meets are looked at, each by the rank that has that block. What is found does not depend on who has which.
 /// Collective.
 BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
                                 const LatticeTree& tree, const SurfaceTable& table,
-                                std::span<const BlockIndex> shares,
                                 std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
                                 const SurfaceReach& reach, parallel::StageClock& clock);
 

@@ -6,8 +6,8 @@ namespace {
 
 constexpr int center_slot = 7;
 
-std::int64_t center_of(const Leaf& leaf) {
-  return lattice_number(leaf.block, leaf.child * slots_per_leaf + center_slot);
+std::int64_t center_of(const LatticeTree& tree, const Leaf& leaf) {
+  return lattice_number(tree, leaf.block, leaf.child * slots_per_leaf + center_slot);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ void CoreCells::make_side(int child, const HalfPlace& leaf, int axis, int sign) 
   HalfPlace beyond = leaf;
   beyond[axis] += sign;
   const LeafSurroundings::Cube& cube = _around.cube(beyond);
-  const Point center{center_of({_around.block(), child}), false};
+  const Point center{center_of(_around.tree(), {_around.block(), child}), false};
   const auto take_square = [&](int first_b, int first_d, int step) {
     _pattern = 0;
     for (int k = 0; k < 8; ++k) {
@@ -74,7 +74,7 @@ void CoreCells::make_side(int child, const HalfPlace& leaf, int axis, int sign) 
   const auto cover = [&](const Leaf& other, bool counts_both) {
     const bool is_core = _core.is_core(other);
     if (is_core && !counts_both) return;
-    const Point across{is_core ? center_of(other) : -1, false};
+    const Point across{is_core ? center_of(_around.tree(), other) : -1, false};
     for (const auto& [p, q, r] : _squares.triangles(axis, _pattern)) {
       const Point *x = &_square[p], *y = &_square[q], *z = &_square[r];
       // Seen against the axis they turn counter-clockwise: the volume above is positive.
@@ -103,7 +103,7 @@ void CoreCells::make_side(int child, const HalfPlace& leaf, int axis, int sign) 
   const bool is_core = cube.size == Size::same && _core.is_core(cube.leaf);
   const unsigned claims = cube.size == Size::same && !is_core ? _core.claims(cube.leaf) : 0;
   if (!is_core && !(claims >> (2 * axis + (sign < 0)) & 1)) return cover(cube.leaf, true);
-  const Point across{center_of(cube.leaf), !is_core && claims != CoreLeaves::all_sides};
+  const Point across{center_of(_around.tree(), cube.leaf), !is_core && claims != CoreLeaves::all_sides};
   const Point &below = sign > 0 ? center : across, &above = sign > 0 ? across : center;
   // Beyond each edge of the square lies another side of the leaf across it.
   const int beyond_edge[4] = {2 * d, 2 * b + 1, 2 * d + 1, 2 * b};

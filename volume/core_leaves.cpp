@@ -9,9 +9,8 @@ using mesh::RegionId;
 using parallel::ScopedCpu;
 
 CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
-                       std::span<const BlockIndex> shares, const BlockPoints& points,
-                       parallel::StageClock& clock)
-    : _ghosts(communicator, source.tree, shares), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
+                       const BlockPoints& points, parallel::StageClock& clock)
+    : _ghosts(communicator, source.tree), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
   {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
@@ -76,7 +75,7 @@ void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) 
     const auto exists = [&](const HalfPlace& at) {
       const std::int64_t number = around.number(at);
       if (number < 0) return false;
-      const Present& has = _present[_ghosts.place(static_cast<BlockIndex>(number / slots_per_block))];
+      const Present& has = _present[_ghosts.place(source.tree.index(number / slots_per_block))];
       return has.region == region && (has.slots >> number % slots_per_block & 1) != 0;
     };
     for (int child = 0; child < source.tree.leaf_count(b); ++child) {

@@ -29,7 +29,7 @@ class CoreLeaves {
 public:
   /// `points` are all those of this rank's blocks. Collective.
   CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
-             std::span<const BlockIndex> shares, const BlockPoints& points, parallel::StageClock& clock);
+             const BlockPoints& points, parallel::StageClock& clock);
 
   /// The core leaves of a block, a bit each.
   std::uint8_t of(BlockIndex b) const { return _core[_ghosts.place(b)]; }

@@ -40,12 +40,48 @@ struct Parcel {
   }
 };
 
+/// A point of a cell on its way.
+struct PointParcel {
+  parallel::Rank rank;
+  std::int64_t number;
+  Vec3 point;
+
+  static constexpr auto fields() {
+    return std::tuple(&PointParcel::rank, &PointParcel::number, &PointParcel::point);
+  }
+};
+
 /// Points of the lattice and what pieces call them.
 class Naming {
 public:
   explicit Naming(const CoreSource& source) : _source(source) {}
+  const LatticeTree& tree() const { return _source.lattice.tree; }
   Vec3 place(std::int64_t number) const {
-    return lattice_point(_source.lattice, leaf_of_lattice(number), static_cast<int>(number % slots_per_leaf));
+    const LeafNumber leaf = leaf_number_of_lattice(number);
+    if (tree().knows(leaf / 8))
+      return lattice_point(_source.lattice, tree().leaf_of(leaf), static_cast<int>(number % slots_per_leaf));
+    return std::lower_bound(_arrived.begin(), _arrived.end(), number,
+                            [](const PointParcel& p, std::int64_t wanted) { return p.number < wanted; })
+        ->point;
+  }
+  /// Cells of blocks that their rank may not know bring their points. Collective.
+  void send_points(const parallel::Communicator& communicator, std::span<const Parcel> cells) {
+    for (const Parcel& cell : cells) {
+      if (cell.rank == communicator.rank()) continue;
+      for (const std::int64_t number : cell.points) _arrived.push_back({cell.rank, number, {}});
+    }
+    const auto in_order = [](const PointParcel& a, const PointParcel& b) {
+      return std::tie(a.rank, a.number) < std::tie(b.rank, b.number);
+    };
+    std::sort(_arrived.begin(), _arrived.end(), in_order);
+    _arrived.erase(std::unique(_arrived.begin(), _arrived.end(),
+                               [](const PointParcel& a, const PointParcel& b) {
+                                 return a.rank == b.rank && a.number == b.number;
+                               }),
+                   _arrived.end());
+    for (PointParcel& parcel : _arrived) parcel.point = place(parcel.number);
+    _arrived = mesh::deliver(communicator, std::move(_arrived), [](const PointParcel& p) { return p.rank; });
+    std::sort(_arrived.begin(), _arrived.end(), in_order);
   }
   void add_vertex(std::int64_t number, RegionId region, Piece& piece) const {
     const Vec3 p = place(number);
@@ -57,6 +93,7 @@ public:
 
 private:
   const CoreSource& _source;
+  std::vector<PointParcel> _arrived;
 };
 
 void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
@@ -70,7 +107,8 @@ void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
 Piece make_piece(const Naming& naming, RegionId region, std::span<const NumberedCell> cells, BlockIndex first,
                  BlockIndex last) {
   // Most numbers are those of the range: a place in a table each. The others are sorted.
-  const std::int64_t low = lattice_number(first, 0), high = lattice_number(last, 0);
+  const std::int64_t low = lattice_number(naming.tree(), first, 0);
+  const std::int64_t high = low + std::int64_t{last - first} * slots_per_block;
   constexpr LocalIndex unused = -1, used = 0;
   std::vector<LocalIndex> local(static_cast<std::size_t>(high - low), unused);
   std::vector<std::uint8_t> shared(local.size(), 0);
@@ -259,6 +297,7 @@ public:
 
   CoreMesh run() {
     std::vector<Parcel> parcels = make_parcels(ranks_of_zones());
+    _naming.send_points(_communicator, parcels);
     parcels = mesh::deliver(_communicator, std::move(parcels), [](const Parcel& p) { return p.rank; });
     const ScopedCpu task(_clock, ScopedCpu::As::task);
     std::stable_sort(parcels.begin(), parcels.end(), [](const Parcel& a, const Parcel& b) {
@@ -335,7 +374,8 @@ private:
     ZoneIndex lowest = _source.zones.count();
     for (int k = 0; k < 4; ++k) {
       if (cell.of_shell >> k & 1)
-        lowest = std::min(lowest, _source.finder.zone_of(leaf_of_lattice(cell.points[k])));
+        lowest =
+            std::min(lowest, _source.finder.zone_of(leaf_of_lattice(_source.lattice.tree, cell.points[k])));
     }
     return lowest;
   }

@@ -12,7 +12,7 @@ namespace aeroloom::volume {
 CoreRanges::CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree,
                        const CoreLeaves& core, const ShellShare& share, std::int64_t piece_tets,
                        parallel::StageClock& clock)
-    : _core(core), _range(core.ghosts().count(), -1), _deep(share.deep) {
+    : _tree(tree), _core(core), _range(core.ghosts().count(), -1), _deep(share.deep) {
   const GhostBlocks& ghosts = core.ghosts();
   const std::vector<std::uint16_t>& weights = share.inner_cells;
   const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
@@ -30,7 +30,7 @@ CoreRanges::CoreRanges(const parallel::Communicator& communicator, const Lattice
   _inner.assign(ghosts.count(), 0);
   {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    find_inner(tree);
+    find_inner();
   }
   ghosts.update(communicator, _inner);
   find_ranks(communicator);
@@ -41,15 +41,15 @@ std::uint8_t CoreRanges::shared_of(BlockIndex b, const CoreCell& cell) const {
   if (!is_inner({b, cell.child})) return 0xf;
   std::uint8_t shared = 0;
   for (int k = 0; k < 4; ++k) {
-    if (cell.points[k] % slots_per_leaf == center_slot && !is_inner(leaf_of_lattice(cell.points[k])))
+    if (cell.points[k] % slots_per_leaf == center_slot && !is_inner(leaf_of_lattice(_tree, cell.points[k])))
       shared |= static_cast<std::uint8_t>(1U << k);
   }
   return shared;
 }
 
-void CoreRanges::find_inner(const LatticeTree& tree) {
+void CoreRanges::find_inner() {
   const GhostBlocks& ghosts = _core.ghosts();
-  LeafSurroundings around(tree);
+  LeafSurroundings around(_tree);
   for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
     if (_deep[i] == 0) continue;
     around.move_to(ghosts.first() + static_cast<BlockIndex>(i));

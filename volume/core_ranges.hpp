@@ -27,9 +27,10 @@ public:
 private:
   /// All leaves that touch it are of its range, and none of them has points of the shell.
   bool is_inner(const Leaf& leaf) const { return _inner[_core.ghosts().place(leaf.block)] >> leaf.child & 1; }
-  void find_inner(const LatticeTree& tree);
+  void find_inner();
   void find_ranks(const parallel::Communicator& communicator);
 
+  const LatticeTree& _tree;
   const CoreLeaves& _core;
   std::int32_t _count = 0;
   std::vector<std::int32_t> _range;         // of blocks, by place

@@ -2,8 +2,12 @@
 #include "partition/piece_size.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
+#include "volume/filling_limits.hpp"
+#include "volume/halo.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -26,26 +30,57 @@ geometry::Box box_of(const parallel::Communicator& communicator, const mesh::Dis
   return box;
 }
 
-/// The triangles that matter to the blocks of each rank.
-std::vector<SurfaceTriangle> gather_triangles(const parallel::Communicator& communicator,
-                                              const VolumeInput& input, Decomposition::Data& data,
-                                              parallel::StageClock& clock) {
-  if (communicator.size() > 1) {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
-    data.reach = reach_of_blocks(data.source(input), data.shares[communicator.rank()],
-                                 data.shares[communicator.rank() + 1]);
+/// The finest cubes that hold the centres of this rank's triangles.
+std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::DistributedMesh& surface) {
+  std::vector<std::uint64_t> keys;
+  for (const mesh::Piece& piece : surface.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const geometry::Vec3 centre = (1.0 / 3.0) * (piece.point(v[0]) + piece.point(v[1]) + piece.point(v[2]));
+      keys.push_back(sizing::morton_key(frame.cell_at(frame.to_grid(centre))));
+    }
   }
-  return deliver_surface(communicator, *data.frame, *data.tree, data.table, data.shares, data.reach,
-                         input.surface, input.numbering, clock);
+  return keys;
+}
+
+/// What this rank has to know of other ranks' blocks: those that touch its own, then all that points, halos
+/// and their triangles may have to do with, retries included.
+void look_around(const parallel::Communicator& communicator, const VolumeInput& input,
+                 Decomposition::Data& data, parallel::StageClock& clock) {
+  if (communicator.size() == 1) return;
+  std::vector<GridBox> boxes;
+  for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
+    boxes.push_back(GridBox::of(data.tree->cube(b)).dilated(0.5));
+  look_around(communicator, *data.tree, data.table, boxes, clock);
+  const double widest =
+      input.options.halo * std::pow(wider, std::min<int>(input.options.retries, std::size(ladder)));
+  data.changes.assign(data.tree->block_count(), {});
+  const LatticeSource source = data.source(input);
+  boxes.clear();
+  for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
+    boxes.push_back(GridBox::of(data.tree->cube(b))
+                        .dilated(std::max(ZonesAround::reach(*data.frame, *data.tree, data.table, b, widest),
+                                          look_of_block(source, b))));
+  look_around(communicator, *data.tree, data.table, boxes, clock);
 }
 
 /// The surface near each rank's blocks.
 void share_surface(const parallel::Communicator& communicator, const VolumeInput& input,
                    Decomposition::Data& data, parallel::StageClock& clock) {
-  data.table = tabulate_surface(communicator, *data.frame, *data.tree, input.surface, clock);
+  data.triangles =
+      deliver_surface(communicator, *data.frame, *data.tree, input.surface, input.numbering, clock);
+  {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    data.table = tabulate_surface(*data.frame, *data.tree, data.triangles);
+  }
+  look_around(communicator, input, data, clock);
   data.changes.assign(data.tree->block_count(), {});
-  data.shares = share_blocks(*data.tree, data.table, communicator.size());
-  data.triangles = gather_triangles(communicator, input, data, clock);
+  if (communicator.size() > 1) {
+    const ScopedCpu task(clock, ScopedCpu::As::task);
+    data.reach = reach_of_blocks(data.source(input), data.tree->first(), data.tree->last());
+  }
+  data.triangles =
+      add_those_near(communicator, *data.frame, *data.tree, data.reach, std::move(data.triangles), clock);
   const ScopedCpu task(clock, ScopedCpu::As::task);
   data.surface = std::make_unique<NearSurface>(data.triangles);
 }
@@ -54,13 +89,13 @@ void share_surface(const parallel::Communicator& communicator, const VolumeInput
 void keep_own_triangles(const parallel::Communicator& communicator, Decomposition::Data& data,
                         parallel::StageClock& clock) {
   const ScopedCpu task(clock, ScopedCpu::As::task);
-  const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
   std::vector<SurfaceTriangle> own;
   if (communicator.size() > 1) {
     for (const SurfaceTriangle& triangle : data.triangles) {
-      if (data.tree->any_block_in(grid_box(*data.frame, triangle.points),
-                                  [&](BlockIndex b) { return b >= first && b < last; }))
-        own.push_back(triangle);
+      bool meets = false;
+      data.tree->for_each_own_block_in(grid_box(*data.frame, triangle.points),
+                                       [&](BlockIndex) { meets = true; });
+      if (meets) own.push_back(triangle);
     }
     own.shrink_to_fit();
     data.triangles = std::move(own);
@@ -68,20 +103,32 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
 }
 
 /// Zones of equal expected size.
-void divide(const VolumeInput& input, Decomposition::Data& data, parallel::StageClock& clock) {
-  const ScopedCpu repeated(clock, ScopedCpu::As::serial);
-  const std::vector<double> loads = block_loads(data.table, data.counts, data.borders);
-  const double of_shell = std::accumulate(loads.begin(), loads.end(), 0.0);
-  data.report.expected_tetrahedra = of_shell + static_cast<double>(data.report.core_tetrahedra);
+void divide(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
+            parallel::StageClock& clock) {
+  const ShellShare& shell = data.shell;
+  std::vector<Load> loads;
+  for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
+    loads.push_back(load_of(shell.points.count(b), data.table.triangles[b],
+                            static_cast<std::int64_t>(shell.borders.of(b).size())));
+  const Load all = communicator.sum(std::accumulate(loads.begin(), loads.end(), Load{0}));
+  data.report.expected_tetrahedra = tetrahedra_of(all) + static_cast<double>(data.report.core_tetrahedra);
   const auto suitable = [&](double tetrahedra) {
     return input.options.piece_tets.value_or(partition::suitable_piece_tets(tetrahedra));
   };
   data.core_piece_tets = suitable(data.report.expected_tetrahedra);
-  const ZoneIndex count = wanted_zones(of_shell, suitable(of_shell));
-  data.zones = std::make_unique<Zones>(bisect(*data.tree, loads, count));
-  data.expected.assign(count, 0);
-  for (BlockIndex b = 0; b < data.tree->block_count(); ++b) data.expected[data.zones->of(b, 0)] += loads[b];
+  const ZoneIndex count = wanted_zones(tetrahedra_of(all), suitable(tetrahedra_of(all)));
+  const std::vector<CoarseCell> cells =
+      coarsen(communicator, *data.tree, loads, all / (ZoneCuts::cells_per_zone * count));
+  {
+    const ScopedCpu repeated(clock, ScopedCpu::As::serial);
+    data.zones = std::make_unique<Zones>(*data.tree, ZoneCuts(cells, count));
+  }
   data.report.zones = count;
+  std::vector<Load> of_zones(count, 0);
+  for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
+    of_zones[data.zones->of(b, 0)] += loads[b - data.tree->first()];
+  for (const Load load : sum_by_zone(communicator, std::move(of_zones)))
+    data.expected.push_back(tetrahedra_of(load));
 }
 
 /// What zones know, and who fills them.
@@ -112,10 +159,11 @@ const DecompositionReport& Decomposition::report() const {
 
 std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
                                         Decomposition::Data& data, parallel::StageClock& clock) {
-  const BlockIndex first = data.shares[communicator.rank()], last = data.shares[communicator.rank() + 1];
+  const BlockIndex first = data.tree->first(), last = data.tree->last();
   BlockPoints points;
   std::vector<SurfaceTriangle> again;
-  if (!data.surface) again = gather_triangles(communicator, input, data, clock);
+  if (!data.surface)
+    again = add_those_near(communicator, *data.frame, *data.tree, data.reach, data.triangles, clock);
   parallel::agree(communicator, [&] {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     if (!data.surface) data.surface = std::make_unique<NearSurface>(again);
@@ -123,22 +171,16 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
     data.surface.reset();
   });
   data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(points.points.size()));
-  const std::unique_ptr<const CoreLeaves> before = std::exchange(
-      data.core, std::make_unique<CoreLeaves>(communicator, data.source(input), data.shares, points, clock));
-  std::vector<std::uint8_t> counts, borders;
+  const std::unique_ptr<const CoreLeaves> before =
+      std::exchange(data.core, std::make_unique<CoreLeaves>(communicator, data.source(input), points, clock));
   std::vector<BlockIndex> changed;
   {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     data.shell = find_shell(*data.tree, *data.core, *data.squares, std::move(points));
     for (BlockIndex b = first; b < last; ++b) {
-      counts.push_back(static_cast<std::uint8_t>(data.shell.points.count(b)));
-      borders.push_back(
-          static_cast<std::uint8_t>(std::min<std::size_t>(data.shell.borders.of(b).size(), 255)));
       if (before && before->of(b) != data.core->of(b)) changed.push_back(b);
     }
   }
-  data.counts = communicator.all_gather_items<std::uint8_t>(counts);
-  data.borders = communicator.all_gather_items<std::uint8_t>(borders);
   data.report.shell_points = communicator.sum(static_cast<std::int64_t>(data.shell.points.points.size()));
   data.report.core_tetrahedra = communicator.sum(data.shell.core_cells());
   return changed;
@@ -149,19 +191,19 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
   auto data = std::make_unique<Decomposition::Data>();
   const geometry::Box box = box_of(communicator, input.surface);
   data->frame = std::make_unique<LatticeFrame>(input.field, box);
-  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field, box, clock);
+  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field, box, clock,
+                                             keys_of(*data->frame, input.surface));
   data->squares = std::make_unique<CoreSquares>(*data->frame);
-  data->report.blocks = data->tree->block_count();
+  data->report.blocks = data->tree->total();
   share_surface(communicator, input, *data, clock);
-  BlockRegions regions =
-      find_block_regions(communicator, *data->frame, *data->tree, data->table, data->shares, data->triangles,
-                         *data->surface, data->reach, clock);
+  BlockRegions regions = find_block_regions(communicator, *data->frame, *data->tree, data->table,
+                                            data->triangles, *data->surface, data->reach, clock);
   if (regions.contradiction)
     refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);
   make_all_points(communicator, input, *data, clock);
   keep_own_triangles(communicator, *data, clock);
-  divide(input, *data, clock);
+  divide(communicator, input, *data, clock);
   plan_all(communicator, input, *data, clock);
   return Decomposition(std::move(data));
 }

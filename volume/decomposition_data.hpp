@@ -16,15 +16,12 @@
 namespace aeroloom::volume {
 
 struct Decomposition::Data {
-  // The same on every rank.
+  // The same on every rank, of the blocks that it knows.
   std::unique_ptr<const LatticeFrame> frame;
-  std::unique_ptr<const LatticeTree> tree;
+  std::unique_ptr<LatticeTree> tree;
   SurfaceTable table;
   std::vector<mesh::RegionId> regions;  ///< per block, of those of this rank
   std::vector<BlockChange> changes;     ///< per block
-  std::vector<BlockIndex> shares;       ///< see share_blocks
-  std::vector<std::uint8_t> counts;     ///< points of the shell per block
-  std::vector<std::uint8_t> borders;    ///< per block: triangles of the core's border, 255 at most
   std::unique_ptr<const CoreSquares> squares;
   std::unique_ptr<Zones> zones;
   std::vector<double> expected;      ///< tetrahedra per zone, without the core's
@@ -39,9 +36,6 @@ struct Decomposition::Data {
   ShellShare shell;
   ZonePlan plan;  ///< of all zones
 
-  BlockIndex first_block() const { return shell.points.first; }
-  BlockIndex last_block() const { return shell.points.last(); }
-  bool is_own(BlockIndex b) const { return b >= first_block() && b < last_block(); }
   ZoneFinder finder(const VolumeInput& input) const {
     return {*frame, *tree, *zones, input.numbering.vertex_count};
   }

@@ -54,7 +54,8 @@ private:
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
     std::erase_if(_results, [&](const auto& result) { return _ladder.is_gone(result.first); });
     constexpr std::int64_t steps = 1000;  // of a wave, whatever its zones
-    parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.batches.size()), "tetrahedra");
+    parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.batches.size()),
+                                "tetrahedra");
     std::int64_t waves = 0, made = 0;
     for (const ZoneShipment& batch : plan.batches) {
       std::vector<ZoneContent> contents = supply_zones(_communicator, _data.store(_input), batch, _clock);
@@ -147,11 +148,10 @@ private:
   mesh::DistributedMesh assemble() {
     _report.load_error_90 = load_error();
     const LatticeSource lattice = _data.source(_input);
-    CoreMesh core = make_core(
-        _communicator,
-        {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones, _data.finder(_input),
-         _data.core_piece_tets},
-        _results, _clock);
+    CoreMesh core = make_core(_communicator,
+                              {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones,
+                               _data.finder(_input), _data.core_piece_tets},
+                              _results, _clock);
     _report.tetrahedra = core.tetrahedra;
     _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
     for (const auto& [zone, result] : _results) {

@@ -2,9 +2,8 @@
 
 namespace aeroloom::volume {
 
-GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree,
-                         std::span<const BlockIndex> shares)
-    : _first(shares[communicator.rank()]), _last(shares[communicator.rank() + 1]) {
+GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree)
+    : _first(tree.first()), _last(tree.last()) {
   if (communicator.size() == 1) return;
   for (BlockIndex b = _first; b < _last; ++b) {
     tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
@@ -16,11 +15,10 @@ GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const Latti
   std::vector<Wanted> asked;
   asked.reserve(_ghosts.size());
   for (const BlockIndex b : _ghosts)
-    asked.push_back({b, static_cast<std::int32_t>(place(b)), communicator.rank()});
-  _wanted = mesh::deliver(communicator, std::move(asked), [&](const Wanted& wanted) {
-    return static_cast<parallel::Rank>(std::upper_bound(shares.begin(), shares.end() - 1, wanted.block) -
-                                       shares.begin() - 1);
-  });
+    asked.push_back({tree.number(b), static_cast<std::int32_t>(place(b)), communicator.rank()});
+  _wanted = mesh::deliver(communicator, std::move(asked),
+                          [&](const Wanted& wanted) { return tree.owner(wanted.block); });
+  for (Wanted& wanted : _wanted) wanted.block = tree.index(wanted.block) - _first;
 }
 
 }  // namespace aeroloom::volume

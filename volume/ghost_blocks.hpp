@@ -15,9 +15,8 @@ namespace aeroloom::volume {
 /// Values per block, own ones and ghosts, by *place*: own blocks first, along the curve, then the ghosts.
 class GhostBlocks {
 public:
-  /// `shares` as of share_blocks. Collective.
-  GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree,
-              std::span<const BlockIndex> shares);
+  /// Collective.
+  GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree);
 
   std::size_t own_count() const { return static_cast<std::size_t>(_last - _first); }
   std::size_t count() const { return own_count() + _ghosts.size(); }
@@ -42,7 +41,7 @@ public:
     };
     std::vector<Parcel> parcels;
     parcels.reserve(_wanted.size());
-    for (const Wanted& wanted : _wanted) parcels.push_back({values[wanted.block - _first], wanted});
+    for (const Wanted& wanted : _wanted) parcels.push_back({values[wanted.block], wanted});
     for (const Parcel& parcel :
          mesh::deliver(communicator, std::move(parcels), [](const Parcel& p) { return p.wanted.rank; }))
       values[parcel.wanted.place] = parcel.value;
@@ -51,7 +50,7 @@ public:
 private:
   /// A block of this rank that another one has as a ghost, and where it keeps it.
   struct Wanted {
-    BlockIndex block;
+    BlockNumber block;  ///< its place with its owner, once it has arrived there
     std::int32_t place;
     parallel::Rank rank;
     static constexpr auto fields() { return std::tuple(&Wanted::block, &Wanted::place, &Wanted::rank); }

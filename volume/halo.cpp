@@ -29,8 +29,8 @@ ZonesAround::ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, con
       _widest(*std::max_element(widths.begin(), widths.end())),
       _alike_to(tree.block_count()) {
   for (BlockIndex b = tree.block_count(); b-- > 0;) {
-    const bool goes_on = b + 1 < tree.block_count() && zones.is_whole(b) && zones.is_whole(b + 1) &&
-                         zones.of(b, 0) == zones.of(b + 1, 0);
+    const bool goes_on = b + 1 < tree.block_count() && tree.is_known(b) && tree.is_known(b + 1) &&
+                         zones.is_whole(b) && zones.is_whole(b + 1) && zones.of(b, 0) == zones.of(b + 1, 0);
     _alike_to[b] = goes_on ? _alike_to[b + 1] : b + 1;
   }
 }

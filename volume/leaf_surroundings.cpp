@@ -99,8 +99,8 @@ int LeafSurroundings::points_on_edges(const HalfPlace& leaf, int side) const {
 std::int64_t LeafSurroundings::number(const HalfPlace& at) const {
   const HalfPlace where{at[0] >> 1, at[1] >> 1, at[2] >> 1};
   const Cube& c = cube(where);
-  const auto of = [](const Leaf& leaf, int slot) {
-    return lattice_number(leaf.block, leaf.child * slots_per_leaf + slot);
+  const auto of = [&](const Leaf& leaf, int slot) {
+    return lattice_number(_tree, leaf.block, leaf.child * slots_per_leaf + slot);
   };
   const std::array<int, 3> half{at[0] & 1, at[1] & 1, at[2] & 1};
   switch (c.size) {

@@ -39,6 +39,7 @@ public:
     Leaf leaf{};
   };
   /// Of those that touch the block, and its own: -1 to width() along each axis, in leaves.
+  const LatticeTree& tree() const { return _tree; }
   const Cube& cube(const HalfPlace& at) const {
     return _cubes[(at[0] + 1) + 4 * (at[1] + 1) + 16 * (at[2] + 1)];
   }

@@ -20,8 +20,6 @@ namespace {
 
 /// Rounding of grid coordinates is far below this, in finest cells.
 constexpr double rounding = 1e-3;
-/// Expected work on a leaf and on a triangle, and on a block that the surface meets.
-constexpr double leaf_work = 1, triangle_work = 4, met_work = 8;
 
 std::array<Vec3, 3> corners_of(const Piece& piece, mesh::LocalIndex t) {
   const mesh::LocalIndex* v = piece.cell(t);
@@ -32,36 +30,12 @@ double longest_edge(const std::array<Vec3, 3>& p) {
   return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
 }
 
-/// What one rank knows about a block.
-struct BlockRow {
-  BlockIndex block;
-  float longest_edge;
-  std::int32_t triangles;
-  float nearest;
-
-  static constexpr auto fields() {
-    return std::tuple(&BlockRow::block, &BlockRow::longest_edge, &BlockRow::triangles, &BlockRow::nearest);
-  }
-};
-
 /// How far a triangle is from the middle of a block, in space, rounded up.
 float distance_from_middle(const LatticeFrame& frame, const GridCube& block, const std::array<Vec3, 3>& p) {
   const GridBox box = GridBox::of(block);
   const Vec3 middle = frame.to_space(0.5 * (box.low + box.high));
   const double distance = std::sqrt(BoundaryDistance::squared_distance(middle, {p[0], p[1], p[2]}).squared);
   return std::nextafter(static_cast<float>(distance), std::numeric_limits<float>::infinity());
-}
-
-/// Calls add(row) for what a triangle adds to the rows of blocks.
-template <class Add>
-void tabulate(const LatticeFrame& frame, const LatticeTree& tree, const std::array<Vec3, 3>& p,
-              const Add& add) {
-  const auto edge = static_cast<float>(longest_edge(p));
-  const BlockIndex middle = tree.block_at(frame.cell_at(frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]))));
-  add(BlockRow{middle, edge, 1, distance_from_middle(frame, tree.cube(middle), p)});
-  tree.for_each_block_in(grid_box(frame, p), [&](BlockIndex b) {
-    if (b != middle) add(BlockRow{b, edge, 0, distance_from_middle(frame, tree.cube(b), p)});
-  });
 }
 
 SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const mesh::GlobalIndex> numbers,
@@ -83,92 +57,61 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
   return triangle;
 }
 
-/// A rank wants what meets a block.
-struct Want {
-  BlockIndex block;
+/// A triangle on its way.
+struct Parcel {
+  SurfaceTriangle triangle;
   parallel::Rank rank;
 
-  static constexpr auto fields() { return std::tuple(&Want::block, &Want::rank); }
+  static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
 };
 
-/// The blocks of others that a rank wants the triangles of.
-class WantedBlocks {
-public:
-  WantedBlocks(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-               std::span<const BlockIndex> shares, const SurfaceReach& reach, parallel::Rank rank)
-      : _frame(frame),
-        _tree(tree),
-        _table(table),
-        _reach(reach),
-        _rank(rank),
-        _first(shares[rank]),
-        _last(shares[rank + 1]) {}
-
-  std::vector<Want> list() {
-    for (BlockIndex b = _first; b < _last; ++b) look_from(b);
-    _of_all.build();
-    _of_large.build();
-    std::vector<Want> wants;
-    for (BlockIndex n = 0; n < _tree.block_count(); ++n) {
-      const bool is_own = n >= _first && n < _last;
-      if (!is_own && _table.is_met(n) && is_within_reach(n)) wants.push_back({n, _rank});
-    }
-    return wants;
+/// What arrives here, by number, each once, with those that are here. Collective.
+std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, std::vector<Parcel> outgoing,
+                                  const std::vector<SurfaceTriangle>& here) {
+  const std::vector<Parcel> arrived =
+      mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; });
+  // Triangles are large: pointers to them are sorted, and each is copied once.
+  std::vector<const SurfaceTriangle*> order;
+  order.reserve(here.size() + arrived.size());
+  for (const SurfaceTriangle& triangle : here) order.push_back(&triangle);
+  for (const Parcel& parcel : arrived) order.push_back(&parcel.triangle);
+  std::sort(order.begin(), order.end(),
+            [](const SurfaceTriangle* a, const SurfaceTriangle* b) { return a->number < b->number; });
+  std::vector<SurfaceTriangle> result;
+  result.reserve(order.size());
+  for (const SurfaceTriangle* triangle : order) {
+    if (result.empty() || result.back().number != triangle->number) result.push_back(*triangle);
   }
+  return result;
+}
 
-private:
-  void look_from(BlockIndex b) {
-    BlockReach reach = _reach.of_blocks[b - _first];
-    const GridBox box = GridBox::of(_tree.cube(b));
-    const double farthest = std::max(reach.most, reach.nearest);
-    const auto [lowest, highest] = _tree.range_of(box.dilated(farthest));
-    if (lowest >= _first && highest < _last) return;
-    reach.least = std::max(reach.least, reach.nearest);
-    reach.most = farthest;
-    _of_all.add(box.dilated(reach.least));
-    _of_large.add(box.dilated(reach.most));
+/// A rank asks for what touches a box, or is less than the least reach away.
+struct Question {
+  GridBox box;
+  double least, most;  ///< see BlockReach
+  parallel::Rank to, from;
+
+  static constexpr auto fields() {
+    return std::tuple(&Question::box, &Question::least, &Question::most, &Question::to, &Question::from);
   }
-
-  bool is_within_reach(BlockIndex n) const {
-    const GridBox box = GridBox::of(_tree.cube(n));
-    return _of_all.any_within(box, _reach.per_edge * _table.longest_edge[n]) && _of_large.any_within(box, 0);
-  }
-
-  const LatticeFrame& _frame;
-  const LatticeTree& _tree;
-  const SurfaceTable& _table;
-  const SurfaceReach& _reach;
-  parallel::Rank _rank;
-  BlockIndex _first, _last;
-  NearBoxes _of_all, _of_large;  // triangles
 };
 
-/// Which ranks want what meets a block, beside the one that has the block.
-class Fringe {
-public:
-  Fringe(const parallel::Communicator& communicator, const LatticeTree& tree, const SurfaceTable& table,
-         const LatticeFrame& frame, std::span<const BlockIndex> shares, const SurfaceReach& reach,
-         parallel::StageClock& clock) {
-    if (communicator.size() == 1) return;
-    std::vector<Want> mine;
-    {
-      const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-      mine = WantedBlocks(frame, tree, table, shares, reach, communicator.rank()).list();
-    }
-    _wants = communicator.all_gather_items<Want>(mine);
-    std::sort(_wants.begin(), _wants.end(), [](const Want& a, const Want& b) { return a.block < b.block; });
+/// Asks all other ranks that have blocks where `where` is.
+void ask(const LatticeTree& tree, const GridBox& where, Question question, std::vector<Question>& questions) {
+  std::vector<parallel::Rank> ranks;
+  tree.for_each_rank_in(where, [&](parallel::Rank rank) { ranks.push_back(rank); });
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  for (const parallel::Rank rank : ranks) {
+    question.to = rank;
+    if (rank != question.from) questions.push_back(question);
   }
+}
 
-  template <class Visit>
-  void for_each_rank(BlockIndex b, const Visit& visit) const {
-    auto at = std::lower_bound(_wants.begin(), _wants.end(), b,
-                               [](const Want& want, BlockIndex block) { return want.block < block; });
-    for (; at != _wants.end() && at->block == b; ++at) visit(at->rank);
-  }
-
-private:
-  std::vector<Want> _wants;
-};
+/// Questions arrive rank by rank. Collective.
+std::vector<Question> deliver(const parallel::Communicator& communicator, std::vector<Question> questions) {
+  return mesh::deliver(communicator, std::move(questions), [](const Question& q) { return q.to; });
+}
 
 }  // namespace
 
@@ -178,66 +121,10 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
   return GridBox{box.low, box.high}.dilated(rounding);
 }
 
-SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                              const LatticeTree& tree, const mesh::DistributedMesh& surface,
-                              parallel::StageClock& clock) {
-  SurfaceTable table;
-  table.longest_edge.assign(tree.block_count(), 0);
-  table.triangles.assign(tree.block_count(), 0);
-  table.nearest.assign(tree.block_count(), std::numeric_limits<float>::infinity());
-  const auto add = [&table](const BlockRow& row) {
-    table.longest_edge[row.block] = std::max(table.longest_edge[row.block], row.longest_edge);
-    table.triangles[row.block] += row.triangles;
-    table.nearest[row.block] = std::min(table.nearest[row.block], row.nearest);
-  };
-  std::vector<BlockRow> rows;
-  {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-    for (const Piece& piece : surface.pieces) {
-      for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t)
-        tabulate(frame, tree, corners_of(piece, t), add);
-    }
-    if (communicator.size() == 1) return table;
-    for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-      if (table.is_met(b)) rows.push_back({b, table.longest_edge[b], table.triangles[b], table.nearest[b]});
-    }
-    for (const BlockRow& row : rows) table.triangles[row.block] = 0;  // or they would count twice
-  }
-  rows = communicator.all_gather_items<BlockRow>(rows);
-  for (const BlockRow& row : rows) add(row);
-  return table;
-}
-
-std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable& table, int ranks) {
-  const auto work = [&](BlockIndex b) {
-    return leaf_work * tree.leaf_count(b) + triangle_work * table.triangles[b] +
-           (table.is_met(b) ? met_work : 0);
-  };
-  double total = 0, sum = 0;
-  for (BlockIndex b = 0; b < tree.block_count(); ++b) total += work(b);
-  std::vector<BlockIndex> shares{0};
-  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    while (static_cast<int>(shares.size()) < ranks &&
-           sum >= total * static_cast<double>(shares.size()) / ranks)
-      shares.push_back(b);
-    sum += work(b);
-  }
-  shares.resize(ranks + 1, tree.block_count());
-  return shares;
-}
-
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,
-                                             const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                             const SurfaceReach& reach, const mesh::DistributedMesh& surface,
+                                             const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering, parallel::StageClock& clock) {
-  const Fringe fringe(communicator, tree, table, frame, shares, reach, clock);
-  struct Parcel {
-    SurfaceTriangle triangle;
-    std::int64_t rank;
-
-    static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
-  };
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
   {
@@ -246,14 +133,8 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
       const Piece& piece = surface.pieces[p];
       for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
         ranks.clear();
-        if (communicator.size() == 1)
-          ranks.push_back(0);
-        else
-          tree.for_each_block_in(grid_box(frame, corners_of(piece, t)), [&](BlockIndex b) {
-            ranks.push_back(static_cast<parallel::Rank>(
-                std::upper_bound(shares.begin(), shares.end() - 1, b) - shares.begin() - 1));
-            fringe.for_each_rank(b, [&](parallel::Rank rank) { ranks.push_back(rank); });
-          });
+        tree.for_each_rank_in(grid_box(frame, corners_of(piece, t)),
+                              [&](parallel::Rank rank) { ranks.push_back(rank); });
         std::sort(ranks.begin(), ranks.end());
         ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
         for (const parallel::Rank rank : ranks)
@@ -262,22 +143,107 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
       }
     }
   }
-  const std::vector<Parcel> arrived =
-      mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; });
-  // Triangles are large: their numbers are sorted, and each triangle is moved once.
-  struct Arrival {
-    mesh::GlobalIndex number;
-    std::size_t place;
+  return send(communicator, std::move(outgoing), {});
+}
+
+SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
+                              std::span<const SurfaceTriangle> triangles) {
+  SurfaceTable table;
+  table.longest_edge.assign(tree.block_count(), 0);
+  table.triangles.assign(tree.block_count(), 0);
+  table.nearest.assign(tree.block_count(), std::numeric_limits<float>::infinity());
+  for (const SurfaceTriangle& triangle : triangles) {
+    const auto& p = triangle.points;
+    const auto edge = static_cast<float>(longest_edge(p));
+    const auto add = [&](BlockIndex b) {
+      table.longest_edge[b] = std::max(table.longest_edge[b], edge);
+      table.nearest[b] = std::min(table.nearest[b], distance_from_middle(frame, tree.cube(b), p));
+    };
+    const BlockIndex middle = tree.any_at(frame.cell_at(frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]))));
+    if (tree.is_own(middle)) {
+      ++table.triangles[middle];
+      add(middle);
+    }
+    tree.for_each_own_block_in(grid_box(frame, p), [&](BlockIndex b) {
+      if (b != middle) add(b);
+    });
+  }
+  return table;
+}
+
+void look_around(const parallel::Communicator& communicator, LatticeTree& tree, SurfaceTable& table,
+                 std::span<const GridBox> boxes, parallel::StageClock& clock) {
+  if (communicator.size() == 1) return;
+  struct Row {
+    KnownBlock block;
+    float longest_edge;
+    parallel::Rank to;
+    static constexpr auto fields() { return std::tuple(&Row::block, &Row::longest_edge, &Row::to); }
   };
-  std::vector<Arrival> order;
-  order.reserve(arrived.size());
-  for (const Parcel& parcel : arrived) order.push_back({parcel.triangle.number, order.size()});
-  std::sort(order.begin(), order.end(),
-            [](const Arrival& a, const Arrival& b) { return a.number < b.number; });
-  std::vector<SurfaceTriangle> result;
-  result.reserve(arrived.size());
-  for (const Arrival& arrival : order) result.push_back(arrived[arrival.place].triangle);
-  return result;
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  std::vector<Question> questions;
+  for (const GridBox& box : boxes) {
+    if (!tree.is_within_own(box)) ask(tree, box, {box, 0, 0, 0, communicator.rank()}, questions);
+  }
+  std::vector<parallel::Rank> told(tree.last() - tree.first(), -1);
+  std::vector<Row> rows;
+  for (const Question& question : deliver(communicator, std::move(questions))) {
+    tree.for_each_own_block_in(question.box, [&](BlockIndex b) {
+      if (std::exchange(told[b - tree.first()], question.from) != question.from)
+        rows.push_back({tree.known(b), table.longest_edge[b], question.from});
+    });
+  }
+  rows = mesh::deliver(communicator, std::move(rows), [](const Row& row) { return row.to; });
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+    if (tree.is_known(b)) rows.push_back({tree.known(b), table.longest_edge[b], 0});
+  }
+  const BlockIndex first = tree.first(), last = tree.last();
+  std::vector<KnownBlock> blocks;
+  blocks.reserve(rows.size());
+  for (const Row& row : rows) blocks.push_back(row.block);
+  tree.learn(std::move(blocks));
+  table.longest_edge.assign(tree.block_count(), 0);
+  for (const Row& row : rows) table.longest_edge[tree.index(row.block.number)] = row.longest_edge;
+  const auto move = [&](auto& values) {
+    auto moved = std::decay_t<decltype(values)>(tree.block_count(), values.empty() ? 0 : values[0]);
+    std::copy(values.begin() + first, values.begin() + last, moved.begin() + tree.first());
+    values = std::move(moved);
+  };
+  move(table.triangles);
+  move(table.nearest);
+}
+
+std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
+                                            const LatticeFrame& frame, const LatticeTree& tree,
+                                            const SurfaceReach& reach, std::vector<SurfaceTriangle> own,
+                                            parallel::StageClock& clock) {
+  if (communicator.size() == 1) return own;
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  std::vector<Question> questions;
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+    const BlockReach& of_block = reach.of_blocks[b - tree.first()];
+    const double least = std::max(of_block.least, of_block.nearest), most = std::max(of_block.most, least);
+    const GridBox box = GridBox::of(tree.cube(b)), around = box.dilated(most);
+    if (!tree.is_within_own(around)) ask(tree, around, {box, least, most, 0, communicator.rank()}, questions);
+  }
+  questions = deliver(communicator, std::move(questions));
+  std::vector<Parcel> outgoing;
+  for (auto first = questions.begin(), last = first; first != questions.end(); first = last) {
+    NearBoxes of_all, of_large;  // triangles
+    for (; last != questions.end() && last->from == first->from; ++last) {
+      of_all.add(last->box.dilated(last->least));
+      of_large.add(last->box.dilated(last->most));
+    }
+    of_all.build();
+    of_large.build();
+    for (const SurfaceTriangle& triangle : own) {
+      const GridBox box = grid_box(frame, triangle.points);
+      if (of_large.any_within(box, 0) &&
+          of_all.any_within(box, reach.per_edge * longest_edge(triangle.points)))
+        outgoing.push_back({triangle, first->from});
+    }
+  }
+  return send(communicator, std::move(outgoing), own);
 }
 
 }  // namespace aeroloom::volume

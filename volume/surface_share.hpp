@@ -35,23 +35,29 @@ struct SurfaceTriangle {
 /// A closed box in the grid around a triangle.
 GridBox grid_box(const LatticeFrame& frame, const std::array<geometry::Vec3, 3>& points);
 
-/// What meets each block, the same on every rank.
+/// What meets each block, by block index; nothing for those that are not known.
 struct SurfaceTable {
-  std::vector<float> longest_edge;      ///< per block: of the triangles that meet it; 0: none does
-  std::vector<std::int32_t> triangles;  ///< per block: those whose centre lies in it
-  std::vector<float> nearest;  ///< per block that is met: how far one of them is from its centre, at most
+  std::vector<float> longest_edge;  ///< of the triangles that meet it; 0: none does
+  // Of this rank's blocks.
+  std::vector<std::int32_t> triangles;  ///< those whose centre lies in it
+  std::vector<float> nearest;           ///< how far one of them is from its centre, at most
 
   bool is_met(BlockIndex b) const { return longest_edge[b] > 0; }
 };
 
-/// Collective.
-SurfaceTable tabulate_surface(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                              const LatticeTree& tree, const mesh::DistributedMesh& surface,
-                              parallel::StageClock& clock);
+/// The triangles that meet this rank's blocks, by number. Collective.
+std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
+                                             const LatticeFrame& frame, const LatticeTree& tree,
+                                             const mesh::DistributedMesh& surface,
+                                             const mesh::Numbering& numbering, parallel::StageClock& clock);
 
-/// The blocks of each rank: rank r has those from [r] to [r + 1]. Equal shares of expected work. No result
-/// depends on it.
-std::vector<BlockIndex> share_blocks(const LatticeTree& tree, const SurfaceTable& table, int ranks);
+/// Of this rank's blocks, from the triangles that meet them.
+SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
+                              std::span<const SurfaceTriangle> triangles);
+
+/// Tree and table learn of all blocks that touch this rank's boxes. Collective.
+void look_around(const parallel::Communicator& communicator, LatticeTree& tree, SurfaceTable& table,
+                 std::span<const GridBox> boxes, parallel::StageClock& clock);
 
 /// How far triangles matter to a block, in the grid: because they are near, or because one of them is the
 /// nearest.
@@ -70,12 +76,11 @@ struct SurfaceReach {
   bool is_from_within(std::size_t i) const { return i < of_blocks.size() && of_blocks[i].from_within; }
 };
 
-/// The triangles a rank needs: those that meet its blocks, or come within reach of them. By number, each
-/// once. Collective.
-std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
-                                             const LatticeFrame& frame, const LatticeTree& tree,
-                                             const SurfaceTable& table, std::span<const BlockIndex> shares,
-                                             const SurfaceReach& reach, const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering, parallel::StageClock& clock);
+/// With those that other ranks have and that come within reach of this rank's blocks. By number, each once.
+/// Collective.
+std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
+                                            const LatticeFrame& frame, const LatticeTree& tree,
+                                            const SurfaceReach& reach, std::vector<SurfaceTriangle> own,
+                                            parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

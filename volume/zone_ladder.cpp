@@ -47,7 +47,7 @@ std::vector<double> ZoneLadder::widths() const {
 }
 
 ZoneLadder::Changed ZoneLadder::nothing() const {
-  return {std::vector<std::uint8_t>(_data.last_block() - _data.first_block(), 0), {}};
+  return {std::vector<std::uint8_t>(_data.tree->last() - _data.tree->first(), 0), {}};
 }
 
 // --- zones that failed
@@ -66,7 +66,7 @@ std::vector<ZoneIndex> ZoneLadder::change_failed(const std::vector<ZoneFailure>&
   }
   if (points_change) {
     for (const BlockIndex b : make_all_points(_communicator, _input, _data, _clock))
-      changed.blocks[b - _data.first_block()] = 1;
+      changed.blocks[b - _data.tree->first()] = 1;
   }
   return those_that_see(std::move(changed));
 }
@@ -81,8 +81,9 @@ bool ZoneLadder::give_to_shell(const std::vector<LeavingLeaf>& leaving, Changed&
   keep_each_once(leaves);
   _report.left_core += static_cast<std::int64_t>(leaves.size());
   for (const LeafNumber number : leaves) {
-    const Leaf leaf = leaf_of_number(number);
-    if (_data.is_own(leaf.block)) changed.blocks[leaf.block - _data.first_block()] = 1;
+    if (!_data.tree->knows(number / 8)) continue;
+    const Leaf leaf = _data.tree->leaf_of(number);
+    if (_data.tree->is_own(leaf.block)) changed.blocks[leaf.block - _data.tree->first()] = 1;
     _data.changes[leaf.block].shell |= static_cast<std::uint8_t>(1U << leaf.child);
   }
   return !leaves.empty();
@@ -122,28 +123,15 @@ bool ZoneLadder::climb(const ZoneFailure& failure, const Evidence& evidence, Cha
 
 /// The zone with most blocks beside those of this one; none in a volume of one zone. Collective.
 ZoneIndex ZoneLadder::widest_neighbour(ZoneIndex zone) const {
-  std::vector<ZoneIndex> beside;
-  for (BlockIndex b = _data.first_block(); b < _data.last_block(); ++b) {
-    if (_data.shell.points.count(b) == 0 && !_data.table.is_met(b)) continue;
-    const GridBox around = GridBox::of(_data.tree->cube(b)).dilated(0.5);
+  std::vector<std::int64_t> counts(_data.zones->count(), 0);
+  for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
     const ZoneIndex z = _data.zones->of(b, 0);
-    if (z == zone) continue;
-    _data.tree->for_each_block_in(around, [&](BlockIndex n) {
-      if (_data.zones->has(zone, n, _data.tree->leaf_count(n))) beside.push_back(z);
+    if (z == zone || (_data.shell.points.count(b) == 0 && !_data.table.is_met(b))) continue;
+    _data.tree->for_each_block_in(GridBox::of(_data.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
+      if (_data.zones->has(zone, n, _data.tree->leaf_count(n))) ++counts[z];
     });
   }
-  struct Row {
-    ZoneIndex zone;
-    std::int64_t count;
-    static constexpr auto fields() { return std::tuple(&Row::zone, &Row::count); }
-  };
-  std::vector<std::int64_t> counts(_data.zones->count(), 0);
-  for (const ZoneIndex z : beside) ++counts[z];
-  std::vector<Row> rows;
-  for (ZoneIndex z = 0; z < _data.zones->count(); ++z) {
-    if (counts[z] > 0) rows.push_back({z, std::exchange(counts[z], 0)});
-  }
-  for (const Row& row : _communicator.all_gather_items<Row>(rows)) counts[row.zone] += row.count;
+  counts = sum_by_zone(_communicator, std::move(counts));
   const auto most = std::max_element(counts.begin(), counts.end());
   return *most == 0 ? no_zone : static_cast<ZoneIndex>(most - counts.begin());
 }
@@ -158,8 +146,8 @@ void ZoneLadder::merge(ZoneIndex a, ZoneIndex b) {
 }
 
 void ZoneLadder::touch_all(ZoneIndex zone, Changed& changed) const {
-  for (BlockIndex b = _data.first_block(); b < _data.last_block(); ++b) {
-    if (_data.zones->has(zone, b, _data.tree->leaf_count(b))) changed.blocks[b - _data.first_block()] = 1;
+  for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
+    if (_data.zones->has(zone, b, _data.tree->leaf_count(b))) changed.blocks[b - _data.tree->first()] = 1;
   }
 }
 
@@ -168,8 +156,8 @@ std::vector<ZoneIndex> ZoneLadder::those_that_see(Changed changed) {
   std::vector<double> widest = widths();
   widest.assign(widest.size(), *std::max_element(widest.begin(), widest.end()));
   ZonesAround around(*_data.frame, *_data.tree, _data.table, *_data.zones, widest);
-  for (BlockIndex b = _data.first_block(); b < _data.last_block(); ++b) {
-    if (!changed.blocks[b - _data.first_block()]) continue;
+  for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
+    if (!changed.blocks[b - _data.tree->first()]) continue;
     around.move_to(b);
     for (const NearZone& near : around.zones()) changed.zones.push_back(near.zone);
   }
@@ -203,9 +191,9 @@ std::vector<ZoneIndex> ZoneLadder::settle_disputes(std::span<const ZoneFace> fac
 /// Any leaf of a zone will do where TetGen added all the vertices. Collective.
 LeafNumber ZoneLadder::lowest_leaf(ZoneIndex zone) const {
   std::int64_t lowest = INT64_MAX;
-  for (BlockIndex b = _data.last_block(); b-- > _data.first_block();) {
+  for (BlockIndex b = _data.tree->last(); b-- > _data.tree->first();) {
     for (int child = _data.tree->leaf_count(b); child-- > 0;) {
-      if (_data.zones->of(b, child) == zone) lowest = leaf_number({b, child});
+      if (_data.zones->of(b, child) == zone) lowest = _data.tree->number(Leaf{b, child});
     }
   }
   lowest = _communicator.minimum(lowest);
@@ -219,10 +207,10 @@ std::vector<ZoneLadder::LeafOfPlace> ZoneLadder::leaves_around(std::span<const D
   std::vector<LeafOfPlace> found;
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (const LeafNumber number : places[i].leaves) {
-      const Leaf leaf = leaf_of_number(number);
-      if (_data.is_own(leaf.block))
-        found.push_back({static_cast<std::int32_t>(i), _data.zones->of(leaf.block, leaf.child), number,
-                         GridBox::of(tree.leaf(leaf))});
+      if (tree.owner(number / 8) != _communicator.rank()) continue;
+      const Leaf leaf = tree.leaf_of(number);
+      found.push_back({static_cast<std::int32_t>(i), _data.zones->of(leaf.block, leaf.child), number,
+                       GridBox::of(tree.leaf(leaf))});
     }
   }
   const auto in_order = [](const LeafOfPlace& a, const LeafOfPlace& b) {
@@ -234,11 +222,11 @@ std::vector<ZoneLadder::LeafOfPlace> ZoneLadder::leaves_around(std::span<const D
   std::vector<LeafOfPlace> around;
   for (const LeafOfPlace& center : found) {
     const GridBox box = center.box.dilated((rings - 0.5) * (center.box.high.x - center.box.low.x));
-    tree.for_each_block_in(box, [&](BlockIndex n) {
-      for (int child = 0; _data.is_own(n) && child < tree.leaf_count(n); ++child) {
+    tree.for_each_own_block_in(box, [&](BlockIndex n) {
+      for (int child = 0; child < tree.leaf_count(n); ++child) {
         const GridBox leaf = GridBox::of(tree.leaf(n, child));
         if (leaf.overlaps(box))
-          around.push_back({center.place, _data.zones->of(n, child), leaf_number({n, child}), leaf});
+          around.push_back({center.place, _data.zones->of(n, child), tree.number(Leaf{n, child}), leaf});
       }
     });
   }
@@ -268,8 +256,9 @@ void ZoneLadder::note_places(std::span<const DisputedPlace> places) {
 /// The leaves of places, from the second round on with more and more of those around them. Collective.
 void ZoneLadder::give(std::span<const DisputedPlace> places, Changed& changed) {
   for (const LeafOfPlace& given : leaves_around(places, _rounds_of_giving - 1)) {
-    const Leaf leaf = leaf_of_number(given.leaf);
-    if (_data.is_own(leaf.block)) changed.blocks[leaf.block - _data.first_block()] = 1;
+    if (!_data.tree->knows(given.leaf / 8)) continue;
+    const Leaf leaf = _data.tree->leaf_of(given.leaf);
+    if (_data.tree->is_own(leaf.block)) changed.blocks[leaf.block - _data.tree->first()] = 1;
     _data.zones->give(leaf.block, leaf.child, places[given.place].zones.front());
   }
 }

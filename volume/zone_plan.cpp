@@ -15,8 +15,7 @@ constexpr std::size_t zones_at_a_time = 4;
 /// Triangles by the block that their centre lies in, of a range of blocks.
 class Centres {
 public:
-  Centres(const ZoneStore& store)
-      : _first(store.points.first), _starts(store.points.last() - _first + 1, 0) {
+  Centres(const ZoneStore& store) : _first(store.points.first), _starts(store.points.last() - _first + 1, 0) {
     std::vector<BlockIndex> blocks;
     blocks.reserve(store.triangles.size());
     for (const SurfaceTriangle& t : store.triangles) {
@@ -96,24 +95,16 @@ private:
   std::vector<std::uint8_t> _is_wanted;  // per zone
 };
 
-/// What all ranks have of each zone, by zone.
+/// What all ranks have of each zone, by zone. Collective.
 std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const ZoneShipment& mine,
                              std::span<const ZoneIndex> zones, std::size_t all_zones) {
-  std::vector<ZoneLoad> sums(all_zones);
-  for (std::size_t z = 0; z < all_zones; ++z) sums[z] = {static_cast<ZoneIndex>(z), 0, 0};
-  for (const auto& want : mine.blocks) sums[want.zone].points += __builtin_popcountll(want.points);
-  for (const auto& want : mine.triangles) ++sums[want.zone].triangles;
-  std::vector<ZoneLoad> rows;
-  for (ZoneLoad& sum : sums) {
-    if (sum.points > 0 || sum.triangles > 0) rows.push_back(sum);
-    sum.points = sum.triangles = 0;
-  }
-  for (const ZoneLoad& row : communicator.all_gather_items<ZoneLoad>(rows)) {
-    sums[row.zone].points += row.points;
-    sums[row.zone].triangles += row.triangles;
-  }
+  std::vector<std::int64_t> points(all_zones, 0), triangles(all_zones, 0);
+  for (const auto& want : mine.blocks) points[want.zone] += __builtin_popcountll(want.points);
+  for (const auto& want : mine.triangles) ++triangles[want.zone];
+  points = sum_by_zone(communicator, std::move(points));
+  triangles = sum_by_zone(communicator, std::move(triangles));
   std::vector<ZoneLoad> loads;
-  for (const ZoneIndex z : zones) loads.push_back(sums[z]);
+  for (const ZoneIndex z : zones) loads.push_back({z, points[z], triangles[z]});
   return loads;
 }
 

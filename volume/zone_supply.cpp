@@ -83,8 +83,9 @@ private:
     const std::int64_t first = all.starts[want.block - all.first];
     for (std::uint64_t left = want.points; left != 0; left &= left - 1) {
       const std::int64_t i = first + __builtin_ctzll(left);
-      cargo.points.push_back({want.zone, _shipment.ranks[want.zone], lattice_number(want.block, all.slots[i]),
-                              all.points[i], all.regions[i],
+      cargo.points.push_back({want.zone, _shipment.ranks[want.zone],
+                              lattice_number(_store.lattice.tree, want.block, all.slots[i]), all.points[i],
+                              all.regions[i],
                               _store.finder.zone_of({want.block, all.slots[i] / slots_per_leaf})});
     }
   }
@@ -93,12 +94,14 @@ private:
   void add_border(const ZoneShipment::OfBlock& want, const BorderTriangle& t) {
     const parallel::Rank rank = _shipment.ranks[want.zone];
     const mesh::RegionId region = _store.core.region(want.block);
-    cargo.borders.push_back({want.zone, rank, t.points, leaf_number({want.block, t.child}), region});
+    cargo.borders.push_back(
+        {want.zone, rank, t.points, _store.lattice.tree.number(Leaf{want.block, t.child}), region});
     std::array<ZoneIndex, 3> owners;
-    for (int k = 0; k < 3; ++k) owners[k] = _store.finder.zone_of(leaf_of_lattice(t.points[k]));
+    for (int k = 0; k < 3; ++k)
+      owners[k] = _store.finder.zone_of(leaf_of_lattice(_store.lattice.tree, t.points[k]));
     if (std::find(owners.begin(), owners.end(), want.zone) == owners.end()) return;
     for (int k = 0; k < 3; ++k) {
-      const Vec3 p = lattice_point(_store.lattice, leaf_of_lattice(t.points[k]),
+      const Vec3 p = lattice_point(_store.lattice, leaf_of_lattice(_store.lattice.tree, t.points[k]),
                                    static_cast<int>(t.points[k] % slots_per_leaf));
       cargo.at_borders.push_back({want.zone, rank, t.points[k], p, region, owners[k]});
     }
@@ -108,7 +111,7 @@ private:
     TriangleOfZone sent{want.zone, _shipment.ranks[want.zone], _store.triangles[want.triangle], {}, {}};
     for (int k = 0; k < 3; ++k) {
       const Leaf leaf = _store.finder.leaf_of_place(sent.triangle.points[k]);
-      sent.leaves[k] = leaf_number(leaf);
+      sent.leaves[k] = _store.lattice.tree.number(leaf);
       sent.owners[k] = _store.finder.zone_of(leaf);
     }
     cargo.triangles.push_back(sent);
@@ -148,7 +151,7 @@ public:
     }
     for (const TriangleOfZone& t : triangles) add_triangle(t.triangle, corners);
     for (const PointOfZone& p : points) {
-      add_point(_finder.token_of(p.number), p.point, leaf_number(leaf_of_lattice(p.number)), p.owner);
+      add_point(_finder.token_of(p.number), p.point, leaf_number_of_lattice(p.number), p.owner);
       _content.problem.regions.push_back(p.region);
     }
     for (const BorderOfZone& t : borders) add_border(t);
@@ -227,8 +230,8 @@ void ship(const parallel::Communicator& communicator, std::vector<Item>& items) 
 /// Those of a zone, from a list by zone.
 template <class Item>
 std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
-  const auto first = std::partition_point(items.begin(), items.end(),
-                                          [&](const Item& item) { return item.zone < zone; });
+  const auto first =
+      std::partition_point(items.begin(), items.end(), [&](const Item& item) { return item.zone < zone; });
   const auto last =
       std::partition_point(first, items.end(), [&](const Item& item) { return item.zone == zone; });
   return {first, last};
@@ -258,9 +261,9 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
       return a.triangle.number < b.triangle.number;
     });
     std::sort(at_borders.begin(), at_borders.end(), PointOfZone::by_number);
-    const auto last = std::unique(
-        at_borders.begin(), at_borders.end(),
-        [](const PointOfZone& a, const PointOfZone& b) { return a.number == b.number; });
+    const auto last =
+        std::unique(at_borders.begin(), at_borders.end(),
+                    [](const PointOfZone& a, const PointOfZone& b) { return a.number == b.number; });
     std::vector<PointOfZone> points;
     points.reserve(near.size());
     std::set_union(near.begin(), near.end(), at_borders.begin(), last, std::back_inserter(points),

@@ -226,7 +226,11 @@ class WithinReach : public OnOneRank, public testing::WithParamInterface<double>
 TEST_P(WithinReach, are_all_triangles_that_points_need) {
   Made made(Communicator::self(), uneven(), fields::uniform(GetParam()));
   const LatticeTree& tree = made.lattice.tree;
-  const TrianglesOfBlocks of_blocks(made.lattice.frame, tree, 0, tree.block_count(), made.around.triangles);
+  std::vector<std::vector<std::int32_t>> of_blocks(tree.block_count());
+  for (std::size_t t = 0; t < made.around.triangles.size(); ++t) {
+    tree.for_each_block_in(grid_box(made.lattice.frame, made.around.triangles[t].points),
+                           [&](BlockIndex b) { of_blocks[b].push_back(static_cast<std::int32_t>(t)); });
+  }
   for (const std::uint8_t farther : {0, 2}) {
     for (BlockChange& change : made.lattice.changes) change.farther = farther;
     const BlockPoints whole = made.make();
@@ -242,7 +246,7 @@ TEST_P(WithinReach, are_all_triangles_that_points_need) {
         tree.for_each_block_in(box.dilated(most), [&](BlockIndex n) {
           const double edge = made.lattice.table.longest_edge[n];
           if (box.gap_to(GridBox::of(tree.cube(n))) <= std::max(least, reach.per_edge * edge))
-            known.insert(of_blocks.of(n).begin(), of_blocks.of(n).end());
+            known.insert(of_blocks[n].begin(), of_blocks[n].end());
         });
       }
       std::vector<SurfaceTriangle> triangles;

@@ -61,7 +61,7 @@ void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
   EXPECT_LT(data.report.core_tetrahedra, before);
   std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
-  data.plan = plan_zones(problem.communicator, data.tables(), all,
+  data.plan = plan_zones(problem.communicator, data.store(problem.input()), all,
                          std::vector(all.size(), problem.options.halo), clock);
 }
 

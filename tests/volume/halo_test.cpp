@@ -3,6 +3,7 @@
 
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
+#include "volume/near_boxes.hpp"
 
 #include <algorithm>
 #include <random>
@@ -15,6 +16,12 @@ namespace {
 using geometry::Vec3;
 using parallel::Communicator;
 
+/// A block and those of its leaves that a zone knows, a bit each.
+struct TakenBlock {
+  BlockIndex block;
+  std::uint8_t leaves;
+};
+
 /// A lattice with a surface in it, divided into zones.
 struct Divided {
   Divided(const sizing::SizeField& field, const surfaces::Surface& surface, ZoneIndex count)
@@ -23,15 +30,27 @@ struct Divided {
         zones(divide(lattice.tree, count)) {}
 
   static Zones divide(const LatticeTree& tree, ZoneIndex count) {
-    std::vector<double> loads(tree.block_count());
+    std::vector<Load> loads(tree.block_count());
     for (BlockIndex b = 0; b < tree.block_count(); ++b) loads[b] = tree.leaf_count(b);
-    return bisect(tree, loads, count);
+    return cut_into_zones(tree, loads, count);
   }
 
   std::vector<TakenBlock> take(ZoneIndex zone, double width) const {
-    const BlocksOfZones blocks = list_blocks(lattice.tree, zones);
-    HaloTaker taker(lattice.frame, lattice.tree, lattice.table, zones);
-    return taker.take(zone, blocks.of(zone), width);
+    const LatticeTree& tree = lattice.tree;
+    const std::vector<double> widths(zones.count(), width);
+    ZonesAround around(lattice.frame, tree, lattice.table, zones, widths);
+    std::vector<TakenBlock> taken;
+    for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+      around.move_to(b);
+      for (const NearZone& near : around.zones()) {
+        std::uint8_t leaves = 0;
+        for (int child = 0; near.zone == zone && child < tree.leaf_count(b); ++child) {
+          if (near.knows(GridBox::of(tree.leaf(b, child)))) leaves |= static_cast<std::uint8_t>(1U << child);
+        }
+        if (leaves != 0) taken.push_back({b, leaves});
+      }
+    }
+    return taken;
   }
 
   /// The largest size in a block and those it touches.
@@ -95,7 +114,8 @@ void expect_rule(Divided& divided, const std::vector<double>& widths) {
       const auto expected = divided.expected(z, width);
       expect_same(divided.take(z, width), expected);
       taken += expected.size();
-      own += list_blocks(divided.lattice.tree, divided.zones).of(z).size();
+      for (BlockIndex b = 0; b < divided.lattice.tree.block_count(); ++b)
+        own += divided.zones.has(z, b, divided.lattice.tree.leaf_count(b));
     }
   }
   EXPECT_GT(taken, own);
@@ -157,20 +177,11 @@ TEST(Halo, holds_all_leaves_of_the_zone_itself) {
   }
 }
 
-TEST(Halo, is_the_same_whichever_zones_were_asked_before) {
-  const Divided divided(fields::uniform(0.2), surfaces::cube({0, 0, 0}, 1.9, 14), 5);
-  const BlocksOfZones blocks = list_blocks(divided.lattice.tree, divided.zones);
-  HaloTaker taker(divided.lattice.frame, divided.lattice.tree, divided.lattice.table, divided.zones);
-  for (const ZoneIndex z : {3, 0, 3, 4, 1})
-    expect_same(taker.take(z, blocks.of(z), 1.5), divided.take(z, 1.5));
-}
-
 TEST(Halo, of_one_zone_is_all_there_is) {
   const Divided divided(fields::uniform(0.25), surfaces::cube({0, 0, 0}, 1.9, 10), 1);
-  const std::vector<TakenBlock> all = take_all(divided.lattice.tree);
+  const std::vector<TakenBlock> all = divided.take(0, 1.5);
   ASSERT_EQ(static_cast<BlockIndex>(all.size()), divided.lattice.tree.block_count());
   for (const TakenBlock& taken : all) EXPECT_EQ(taken.leaves, divided.lattice.tree.all_leaves(taken.block));
-  expect_same(divided.take(0, 1.5), all);
 }
 
 TEST(LargestSizeAround, looks_at_a_block_and_those_it_touches) {
@@ -179,22 +190,6 @@ TEST(LargestSizeAround, looks_at_a_block_and_those_it_touches) {
   for (BlockIndex b = 0; b < divided.lattice.tree.block_count(); b += 3) {
     EXPECT_EQ(largest_size_around(divided.lattice.frame, divided.lattice.tree, divided.lattice.table, b),
               divided.size_around(b));
-  }
-}
-
-TEST(ListBlocks, knows_the_blocks_that_have_leaves_of_a_zone) {
-  Divided divided(fields::uniform(0.25), surfaces::cube({0, 0, 0}, 1.9, 10), 4);
-  const LatticeTree& tree = divided.lattice.tree;
-  for (BlockIndex b = 0; b < tree.block_count(); b += 5) divided.zones.give(b, tree.leaf_count(b) - 1, b % 4);
-  const BlocksOfZones blocks = list_blocks(tree, divided.zones);
-  for (ZoneIndex z = 0; z < 4; ++z) {
-    std::vector<BlockIndex> expected;
-    for (const LeafOfBlock& leaf : all_leaves(tree)) {
-      if (divided.zones.of(leaf.block, leaf.child) == z &&
-          (expected.empty() || expected.back() != leaf.block))
-        expected.push_back(leaf.block);
-    }
-    EXPECT_EQ(std::vector<BlockIndex>(blocks.of(z).begin(), blocks.of(z).end()), expected);
   }
 }
 

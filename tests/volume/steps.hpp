@@ -6,8 +6,11 @@
 #include "volume/block_regions.hpp"
 #include "volume/near_surface.hpp"
 #include "volume/volume_mesher.hpp"
+#include "volume/zones.hpp"
 
+#include <numeric>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -117,6 +120,14 @@ struct Surroundings {
   BlockRegions found;
   std::span<const mesh::RegionId> regions;
 };
+
+/// Zones of a lattice on one rank, of equal load.
+inline Zones cut_into_zones(const LatticeTree& tree, std::span<const Load> loads, ZoneIndex count) {
+  const Load all = std::accumulate(loads.begin(), loads.end(), Load{0});
+  const std::vector<CoarseCell> cells =
+      coarsen(parallel::Communicator::self(), tree, 0, loads, all / (ZoneCuts::cells_per_zone * count));
+  return {tree, ZoneCuts(cells, count)};
+}
 
 /// A leaf of the lattice, for searches by brute force.
 struct LeafOfBlock {

@@ -230,25 +230,5 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
   }
 }
 
-TEST(TrianglesOfBlocks, lists_those_whose_box_meets_a_block) {
-  Shared shared(Communicator::self());
-  const Lattice& lattice = shared.lattice;
-  const std::vector<SurfaceTriangle> triangles = shared.deliver(0);
-  const BlockIndex first = lattice.tree.block_count() / 3, last = lattice.tree.block_count() / 3 * 2;
-  const TrianglesOfBlocks of_blocks(lattice.frame, lattice.tree, first, last, triangles);
-  std::size_t most = 0;
-  for (BlockIndex b = first; b < last; ++b) {
-    std::vector<std::int32_t> expected;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (GridBox::of(lattice.tree.cube(b)).overlaps(grid_box(lattice.frame, triangles[t].points)))
-        expected.push_back(static_cast<std::int32_t>(t));
-    }
-    const auto found = of_blocks.of(b);
-    EXPECT_EQ(std::vector<std::int32_t>(found.begin(), found.end()), expected);
-    most = std::max(most, expected.size());
-  }
-  EXPECT_GT(most, 5u);
-}
-
 }  // namespace
 }  // namespace aeroloom::volume

@@ -43,14 +43,12 @@ protected:
     parallel::StageClock clock;
     decomposition = new Decomposition(decompose(*communicator, problem->input(), clock));
     Decomposition::Data& data = decomposition->data();
-    const ZoneFinder finder(*data.frame, *data.tree, *data.zones, problem->numbering.vertex_count);
     zones = new std::vector<Zone>;
-    for (const std::vector<ZoneWant>& wants : data.plan.wants) {
-      for (ZoneContent& content : supply_zones(*communicator, data.tables(), data.store(), finder,
-                                               data.shares, data.plan.widths, wants, clock)) {
+    for (const ZoneShipment& batch : data.plan.batches) {
+      for (ZoneContent& content : supply_zones(*communicator, data.store(problem->input()), batch, clock)) {
         ZoneFilling filling = fill_zone(content.problem, parallel::Sabotage::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
-        ZoneResult result = make_pieces(content, filling, finder);
+        ZoneResult result = make_pieces(content, filling);
         zones->push_back({std::move(content), std::move(filling), std::move(result)});
       }
     }
@@ -188,8 +186,7 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
     std::map<SharedToken, LocalIndex> known;
     for (std::size_t v = 0; v < zone.content.tokens.size(); ++v)
       known[zone.content.tokens[v]] = static_cast<LocalIndex>(v);
-    const Decomposition::Data& data = decomposition->data();
-    const ZoneFinder finder(*data.frame, *data.tree, *data.zones, problem->numbering.vertex_count);
+    const ZoneFinder finder = decomposition->data().finder(problem->input());
     for (std::size_t i = 0; i < zone.result.faces.size(); ++i) {
       const ZoneFace& face = zone.result.faces[i];
       const Crossing& crossing = zone.filling.owned.crossings[i];
@@ -202,7 +199,9 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
         v[k] = known.at(face.vertices[k]);
         EXPECT_NE(v[k], cell[crossing.face]);
         EXPECT_NE(std::find(cell.begin(), cell.end(), v[k]), cell.end());
-        const Leaf leaf = finder.leaf_of(face.vertices[k], zone.content.problem.points[v[k]]);
+        const auto number = static_cast<std::int64_t>(face.vertices[k]) - problem->numbering.vertex_count;
+        const Leaf leaf =
+            number >= 0 ? leaf_of_lattice(number) : finder.leaf_of_place(zone.content.problem.points[v[k]]);
         EXPECT_EQ(face.leaves[k], 8 * std::int64_t{leaf.block} + leaf.child);
       }
       // Counter-clockwise seen from outside: the fourth vertex lies on the other side.
@@ -222,18 +221,15 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   content.entity = {7};
   content.problem.owners.assign(4, Owner::mine);
   content.tokens = {0, 101, 102, 103};
+  content.surface_vertices = 100;
+  content.leaves = {3, 4, 5, 6};
   ZoneFilling filling;
   filling.added = {{0.2, 0.2, 1}};
   filling.owned.cells = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   filling.owned.regions = {2, 2};
   filling.owned.crossings = {{0, 0}, {1, 0}};
   filling.owned.touched = {0};
-  const auto field = fields::uniform(0.5);
-  parallel::StageClock clock;
-  const LatticeFrame frame(field, fields::domain);
-  const LatticeTree tree(Communicator::self(), frame, field, fields::domain, clock);
-  const Zones zones(std::vector<ZoneIndex>(tree.block_count(), 0), 6);
-  const ZoneResult result = make_pieces(content, filling, ZoneFinder(frame, tree, zones, 100));
+  const ZoneResult result = make_pieces(content, filling);
   ASSERT_EQ(result.pieces.size(), 1u);
   EXPECT_EQ(result.steiner_points, 1);
   const mesh::Piece& piece = result.pieces.front();

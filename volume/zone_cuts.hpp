@@ -1,0 +1,86 @@
+/// Where space is cut into zones of equal load.
+#pragma once
+
+#include "parallel/communicator.hpp"
+#include "volume/block_points.hpp"
+#include "volume/core_border.hpp"
+#include "volume/lattice_tree.hpp"
+#include "volume/surface_share.hpp"
+
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace aeroloom::volume {
+
+using ZoneIndex = std::int32_t;
+inline constexpr ZoneIndex no_zone = -1;
+
+/// Tetrahedra of the shell around a lattice point, and next to the surface, per triangle. For each triangle
+/// of the core's border there are fewer: half a point stands there, half of whose tetrahedra are the core's.
+inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2,
+                        fewer_per_border = 0.5 * tetrahedra_per_point - 2;
+
+/// Tetrahedra of the shell that are expected, in eighths, so that sums are exact.
+using Load = std::int64_t;
+inline double tetrahedra_of(Load load) {
+  return static_cast<double>(load) / 8;
+}
+/// Of a block with so many points of the shell, triangles of the surface and of the core's border.
+inline Load load_of(std::int64_t points, std::int64_t triangles, std::int64_t borders) {
+  constexpr auto per_point = static_cast<Load>(8 * tetrahedra_per_point),
+                 per_triangle = static_cast<Load>(8 * tetrahedra_per_triangle),
+                 per_border = static_cast<Load>(8 * fewer_per_border);
+  return std::max<Load>(0, per_point * points + per_triangle * triangles - per_border * borders);
+}
+
+/// A cube with what its blocks have together: an ancestor of blocks, or a block.
+struct CoarseCell {
+  std::uint64_t key;
+  std::int32_t level;
+  std::int32_t is_block;
+  Load load;
+  Load edges;  ///< each block's load times its edge, in finest cells
+
+  static constexpr auto fields() {
+    return std::tuple(&CoarseCell::key, &CoarseCell::level, &CoarseCell::is_block, &CoarseCell::load,
+                      &CoarseCell::edges);
+  }
+};
+
+/// The largest cubes whose loads are at most `most`, and blocks with more, along the curve, without those
+/// that have no load. `loads` are those of this rank's blocks. The same on any number of
+/// ranks. Collective.
+std::vector<CoarseCell> coarsen(const parallel::Communicator& communicator, const LatticeTree& tree,
+                                std::span<const Load> loads, Load most);
+
+/// Planes that cut space into zones. The same on every rank: a plane for each zone.
+class ZoneCuts {
+public:
+  /// Cells that a zone is made of, about.
+  static constexpr Load cells_per_zone = 128;
+
+  /// Zones of equal load by recursive bisection: always across the axis where the two halves have least in
+  /// common, in expected tetrahedra of the blocks beside the cut. Loads are taken to be spread evenly within
+  /// cells.
+  ZoneCuts(std::span<const CoarseCell> cells, ZoneIndex count);
+
+  ZoneIndex count() const { return _count; }
+  /// The zone of a block: that of its middle.
+  ZoneIndex zone_of(const GridCube& block) const;
+
+private:
+  struct Part;
+  struct Cut {
+    int axis;
+    std::uint32_t twice_place;
+  };
+  void divide(std::vector<Part> parts, ZoneIndex count);
+
+  ZoneIndex _count;
+  std::vector<Cut>
+      _cuts;  // of n zones: the cut between the n / 2 lower ones and the others, theirs behind it
+};
+
+}  // namespace aeroloom::volume
