@@ -58,13 +58,16 @@ double clearance_of(const LatticeSource& source, BlockIndex b) {
   return source.options.clearance * std::pow(step_factor, source.changes[b].farther);
 }
 
-/// Whether there are far smaller triangles within reach of the points of a block.
+/// Whether there are far smaller triangles within reach of the points of a block. Of what is not known, none
+/// is there (learn_what_is_far_finer).
 bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
-  constexpr int far_finer = 4;  // levels
-  const GridCube cube = source.tree.cube(b);
-  return source.tree.any_block_in(GridBox::of(cube).dilated(reach), [&](BlockIndex n) {
-    return source.tree.cube(n).level >= cube.level + far_finer && source.table.is_met(n);
-  });
+  const LatticeTree& tree = source.tree;
+  return tree.any_block_in(
+      GridBox::of(tree.cube(b)).dilated(reach),
+      [&](BlockIndex n) { return is_far_finer(tree.level(n), tree.level(b)) && source.table.is_met(n); },
+      [&](BlockIndex first, BlockIndex last, const GridCube&) {
+        return last - first == 1 && !tree.is_known(first);
+      });
 }
 
 /// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.
@@ -86,7 +89,7 @@ public:
   void make(BlockIndex b) {
     _result.clear_leaves.push_back(0);
     const bool met = _source.table.is_met(b);
-    if (!met && _source.regions[b] == mesh::no_region) return;
+    if (!met && _source.regions[b - _source.tree.first()] == mesh::no_region) return;
     _block = b;
     _offered.clear();
     _box = {};
@@ -95,7 +98,7 @@ public:
     if (near) find_triangles();
     _result.clear_leaves.back() = clear_leaves();
     for (const Offer& offer : _offered) {
-      mesh::RegionId region = _source.regions[b];
+      mesh::RegionId region = _source.regions[b - _source.tree.first()];
       if (near && !is_clear(offer)) continue;
       if (met) region = region_of(offer.point);
       if (region == mesh::no_region) continue;
@@ -262,9 +265,9 @@ Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot) {
   return source.frame.to_space(grid) + perturbation(source, leaf, cube, slot);
 }
 
-double look_of_block(const LatticeSource& source, BlockIndex b) {
-  const double of_core = source.frame.grid_distance(core_reach(source, b));
-  return source.table.is_met(b) ? std::max(of_core, nearest_in(source, b)) : of_core;
+std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b) {
+  return {source.frame.grid_distance(core_reach(source, b)),
+          source.table.is_met(b) ? nearest_in(source, b) : 0};
 }
 
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point

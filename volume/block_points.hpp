@@ -8,6 +8,7 @@
 #include "volume/near_surface.hpp"
 #include "volume/surface_share.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -72,7 +73,7 @@ struct LatticeSource {
   const LatticeTree& tree;
   const sizing::SizeField& field;
   const SurfaceTable& table;
-  std::span<const mesh::RegionId> regions;  ///< per block, see find_block_regions
+  std::span<const mesh::RegionId> regions;  ///< of this rank's blocks, see find_block_regions
   LatticeOptions options;
   std::span<const BlockChange> changes;  ///< per block
 };
@@ -90,8 +91,12 @@ inline constexpr double core_clearance = 0.6;
 /// many triangles may be the nearest.
 enum class FarBlocks { by_nearest, from_within };
 
-/// How far from a block other blocks are looked at for that, in the grid.
-double look_of_block(const LatticeSource& source, BlockIndex b);
+/// Whether a block of a level is so much finer than one of another that it is looked at with its kind.
+constexpr bool is_far_finer(int level, int than) {
+  return level >= than + 4;
+}
+/// How far from a block far finer ones on the surface are looked for, in the grid.
+std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b);
 
 /// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
 /// the region of points there. Retries included.

@@ -295,14 +295,14 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
   const std::vector<Witness> witnesses =
       unite(mesh::deliver(communicator, witnesses_of(contacts, tree, triangles, look),
                           [&](const Witness& witness) { return tree.owner(witness.set); }));
-  BlockRegions found{std::vector<RegionId>(tree.block_count(), mesh::no_region),
+  BlockRegions found{std::vector<RegionId>(tree.last() - tree.first(), mesh::no_region),
                      lowest_of(communicator, find_contradiction(witnesses))};
   std::vector<BlockNumber> of_blocks;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b)
     of_blocks.push_back(table.is_met(b) ? 0 : sets.set_of(tree.number(b)));
   const RegionsOfSets regions(communicator, tree, of_blocks, witnesses);
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
-    if (!table.is_met(b)) found.of_block[b] = regions.of(of_blocks[b - tree.first()]);
+    if (!table.is_met(b)) found.of_block[b - tree.first()] = regions.of(of_blocks[b - tree.first()]);
   }
   return found;
 }

@@ -29,8 +29,8 @@ struct Contradiction {
 };
 
 struct BlockRegions {
-  /// Per block: mesh::no_region outside of all, and also where the surface meets it (there each point is
-  /// asked for itself), or another rank has it.
+  /// Of this rank's blocks: mesh::no_region outside of all, and also where the surface meets it: there each
+  /// point is asked for itself.
   std::vector<mesh::RegionId> of_block;
   std::optional<Contradiction> contradiction;  ///< when there is one, the regions are not to be used
 };

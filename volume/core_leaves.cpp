@@ -180,8 +180,8 @@ void CoreLeaves::settle(const parallel::Communicator& communicator, const Lattic
     }
   }
   const auto open_beside = [&](BlockIndex b) {
-    tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
-      if (!_ghosts.is_own(n) || of(n) == 0) return;
+    tree.for_each_own_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
+      if (of(n) == 0) return;
       _beside_shell[_ghosts.place(n)] = 1;
       open.push_back(_ghosts.place(n));
     });

@@ -37,6 +37,8 @@ public:
   /// Those of this rank's blocks, along the curve.
   std::span<const std::uint8_t> own() const { return std::span(_core).first(_ghosts.own_count()); }
   const GhostBlocks& ghosts() const { return _ghosts; }
+  /// Indices of blocks have changed.
+  void follow(const LatticeTree& tree) { _ghosts.follow(tree); }
   /// The region of the core leaves of one of this rank's blocks.
   mesh::RegionId region(BlockIndex b) const { return _regions[_ghosts.place(b)]; }
 

@@ -3,12 +3,13 @@
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
 #include "volume/filling_limits.hpp"
-#include "volume/halo.hpp"
+#include "volume/neighbourhood.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -43,27 +44,6 @@ std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::Distri
   return keys;
 }
 
-/// What this rank has to know of other ranks' blocks: those that touch its own, then all that points, halos
-/// and their triangles may have to do with, retries included.
-void look_around(const parallel::Communicator& communicator, const VolumeInput& input,
-                 Decomposition::Data& data, parallel::StageClock& clock) {
-  if (communicator.size() == 1) return;
-  std::vector<GridBox> boxes;
-  for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
-    boxes.push_back(GridBox::of(data.tree->cube(b)).dilated(0.5));
-  look_around(communicator, *data.tree, data.table, boxes, clock);
-  const double widest =
-      input.options.halo * std::pow(wider, std::min<int>(input.options.retries, std::size(ladder)));
-  data.changes.assign(data.tree->block_count(), {});
-  const LatticeSource source = data.source(input);
-  boxes.clear();
-  for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
-    boxes.push_back(GridBox::of(data.tree->cube(b))
-                        .dilated(std::max(ZonesAround::reach(*data.frame, *data.tree, data.table, b, widest),
-                                          look_of_block(source, b))));
-  look_around(communicator, *data.tree, data.table, boxes, clock);
-}
-
 /// The surface near each rank's blocks.
 void share_surface(const parallel::Communicator& communicator, const VolumeInput& input,
                    Decomposition::Data& data, parallel::StageClock& clock) {
@@ -73,7 +53,9 @@ void share_surface(const parallel::Communicator& communicator, const VolumeInput
     const ScopedCpu task(clock, ScopedCpu::As::task);
     data.table = tabulate_surface(*data.frame, *data.tree, data.triangles);
   }
-  look_around(communicator, input, data, clock);
+  learn_what_touches(communicator, *data.frame, *data.tree, data.table, data.triangles, clock);
+  data.changes.assign(data.tree->block_count(), {});
+  learn_what_is_far_finer(communicator, data.source(input), *data.tree, data.table, clock);
   data.changes.assign(data.tree->block_count(), {});
   if (communicator.size() > 1) {
     const ScopedCpu task(clock, ScopedCpu::As::task);
@@ -119,10 +101,18 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
   const ZoneIndex count = wanted_zones(tetrahedra_of(all), suitable(tetrahedra_of(all)));
   const std::vector<CoarseCell> cells =
       coarsen(communicator, *data.tree, loads, all / (ZoneCuts::cells_per_zone * count));
+  std::optional<ZoneCuts> cuts;
   {
     const ScopedCpu repeated(clock, ScopedCpu::As::serial);
-    data.zones = std::make_unique<Zones>(*data.tree, ZoneCuts(cells, count));
+    cuts.emplace(cells, count);
   }
+  const double widest =
+      input.options.halo * std::pow(wider, std::min<int>(input.options.retries, std::size(ladder)));
+  learn_what_is_cut(communicator, *data.frame, *data.tree, data.table, *cuts, widest, clock);
+  data.changes.assign(data.tree->block_count(), {});
+  data.shell.points.first = data.shell.borders.first = data.tree->first();
+  data.core->follow(*data.tree);
+  data.zones = std::make_unique<Zones>(*data.tree, std::move(*cuts));
   data.report.zones = count;
   std::vector<Load> of_zones(count, 0);
   for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
@@ -171,7 +161,7 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
     data.surface.reset();
   });
   data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(points.points.size()));
-  const std::unique_ptr<const CoreLeaves> before =
+  const std::unique_ptr<CoreLeaves> before =
       std::exchange(data.core, std::make_unique<CoreLeaves>(communicator, data.source(input), points, clock));
   std::vector<BlockIndex> changed;
   {

@@ -20,7 +20,7 @@ struct Decomposition::Data {
   std::unique_ptr<const LatticeFrame> frame;
   std::unique_ptr<LatticeTree> tree;
   SurfaceTable table;
-  std::vector<mesh::RegionId> regions;  ///< per block, of those of this rank
+  std::vector<mesh::RegionId> regions;  ///< of this rank's blocks
   std::vector<BlockChange> changes;     ///< per block
   std::unique_ptr<const CoreSquares> squares;
   std::unique_ptr<Zones> zones;
@@ -32,7 +32,7 @@ struct Decomposition::Data {
   SurfaceReach reach;                          ///< as triangles were gathered; nothing on one rank
   std::vector<SurfaceTriangle> triangles;      ///< that meet them
   std::unique_ptr<const NearSurface> surface;  ///< while points are made
-  std::unique_ptr<const CoreLeaves> core;
+  std::unique_ptr<CoreLeaves> core;
   ShellShare shell;
   ZonePlan plan;  ///< of all zones
 

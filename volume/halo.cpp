@@ -26,13 +26,26 @@ ZonesAround::ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, con
       _table(table),
       _zones(zones),
       _widths(widths),
-      _widest(*std::max_element(widths.begin(), widths.end())),
-      _alike_to(tree.block_count()) {
-  for (BlockIndex b = tree.block_count(); b-- > 0;) {
-    const bool goes_on = b + 1 < tree.block_count() && tree.is_known(b) && tree.is_known(b + 1) &&
-                         zones.is_whole(b) && zones.is_whole(b + 1) && zones.of(b, 0) == zones.of(b + 1, 0);
-    _alike_to[b] = goes_on ? _alike_to[b + 1] : b + 1;
+      _widest(*std::max_element(widths.begin(), widths.end())) {}
+
+void ZonesAround::find_places(const GridCube& cube, const GridBox& around, int finest) {
+  const GridBox box = GridBox::of(cube);
+  if (!box.overlaps(around)) return;
+  const ZoneCuts& cuts = _zones.cuts();
+  if (const ZoneIndex zone = cuts.zone_of_all(cube); zone != no_zone) {
+    _places.push_back({_zones.name(zone), box});
+    return;
   }
+  if (cube.level >= finest) {
+    cuts.for_each_zone_in(cube, [&](ZoneIndex zone) { _places.push_back({_zones.name(zone), box}); });
+    return;
+  }
+  const BlockIndex b = _tree.any_at(cube.low);
+  if (_tree.is_known(b) && _tree.level(b) == cube.level) {
+    _places.push_back({_zones.name(cuts.zone_of(cube)), box});
+    return;
+  }
+  for (int c = 0; c < 8; ++c) find_places(cube.child(c), around, finest);
 }
 
 void ZonesAround::move_to(BlockIndex b) {
@@ -40,23 +53,11 @@ void ZonesAround::move_to(BlockIndex b) {
   const double size = largest_size_around(_frame, _tree, _table, b);
   const GridBox around = block.dilated(reach(_frame, _tree, _table, b, _widest));
   _places.clear();
-  _tree.any_block_in(
-      around,
-      [&](BlockIndex n) {
-        if (_zones.is_whole(n)) {
-          _places.push_back({_zones.of(n, 0), GridBox::of(_tree.cube(n))});
-        } else {
-          for (int child = 0; child < _tree.leaf_count(n); ++child)
-            _places.push_back({_zones.of(n, child), GridBox::of(_tree.leaf(n, child))});
-        }
-        return false;
-      },
-      [&](BlockIndex first, BlockIndex last, const GridCube& cube) {
-        if (last - first == 1 || !is_alike(first, last)) return false;
-        const GridBox box = GridBox::of(cube);
-        if (box.overlaps(around)) _places.push_back({_zones.of(first, 0), box});
-        return true;
-      });
+  find_places(LatticeTree::smallest_cube(around), around,
+              std::min(_tree.level(b) + finer_levels, sizing::finest_level));
+  for (const GivenLeaf& leaf : _zones.given()) {
+    if (leaf.box.overlaps(around)) _places.push_back({leaf.zone, leaf.box});
+  }
   std::stable_sort(_places.begin(), _places.end(),
                    [](const Place& a, const Place& b) { return a.zone < b.zone; });
   _boxes.clear();

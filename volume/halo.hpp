@@ -26,9 +26,12 @@ struct NearZone {
 
 /// A zone knows what is nearer to its leaves than `width` times the largest size found in the block of what
 /// is asked for or next to it; a size is the mean edge of the lattice or the longest edge of the surface. A
-/// halo in each point's own size would fail where sizes jump.
+/// halo in each point's own size would fail where sizes jump. Where blocks of several zones are far smaller
+/// than that block, all of them are there.
 class ZonesAround {
 public:
+  /// Levels by which blocks are looked at as one cube.
+  static constexpr int finer_levels = 3;
   /// How far from a block leaves of zones matter to what lies in it, in the grid. Triangles count to the
   /// block that their centre lies in, so that they may stick out of it.
   static double reach(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
@@ -40,6 +43,7 @@ public:
   ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
               const Zones& zones, std::span<const double> widths);
 
+  /// To a block of this rank.
   void move_to(BlockIndex b);
   /// That may know something in the block, by number; those that have leaves of it among them.
   std::span<const NearZone> zones() const { return _near; }
@@ -49,7 +53,7 @@ private:
     ZoneIndex zone;
     GridBox box;
   };
-  bool is_alike(BlockIndex first, BlockIndex last) const { return _alike_to[first] >= last; }
+  void find_places(const GridCube& cube, const GridBox& around, int finest);
 
   const LatticeFrame& _frame;
   const LatticeTree& _tree;
@@ -57,7 +61,6 @@ private:
   const Zones& _zones;
   std::span<const double> _widths;
   double _widest;
-  std::vector<BlockIndex> _alike_to;  // per block: up to before this one, blocks are whole and of its zone
   std::vector<Place> _places;
   std::vector<GridBox> _boxes;
   std::vector<NearZone> _near;

@@ -205,7 +205,8 @@ GridCube LatticeTree::leaf(BlockIndex b, int child) const {
 }
 
 bool LatticeTree::is_split(const GridCube& cube) const {
-  const BlockIndex b = block_at(cube.low);
+  const BlockIndex b = any_at(cube.low);
+  if (!is_known(b)) return true;
   return _blocks.levels[b] > cube.level || (_blocks.levels[b] == cube.level && _split[b]);
 }
 

@@ -102,9 +102,16 @@ public:
     const int shift = sizing::finest_level - 1 - _blocks.levels[b];
     return static_cast<int>((p.x >> shift & 1) | (p.y >> shift & 1) << 1 | (p.z >> shift & 1) << 2);
   }
-  /// Whether a cube has children.
+  /// Whether a cube that touches a block of this rank has children. Where its low corner is not known it does.
   bool is_split(const GridCube& cube) const;
 
+  /// The smallest cube that holds all of a box that is in the root.
+  static GridCube smallest_cube(const GridBox& box) {
+    const std::uint64_t low = sizing::morton_key(nearest_cube(box.low));
+    const std::uint64_t high = sizing::morton_key(nearest_cube(box.high));
+    const int shift = ((low == high ? 0 : 64 - __builtin_clzll(low ^ high)) + 2) / 3 * 3;
+    return {sizing::grid_point(low >> shift << shift), sizing::finest_level - shift / 3};
+  }
   /// The lowest and the highest of the blocks that touch the box: those at its low and its high corner, since
   /// Morton order ascends along every axis.
   std::pair<BlockIndex, BlockIndex> range_of(const GridBox& box) const {
@@ -184,17 +191,13 @@ private:
 
 template <class Holds, class Skips>
 bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds, const Skips& skips) const {
-  const std::uint64_t low = sizing::morton_key(nearest_cube(box.low));
-  const std::uint64_t high = sizing::morton_key(nearest_cube(box.high));
-  // The smallest cube that holds both corners.
-  const int differing = low == high ? 0 : 64 - __builtin_clzll(low ^ high);
-  const int shift = (differing + 2) / 3 * 3;
-  const std::uint64_t key = low >> shift << shift;
+  const GridCube around = smallest_cube(box);
+  const std::uint64_t key = around.key();
   const BlockIndex first = _table.find(key), end = block_count();
-  const std::uint64_t next = key + (1ULL << shift);
+  const std::uint64_t next = key + (1ULL << 3 * (sizing::finest_level - around.level));
   const BlockIndex last = next >> 3 * sizing::finest_level != 0 ? end : _table.find(next);
   if (last <= first) return !skips(first, first + 1, cube(first)) && holds(required(first));
-  return any_below(box, key, sizing::finest_level - shift / 3, first, last, holds, skips);
+  return any_below(box, key, around.level, first, last, holds, skips);
 }
 
 template <class Holds, class Skips>

@@ -3,6 +3,7 @@
 #include "mesh/delivery.hpp"
 #include "volume/boundary_distance.hpp"
 #include "volume/near_boxes.hpp"
+#include "volume/neighbourhood.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,34 +86,6 @@ std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, st
   return result;
 }
 
-/// A rank asks for what touches a box, or is less than the least reach away.
-struct Question {
-  GridBox box;
-  double least, most;  ///< see BlockReach
-  parallel::Rank to, from;
-
-  static constexpr auto fields() {
-    return std::tuple(&Question::box, &Question::least, &Question::most, &Question::to, &Question::from);
-  }
-};
-
-/// Asks all other ranks that have blocks where `where` is.
-void ask(const LatticeTree& tree, const GridBox& where, Question question, std::vector<Question>& questions) {
-  std::vector<parallel::Rank> ranks;
-  tree.for_each_rank_in(where, [&](parallel::Rank rank) { ranks.push_back(rank); });
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-  for (const parallel::Rank rank : ranks) {
-    question.to = rank;
-    if (rank != question.from) questions.push_back(question);
-  }
-}
-
-/// Questions arrive rank by rank. Collective.
-std::vector<Question> deliver(const parallel::Communicator& communicator, std::vector<Question> questions) {
-  return mesh::deliver(communicator, std::move(questions), [](const Question& q) { return q.to; });
-}
-
 }  // namespace
 
 GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
@@ -171,48 +144,6 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
   return table;
 }
 
-void look_around(const parallel::Communicator& communicator, LatticeTree& tree, SurfaceTable& table,
-                 std::span<const GridBox> boxes, parallel::StageClock& clock) {
-  if (communicator.size() == 1) return;
-  struct Row {
-    KnownBlock block;
-    float longest_edge;
-    parallel::Rank to;
-    static constexpr auto fields() { return std::tuple(&Row::block, &Row::longest_edge, &Row::to); }
-  };
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-  std::vector<Question> questions;
-  for (const GridBox& box : boxes) {
-    if (!tree.is_within_own(box)) ask(tree, box, {box, 0, 0, 0, communicator.rank()}, questions);
-  }
-  std::vector<parallel::Rank> told(tree.last() - tree.first(), -1);
-  std::vector<Row> rows;
-  for (const Question& question : deliver(communicator, std::move(questions))) {
-    tree.for_each_own_block_in(question.box, [&](BlockIndex b) {
-      if (std::exchange(told[b - tree.first()], question.from) != question.from)
-        rows.push_back({tree.known(b), table.longest_edge[b], question.from});
-    });
-  }
-  rows = mesh::deliver(communicator, std::move(rows), [](const Row& row) { return row.to; });
-  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    if (tree.is_known(b)) rows.push_back({tree.known(b), table.longest_edge[b], 0});
-  }
-  const BlockIndex first = tree.first(), last = tree.last();
-  std::vector<KnownBlock> blocks;
-  blocks.reserve(rows.size());
-  for (const Row& row : rows) blocks.push_back(row.block);
-  tree.learn(std::move(blocks));
-  table.longest_edge.assign(tree.block_count(), 0);
-  for (const Row& row : rows) table.longest_edge[tree.index(row.block.number)] = row.longest_edge;
-  const auto move = [&](auto& values) {
-    auto moved = std::decay_t<decltype(values)>(tree.block_count(), values.empty() ? 0 : values[0]);
-    std::copy(values.begin() + first, values.begin() + last, moved.begin() + tree.first());
-    values = std::move(moved);
-  };
-  move(table.triangles);
-  move(table.nearest);
-}
-
 std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
                                             const LatticeFrame& frame, const LatticeTree& tree,
                                             const SurfaceReach& reach, std::vector<SurfaceTriangle> own,
@@ -224,15 +155,16 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
     const BlockReach& of_block = reach.of_blocks[b - tree.first()];
     const double least = std::max(of_block.least, of_block.nearest), most = std::max(of_block.most, least);
     const GridBox box = GridBox::of(tree.cube(b)), around = box.dilated(most);
-    if (!tree.is_within_own(around)) ask(tree, around, {box, least, most, 0, communicator.rank()}, questions);
+    if (!tree.is_within_own(around))
+      ask(tree, around, {box, least, most, 0, 0, communicator.rank()}, questions);
   }
-  questions = deliver(communicator, std::move(questions));
+  questions = take_questions(communicator, std::move(questions));
   std::vector<Parcel> outgoing;
-  for (auto first = questions.begin(), last = first; first != questions.end(); first = last) {
+  for_each_asker(questions, [&](std::span<const Question> asked) {
     NearBoxes of_all, of_large;  // triangles
-    for (; last != questions.end() && last->from == first->from; ++last) {
-      of_all.add(last->box.dilated(last->least));
-      of_large.add(last->box.dilated(last->most));
+    for (const Question& question : asked) {
+      of_all.add(question.box.dilated(question.least));
+      of_large.add(question.box.dilated(question.most));
     }
     of_all.build();
     of_large.build();
@@ -240,9 +172,9 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
       const GridBox box = grid_box(frame, triangle.points);
       if (of_large.any_within(box, 0) &&
           of_all.any_within(box, reach.per_edge * longest_edge(triangle.points)))
-        outgoing.push_back({triangle, first->from});
+        outgoing.push_back({triangle, asked.front().from});
     }
-  }
+  });
   return send(communicator, std::move(outgoing), own);
 }
 

@@ -55,10 +55,6 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
 SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
                               std::span<const SurfaceTriangle> triangles);
 
-/// Tree and table learn of all blocks that touch this rank's boxes. Collective.
-void look_around(const parallel::Communicator& communicator, LatticeTree& tree, SurfaceTable& table,
-                 std::span<const GridBox> boxes, parallel::StageClock& clock);
-
 /// How far triangles matter to a block, in the grid: because they are near, or because one of them is the
 /// nearest.
 struct BlockReach {

@@ -107,6 +107,19 @@ void ZoneCuts::divide(std::vector<Part> parts, ZoneIndex count) {
   divide(std::move(above), count - count / 2);
 }
 
+ZoneIndex ZoneCuts::zone_of_all(const GridCube& cube) const {
+  ZoneIndex zone = 0, count = _count;
+  for (const Cut* cut = _cuts.data(); count > 1;) {
+    const ZoneIndex half = count / 2;
+    const Sides sides = sides_of(*cut, cube);
+    if (sides.below && sides.above) return no_zone;
+    cut += sides.below ? 1 : half;
+    zone += sides.below ? 0 : half;
+    count = sides.below ? half : count - half;
+  }
+  return zone;
+}
+
 ZoneIndex ZoneCuts::zone_of(const GridCube& block) const {
   const std::uint32_t twice[3] = {2 * block.low.x + block.edge(), 2 * block.low.y + block.edge(),
                                   2 * block.low.z + block.edge()};

@@ -69,6 +69,13 @@ public:
   ZoneIndex count() const { return _count; }
   /// The zone of a block: that of its middle.
   ZoneIndex zone_of(const GridCube& block) const;
+  /// That of all blocks there may be in a cube, no_zone where they may be of several.
+  ZoneIndex zone_of_all(const GridCube& cube) const;
+  /// Calls visit(zone) for all zones that blocks in a cube may be of.
+  template <class Visit>
+  void for_each_zone_in(const GridCube& cube, const Visit& visit) const {
+    zones_below(_cuts.data(), 0, _count, cube, visit);
+  }
 
 private:
   struct Part;
@@ -77,6 +84,23 @@ private:
     std::uint32_t twice_place;
   };
   void divide(std::vector<Part> parts, ZoneIndex count);
+  /// On which sides of a cut middles of blocks in a cube may lie.
+  struct Sides {
+    bool below, above;
+  };
+  static Sides sides_of(const Cut& cut, const GridCube& cube) {
+    const std::uint32_t low = cut.axis == 0 ? cube.low.x : cut.axis == 1 ? cube.low.y : cube.low.z;
+    return {2 * low<cut.twice_place, 2 * (low + cube.edge())> cut.twice_place};
+  }
+  template <class Visit>
+  static void zones_below(const Cut* cut, ZoneIndex first, ZoneIndex count, const GridCube& cube,
+                          const Visit& visit) {
+    if (count == 1) return visit(first);
+    const ZoneIndex half = count / 2;
+    const Sides sides = sides_of(*cut, cube);
+    if (sides.below) zones_below(cut + 1, first, half, cube, visit);
+    if (sides.above) zones_below(cut + half, first + half, count - half, cube, visit);
+  }
 
   ZoneIndex _count;
   std::vector<Cut>

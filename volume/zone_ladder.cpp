@@ -102,7 +102,7 @@ bool ZoneLadder::climb(const ZoneFailure& failure, const Evidence& evidence, Cha
     if (points_change) {
       touch_all(zone, changed);
       for (BlockIndex b = 0; b < _data.tree->block_count(); ++b) {
-        if (!_data.zones->has(zone, b, _data.tree->leaf_count(b))) continue;
+        if (!_data.zones->has(zone, b)) continue;
         ++_data.changes[b].variant;
         _data.changes[b].farther = rung.farther;
       }
@@ -128,7 +128,7 @@ ZoneIndex ZoneLadder::widest_neighbour(ZoneIndex zone) const {
     const ZoneIndex z = _data.zones->of(b, 0);
     if (z == zone || (_data.shell.points.count(b) == 0 && !_data.table.is_met(b))) continue;
     _data.tree->for_each_block_in(GridBox::of(_data.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
-      if (_data.zones->has(zone, n, _data.tree->leaf_count(n))) ++counts[z];
+      if (_data.zones->has(zone, n)) ++counts[z];
     });
   }
   counts = sum_by_zone(_communicator, std::move(counts));
@@ -147,7 +147,7 @@ void ZoneLadder::merge(ZoneIndex a, ZoneIndex b) {
 
 void ZoneLadder::touch_all(ZoneIndex zone, Changed& changed) const {
   for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
-    if (_data.zones->has(zone, b, _data.tree->leaf_count(b))) changed.blocks[b - _data.tree->first()] = 1;
+    if (_data.zones->has(zone, b)) changed.blocks[b - _data.tree->first()] = 1;
   }
 }
 
@@ -256,10 +256,11 @@ void ZoneLadder::note_places(std::span<const DisputedPlace> places) {
 /// The leaves of places, from the second round on with more and more of those around them. Collective.
 void ZoneLadder::give(std::span<const DisputedPlace> places, Changed& changed) {
   for (const LeafOfPlace& given : leaves_around(places, _rounds_of_giving - 1)) {
-    if (!_data.tree->knows(given.leaf / 8)) continue;
-    const Leaf leaf = _data.tree->leaf_of(given.leaf);
-    if (_data.tree->is_own(leaf.block)) changed.blocks[leaf.block - _data.tree->first()] = 1;
-    _data.zones->give(leaf.block, leaf.child, places[given.place].zones.front());
+    const BlockNumber block = given.leaf / 8;
+    if (_data.tree->owner(block) == _communicator.rank())
+      changed.blocks[_data.tree->index(block) - _data.tree->first()] = 1;
+    _data.zones->give(
+        {block, static_cast<int>(given.leaf % 8), given.box, places[given.place].zones.front()});
   }
 }
 

@@ -2,45 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace aeroloom::volume {
 
-Zones::Zones(const LatticeTree& tree, const ZoneCuts& cuts) : _count(cuts.count()) {
+namespace {
+
+bool in_order(const GivenLeaf& a, const GivenLeaf& b) {
+  return std::tie(a.block, a.child) < std::tie(b.block, b.child);
+}
+
+}  // namespace
+
+Zones::Zones(const LatticeTree& tree, ZoneCuts cuts) : _tree(tree), _cuts(std::move(cuts)), _names(count()) {
+  std::iota(_names.begin(), _names.end(), 0);
   _of_block.reserve(tree.block_count());
-  for (BlockIndex b = 0; b < tree.block_count(); ++b) _of_block.push_back(cuts.zone_of(tree.cube(b)));
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) _of_block.push_back(_cuts.zone_of(tree.cube(b)));
 }
 
 ZoneIndex Zones::find(BlockIndex b, int child) const {
-  const std::int64_t leaf = place_of(b, child);
-  const auto at =
-      std::lower_bound(_given.begin(), _given.end(), leaf,
-                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
-  return at != _given.end() && at->leaf == leaf ? at->zone : _of_block[b];
+  const GivenLeaf leaf{_tree.number(b), child, {}, 0};
+  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf, in_order);
+  return at != _given.end() && !in_order(leaf, *at) ? at->zone : _of_block[b];
 }
 
 bool Zones::is_whole(BlockIndex b) const {
   const auto at =
-      std::lower_bound(_given.begin(), _given.end(), place_of(b, 0),
-                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
-  return at == _given.end() || at->leaf >= place_of(b + 1, 0);
+      std::lower_bound(_given.begin(), _given.end(), GivenLeaf{_tree.number(b), 0, {}, 0}, in_order);
+  return at == _given.end() || at->block != _tree.number(b);
 }
 
-void Zones::give(BlockIndex b, int child, ZoneIndex zone) {
-  const std::int64_t leaf = place_of(b, child);
-  const auto at =
-      std::lower_bound(_given.begin(), _given.end(), leaf,
-                       [](const Given& given, std::int64_t wanted) { return given.leaf < wanted; });
-  if (at != _given.end() && at->leaf == leaf)
-    at->zone = zone;
+bool Zones::has(ZoneIndex zone, BlockIndex b) const {
+  if (is_whole(b)) return of(b, 0) == zone;
+  for (int child = 0; child < _tree.leaf_count(b); ++child) {
+    if (of(b, child) == zone) return true;
+  }
+  return false;
+}
+
+void Zones::give(const GivenLeaf& leaf) {
+  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf, in_order);
+  if (at != _given.end() && !in_order(leaf, *at))
+    *at = leaf;
   else
-    _given.insert(at, {leaf, zone});
+    _given.insert(at, leaf);
 }
 
 void Zones::merge(ZoneIndex from, ZoneIndex to) {
   std::replace(_of_block.begin(), _of_block.end(), from, to);
-  for (Given& given : _given) {
+  std::replace(_names.begin(), _names.end(), from, to);
+  for (GivenLeaf& given : _given) {
     if (given.zone == from) given.zone = to;
   }
 }

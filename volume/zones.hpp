@@ -10,42 +10,45 @@
 
 namespace aeroloom::volume {
 
+/// A leaf that was given to another zone.
+struct GivenLeaf {
+  BlockNumber block;
+  int child;
+  GridBox box;
+  ZoneIndex zone;
+};
+
 /// Which zone each leaf of the lattice belongs to: that of its block, unless the leaf was given away. The
 /// same on every rank that knows a block.
 class Zones {
 public:
-  Zones(std::vector<ZoneIndex> zone_of_block, ZoneIndex count)
-      : _of_block(std::move(zone_of_block)), _count(count) {}
-  Zones(const LatticeTree& tree, const ZoneCuts& cuts);
+  /// Refers to `tree`.
+  Zones(const LatticeTree& tree, ZoneCuts cuts);
 
-  ZoneIndex count() const { return _count; }
+  ZoneIndex count() const { return _cuts.count(); }
   ZoneIndex of(BlockIndex b, int child) const { return _given.empty() ? _of_block[b] : find(b, child); }
   /// Whether all leaves of a block are in one zone.
   bool is_whole(BlockIndex b) const;
-  /// Whether a zone has leaves of a block, which has so many.
-  bool has(ZoneIndex zone, BlockIndex b, int leaf_count) const {
-    if (is_whole(b)) return of(b, 0) == zone;
-    for (int child = 0; child < leaf_count; ++child) {
-      if (of(b, child) == zone) return true;
-    }
-    return false;
-  }
-  /// Gives a leaf to another zone.
-  void give(BlockIndex b, int child, ZoneIndex zone);
+  /// Whether a zone has leaves of a block.
+  bool has(ZoneIndex zone, BlockIndex b) const;
+  /// Gives a leaf to another zone. Ranks that do not know its block are told as well.
+  void give(const GivenLeaf& leaf);
   /// All that is of zone `from` becomes of zone `to`.
   void merge(ZoneIndex from, ZoneIndex to);
 
+  /// Where blocks were cut, and what became of those zones: merged ones have another name.
+  const ZoneCuts& cuts() const { return _cuts; }
+  ZoneIndex name(ZoneIndex cut) const { return _names[cut]; }
+  std::span<const GivenLeaf> given() const { return _given; }
+
 private:
-  struct Given {
-    std::int64_t leaf;
-    ZoneIndex zone;
-  };
-  static std::int64_t place_of(BlockIndex b, int child) { return 8 * std::int64_t{b} + child; }
   ZoneIndex find(BlockIndex b, int child) const;
 
-  std::vector<ZoneIndex> _of_block;
-  std::vector<Given> _given;  // by leaf
-  ZoneIndex _count;
+  const LatticeTree& _tree;
+  ZoneCuts _cuts;
+  std::vector<ZoneIndex> _names;     // of zones as they were cut
+  std::vector<ZoneIndex> _of_block;  // without what was given away
+  std::vector<GivenLeaf> _given;     // by leaf
 };
 
 /// Sums over all ranks. `mine` has an entry per zone; those that are not 0 travel. Collective.

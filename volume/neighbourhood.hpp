@@ -1,0 +1,55 @@
+/// What ranks learn of the blocks of others.
+#pragma once
+
+#include "geometry/runs.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/timers.hpp"
+#include "volume/block_points.hpp"
+#include "volume/zone_cuts.hpp"
+
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A rank asks another for what touches a box, or is near it.
+struct Question {
+  GridBox box;
+  double least = 0, most = 0;  ///< see BlockReach
+  std::int32_t level = 0;      ///< of the block for which it is asked
+  parallel::Rank to = 0, from = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&Question::box, &Question::least, &Question::most, &Question::level, &Question::to,
+                      &Question::from);
+  }
+};
+/// Asks all other ranks that have blocks where `where` is.
+void ask(const LatticeTree& tree, const GridBox& where, Question question, std::vector<Question>& questions);
+/// The questions to this rank, rank by rank. Collective.
+std::vector<Question> take_questions(const parallel::Communicator& communicator,
+                                     std::vector<Question> questions);
+/// Calls visit(questions) for those of each rank in turn.
+template <class Visit>
+void for_each_asker(std::span<const Question> questions, const Visit& visit) {
+  geometry::for_each_run(
+      questions, [](const Question& a, const Question& b) { return a.from == b.from; },
+      [&](std::size_t first, std::size_t last) { visit(questions.subspan(first, last - first)); });
+}
+
+// What tree and table learn. Indices of blocks change. All are collective.
+
+/// All blocks that touch this rank's, or hold corners of its triangles.
+void learn_what_touches(const parallel::Communicator& communicator, const LatticeFrame& frame,
+                        LatticeTree& tree, SurfaceTable& table, std::span<const SurfaceTriangle> triangles,
+                        parallel::StageClock& clock);
+/// Where there are far finer blocks on the surface (see look_of_block), one of them.
+void learn_what_is_far_finer(const parallel::Communicator& communicator, const LatticeSource& source,
+                             LatticeTree& tree, SurfaceTable& table, parallel::StageClock& clock);
+/// Those across the borders of zones that halos of a width are told by (ZonesAround).
+void learn_what_is_cut(const parallel::Communicator& communicator, const LatticeFrame& frame,
+                       LatticeTree& tree, SurfaceTable& table, const ZoneCuts& cuts, double width,
+                       parallel::StageClock& clock);
+
+}  // namespace aeroloom::volume
