@@ -1,5 +1,6 @@
 // Faces of the body that lie on one another: what no size can part.
 #include "parallel/collective_error.hpp"
+#include "sizing/facet_parameters.hpp"
 #include "sizing/model_sampler.hpp"
 #include "sizing/segment_tree.hpp"
 
@@ -85,11 +86,8 @@ Overlap overlap_of(const Triangle& first, Vec3 normal, const Triangle& second) {
 /// The parameters of a point in the plane of a facet, or beside it along its normal.
 Vec2 parameters_at(const cad::Facets& facets, std::int32_t facet, Vec3 point) {
   const auto& [a, b, c] = facets.triangles[facet];
-  const Vec3 p = facets.points[a], ab = facets.points[b] - p, ac = facets.points[c] - p;
-  const Vec3 normal = cross(ab, ac);
-  const double square = dot(normal, normal);
-  const double v = dot(cross(point - p, ac), normal) / square, w = dot(cross(ab, point - p), normal) / square;
-  return (1 - v - w) * facets.uv[a] + v * facets.uv[b] + w * facets.uv[c];
+  return sizing::parameters_at({facets.points[a], facets.points[b], facets.points[c]},
+                               {facets.uv[a], facets.uv[b], facets.uv[c]}, point);
 }
 
 /// Two facets that may lie on one another.
@@ -127,7 +125,7 @@ public:
 private:
   void look_at(std::int32_t facet, std::int64_t& nodes) {
     const std::int32_t wall = _first_walls[_face] + facet;
-    const auto& [face, corners, deviation] = _walls.facets[wall];
+    const auto& [face, corners, parameters, deviation] = _walls.facets[wall];
     const Vec3 normal = _walls.normals[wall];
     if (!(norm(normal) > 0.5)) return;
     _near.clear();

@@ -22,12 +22,12 @@ constexpr double narrow_gap = 20, finest_gap = 400;
 // How many rays all faces together may take, about.
 constexpr double most_rays = 2e6;
 // And those that look closer at open gaps.
-constexpr double most_close_rays = 3e5;
+constexpr std::int64_t most_close_rays = 600'000;
 // Nodes of trees that all searches may visit: rays of all faces, and those that look closer.
 constexpr std::int64_t most_nodes = 300'000'000, most_close_nodes = 100'000'000;
 // How often what some faces leave of that is dealt to those that need more, and the least part of it that is
 // worth it.
-constexpr int most_deals = 4;
+constexpr int most_deals = 4, most_close_deals = 8;
 constexpr double least_deal = 0.02;
 constexpr double all_shares = 3e12;
 
@@ -40,13 +40,15 @@ double longest_side(const Triangle& t) {
   return longest_edge(t).length;
 }
 
-/// The largest of the parts of a face that were not looked at, the first one of several, or a narrow one.
-std::optional<UnseenGaps> describe_unseen(FaceId face, const Gaps& gaps) {
+/// The largest of the parts of a face that were not looked at, the first one of several, or a narrow one that
+/// was not looked at closely enough.
+std::optional<UnseenGaps> describe_unseen(FaceId face, const Gaps& gaps, double layers) {
   const auto largest = std::max_element(
       gaps.unseen.begin(), gaps.unseen.end(),
       [](const auto& a, const auto& b) { return longest_side(a.triangle) < longest_side(b.triangle); });
-  if (largest == gaps.unseen.end() && !gaps.unresolved) return std::nullopt;
-  const Triangle& t = largest == gaps.unseen.end() ? gaps.unresolved->triangle : largest->triangle;
+  const Gaps::Part* coarsest = find_coarsest(gaps, layers);
+  if (largest == gaps.unseen.end() && coarsest == nullptr) return std::nullopt;
+  const Triangle& t = largest == gaps.unseen.end() ? coarsest->triangle : largest->triangle;
   return UnseenGaps{face, (t[0] + t[1] + t[2]) / 3, longest_side(t)};
 }
 
@@ -91,26 +93,46 @@ void search_faces(const parallel::Communicator& communicator, parallel::StageClo
   }
 }
 
-/// In the open gaps of those faces. Collective.
+/// In the open gaps of those faces. Gaps may turn out to be narrower than was seen before: what some faces
+/// leave goes to where the narrow parts are by then. Collective.
 void look_closer(const parallel::Communicator& communicator, parallel::StageClock& clock, double layers,
                  std::vector<FaceSearch>& searches) {
-  std::int64_t rays = 0, limits = 0;
-  for (const FaceSearch& each : searches) rays += count_rays(*each.gaps, layers);
-  const double apart =
-      std::max(1.0, std::sqrt(static_cast<double>(communicator.sum(rays)) / most_close_rays));
-  const auto limit_of = [&](const FaceSearch& each) {
-    return rays_for_closer_look(*each.gaps, layers, apart);
+  std::int64_t rays_left = most_close_rays, nodes_left = most_close_nodes;
+  const auto is_worth_it = [&] {
+    return rays_left > least_deal * most_close_rays && nodes_left > least_deal * most_close_nodes;
   };
-  for (const FaceSearch& each : searches) limits += limit_of(each);
-  const double nodes_per_ray = static_cast<double>(most_close_nodes) /
-                               static_cast<double>(std::max<std::int64_t>(1, communicator.sum(limits)));
-  parallel::agree(communicator, [&] {
-    const ScopedCpu cpu(clock, ScopedCpu::As::task);
-    for (FaceSearch& each : searches) {
-      const double nodes = nodes_per_ray * static_cast<double>(limit_of(each));
-      each.search.look_closer(apart, std::llround(nodes), *each.gaps);
+  for (int deal = 0; deal < most_close_deals && is_worth_it(); ++deal) {
+    std::int64_t rays = 0, faces = 0;
+    for (const FaceSearch& each : searches) {
+      rays += count_rays(*each.gaps, layers);
+      faces += each.gaps->narrow.empty() ? 0 : 1;
     }
-  });
+    rays = communicator.sum(rays);
+    faces = communicator.sum(faces);
+    if (faces == 0) break;
+    const auto wanted = static_cast<double>(std::max<std::int64_t>(1, rays));
+    const double apart = std::max(1.0, std::sqrt(wanted / static_cast<double>(rays_left)));
+    std::int64_t shot = 0, visited = 0;
+    parallel::agree(communicator, [&] {
+      const ScopedCpu cpu(clock, ScopedCpu::As::task);
+      for (FaceSearch& each : searches) {
+        if (each.gaps->narrow.empty()) continue;
+        // Half of it the same for each face, half by what is to be looked at.
+        const double part = 0.5 * (1 / static_cast<double>(faces) +
+                                   static_cast<double>(count_rays(*each.gaps, layers)) / wanted);
+        const LookedAt most{std::llround(part * static_cast<double>(rays_left)),
+                            std::llround(part * static_cast<double>(nodes_left))};
+        const LookedAt took = each.search.look_closer(apart, most, *each.gaps);
+        shot += took.rays;
+        visited += took.nodes;
+      }
+    });
+    shot = communicator.sum(shot);
+    if (shot == 0) break;
+    rays_left -= shot;
+    nodes_left -= communicator.sum(visited);
+    parallel::log_verbose(fmt::format("sizing: gaps: {} faces looked at closer, {} rays", faces, shot));
+  }
 }
 
 }  // namespace
@@ -158,7 +180,7 @@ void ModelSampler::gather_gaps() {
   for (const OwnFace& face : _faces) {
     if (!face.gaps) continue;
     for (const Gap& gap : face.gaps->open) narrowest = std::min(narrowest, gap.width);
-    if (const auto unseen = describe_unseen(face.id, *face.gaps)) mine.push_back(*unseen);
+    if (const auto unseen = describe_unseen(face.id, *face.gaps, _layers)) mine.push_back(*unseen);
   }
   _narrowest_gap = _communicator.minimum(narrowest);
   _unseen_gaps = _communicator.all_gather_items<UnseenGaps>(mine);

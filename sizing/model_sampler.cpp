@@ -192,7 +192,8 @@ void ModelSampler::gather_triangles() {
       const std::vector<double> deviations = facet_deviations(_model, face.id, face.facets);
       for (std::size_t i = 0; i < deviations.size(); ++i) {
         const auto& [a, b, c] = face.facets.triangles[i];
-        mine.push_back({face.id, {points[a], points[b], points[c]}, deviations[i]});
+        const auto& uv = face.facets.uv;
+        mine.push_back({face.id, {points[a], points[b], points[c]}, {uv[a], uv[b], uv[c]}, deviations[i]});
       }
     }
   });

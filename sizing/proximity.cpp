@@ -13,6 +13,7 @@
 namespace aeroloom::sizing {
 namespace {
 
+using geometry::Vec2;
 using geometry::Vec3;
 
 constexpr double facing = -0.5;          // largest cosine between normals of walls that face each other
@@ -22,15 +23,17 @@ constexpr int deepest_edge_split = 24;
 // Walls that meet in an edge run together where the gap, at their angle, closes within so many times the way
 // to it.
 constexpr double closing_reach = 2;
-// Rays on the narrow facets of a face over those predicted, at most, and a few for those that have hardly
-// any.
-constexpr double most_over_predicted = 3;
-constexpr std::int64_t few_rays = 1000;
 // The middle of a facet's parameters is no point beside it where it is farther away, over the longest edge.
 constexpr double middle_off_facet = 0.25;
-// An open gap over what walls may be off by, at least: the distance of both its facets from the surface and
-// the accuracy of the model, what was sewn or this part of the widest gap.
-constexpr double gap_over_error = 2, accuracy = 1e-5;
+// An open gap between facets over what those may be off by, at least: the distance of both from their
+// surfaces and the accuracy of the model, what was sewn or this part of the widest gap. One between surfaces
+// over the accuracy, and over what facets are off by: where that is far more they are no guide to what is
+// opposite.
+constexpr double gap_over_error = 2, accuracy = 1e-5, surface_gap_over_error = 0.25;
+// What a projection on a surface counts, by the time it takes.
+constexpr std::int64_t nodes_per_projection = 100;
+// Parts that are so many times as long as gaps ask for were hardly looked at.
+constexpr double coarse_look = 8;
 constexpr std::int64_t looks_per_beat = 4096;
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
@@ -47,6 +50,11 @@ double edge_per_gap(double layers) {
   return edge_per_size / std::max(1.0, layers);
 }
 
+/// How many times as long as the gap asks for a part is.
+double coarseness(const Gaps::Part& part, double edge_per_gap) {
+  return longest_edge(part.triangle).length / (edge_per_gap * part.gap);
+}
+
 }  // namespace
 
 /// The rays of one face.
@@ -54,11 +62,12 @@ class GapSearch::Rays {
 public:
   Rays(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
        const GapLimits& limits)
-      : _facets(facets),
+      : _model(model),
+        _face(face),
+        _facets(facets),
         _walls(walls),
         _widest(limits.widest),
         _finest(limits.finest),
-        _layers(limits.layers),
         _edge_per_gap(edge_per_gap(limits.layers)),
         _accuracy(std::max(model.sewn_gap(), accuracy * limits.widest)),
         _meshed_beyond(model.face(face).back != cad::no_entity),
@@ -89,20 +98,44 @@ public:
     return _nodes - before;
   }
 
-  std::int64_t look_closer(double apart, std::int64_t most_rays, std::int64_t most, Gaps& gaps) {
-    _edge_per_gap *= apart;
-    _rays_left = most_rays;
+  LookedAt look_closer(double apart, const LookedAt& most, Gaps& gaps) {
+    std::vector<Narrow> heap;
     _gaps = std::move(gaps);
+    std::int64_t pushed = 0;
+    const auto push = [&](const Gaps::Part& part) {
+      heap.push_back({part, coarseness(part, _edge_per_gap), pushed++});
+      std::push_heap(heap.begin(), heap.end());
+    };
+    for (const Gaps::Part& part : std::exchange(_gaps.narrow, {})) push(part);
     const std::int64_t before = _nodes;
-    _most_nodes = before + most;
-    for (const Gaps::Part& part : std::exchange(_gaps.narrow, {})) cover_narrow(part, 0);
+    std::int64_t rays = 0;
+    while (!heap.empty() && heap.front().coarseness > apart && rays < most.rays &&
+           _nodes - before < most.nodes) {
+      std::pop_heap(heap.begin(), heap.end());
+      const Gaps::Part part = heap.back().part;
+      heap.pop_back();
+      for (const Triangle& half : bisect(part.triangle, longest_edge(part.triangle).from)) {
+        const std::optional<Gaps::Part> narrow = look_at({half, part.gap, part.facet, part.depth + 1});
+        if (narrow) push(*narrow);
+        ++rays;
+      }
+    }
+    for (const Narrow& left : heap) _gaps.narrow.push_back(left.part);
     gaps = std::move(_gaps);
-    return _nodes - before;
+    return {rays, _nodes - before};
   }
 
-  double layers() const { return _layers; }
-
 private:
+  /// What is looked at next: the longest part for its gap, the first one of several.
+  struct Narrow {
+    Gaps::Part part;
+    double coarseness;
+    std::int64_t number;
+    bool operator<(const Narrow& other) const {
+      return coarseness != other.coarseness ? coarseness < other.coarseness : number > other.number;
+    }
+  };
+
   struct Seen {
     double gap = nowhere, open = nowhere;
   };
@@ -112,7 +145,8 @@ private:
     parts.reserve(_facets.triangles.size());
     for (std::size_t f = 0; f < _facets.triangles.size(); ++f) {
       const auto& [a, b, c] = _facets.triangles[f];
-      parts.push_back({{_facets.points[a], _facets.points[b], _facets.points[c]}, _deviations[f], 0});
+      parts.push_back(
+          {{_facets.points[a], _facets.points[b], _facets.points[c]}, static_cast<std::int32_t>(f), 0});
     }
     return parts;
   }
@@ -128,7 +162,7 @@ private:
       return;
     }
     const std::int64_t before = _nodes;
-    const auto [gap, open] = look_around(center, normal, part.deviation);
+    const auto [gap, open] = look_around(center, normal, part.facet);
     if (gap <= _widest) _gaps.seen.push_back({center, gap});
     if (open <= _widest) _gaps.open.push_back({center, open});
     const auto [from, length] = longest_edge(t);
@@ -136,36 +170,29 @@ private:
     const double fine = std::max(_finest, _edge_per_gap * std::min(gap, _widest));
     if (length > fine && part.depth < deepest_edge_split) {
       const auto halves = bisect(t, from);
-      cover({halves[0], part.deviation, part.depth + 1}, (most - (_nodes - before)) / 2);
-      cover({halves[1], part.deviation, part.depth + 1}, most - (_nodes - before));
+      cover({halves[0], part.facet, part.depth + 1}, (most - (_nodes - before)) / 2);
+      cover({halves[1], part.facet, part.depth + 1}, most - (_nodes - before));
     } else if (length > _edge_per_gap * open) {
-      _gaps.narrow.push_back({t, open, part.deviation});
+      _gaps.narrow.push_back({t, open, part.facet, 0});
     }
   }
 
-  /// `part.gap`: of the last larger part that saw one.
-  void cover_narrow(const Gaps::Part& part, int depth) {
+  /// `part.gap`: of the last larger part that saw one. The part with its own, where that is to be looked at
+  /// still closer.
+  std::optional<Gaps::Part> look_at(Gaps::Part part) {
     const Triangle& t = part.triangle;
-    if (_rays_left <= 0 || _nodes >= _most_nodes) {
-      const bool too_dear = _nodes >= _most_nodes;
-      if (too_dear && (!_gaps.unresolved || part.gap < _gaps.unresolved->gap)) _gaps.unresolved = part;
-      return;
-    }
-    --_rays_left;
     const Vec3 center = (t[0] + t[1] + t[2]) / 3;
     const Vec3 normal = unit_normal(t);
-    if (!(norm(normal) > 0.5)) return;
-    const double open = look_around(center, normal, part.deviation).open;
-    double gap = part.gap;
-    if (open <= _widest) _gaps.open.push_back({center, open}), gap = open;
-    const auto [from, length] = longest_edge(t);
-    if (length <= _edge_per_gap * gap || depth >= deepest_edge_split) return;
-    for (const Triangle& half : bisect(t, from)) cover_narrow({half, gap, part.deviation}, depth + 1);
+    if (!(norm(normal) > 0.5)) return std::nullopt;
+    const double open = look_around(center, normal, part.facet).open;
+    if (open <= _widest) _gaps.open.push_back({center, open}), part.gap = open;
+    if (coarseness(part, _edge_per_gap) <= 1 || part.depth >= deepest_edge_split) return std::nullopt;
+    return part;
   }
 
   /// Distances along the normal, to either side, to the nearest wall that faces back, the lower one where two
-  /// are as near; infinity where there is none in reach. `deviation`: of the facet looked from.
-  Seen look_around(Vec3 from, Vec3 normal, double deviation) {
+  /// are as near; infinity where there is none in reach. `facet`: that looked from.
+  Seen look_around(Vec3 from, Vec3 normal, std::int32_t facet) {
     if (++_looks % looks_per_beat == 0) parallel::beat();
     const auto faces_back = [&](std::int32_t triangle) {
       return dot(_walls.normals[triangle], normal) <= facing;
@@ -174,21 +201,43 @@ private:
       return _walls.facets[triangle].corners;
     };
     const auto nearest = _walls.rays.nearest_crossings(from, normal, _widest, corners, faces_back, _nodes);
-    const Seen ahead = judge(nearest[0], from, normal, deviation, _meshed_beyond);
-    const Seen behind = judge(nearest[1], from, normal, deviation, true);
+    const Seen ahead = judge(nearest[0], from, normal, facet, _meshed_beyond);
+    const Seen behind = judge(nearest[1], from, -normal, facet, true);
     return {std::min(ahead.gap, behind.gap), std::min(ahead.open, behind.open)};
   }
 
-  /// What a crossing means, on a side that is meshed or not.
-  Seen judge(const RayTree::Crossing& crossing, Vec3 from, Vec3 normal, double own_deviation, bool meshed) {
-    const auto& [wall, away] = crossing;
-    if (wall < 0) return {};
-    const auto& [opposite, corners, deviation] = _walls.facets[wall];
-    if (is_edge_within(wedge_slenderness * away, from, opposite)) return {};
-    if (!meshed || away < gap_over_error * (own_deviation + deviation + _accuracy)) return {away, nowhere};
-    const double turn = norm(cross(_walls.normals[wall], normal));
-    const bool closes = turn > 0 && is_edge_within(nowhere, from, opposite, away / (closing_reach * turn));
-    return {away, closes ? nowhere : away};
+  /// What a crossing means, on a side that is meshed or not. The direction is that of the ray.
+  Seen judge(const RayTree::Crossing& crossing, Vec3 from, Vec3 direction, std::int32_t facet, bool meshed) {
+    if (crossing.triangle < 0) return {};
+    const Wall& wall = _walls.facets[crossing.triangle];
+    double away = crossing.distance;
+    if (is_edge_within(wedge_slenderness * away, from, wall.face)) return {};
+    const Seen closed{away, nowhere};
+    if (!meshed) return closed;
+    const double off = _deviations[facet] + wall.deviation;
+    if (away < gap_over_error * (off + _accuracy)) {
+      away = off > 0 ? distance_of_surfaces(from, direction, away, facet, wall) : 0;
+      if (away < std::max(gap_over_error * _accuracy, surface_gap_over_error * off)) return closed;
+    }
+    const double turn = norm(cross(_walls.normals[crossing.triangle], direction));
+    const bool closes = turn > 0 && is_edge_within(nowhere, from, wall.face, away / (closing_reach * turn));
+    return {closed.gap, closes ? nowhere : away};
+  }
+
+  /// How far the opposite surface is from that of the face, beside the point on its facet; nothing where they
+  /// cross, or where that is not known.
+  double distance_of_surfaces(Vec3 from, Vec3 direction, double away, std::int32_t facet, const Wall& wall) {
+    if (_model.sheet_count(_face) > 1 || _model.sheet_count(wall.face) > 1) return 0;
+    _nodes += nodes_per_projection;
+    const auto& [a, b, c] = _facets.triangles[facet];
+    const Vec2 own = parameters_at({_facets.points[a], _facets.points[b], _facets.points[c]},
+                                   {_facets.uv[a], _facets.uv[b], _facets.uv[c]}, from);
+    const Vec3 point = _model.face_point(_face, own);
+    const cad::Projection foot = _model.project(
+        wall.face, point, parameters_at(wall.corners, wall.parameters, from + away * direction));
+    if (!foot.converged) return 0;
+    const double apart = distance(point, foot.point);
+    return dot(foot.point - point, direction) >= -facing * apart ? apart : 0;
   }
 
   /// Whether the face meets the opposite one (or itself) in an edge so near, but not nearer than `least`.
@@ -200,17 +249,18 @@ private:
     return away < reach && away >= least;
   }
 
+  const cad::Model& _model;
+  cad::FaceId _face;
   const cad::Facets& _facets;
   const Walls& _walls;
   std::map<cad::FaceId, SegmentTree>
       _edges;  // that the face shares with each neighbour; all of them with itself
-  double _widest, _finest, _layers, _edge_per_gap;
+  double _widest, _finest, _edge_per_gap;
   double _accuracy;
   bool _meshed_beyond;
   std::vector<double> _deviations;  // of the facets
   bool _begun = false;
-  std::int64_t _nodes = 0, _most_nodes = 0;  // visited so far, and when to end
-  std::int64_t _rays_left = 0, _looks = 0;
+  std::int64_t _nodes = 0, _looks = 0;  // visited so far, and rays
   Gaps _gaps;
 };
 
@@ -259,8 +309,18 @@ std::int64_t GapSearch::go_on(std::int64_t nodes, Gaps& gaps) {
   return _rays->cover(nodes, gaps);
 }
 
-std::int64_t GapSearch::look_closer(double apart, std::int64_t nodes, Gaps& gaps) {
-  return _rays->look_closer(apart, rays_for_closer_look(gaps, _rays->layers(), apart), nodes, gaps);
+LookedAt GapSearch::look_closer(double apart, const LookedAt& most, Gaps& gaps) {
+  return _rays->look_closer(apart, most, gaps);
+}
+
+const Gaps::Part* find_coarsest(const Gaps& gaps, double layers) {
+  const Gaps::Part* coarsest = nullptr;
+  double most = coarse_look;
+  for (const Gaps::Part& part : gaps.narrow) {
+    const double coarse = coarseness(part, edge_per_gap(layers));
+    if (coarse > most) most = coarse, coarsest = &part;
+  }
+  return coarsest;
 }
 
 std::int64_t count_rays(const Gaps& gaps, double layers) {
@@ -270,11 +330,6 @@ std::int64_t count_rays(const Gaps& gaps, double layers) {
     rays += rays_per_area * area(part.triangle) / (edge * edge);
   }
   return std::llround(std::min(rays, 1e15));
-}
-
-std::int64_t rays_for_closer_look(const Gaps& gaps, double layers, double apart) {
-  const double predicted = static_cast<double>(count_rays(gaps, layers)) / (apart * apart);
-  return few_rays + std::llround(most_over_predicted * predicted);
 }
 
 }  // namespace aeroloom::sizing

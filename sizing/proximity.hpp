@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cad/model/model.hpp"
+#include "sizing/facet_parameters.hpp"
 #include "sizing/ray_tree.hpp"
 #include "sizing/triangle_tree.hpp"
 
@@ -26,25 +27,24 @@ struct Gap {
 struct Gaps {
   std::vector<Gap> seen;  ///< on either side of the face, the narrower one
   /// On a side that is meshed, and where the walls do not run together towards a common edge: elements as
-  /// small as the gap resolve it. A wedge looks the same to elements of any size. Gaps that may well be due
-  /// to the facets, which are less than twice their distance from the surface apart, are left out.
+  /// small as the gap resolve it. A wedge looks the same to elements of any size. Where facets are less than
+  /// twice their distance from the surface apart, the gap is that between the surfaces.
   std::vector<Gap> open;
   /// A part of a facet that is longer than rays should be apart in the open gap there.
   struct Part {
     Triangle triangle;
-    double gap, deviation;  ///< of the facet
+    double gap;
+    std::int32_t facet;  ///< of the face
+    int depth;           ///< how often it was bisected for that
   };
   std::vector<Part> narrow;
   /// A part of a facet that was not looked at, for the work that would have been.
   struct Unseen {
     Triangle triangle;
-    double deviation;  ///< of the facet
-    int depth;         ///< how often that was bisected
+    std::int32_t facet;  ///< of the face
+    int depth;           ///< how often that was bisected
   };
   std::vector<Unseen> unseen;
-  /// A narrow part that was not looked at as closely as the gap there is narrow, for the nodes that would
-  /// have taken, if any: the one with the narrowest gap.
-  std::optional<Part> unresolved;
 };
 
 /// The distance of each facet's middle from the face's surface: nothing of a plane, at most a quarter of its
@@ -55,9 +55,12 @@ std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, 
 struct Wall {
   cad::FaceId face;
   Triangle corners;
-  double deviation;  ///< its distance from the surface
+  Parameters parameters;  ///< of its corners
+  double deviation;       ///< its distance from the surface
 
-  static constexpr auto fields() { return std::tuple(&Wall::face, &Wall::corners, &Wall::deviation); }
+  static constexpr auto fields() {
+    return std::tuple(&Wall::face, &Wall::corners, &Wall::parameters, &Wall::deviation);
+  }
 };
 
 /// The facets of all faces.
@@ -77,11 +80,16 @@ struct GapLimits {
   double layers;  ///< elements wanted across a gap, at most
 };
 
+/// Rays, and the nodes of trees that they have visited.
+struct LookedAt {
+  std::int64_t rays, nodes;
+};
+
 /// Looks for gaps seen from one face, given by its facets: rays along its facets' normals, to both sides, to
 /// the nearest wall that faces back. Facets are bisected until their edges are no longer than four times the
 /// gap or `finest`. Wedges, where the opposite wall meets the face in an edge nearer than eight times the
 /// gap, are left out: sizes would fall to nothing there. A function of the model and the arguments alone,
-/// counts of nodes included.
+/// counts of nodes included, to which a projection on a surface adds as many as it takes time.
 class GapSearch {
 public:
   /// All arguments but the limits must outlive the search.
@@ -96,20 +104,22 @@ public:
   std::int64_t go_on(std::int64_t nodes, Gaps& gaps);
 
   /// Looks at the narrow parts of the face as closely as its open gaps are narrow, with rays `apart` times as
-  /// far from each other, and moves on from there: adds to the open gaps. At most about so many nodes;
-  /// returns how many were visited.
-  std::int64_t look_closer(double apart, std::int64_t nodes, Gaps& gaps);
+  /// far from each other, and moves on from there: adds to the open gaps. The parts that are longest for the
+  /// gap seen in them come first, so what `most` leaves is looked at about as closely everywhere. Parts that
+  /// are longer than gaps ask for stay in gaps.narrow, for another look. Returns what it took.
+  LookedAt look_closer(double apart, const LookedAt& most, Gaps& gaps);
 
 private:
   class Rays;
   std::unique_ptr<Rays> _rays;
 };
 
-/// About as many rays as it takes to look at the narrow parts of a face as closely as its open gaps are
-/// narrow.
-std::int64_t count_rays(const Gaps& gaps, double layers);
+/// The narrow part that is longest for the gap seen in it, where it is far longer than that asks for; null
+/// where none is.
+const Gaps::Part* find_coarsest(const Gaps& gaps, double layers);
 
-/// The most rays that GapSearch::look_closer() takes.
-std::int64_t rays_for_closer_look(const Gaps& gaps, double layers, double apart);
+/// About as many rays as it takes to look at the narrow parts of a face as closely as its open gaps are
+/// narrow, as far as those have been seen.
+std::int64_t count_rays(const Gaps& gaps, double layers);
 
 }  // namespace aeroloom::sizing

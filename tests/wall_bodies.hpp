@@ -19,16 +19,11 @@
 
 namespace aeroloom::shapes {
 
-/// A profile pulled up by one, as a body.
-inline cad::Model prism(const std::vector<std::pair<double, double>>& profile) {
-  BRepBuilderAPI_MakePolygon polygon;
-  for (const auto& [x, y] : profile) polygon.Add(gp_Pnt(x, y, 0));
-  polygon.Close();
+/// A shape as the fluid.
+inline cad::Model domain_of(const TopoDS_Shape& shape) {
   const std::string file =
-      (std::filesystem::temp_directory_path() / ("aeroloom_prism_" + std::to_string(::getpid()) + ".brep"))
+      (std::filesystem::temp_directory_path() / ("aeroloom_shape_" + std::to_string(::getpid()) + ".brep"))
           .string();
-  const TopoDS_Shape shape =
-      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()), gp_Vec(0, 0, 1)).Shape();
   BRepTools::Write(shape, file.c_str());
   cad::DomainOptions options;
   options.file = file;
@@ -36,6 +31,14 @@ inline cad::Model prism(const std::vector<std::pair<double, double>>& profile) {
   cad::Model model = cad::prepare_domain(options).model;
   std::filesystem::remove(file);
   return model;
+}
+
+/// A profile pulled up by one, as the fluid.
+inline cad::Model prism(const std::vector<std::pair<double, double>>& profile) {
+  BRepBuilderAPI_MakePolygon polygon;
+  for (const auto& [x, y] : profile) polygon.Add(gp_Pnt(x, y, 0));
+  polygon.Close();
+  return domain_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()), gp_Vec(0, 0, 1)).Shape());
 }
 
 /// A block, 4 long, with a cut from one end that is so wide there and closes in an edge.

@@ -5,12 +5,15 @@
 #include "cad/domain/domain.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/size_field.hpp"
+#include "tests/wall_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
 
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeWedge.hxx>
 #include <BRepTools.hxx>
 #include <TopoDS_Shape.hxx>
@@ -142,6 +145,19 @@ TEST(OpenGaps, AWedgeIsNone) {
   EXPECT_GE(least, 0.0999);
 }
 
+TEST(OpenGaps, AreBetweenSurfacesWhereFacetsAreFartherOff) {
+  // Facets of both are about 0.003 off.
+  const Model annulus = shapes::domain_of(
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(1.008, 0.1).Shape(), BRepPrimAPI_MakeCylinder(1, 0.1).Shape())
+          .Shape());
+  const SizeField field = build_with_gaps(annulus, 0.001);
+  for (double turn = 0.1; turn < 6; turn += 0.7) {
+    const double h = field({1.004 * std::cos(turn), 1.004 * std::sin(turn), 0.05});
+    EXPECT_LE(h, 2 * 0.008);
+    EXPECT_GE(h, 0.5 * 0.008);
+  }
+}
+
 // Behind the corners of the slender side faces elements fit between the edges, and nothing is finer than
 // that.
 TEST(SharpCorners, SizesFitBetweenTheEdges) {
@@ -173,7 +189,11 @@ namespace {
 
 /// The search of one face of a plate, with so many nodes at a time.
 struct PlateSearch {
+  PlateSearch() = default;
+  PlateSearch(Model other, const sizing::GapLimits& what) : model(std::move(other)), limits(what) {}
+
   Model model = plate(0.02);
+  sizing::GapLimits limits{0.1, 0.005, 1};
   cad::FaceId face = [&] {
     cad::FaceId largest = cad::no_entity;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
@@ -190,11 +210,14 @@ struct PlateSearch {
       if (model.is_far_field(f)) continue;
       const cad::Facets of_face = model.facets(f, 0.1, 0.3);
       for (const auto& [a, b, c] : of_face.triangles)
-        all.push_back({f, {of_face.points[a], of_face.points[b], of_face.points[c]}, 0});
+        all.push_back({f,
+                       {of_face.points[a], of_face.points[b], of_face.points[c]},
+                       {of_face.uv[a], of_face.uv[b], of_face.uv[c]},
+                       0});
     }
     return sizing::Walls(std::move(all));
   }();
-  sizing::GapSearch search{model, face, facets, walls, {0.1, 0.005, 1}};
+  sizing::GapSearch search{model, face, facets, walls, limits};
   sizing::Gaps gaps;
 };
 
@@ -225,4 +248,34 @@ TEST(GapSearch, EndsEarlyWithTheWorkAndSaysWhatWasNotLookedAt) {
   EXPECT_TRUE(part.gaps.unseen.empty());
   EXPECT_EQ(part.gaps.seen.size(), whole.gaps.seen.size());
   EXPECT_EQ(part.gaps.open.size(), whole.gaps.open.size());
+}
+
+/// A slot that closes towards one end: few rays find about how narrow it is there, wherever a search begins.
+TEST(GapSearch, LooksCloserWhereGapsAreNarrowest) {
+  for (const bool turned : {false, true}) {
+    const double left = turned ? 0.002 : 0.05, right = turned ? 0.05 : 0.002;
+    const Model model = shapes::prism({{0, 0}, {1, 0}, {1, right}, {0, left}});
+    PlateSearch slot(model, {0.1, 0.3, 1});
+    slot.search.go_on(1'000'000, slot.gaps);
+    ASSERT_FALSE(slot.gaps.narrow.empty());
+    const auto narrowest = [&] {
+      double width = 1;
+      for (const sizing::Gap& gap : slot.gaps.open) width = std::min(width, gap.width);
+      return width;
+    };
+    EXPECT_GT(narrowest(), 0.0035);
+    const sizing::LookedAt took = slot.search.look_closer(1, {2000, 1'000'000}, slot.gaps);
+    EXPECT_LE(took.rays, 2001);
+    EXPECT_LT(narrowest(), 0.0023);
+    EXPECT_FALSE(slot.gaps.narrow.empty());
+    const auto coarseness = [](const sizing::Gaps::Part& part) {
+      return sizing::longest_edge(part.triangle).length / part.gap;
+    };
+    double least = 1e300, most = 0;
+    for (const sizing::Gaps::Part& part : slot.gaps.narrow) {
+      least = std::min(least, coarseness(part));
+      most = std::max(most, coarseness(part));
+    }
+    EXPECT_LT(most, 3 * least);
+  }
 }
