@@ -216,12 +216,22 @@ private:
     if (!meshed) return closed;
     const double off = _deviations[facet] + wall.deviation;
     if (away < gap_over_error * (off + _accuracy)) {
-      away = off > 0 ? distance_of_surfaces(from, direction, away, facet, wall) : 0;
+      if (off <= 0 || is_edge_within(longest_facet(facet, wall), from, wall.face)) return closed;
+      away = distance_of_surfaces(from, direction, away, facet, wall);
       if (away < std::max(gap_over_error * _accuracy, surface_gap_over_error * off)) return closed;
     }
     const double turn = norm(cross(_walls.normals[crossing.triangle], direction));
     const bool closes = turn > 0 && is_edge_within(nowhere, from, wall.face, away / (closing_reach * turn));
     return {closed.gap, closes ? nowhere : away};
+  }
+
+  /// Walls that run together towards a common edge, bent as their facets are, are nearer to each other than
+  /// those are off so far from it. What is found there is no gap but a cusp, or a fold of surfaces that cross
+  /// beside the edge.
+  double longest_facet(std::int32_t facet, const Wall& wall) const {
+    const auto& [a, b, c] = _facets.triangles[facet];
+    const Triangle own{_facets.points[a], _facets.points[b], _facets.points[c]};
+    return std::max(longest_edge(own).length, longest_edge(wall.corners).length);
   }
 
   /// How far the opposite surface is from that of the face, beside the point on its facet; nothing where they

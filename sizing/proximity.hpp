@@ -28,7 +28,8 @@ struct Gaps {
   std::vector<Gap> seen;  ///< on either side of the face, the narrower one
   /// On a side that is meshed, and where the walls do not run together towards a common edge: elements as
   /// small as the gap resolve it. A wedge looks the same to elements of any size. Where facets are less than
-  /// twice their distance from the surface apart, the gap is that between the surfaces.
+  /// twice their distance from the surface apart, the gap is that between the surfaces; none where these run
+  /// together towards a common edge nearer than the facets are long.
   std::vector<Gap> open;
   /// A part of a facet that is longer than rays should be apart in the open gap there.
   struct Part {

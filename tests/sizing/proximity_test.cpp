@@ -11,12 +11,23 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeWedge.hxx>
 #include <BRepTools.hxx>
 #include <TopoDS_Shape.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
+#include <gp_Dir.hxx>
+#include <gp_Pnt.hxx>
+#include <gp_Vec.hxx>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -158,6 +169,67 @@ TEST(OpenGaps, AreBetweenSurfacesWhereFacetsAreFartherOff) {
   }
 }
 
+namespace {
+
+/// Between two arcs that run together in a cusp, the upper one of radius 1, the lower one of radius 2; 0.2
+/// high.
+Model cusp() {
+  constexpr double turn = 0.9;
+  const auto on_circle = [](double radius, double angle) {
+    return gp_Pnt(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0);
+  };
+  const auto arc = [&](double radius, double angle) {
+    const gp_Circ circle(gp_Ax2(gp_Pnt(0, radius, 0), gp_Dir(0, 0, 1)), radius);
+    return BRepBuilderAPI_MakeEdge(circle, on_circle(radius, 0), on_circle(radius, angle)).Edge();
+  };
+  const double below = std::asin(0.5 * std::sin(turn));
+  BRepBuilderAPI_MakeWire wire(arc(2, below), arc(1, turn));
+  wire.Add(BRepBuilderAPI_MakeEdge(on_circle(2, below), on_circle(1, turn)).Edge());
+  return shapes::domain_of(
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, 0.2)).Shape());
+}
+
+std::vector<sizing::Wall> walls_of(const Model& model, cad::FaceId face, const cad::Facets& facets) {
+  std::vector<sizing::Wall> walls;
+  const std::vector<double> deviations = sizing::facet_deviations(model, face, facets);
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    const auto& [a, b, c] = facets.triangles[i];
+    walls.push_back({face,
+                     {facets.points[a], facets.points[b], facets.points[c]},
+                     {facets.uv[a], facets.uv[b], facets.uv[c]},
+                     deviations[i]});
+  }
+  return walls;
+}
+
+/// The first face with that curvature.
+cad::FaceId face_of_curvature(const Model& model, double curvature) {
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    const auto there = model.face_curvatures(f, model.facets(f, 1, 0.3).uv[0]);
+    if (there.defined && std::abs(std::abs(there.largest) - curvature) < 1e-6) return f;
+  }
+  return cad::no_entity;
+}
+
+}  // namespace
+
+TEST(OpenGaps, AreNotToldFromACuspByFacetsThatReachToIt) {
+  const Model model = cusp();
+  const cad::FaceId upper = face_of_curvature(model, 1), lower = face_of_curvature(model, 0.5);
+  ASSERT_NE(upper, cad::no_entity);
+  ASSERT_NE(lower, cad::no_entity);
+  // Beside the cusp some facets of the upper one are as steep as those below them, or less.
+  for (const auto& [angle, angle_below] : {std::pair(0.45, 0.15), std::pair(0.3, 0.1)}) {
+    const cad::Facets facets = model.facets(upper, 1, angle);
+    const sizing::Walls walls(walls_of(model, lower, model.facets(lower, 1, angle_below)));
+    sizing::GapSearch search(model, upper, facets, walls, {1, 0.01, 1});
+    sizing::Gaps gaps;
+    search.go_on(10'000'000, gaps);
+    EXPECT_GT(gaps.seen.size(), 100);
+    for (const sizing::Gap& gap : gaps.open) EXPECT_GT(gap.point.x, 0.25) << gap.width;
+  }
+}
+
 // Behind the corners of the slender side faces elements fit between the edges, and nothing is finer than
 // that.
 TEST(SharpCorners, SizesFitBetweenTheEdges) {
@@ -208,12 +280,8 @@ struct PlateSearch {
     std::vector<sizing::Wall> all;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       if (model.is_far_field(f)) continue;
-      const cad::Facets of_face = model.facets(f, 0.1, 0.3);
-      for (const auto& [a, b, c] : of_face.triangles)
-        all.push_back({f,
-                       {of_face.points[a], of_face.points[b], of_face.points[c]},
-                       {of_face.uv[a], of_face.uv[b], of_face.uv[c]},
-                       0});
+      const std::vector<sizing::Wall> more = walls_of(model, f, model.facets(f, 0.1, 0.3));
+      all.insert(all.end(), more.begin(), more.end());
     }
     return sizing::Walls(std::move(all));
   }();
