@@ -46,9 +46,7 @@ struct Made {
         around(problem, lattice) {}
 
   LatticeSource source() const { return lattice.source(problem, around.regions); }
-  BlockPoints make() const {
-    return make(lattice.first(problem.communicator), lattice.last(problem.communicator));
-  }
+  BlockPoints make() const { return make(lattice.tree.first(), lattice.tree.last()); }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
     return make_points(source(), first, last, around.surface, reach_of_blocks(source(), first, last));
   }
@@ -325,7 +323,7 @@ TEST_F(LatticePoints, move_by_their_perturbation_in_another_variant) {
   std::map<std::int64_t, Vec3> before;
   const BlockPoints first = made.make();
   for_each_point(first, [&](BlockIndex b, std::int64_t i) {
-    before[lattice_number(b, first.slots[i])] = first.points[i];
+    before[lattice_number(made.lattice.tree, b, first.slots[i])] = first.points[i];
   });
   const BlockIndex changed = made.lattice.tree.block_count() / 2;
   for (BlockIndex b = changed; b < made.lattice.tree.block_count(); ++b) made.lattice.changes[b].variant = 1;
@@ -333,7 +331,7 @@ TEST_F(LatticePoints, move_by_their_perturbation_in_another_variant) {
   int moved = 0, common = 0;
   double farthest = 0;
   for_each_point(second, [&](BlockIndex b, std::int64_t i) {
-    const auto at = before.find(lattice_number(b, second.slots[i]));
+    const auto at = before.find(lattice_number(made.lattice.tree, b, second.slots[i]));
     if (at == before.end()) return;  // near the surface, where it came within reach or left it
     ++common;
     const Vec3 by = second.points[i] - at->second;

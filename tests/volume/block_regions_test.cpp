@@ -23,18 +23,15 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
   const Surroundings around(problem, lattice);
   std::vector<int> counts(surfaces::region_count(surface) + 1, 0);
   int wrong = 0;
-  EXPECT_EQ(static_cast<BlockIndex>(around.regions.size()), lattice.tree.block_count());
+  EXPECT_EQ(static_cast<BlockIndex>(around.regions.size()), lattice.tree.last() - lattice.tree.first());
   const Communicator& ranks = problem.communicator;
-  for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
-    if (b < lattice.first(ranks) || b >= lattice.last(ranks)) {
-      EXPECT_EQ(around.regions[b], no_region);
-      continue;
-    }
+  for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b) {
+    const RegionId region = around.regions[b - lattice.tree.first()];
     if (lattice.table.is_met(b)) {
-      EXPECT_EQ(around.regions[b], no_region);
+      EXPECT_EQ(region, no_region);
       continue;
     }
-    ++counts[around.regions[b] + 1];
+    ++counts[region + 1];
     const GridBox box = GridBox::of(lattice.tree.cube(b));
     const Vec3 size = box.high - box.low;
     for (int k = 0; k < 9; ++k) {
@@ -42,7 +39,7 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
                                : Vec3{0.01 + 0.98 * (k & 1), 0.01 + 0.49 * (k & 2), 0.01 + 0.245 * (k & 4)};
       const Vec3 p =
           lattice.frame.to_space(box.low + Vec3{part.x * size.x, part.y * size.y, part.z * size.z});
-      wrong += expected(p) != around.regions[b];
+      wrong += expected(p) != region;
     }
   }
   EXPECT_EQ(wrong, 0);

@@ -49,11 +49,13 @@ void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   const auto chance = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
   const double of_leaf = 0.6 * chance(), of_block = 0.3 * chance();
-  for (BlockChange& change : data.changes) {
+  for (BlockNumber number = 0; number < data.tree->total(); ++number) {
+    std::uint8_t shell = 0;
     for (int child = 0; child < 8; ++child) {
-      if (chance() < of_leaf) change.shell |= static_cast<std::uint8_t>(1U << child);
+      if (chance() < of_leaf) shell |= static_cast<std::uint8_t>(1U << child);
     }
-    if (chance() < of_block) change.shell = 0xff;
+    if (chance() < of_block) shell = 0xff;
+    if (data.tree->knows(number)) data.changes[data.tree->index(number)].shell = shell;
   }
   const std::int64_t before = data.report.core_tetrahedra;
   parallel::StageClock clock;
@@ -106,17 +108,20 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   const BlockIndex first = data.core->ghosts().first();
   std::int64_t chosen = INT64_MAX;
   for (BlockIndex b = first; b < data.shell.points.last(); ++b) {
-    if (data.core->of(b) == 0xff) chosen = std::min<std::int64_t>(chosen, b);
+    if (data.core->of(b) == 0xff) chosen = std::min(chosen, data.tree->number(b));
   }
   chosen = world.minimum(chosen);
-  ASSERT_LT(chosen, data.tree->block_count());
-  const auto block = static_cast<BlockIndex>(chosen);
-  data.changes[block].shell = 0xff;
+  ASSERT_LT(chosen, data.tree->total());
+  const bool is_mine = data.tree->owner(chosen) == world.rank();
+  if (data.tree->knows(chosen)) data.changes[data.tree->index(chosen)].shell = 0xff;
   const std::int64_t before = data.report.shell_points;
   const std::vector<BlockIndex> changed = make_all_points(world, problem.input(), data, clock);
-  EXPECT_NE(std::find(changed.begin(), changed.end(), block), changed.end());
   EXPECT_GT(data.report.shell_points, before);
-  if (data.core->ghosts().is_own(block)) EXPECT_EQ(data.core->of(block), 0);
+  if (is_mine) {
+    const BlockIndex block = data.tree->index(chosen);
+    EXPECT_NE(std::find(changed.begin(), changed.end(), block), changed.end());
+    EXPECT_EQ(data.core->of(block), 0);
+  }
 }
 
 }  // namespace

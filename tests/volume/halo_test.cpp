@@ -53,6 +53,10 @@ struct Divided {
     return taken;
   }
 
+  void give(BlockIndex b, int child, ZoneIndex to) {
+    zones.give({lattice.tree.number(b), child, GridBox::of(lattice.tree.leaf(b, child)), to});
+  }
+
   /// The largest size in a block and those it touches.
   double size_around(BlockIndex b) const {
     const LatticeTree& tree = lattice.tree;
@@ -114,8 +118,7 @@ void expect_rule(Divided& divided, const std::vector<double>& widths) {
       const auto expected = divided.expected(z, width);
       expect_same(divided.take(z, width), expected);
       taken += expected.size();
-      for (BlockIndex b = 0; b < divided.lattice.tree.block_count(); ++b)
-        own += divided.zones.has(z, b, divided.lattice.tree.leaf_count(b));
+      for (BlockIndex b = 0; b < divided.lattice.tree.block_count(); ++b) own += divided.zones.has(z, b);
     }
   }
   EXPECT_GT(taken, own);
@@ -153,8 +156,8 @@ TEST(Halo, is_what_the_rule_says_around_leaves_given_away) {
   const LatticeTree& tree = divided.lattice.tree;
   for (int i = 0; i < 40; ++i) {
     const auto b = static_cast<BlockIndex>(random() % tree.block_count());
-    divided.zones.give(b, static_cast<int>(random() % tree.leaf_count(b)),
-                       static_cast<ZoneIndex>(random() % 4));
+    const int child = static_cast<int>(random() % tree.leaf_count(b));
+    divided.give(b, child, static_cast<ZoneIndex>(random() % 4));
   }
   expect_rule(divided, {1.5});
   divided.zones.merge(3, 1);
@@ -164,7 +167,7 @@ TEST(Halo, is_what_the_rule_says_around_leaves_given_away) {
 
 TEST(Halo, holds_all_leaves_of_the_zone_itself) {
   Divided divided(fields::uniform(0.25), surfaces::cube({0, 0, 0}, 1.9, 10), 6);
-  divided.zones.give(divided.lattice.tree.block_count() / 2, 0, 5);
+  divided.give(divided.lattice.tree.block_count() / 2, 0, 5);
   for (ZoneIndex z = 0; z < 6; ++z) {
     const std::vector<TakenBlock> taken = divided.take(z, 0);
     for (const LeafOfBlock& leaf : all_leaves(divided.lattice.tree)) {

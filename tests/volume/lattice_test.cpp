@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -287,17 +288,54 @@ TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
   // Several thousand cells of one level are needed for the ranks to have anything to share out.
   for (const auto& field : {fields::uniform(0.08), fields::around_unit_sphere(0.04, 0.4), steep()}) {
     const Grown shared(field, world), alone(field);
-    ASSERT_EQ(shared.tree.block_count(), alone.tree.block_count());
-    std::uint64_t mixed = 0;
-    for (BlockIndex b = 0; b < alone.tree.block_count(); ++b) {
-      const GridCube cell = alone.tree.cube(b), same = shared.tree.cube(b);
-      ASSERT_EQ(sizing::morton_key(cell.low), sizing::morton_key(same.low));
-      ASSERT_EQ(cell.level, same.level);
-      ASSERT_EQ(alone.tree.leaf_count(b), shared.tree.leaf_count(b));
-      mixed = mesh::mix_in(mixed, sizing::morton_key(cell.low) + cell.level);
+    ASSERT_EQ(shared.tree.total(), alone.tree.block_count());
+    EXPECT_EQ(world.sum(std::int64_t{shared.tree.last() - shared.tree.first()}), shared.tree.total());
+    for (BlockIndex b = shared.tree.first(); b < shared.tree.last(); ++b) {
+      const auto same = static_cast<BlockIndex>(shared.tree.number(b));
+      ASSERT_EQ(shared.tree.index(same), b);
+      ASSERT_EQ(shared.tree.owner(same), world.rank());
+      ASSERT_EQ(shared.tree.cube(b), alone.tree.cube(same));
+      ASSERT_EQ(shared.tree.leaf_count(b), alone.tree.leaf_count(same));
     }
-    for (const std::uint64_t other : world.all_gather_items<std::uint64_t>({&mixed, 1}))
-      EXPECT_EQ(other, mixed);
+  }
+}
+
+/// A rank that knows every third block, as of a tree that is all there.
+TEST(LatticeTree, learns_of_blocks_of_other_ranks) {
+  const Communicator world = Communicator::world();
+  const Grown alone(graded());
+  Grown shared(graded(), world);
+  LatticeTree& tree = shared.tree;
+  std::vector<KnownBlock> some;
+  for (BlockIndex b = 0; b < alone.tree.block_count(); b += 3) some.push_back(alone.tree.known(b));
+  tree.learn(some);
+  std::int64_t at = 0;
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+    const GridCube cube = tree.cube(b);
+    EXPECT_EQ(static_cast<std::int64_t>(cube.key()), at);
+    at += std::int64_t{1} << 3 * (sizing::finest_level - cube.level);
+    EXPECT_EQ(tree.any_at(cube.low), b);
+    if (!tree.is_known(b)) {
+      EXPECT_THROW(static_cast<void>(tree.block_at(cube.low)), std::logic_error);
+      EXPECT_THROW(tree.for_each_block_in(GridBox::of(cube), [](BlockIndex) {}), std::logic_error);
+      continue;
+    }
+    const BlockNumber number = tree.number(b);
+    EXPECT_EQ(alone.tree.cube(static_cast<BlockIndex>(number)), cube);
+    EXPECT_EQ(tree.index(number), b);
+    EXPECT_EQ(tree.is_own(b), tree.owner(number) == world.rank());
+    EXPECT_TRUE(tree.is_own(b) || number % 3 == 0);
+  }
+  EXPECT_EQ(at, std::int64_t{1} << 3 * sizing::finest_level);
+  for (BlockNumber n = 0; n < tree.total(); ++n)
+    EXPECT_EQ(tree.knows(n), n % 3 == 0 || tree.owner(n) == world.rank());
+  // Who has what is near a block.
+  for (BlockIndex b = 0; b < alone.tree.block_count(); b += 50) {
+    const GridBox box = GridBox::of(alone.tree.cube(b)).dilated(0.5);
+    std::set<parallel::Rank> expected, found;
+    alone.tree.for_each_block_in(box, [&](BlockIndex n) { expected.insert(tree.owner(n)); });
+    tree.for_each_rank_in(box, [&](parallel::Rank rank) { found.insert(rank); });
+    EXPECT_EQ(found, expected);
   }
 }
 

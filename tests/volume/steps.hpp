@@ -5,6 +5,7 @@
 #include "volume/block_points.hpp"
 #include "volume/block_regions.hpp"
 #include "volume/near_surface.hpp"
+#include "volume/neighbourhood.hpp"
 #include "volume/volume_mesher.hpp"
 #include "volume/zones.hpp"
 
@@ -65,53 +66,53 @@ inline geometry::Box box_of(const surfaces::Surface& surface) {
   return box;
 }
 
-/// Frame, tree and table of a problem: what every rank knows of the lattice.
+/// Frame, tree and table of a problem: what a rank knows of the lattice.
 struct Lattice {
   Lattice(const Problem& problem, const geometry::Box& box)
       : frame(problem.field, box),
         tree(problem.communicator, frame, problem.field, box, clock),
-        table(tabulate_surface(problem.communicator, frame, tree, problem.surface, clock)),
-        shares(share_blocks(tree, table, problem.communicator.size())),
-        changes(tree.block_count()) {}
+        own_triangles(
+            deliver_surface(problem.communicator, frame, tree, problem.surface, problem.numbering, clock)),
+        table(tabulate_surface(frame, tree, own_triangles)) {
+    learn_what_touches(problem.communicator, frame, tree, table, own_triangles, clock);
+    changes.resize(tree.block_count());
+    learn_what_is_far_finer(problem.communicator, source(problem, {}), tree, table, clock);
+    changes.resize(tree.block_count());
+  }
   Lattice(const Lattice&) = delete;
   Lattice& operator=(const Lattice&) = delete;
 
-  /// What points are made from. `regions` per block.
+  /// What points are made from. `regions` are those of this rank's blocks.
   LatticeSource source(const Problem& problem, std::span<const mesh::RegionId> regions) const {
     return {frame,  tree,    problem.field,
             table,  regions, {problem.options.lattice_clearance, problem.options.perturbation},
             changes};
   }
-  BlockIndex first(const parallel::Communicator& communicator) const { return shares[communicator.rank()]; }
-  BlockIndex last(const parallel::Communicator& communicator) const {
-    return shares[communicator.rank() + 1];
-  }
 
   parallel::StageClock clock;
   LatticeFrame frame;
   LatticeTree tree;
+  std::vector<SurfaceTriangle> own_triangles;
   SurfaceTable table;
-  std::vector<BlockIndex> shares;
   std::vector<BlockChange> changes;
 };
 
-/// The triangles within reach of a rank's blocks, and the regions of all blocks.
+/// The triangles within reach of a rank's blocks, and the regions of these.
 struct Surroundings {
   Surroundings(const Problem& problem, Lattice& lattice)
       : reach(reach_of(problem, lattice)),
         triangles(deliver(problem, lattice)),
         surface(triangles),
-        found(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table,
-                                 lattice.shares, triangles, surface, reach, lattice.clock)),
+        found(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table, triangles,
+                                 surface, reach, lattice.clock)),
         regions(found.of_block) {}
 
   static SurfaceReach reach_of(const Problem& problem, Lattice& lattice) {
-    return reach_of_blocks(lattice.source(problem, {}), lattice.first(problem.communicator),
-                           lattice.last(problem.communicator));
+    return reach_of_blocks(lattice.source(problem, {}), lattice.tree.first(), lattice.tree.last());
   }
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
-    return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
-                           reach_of(problem, lattice), problem.surface, problem.numbering, lattice.clock);
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, reach_of(problem, lattice),
+                          lattice.own_triangles, lattice.clock);
   }
 
   SurfaceReach reach;
@@ -125,7 +126,7 @@ struct Surroundings {
 inline Zones cut_into_zones(const LatticeTree& tree, std::span<const Load> loads, ZoneIndex count) {
   const Load all = std::accumulate(loads.begin(), loads.end(), Load{0});
   const std::vector<CoarseCell> cells =
-      coarsen(parallel::Communicator::self(), tree, 0, loads, all / (ZoneCuts::cells_per_zone * count));
+      coarsen(parallel::Communicator::self(), tree, loads, all / (ZoneCuts::cells_per_zone * count));
   return {tree, ZoneCuts(cells, count)};
 }
 

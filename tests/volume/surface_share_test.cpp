@@ -31,11 +31,9 @@ struct Shared {
 
   std::vector<SurfaceTriangle> deliver(double reach) {
     const SurfaceReach reaches{
-        std::vector<BlockReach>(lattice.last(problem.communicator) - lattice.first(problem.communicator),
-                                {reach, reach}),
-        0};
-    return deliver_surface(problem.communicator, lattice.frame, lattice.tree, lattice.table, lattice.shares,
-                           reaches, problem.surface, problem.numbering, lattice.clock);
+        std::vector<BlockReach>(lattice.tree.last() - lattice.tree.first(), {reach, reach}), 0};
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, reaches, lattice.own_triangles,
+                          lattice.clock);
   }
 
   surfaces::Surface surface;
@@ -53,6 +51,7 @@ TEST(SurfaceTable, knows_the_longest_edge_that_meets_each_block) {
   const std::vector<SurfaceTriangle> triangles = surfaces::numbered_triangles(shared.surface);
   int met = 0, free = 0;
   for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
+    if (!lattice.tree.is_known(b)) continue;
     const GridBox box = GridBox::of(lattice.tree.cube(b));
     float longest = 0;
     for (const SurfaceTriangle& t : triangles) {
@@ -72,10 +71,10 @@ TEST(SurfaceTable, knows_the_longest_edge_that_meets_each_block) {
 TEST(SurfaceTable, counts_each_triangle_in_the_block_of_its_centre) {
   Shared shared(Communicator::world());
   const Lattice& lattice = shared.lattice;
-  std::vector<std::int32_t> expected(lattice.tree.block_count(), 0);
+  std::vector<std::int32_t> expected(lattice.tree.block_count(), 0), found = expected;
   for (const SurfaceTriangle& t : surfaces::numbered_triangles(shared.surface)) {
     const Vec3 center = lattice.frame.to_grid((1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]));
-    for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
+    for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b) {
       const GridBox box = GridBox::of(lattice.tree.cube(b));
       const auto within = [&](int axis) {
         return center[axis] >= box.low[axis] && center[axis] < box.high[axis];
@@ -83,48 +82,23 @@ TEST(SurfaceTable, counts_each_triangle_in_the_block_of_its_centre) {
       if (within(0) && within(1) && within(2)) ++expected[b];
     }
   }
-  EXPECT_EQ(lattice.table.triangles, expected);
+  for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
+    found[b] = lattice.table.triangles[b];
+  EXPECT_EQ(found, expected);
 }
 
 TEST(SurfaceTable, is_the_same_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   Shared shared(world), alone(Communicator::self());
-  EXPECT_EQ(shared.lattice.table.longest_edge, alone.lattice.table.longest_edge);
-  EXPECT_EQ(shared.lattice.table.triangles, alone.lattice.table.triangles);
-}
-
-TEST(ShareBlocks, gives_each_rank_a_range) {
-  Shared shared(Communicator::self());
-  const Lattice& lattice = shared.lattice;
-  const BlockIndex blocks = lattice.tree.block_count();
-  for (const int ranks : {1, 2, 3, 7, 64, blocks, 2 * blocks}) {
-    const std::vector<BlockIndex> shares = share_blocks(lattice.tree, lattice.table, ranks);
-    ASSERT_EQ(static_cast<int>(shares.size()), ranks + 1);
-    EXPECT_EQ(shares.front(), 0);
-    EXPECT_EQ(shares.back(), blocks);
-    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  }
-}
-
-TEST(ShareBlocks, gives_equal_shares) {
-  Shared shared(Communicator::self());
   const LatticeTree& tree = shared.lattice.tree;
-  SurfaceTable none;
-  none.longest_edge.assign(tree.block_count(), 0);
-  none.triangles.assign(tree.block_count(), 0);
-  SurfaceTable crowded = none;
-  for (BlockIndex b = 0; b < tree.block_count() / 4; ++b) {
-    crowded.longest_edge[b] = 1;
-    crowded.triangles[b] = 50;
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+    if (!tree.is_known(b)) continue;
+    const auto same = static_cast<BlockIndex>(tree.number(b));
+    EXPECT_EQ(shared.lattice.table.longest_edge[b], alone.lattice.table.longest_edge[same]);
+    if (!tree.is_own(b)) continue;
+    EXPECT_EQ(shared.lattice.table.triangles[b], alone.lattice.table.triangles[same]);
+    EXPECT_EQ(shared.lattice.table.nearest[b], alone.lattice.table.nearest[same]);
   }
-  const std::vector<BlockIndex> even = share_blocks(tree, none, 4), uneven = share_blocks(tree, crowded, 4);
-  const auto leaves_of = [&](int rank) {
-    std::int64_t count = 0;
-    for (BlockIndex b = even[rank]; b < even[rank + 1]; ++b) count += tree.leaf_count(b);
-    return count;
-  };
-  for (int rank = 1; rank < 4; ++rank) EXPECT_NEAR(leaves_of(rank), leaves_of(0), 16);
-  EXPECT_LT(uneven[3], tree.block_count() / 4);  // three of four ranks share the crowd
 }
 
 TEST(DeliverSurface, brings_what_is_within_reach) {
@@ -150,7 +124,7 @@ TEST(DeliverSurface, brings_what_is_within_reach) {
       for (double u = 0; u <= 1 && !is_near; u += step) {
         for (double v = 0; u + v <= 1 && !is_near; v += step) {
           const Vec3 p = lattice.frame.to_grid(u * t.points[0] + v * t.points[1] + (1 - u - v) * t.points[2]);
-          for (BlockIndex b = lattice.first(world); b < lattice.last(world) && !is_near; ++b)
+          for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last() && !is_near; ++b)
             is_near = GridBox::of(lattice.tree.cube(b)).gap_to({p, p}) <= reach;
         }
       }

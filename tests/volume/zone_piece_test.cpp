@@ -200,8 +200,8 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
         EXPECT_NE(v[k], cell[crossing.face]);
         EXPECT_NE(std::find(cell.begin(), cell.end(), v[k]), cell.end());
         const auto number = static_cast<std::int64_t>(face.vertices[k]) - problem->numbering.vertex_count;
-        const Leaf leaf =
-            number >= 0 ? leaf_of_lattice(number) : finder.leaf_of_place(zone.content.problem.points[v[k]]);
+        const Leaf leaf = number >= 0 ? leaf_of_lattice(*decomposition->data().tree, number)
+                                      : finder.leaf_of_place(zone.content.problem.points[v[k]]);
         EXPECT_EQ(face.leaves[k], 8 * std::int64_t{leaf.block} + leaf.child);
       }
       // Counter-clockwise seen from outside: the fourth vertex lies on the other side.

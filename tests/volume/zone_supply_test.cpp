@@ -24,6 +24,14 @@ VolumeOptions in_zones_of(std::int64_t tets) {
   return options;
 }
 
+/// A leaf that is given away.
+struct Away {
+  BlockNumber block;
+  std::int32_t child;
+  GridBox box;
+  static constexpr auto fields() { return std::tuple(&Away::block, &Away::child, &Away::box); }
+};
+
 /// Two nested regions, divided into a dozen zones, one of which was given some leaves of others.
 struct Divided {
   explicit Divided(const Communicator& communicator)
@@ -32,8 +40,14 @@ struct Divided {
         decomposition(decompose(communicator, problem.input(), clock)),
         data(decomposition.data()),
         finder(data.finder(problem.input())) {
-    for (BlockIndex b = 10; b < data.tree->block_count(); b += 50)
-      data.zones->give(b, data.tree->leaf_count(b) / 2, 3);
+    std::vector<Away> rows;  // every rank is told
+    for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b) {
+      if (data.tree->number(b) % 50 == 10)
+        rows.push_back({data.tree->number(b), data.tree->leaf_count(b) / 2,
+                        GridBox::of(data.tree->leaf(b, data.tree->leaf_count(b) / 2))});
+    }
+    for (const Away& row : communicator.all_gather_items<Away>(rows))
+      data.zones->give({row.block, row.child, row.box, 3});
     all.resize(data.zones->count());
     std::iota(all.begin(), all.end(), 0);
     widths.assign(all.size(), problem.options.halo);
@@ -157,7 +171,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
 
 TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
   const Communicator world = Communicator::world();
-  Divided divided(world);
+  Divided divided(world), alone(Communicator::self());
   struct Row {
     std::int64_t number;
     Vec3 point;
@@ -169,17 +183,18 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
   const BlockPoints& points = divided.data.shell.points;
   for (BlockIndex b = points.first; b < points.last(); ++b) {
     for (std::int64_t i = points.starts[b - points.first]; i < points.starts[b - points.first + 1]; ++i)
-      mine.push_back({lattice_number(b, points.slots[i]), points.points[i], points.regions[i]});
+      mine.push_back(
+          {lattice_number(*divided.data.tree, b, points.slots[i]), points.points[i], points.regions[i]});
   }
   const std::vector<Row> all = world.all_gather_items<Row>(mine);
   std::int64_t zones = 0;
   for (const ZoneContent& content : divided.supply_all()) {
     ++zones;
-    Nearness nearness(divided, content.zone);
+    Nearness nearness(alone, content.zone);
     std::size_t at = content.problem.surface_points();
     const std::size_t first = at;
     for (const Row& row : all) {
-      const Leaf leaf = leaf_of_lattice(row.number);
+      const Leaf leaf = leaf_of_lattice(*alone.data.tree, row.number);
       const Vec3 place = divided.data.frame->to_grid(row.point);
       if (!nearness.holds({place, place}, leaf.block)) continue;
       ASSERT_LT(at, content.tokens.size());
@@ -198,7 +213,7 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
 
 TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
   const Communicator world = Communicator::world();
-  Divided divided(world);
+  Divided divided(world), alone(Communicator::self());
   const LatticeFrame& frame = *divided.data.frame;
   std::set<mesh::GlobalIndex> numbers;
   std::vector<SurfaceTriangle> all;
@@ -211,11 +226,11 @@ TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
   for (const ZoneContent& content : divided.supply_all()) {
     std::size_t at = 0;
     std::set<mesh::GlobalIndex> vertices;
-    Nearness nearness(divided, content.zone);
+    Nearness nearness(alone, content.zone);
     for (const SurfaceTriangle& t : all) {
       const GridBox box = grid_box(frame, t.points);
       const Vec3 middle = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
-      if (!nearness.holds(box, divided.finder.leaf_of_place(middle).block)) continue;
+      if (!nearness.holds(box, alone.finder.leaf_of_place(middle).block)) continue;
       ASSERT_LT(at, content.problem.triangles.size());
       for (int k = 0; k < 3; ++k) {
         const auto v = content.problem.triangles[at][k];
@@ -237,7 +252,7 @@ TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
 }
 
 TEST(SupplyZones, tells_whose_each_vertex_is) {
-  Divided divided(Communicator::world());
+  Divided divided(Communicator::world()), alone(Communicator::self());
   for (const ZoneContent& content : divided.supply_all()) {
     const auto& tokens = content.tokens;
     EXPECT_EQ(std::adjacent_find(tokens.begin(), tokens.end(), std::greater_equal<>()), tokens.end());
@@ -248,16 +263,16 @@ TEST(SupplyZones, tells_whose_each_vertex_is) {
       Leaf leaf{};
       if (is_surface) {  // by brute force
         const Vec3 g = divided.data.frame->to_grid(content.problem.points[v]);
-        for (const LeafOfBlock& other : all_leaves(*divided.data.tree)) {
+        for (const LeafOfBlock& other : all_leaves(*alone.data.tree)) {
           const GridBox box = GridBox::of(other.cell);
           const auto within = [&](int axis) { return g[axis] >= box.low[axis] && g[axis] < box.high[axis]; };
           if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
         }
       } else {
-        leaf = leaf_of_lattice(static_cast<std::int64_t>(content.tokens[v]) -
-                               divided.problem.numbering.vertex_count);
+        leaf = leaf_of_lattice(*alone.data.tree, static_cast<std::int64_t>(content.tokens[v]) -
+                                                     divided.problem.numbering.vertex_count);
       }
-      const ZoneIndex zone = divided.data.zones->of(leaf.block, leaf.child);
+      const ZoneIndex zone = alone.data.zones->of(leaf.block, leaf.child);
       const Owner expected = zone == content.zone  ? Owner::mine
                              : zone < content.zone ? Owner::lower
                                                    : Owner::higher;
