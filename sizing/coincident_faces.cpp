@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -24,6 +25,9 @@ using parallel::ScopedCpu;
 // Faces are on one another where they are nearer than this, of the body's extent, over this part of the
 // smaller one's area.
 constexpr double nearest_walls = 2e-5, least_part = 0.05;
+// And where what is between them is meshed, up to so much, if elements as small as they are near would be
+// more triangles on each of the two than any mesh can spare for one gap. A body as thin as that is only thin.
+constexpr double nearest_in_gap = 2e-4, most_triangles_in_gap = 1e7;
 // Walls that run together towards a common edge are no overlap: the distance over that to the edge, at most.
 constexpr double least_wedge = 1e-3;
 constexpr double least_cosine = 0.9;          // between normals, to either side
@@ -100,13 +104,14 @@ struct FacetPair {
 class FaceOverlaps {
 public:
   FaceOverlaps(const cad::Model& model, const Walls& walls, const std::vector<std::int32_t>& first_walls,
-               FaceId face, const cad::Facets& facets, double within)
+               FaceId face, const cad::Facets& facets, double extent)
       : _model(model),
         _walls(walls),
         _first_walls(first_walls),
         _face(face),
         _facets(facets),
-        _within(within) {}
+        _within(nearest_walls * extent),
+        _within_gap(nearest_in_gap * extent) {}
 
   /// By about so many nodes of the tree at most.
   std::vector<CoincidentFaces> find(std::int64_t most) {
@@ -115,9 +120,11 @@ public:
       look_at(static_cast<std::int32_t>(i), nodes);
     std::vector<CoincidentFaces> found;
     for (auto& [other, pairs] : _pairs) {
-      const CoincidentFaces faces = measure(other, pairs);
-      if (faces.area > least_part * std::min(_model.face_area(_face), _model.face_area(other)))
-        found.push_back(faces);
+      const double least = least_part * std::min(_model.face_area(_face), _model.face_area(other));
+      const auto [walls, gap] = measure(other, pairs);
+      const bool on_one_another = walls.faces.area > least;
+      if (on_one_another || (gap.faces.area > least && gap.triangles > most_triangles_in_gap))
+        found.push_back(on_one_another ? walls.faces : gap.faces);
     }
     return found;
   }
@@ -129,7 +136,7 @@ private:
     const Vec3 normal = _walls.normals[wall];
     if (!(norm(normal) > 0.5)) return;
     _near.clear();
-    _walls.rays.find_near(corners, _within + 2 * deviation, _near, nodes);
+    _walls.rays.find_near(corners, _within_gap + 2 * deviation, _near, nodes);
     for (const std::int32_t other : _near) {
       const Wall& beyond = _walls.facets[other];
       if (beyond.face == _face || _model.is_far_field(beyond.face)) continue;
@@ -138,44 +145,67 @@ private:
       const Overlap overlap = overlap_of(corners, normal, beyond.corners);
       if (!(overlap.area > least_overlap * std::min(area_of(corners), area_of(beyond.corners)))) continue;
       const double apart = std::abs(dot(overlap.middle - beyond.corners[0], other_normal));
-      if (apart > _within + 2 * (deviation + beyond.deviation)) continue;
+      if (apart > _within_gap + 2 * (deviation + beyond.deviation)) continue;
       _pairs[beyond.face].push_back({facet, other - _first_walls[beyond.face], overlap});
     }
   }
 
+  /// Where two faces are near each other.
+  struct Nearness {
+    CoincidentFaces faces;
+    double triangles = 0;  ///< on one of them, as small as they are near
+
+    void add(Vec3 place, double apart, double area) {
+      constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
+      if (faces.area == 0) faces.place = place;
+      faces.area += area;
+      faces.apart = std::max(faces.apart, apart);
+      triangles += triangles_per_area * area / (apart * apart);
+    }
+  };
+  struct Found {
+    Nearness walls, gap;  ///< on either side, up to nearest_walls; where that is meshed, up to nearest_in_gap
+  };
+
   /// What lies on the other face, from what is found where their facets overlap most.
-  CoincidentFaces measure(FaceId other, std::vector<FacetPair>& pairs) {
+  Found measure(FaceId other, std::vector<FacetPair>& pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const FacetPair& a, const FacetPair& b) { return a.overlap.area > b.overlap.area; });
     const cad::Facets of_other = sampling_facets(_model, other, false);
     const SegmentTree common = common_edges(other);
-    CoincidentFaces faces{_face, other, 0, {}, 0};
-    double all = 0, looked_at = 0, together = 0;
+    const CoincidentFaces none{_face, other, 0, {}, 0};
+    Found found{{none}, {none}};
+    double all = 0, looked_at = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       all += pairs[i].overlap.area;
       if (i >= places_looked_at) continue;
       looked_at += pairs[i].overlap.area;
-      const auto [place, apart] = distance_at(other, of_other, pairs[i]);
-      if (!(apart <= _within)) continue;
+      const auto [place, apart, is_meshed] = distance_at(other, of_other, pairs[i]);
+      if (!(apart <= _within_gap)) continue;
       const double reach = apart / least_wedge;
       if (common.nearest(place, reach, [](std::int32_t) { return true; }) < reach) continue;
-      if (together == 0) faces.place = place;
-      together += pairs[i].overlap.area;
-      faces.apart = std::max(faces.apart, apart);
+      if (apart <= _within) found.walls.add(place, apart, pairs[i].overlap.area);
+      if (is_meshed) found.gap.add(place, apart, pairs[i].overlap.area);
     }
-    faces.area = looked_at > 0 ? all * together / looked_at : 0;
-    return faces;
+    for (Nearness* each : {&found.walls, &found.gap}) {
+      each->faces.area *= looked_at > 0 ? all / looked_at : 0;
+      each->triangles *= looked_at > 0 ? all / looked_at : 0;
+    }
+    return found;
   }
 
   struct Distance {
     Vec3 place;
     double apart;
+    bool is_meshed;  ///< what is in between
   };
   Distance distance_at(FaceId other, const cad::Facets& of_other, const FacetPair& pair) const {
-    const Vec3 place = _model.face_point(_face, parameters_at(_facets, pair.first, pair.overlap.middle));
+    const cad::SurfaceFrame at =
+        _model.face_frame(_face, parameters_at(_facets, pair.first, pair.overlap.middle));
     const Vec2 guess = parameters_at(of_other, pair.second, pair.overlap.middle);
-    const cad::Projection foot = _model.project(other, place, guess);
-    return {place, foot.converged ? distance(place, foot.point) : std::numeric_limits<double>::infinity()};
+    const cad::Projection foot = _model.project(other, at.point, guess);
+    if (!foot.converged) return {at.point, std::numeric_limits<double>::infinity(), false};
+    return {at.point, distance(at.point, foot.point), dot(foot.point - at.point, at.normal) < 0};
   }
 
   SegmentTree common_edges(FaceId other) const {
@@ -194,7 +224,7 @@ private:
   const std::vector<std::int32_t>& _first_walls;  // of each face
   FaceId _face;
   const cad::Facets& _facets;
-  double _within;
+  double _within, _within_gap;
   std::vector<std::int32_t> _near;
   std::map<FaceId, std::vector<FacetPair>> _pairs;  // by the other face
 };
@@ -221,7 +251,7 @@ std::vector<CoincidentFaces> merge(std::vector<CoincidentFaces> all) {
 
 std::vector<CoincidentFaces> ModelSampler::find_coincident_faces() const {
   const Vec3 size = _body_box.size();
-  const double within = nearest_walls * std::max({size.x, size.y, size.z});
+  const double extent = std::max({size.x, size.y, size.z});
   std::vector<CoincidentFaces> mine;
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
@@ -233,7 +263,7 @@ std::vector<CoincidentFaces> ModelSampler::find_coincident_faces() const {
       const double part =
           static_cast<double>(face.facets.triangles.size()) / static_cast<double>(_walls->facets.size());
       const std::int64_t most = few_tree_nodes + std::llround(part * most_tree_nodes);
-      const auto found = FaceOverlaps(_model, *_walls, first_walls, face.id, face.facets, within).find(most);
+      const auto found = FaceOverlaps(_model, *_walls, first_walls, face.id, face.facets, extent).find(most);
       mine.insert(mine.end(), found.begin(), found.end());
     }
   });

@@ -19,26 +19,28 @@
 
 namespace aeroloom::shapes {
 
-/// A shape as the fluid.
-inline cad::Model domain_of(const TopoDS_Shape& shape) {
+/// A shape as the fluid, or as a body in a far field.
+inline cad::Model domain_of(const TopoDS_Shape& shape, cad::DomainKind kind = cad::DomainKind::fluid) {
   const std::string file =
       (std::filesystem::temp_directory_path() / ("aeroloom_shape_" + std::to_string(::getpid()) + ".brep"))
           .string();
   BRepTools::Write(shape, file.c_str());
   cad::DomainOptions options;
   options.file = file;
-  options.kind = cad::DomainKind::fluid;
+  options.kind = kind;
   cad::Model model = cad::prepare_domain(options).model;
   std::filesystem::remove(file);
   return model;
 }
 
-/// A profile pulled up by one, as the fluid.
-inline cad::Model prism(const std::vector<std::pair<double, double>>& profile) {
+/// A profile pulled up by one, as the fluid or a body.
+inline cad::Model prism(const std::vector<std::pair<double, double>>& profile,
+                        cad::DomainKind kind = cad::DomainKind::fluid) {
   BRepBuilderAPI_MakePolygon polygon;
   for (const auto& [x, y] : profile) polygon.Add(gp_Pnt(x, y, 0));
   polygon.Close();
-  return domain_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()), gp_Vec(0, 0, 1)).Shape());
+  return domain_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()), gp_Vec(0, 0, 1)).Shape(),
+                   kind);
 }
 
 /// A block, 4 long, with a cut from one end that is so wide there and closes in an edge.

@@ -41,6 +41,23 @@ TEST(CoincidentFaces, NeedNotShareAnEdge) {
   EXPECT_NEAR(found[0].apart, 2e-5, 1e-9);
 }
 
+TEST(CoincidentFaces, AreFartherApartWhereNoMeshResolvesTheGap) {
+  // A body with a slot so deep and wide.
+  const auto slotted = [](double deep, double wide) {
+    const double end = 4 - deep;
+    return shapes::prism({{0, 0}, {4, 0}, {4, 1}, {end, 1}, {end, 1 + wide}, {4, 1 + wide}, {4, 2}, {0, 2}},
+                         cad::DomainKind::body);
+  };
+  const auto found = coincident_in(slotted(3, 3e-4));
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_NEAR(found[0].area, 3, 0.01);
+  EXPECT_NEAR(found[0].apart, 3e-4, 1e-8);
+  // As near, but there is little of it.
+  EXPECT_TRUE(coincident_in(slotted(0.1, 7e-4)).empty());
+  // Nothing is meshed between the walls.
+  EXPECT_TRUE(coincident_in(slotted_block(3e-4)).empty());
+}
+
 TEST(CoincidentFaces, AreNotWallsFartherApartNorWedges) {
   EXPECT_TRUE(coincident_in(slotted_block(1e-3)).empty());
   EXPECT_TRUE(coincident_in(cracked_block(0.02)).empty());
