@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace aeroloom::sizing {
 namespace {
@@ -14,6 +15,10 @@ using geometry::Vec3;
 constexpr double farthest_middle = 0.9;
 /// The area of an equilateral triangle over the square of its edge.
 constexpr double triangle_over_square = 0.433;
+/// Parts of facets whose corners ask for about the same size, and that are narrower than this part of it,
+/// need samples along their longest edge alone, so far from each other at most; halves of slender triangles
+/// would be thrice as many for each time that they are half as long.
+constexpr double slender = 0.25, same_size = 0.8, spacing_along = 0.5 * spacing;
 /// What is over a limit by less is on it.
 constexpr double within_rounding = 1.01;
 
@@ -89,8 +94,19 @@ std::int32_t FaceSamples::add_between(const Demand& demand, std::int32_t a, std:
   if (std::max(distance(point, from), distance(point, to)) < farthest_middle * length)
     return add(uv, point, curvatures);
   // The parameters jump or are singular between the two: follow the facet instead.
-  _points.push_back({_points[a].uv, 0.5 * (from + to), 0, {a, b}});
+  const Vec2 of_a = _points[a].uv, of_b = _points[b].uv;
+  const bool a_first = std::tie(of_a.x, of_a.y) < std::tie(of_b.x, of_b.y);
+  _points.push_back({a_first ? of_a : of_b, 0.5 * (from + to), 0, {a, b}});
   return static_cast<std::int32_t>(_points.size()) - 1;
+}
+
+std::int32_t FaceSamples::middle_of(const Demand& demand, std::int32_t a, std::int32_t b, double length) {
+  const auto [low, high] = std::minmax(a, b);
+  const Pair pair =
+      static_cast<Pair>(static_cast<std::uint32_t>(low)) << 32 | static_cast<std::uint32_t>(high);
+  const auto [known, is_new] = _middles.try_emplace(pair, -1);
+  if (is_new) known->second = add_between(demand, a, b, length);
+  return known->second;
 }
 
 double FaceSamples::size_of(const Point& point, const Demand& demand) const {
@@ -100,6 +116,7 @@ double FaceSamples::size_of(const Point& point, const Demand& demand) const {
 
 void FaceSamples::ask(std::int32_t point, Demand& demand) const {
   if (static_cast<std::size_t>(point) >= demand.sizes.size()) demand.sizes.resize(_points.size(), -1);
+  if (demand.sizes[point] >= 0) return;
   demand.sizes[point] = size_of(_points[point], demand);
   if (demand.sizes[point] < demand.options.maximum)
     demand.sources.push_back({_points[point].point, demand.sizes[point]});
@@ -116,8 +133,15 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
   }
   if (length <= spacing * size || depth >= deepest_bisection) return;
   const std::int32_t a = corners[longest], b = corners[(longest + 1) % 3], c = corners[(longest + 2) % 3];
+  const Vec3 p = _points[a].point;
+  const double height = norm(cross(_points[b].point - p, _points[c].point - p)) / length;
+  const double largest = std::max({demand.sizes[a], demand.sizes[b], demand.sizes[c]});
+  if (height <= slender * spacing * size && size >= same_size * largest) {
+    cover_edge(a, b, depth, demand);
+    return;
+  }
   if (_parts[part].middle < 0) {
-    const std::int32_t middle = add_between(demand, a, b, length);
+    const std::int32_t middle = middle_of(demand, a, b, length);
     _parts[part] = {middle, static_cast<std::int32_t>(_parts.size())};
     _parts.resize(_parts.size() + 2);
   }
@@ -125,6 +149,16 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
   ask(middle, demand);
   cover(halves, {a, middle, c}, depth + 1, demand);
   cover(halves + 1, {middle, b, c}, depth + 1, demand);
+}
+
+void FaceSamples::cover_edge(std::int32_t a, std::int32_t b, int depth, Demand& demand) {
+  const double length = distance(_points[a].point, _points[b].point);
+  const double size = std::min(demand.sizes[a], demand.sizes[b]);
+  if (length <= spacing_along * size || depth >= deepest_bisection) return;
+  const std::int32_t middle = middle_of(demand, a, b, length);
+  ask(middle, demand);
+  cover_edge(a, middle, depth + 1, demand);
+  cover_edge(middle, b, depth + 1, demand);
 }
 
 }  // namespace aeroloom::sizing

@@ -7,13 +7,14 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace aeroloom::sizing {
 
 /// Points of a face with the curvature there, found by bisecting the longest edges of its facets as finely as
-/// sizes have asked for so far: what was evaluated once serves all sizes that come later. What comes out does
-/// not depend on what was asked before.
+/// sizes have asked for so far, of slender parts that edge alone: what was evaluated once serves all sizes
+/// that come later. What comes out does not depend on what was asked before.
 class FaceSamples {
 public:
   explicit FaceSamples(bool planar) : _planar(planar) {}
@@ -50,6 +51,8 @@ private:
   struct Part {
     std::int32_t middle = -1, halves = -1;
   };
+  /// Two points by number, the lower one first.
+  using Pair = std::uint64_t;
   /// What one call asks for.
   struct Demand {
     const cad::Model& model;
@@ -64,13 +67,16 @@ private:
   void start(const Demand& demand, const cad::Facets& facets);
   std::int32_t add(geometry::Vec2 uv, geometry::Vec3 point, const cad::PrincipalCurvatures& curvatures);
   std::int32_t add_between(const Demand& demand, std::int32_t a, std::int32_t b, double length);
+  std::int32_t middle_of(const Demand& demand, std::int32_t a, std::int32_t b, double length);
   double size_of(const Point& point, const Demand& demand) const;
   void ask(std::int32_t point, Demand& demand) const;
   void cover(std::int32_t part, const std::array<std::int32_t, 3>& corners, int depth, Demand& demand);
+  void cover_edge(std::int32_t a, std::int32_t b, int depth, Demand& demand);
 
   bool _planar;
   std::vector<Point> _points;  // those of the facets first
   std::vector<Part> _parts;    // the facets first
+  std::unordered_map<Pair, std::int32_t> _middles;
 };
 
 }  // namespace aeroloom::sizing

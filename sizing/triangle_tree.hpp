@@ -53,9 +53,10 @@ private:
 /// For estimates: floating point throughout, and the surface may have gaps of facets that do not match.
 class TriangleTree {
 public:
-  explicit TriangleTree(std::vector<Triangle> triangles);
+  explicit TriangleTree(const std::vector<Triangle>& triangles);
 
-  /// The triangles that meet the inside of the cube (a few that only come close included).
+  /// The triangles that meet the inside of the cube (a few that only come close included); slender ones as
+  /// several that are the same.
   void find_overlapping(geometry::Vec3 low, double edge, std::vector<std::int32_t>& found) const;
   /// As find_overlapping(), given those of a cube around this one.
   void keep_overlapping(geometry::Vec3 low, double edge, std::span<const std::int32_t> candidates,
@@ -82,7 +83,8 @@ private:
   bool overlaps_inside(std::int32_t triangle, geometry::Vec3 low, double edge) const;
 
   std::vector<Triangle> _triangles;      // in the order of the tree
-  std::vector<geometry::Box> _boxes;     // of those
+  std::vector<std::int32_t> _numbers;    // of those, the same for all parts of one
+  std::vector<geometry::Box> _boxes;     // of those, or of a part
   std::vector<geometry::Vec3> _normals;  // twice as long as their areas
   geometry::BoxTree _tree;
 };

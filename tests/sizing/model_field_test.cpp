@@ -2,12 +2,15 @@
 #include "sizing/face_samples.hpp"
 #include "sizing/model_sources.hpp"
 #include "sizing/size_field.hpp"
+#include "tests/wall_bodies.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <gtest/gtest.h>
 
 using namespace aeroloom;
@@ -72,6 +75,27 @@ TEST(FaceSamples, AnswerAsIfAskedForTheFirstTime) {
     }
   }
   EXPECT_EQ(finer, 3) << "all but the coarsest ask for more than the facets have";
+}
+
+/// Long facets, narrower than the size, are covered along their length, and no more densely than that.
+TEST(FaceSamples, AreAsManyAlongSlenderFacetsAsTheirLengthHasRoomFor) {
+  constexpr double length = 1000, size = 4;
+  const Model pipe = shapes::domain_of(BRepPrimAPI_MakeCylinder(1, length).Shape());
+  cad::FaceId side = 0;
+  while (pipe.is_planar(side)) ++side;
+  const cad::Facets facets = sizing::sampling_facets(pipe, side, false);
+  ASSERT_LT(facets.triangles.size(), 100);
+  sizing::FaceSamples samples(false);
+  const auto sources = samples.sources(pipe, side, facets, false, {size, 100, 15, 1.3, size});
+  EXPECT_LT(static_cast<double>(sources.size()),
+            4 * static_cast<double>(facets.triangles.size()) * length / size);
+  for (double along = 0; along < length; along += 0.7) {
+    const Vec3 place{std::cos(along), std::sin(along), along};
+    double nearest = length;
+    for (const sizing::SizeSource& source : sources)
+      nearest = std::min(nearest, distance(source.point, place));
+    EXPECT_LT(nearest, 0.5 * size);
+  }
 }
 
 TEST(ModelField, SphereGetsTheCurvatureAngle) {

@@ -1,5 +1,7 @@
 #include "sizing/triangle_tree.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -116,4 +118,44 @@ TEST(TriangleTree, KeepsWhatASmallerCubeMeets) {
   }
   EXPECT_GT(few, 20);
   EXPECT_GT(many, 20);
+}
+
+/// A bundle of needles that runs along no axis: few of them are near any place.
+TEST(TriangleTree, FindsSlenderTrianglesWhereTheyAre) {
+  const Vec3 along = aeroloom::geometry::normalized(Vec3{1, 2, -1.5});
+  const Vec3 side = aeroloom::geometry::normalized(cross(along, Vec3{0, 0, 1})), up = cross(along, side);
+  constexpr double length = 100, radius = 0.3;
+  constexpr int across = 20;
+  std::vector<Triangle> triangles;
+  const auto add_prism = [&](Vec3 foot) {
+    std::array<Vec3, 3> low, high;
+    for (int i = 0; i < 3; ++i) {
+      const double turn = 2 * std::numbers::pi * i / 3;
+      low[i] = foot + radius * std::cos(turn) * side + radius * std::sin(turn) * up;
+      high[i] = low[i] + length * along;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int next = (i + 1) % 3;
+      triangles.push_back({low[i], low[next], high[i]});
+      triangles.push_back({low[next], high[next], high[i]});
+    }
+    triangles.push_back({low[0], low[2], low[1]});
+    triangles.push_back({high[0], high[1], high[2]});
+  };
+  for (int i = 0; i < across * across; ++i) add_prism(double(i % across) * side + double(i / across) * up);
+  const TriangleTree tree(triangles);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<std::int32_t> found;
+  std::size_t most = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 foot = double(random() % across) * side + double(random() % across) * up;
+    const Vec3 inside = foot + (1 + 98 * uniform(random)) * along;
+    EXPECT_TRUE(tree.contains(inside));
+    EXPECT_FALSE(tree.contains(inside + 0.5 * side + 0.5 * up));
+    tree.find_overlapping(inside - Vec3{0.5, 0.5, 0.5}, 1, found);
+    EXPECT_FALSE(found.empty());
+    most = std::max(most, found.size());
+  }
+  EXPECT_LT(most, 150);
 }
