@@ -14,7 +14,7 @@ sizing: {{target_tetrahedra: 20000}}
 output: {{pictures: false}}
 """
 # Kind, distance and what is said; the block is 4 long.
-BODIES = [("lid", "0", "lie on one another"), ("lid", "1e-6", "lie on one another"),
+BODIES = [("lid", "0", "lie on one another"), ("lid", "1e-6", "lie on one another"), ("lid", "4e-5", "lie on one another"),
           ("slot", "4e-9", "lie on one another"), ("crack", "0", "lie on one another"),
           # Rounds that would part them end early, before they take what is allowed.
           ("crossing", "0", "are allowed")]
