@@ -28,6 +28,7 @@ constexpr double nearest_walls = 2e-5, least_part = 0.05;
 // And where what is between them is meshed, up to so much, if elements as small as they are near would be
 // more triangles on each of the two than any mesh can spare for one gap. A body as thin as that is only thin.
 constexpr double nearest_in_gap = 2e-4, most_triangles_in_gap = 1e7;
+constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times the square of their edges
 // Walls that run together towards a common edge are no overlap: the distance over that to the edge, at most.
 constexpr double least_wedge = 1e-3;
 constexpr double least_cosine = 0.9;          // between normals, to either side
@@ -111,7 +112,7 @@ public:
         _face(face),
         _facets(facets),
         _within(nearest_walls * extent),
-        _within_gap(nearest_in_gap * extent) {}
+        _within_gap(std::max(_within, std::min(nearest_in_gap * extent, widest_gap_on(face)))) {}
 
   /// By about so many nodes of the tree at most.
   std::vector<CoincidentFaces> find(std::int64_t most) {
@@ -130,6 +131,11 @@ public:
   }
 
 private:
+  /// Wider ones take fewer triangles on a face than are too many.
+  double widest_gap_on(FaceId face) const {
+    return std::sqrt(triangles_per_area * _model.face_area(face) / most_triangles_in_gap);
+  }
+
   void look_at(std::int32_t facet, std::int64_t& nodes) {
     const std::int32_t wall = _first_walls[_face] + facet;
     const auto& [face, corners, parameters, deviation] = _walls.facets[wall];
@@ -156,7 +162,6 @@ private:
     double triangles = 0;  ///< on one of them, as small as they are near
 
     void add(Vec3 place, double apart, double area) {
-      constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
       if (faces.area == 0) faces.place = place;
       faces.area += area;
       faces.apart = std::max(faces.apart, apart);

@@ -134,11 +134,13 @@ double ShearedLine::place_of(const Triangle& t) const {
 
 TriangleTree::TriangleTree(const std::vector<Triangle>& triangles) {
   std::vector<Box> boxes;
-  std::vector<std::int32_t> of_boxes;
+  std::vector<std::int32_t> of_boxes, numbers;
   boxes.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     add_boxes(triangles[t], boxes);
+    const std::size_t parts = boxes.size() - of_boxes.size();
     of_boxes.resize(boxes.size(), static_cast<std::int32_t>(t));
+    numbers.resize(boxes.size(), parts == 1 ? in_one_box : static_cast<std::int32_t>(t));
   }
   _tree = geometry::BoxTree(boxes, triangles_per_leaf);
   _triangles.reserve(boxes.size());
@@ -148,7 +150,7 @@ TriangleTree::TriangleTree(const std::vector<Triangle>& triangles) {
   for (const std::int32_t box : _tree.order()) {
     const Triangle& t = triangles[of_boxes[box]];
     _triangles.push_back(t);
-    _numbers.push_back(of_boxes[box]);
+    _numbers.push_back(numbers[box]);
     _normals.push_back(cross(t[1] - t[0], t[2] - t[0]));
     _boxes.push_back(boxes[box]);
   }
@@ -184,14 +186,20 @@ bool TriangleTree::odd_crossings(Vec3 point, Vec3 direction) const {
   constexpr double missed = std::numeric_limits<double>::infinity();
   const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
   const ShearedLine line(point, direction);
-  std::vector<std::int32_t> crossed;
+  bool odd = false;
+  std::vector<std::int32_t> crossed;  // of those in several boxes, each of which may be met
   _tree.search([&](const Box& box) { return entry(box, point, inverse) < missed; },
                [&](std::int32_t place) {
                  const double along = line.place_of(_triangles[place]);
-                 if (along > 0 && along < missed) crossed.push_back(_numbers[place]);
+                 if (!(along > 0 && along < missed)) return;
+                 if (_numbers[place] == in_one_box)
+                   odd = !odd;
+                 else
+                   crossed.push_back(_numbers[place]);
                });
   std::sort(crossed.begin(), crossed.end());
-  return (std::unique(crossed.begin(), crossed.end()) - crossed.begin()) % 2 == 1;
+  const auto once = std::unique(crossed.begin(), crossed.end()) - crossed.begin();
+  return odd != (once % 2 == 1);
 }
 
 bool TriangleTree::contains(Vec3 point) const {

@@ -82,8 +82,9 @@ private:
   bool odd_crossings(geometry::Vec3 point, geometry::Vec3 direction) const;
   bool overlaps_inside(std::int32_t triangle, geometry::Vec3 low, double edge) const;
 
-  std::vector<Triangle> _triangles;      // in the order of the tree
-  std::vector<std::int32_t> _numbers;    // of those, the same for all parts of one
+  std::vector<Triangle> _triangles;  // in the order of the tree
+  static constexpr std::int32_t in_one_box = -1;
+  std::vector<std::int32_t> _numbers;    // of those with several boxes, the same for each of them
   std::vector<geometry::Box> _boxes;     // of those, or of a part
   std::vector<geometry::Vec3> _normals;  // twice as long as their areas
   geometry::BoxTree _tree;
