@@ -42,7 +42,6 @@ public:
   /// Trees that are parts of leaves which begin in another tree; so far each leaf has begun in its own, or
   /// they are those of the forest this was made of.
   void unite(TreeSet within) { _within = within; }
-  TreeSet within() const { return _within; }
   /// The level of the leaf that begins in a tree which is not split.
   int level_at(int tree) const;
   /// Collective.

@@ -5,16 +5,13 @@
 #include "parallel/collective_error.hpp"
 #include "parallel/memory_limit.hpp"
 
-#include <bit>
 #include <exception>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <p8est_extended.h>
-#include <p8est_ghost.h>
 
 namespace aeroloom::forest {
 namespace {
@@ -203,35 +200,6 @@ Forest deal_out(const Communicator& communicator, const Forest& forest, std::spa
   Brick brick(communicator, forest, weights);
   p8est_partition_ext(&brick.forest(), 1, given_weight);
   return brick.take();
-}
-
-Ghosts find_ghosts(const Communicator& communicator, const Forest& forest, parallel::StageClock& clock) {
-  Ghosts found;
-  if (communicator.size() == 1) return found;
-  const LibraryScope library(communicator.rank(), "looking around");
-  const ScopedCpu task(clock, ScopedCpu::As::task);
-  Brick brick(communicator, forest);
-  const std::unique_ptr<p8est_ghost_t, decltype(&p8est_ghost_destroy)> layer(
-      p8est_ghost_new(&brick.forest(), P8EST_CONNECT_FULL), p8est_ghost_destroy);
-  int owner = 0;
-  for (p4est_locidx_t i = 0; i < layer->proc_offsets[communicator.size()]; ++i) {
-    while (layer->proc_offsets[owner + 1] <= i) ++owner;
-    const p8est_quadrant_t& octant = *p8est_quadrant_array_index(&layer->ghosts, i);
-    const int tree = octant.p.piggy3.which_tree;
-    // All trees within a leaf stand for it; up to where it begins each of them is a leaf of p4est.
-    int first = tree;
-    while (has(brick.within(), first)) --first;
-    const TreeSet before = brick.within() & ((TreeSet{1} << first) - 1);
-    const std::int64_t number = brick.forest().global_first_quadrant[owner] + octant.p.piggy3.local_num -
-                                (tree - first) - std::popcount(before);
-    if (!found.numbers.empty() && found.numbers.back() == number) continue;
-    found.numbers.push_back(number);
-    if (octant.level > 0)
-      found.octants.add(brick.key_of(tree, octant), octant.level + brick.tree_level());
-    else
-      found.octants.add(brick.key_of(first), brick.level_at(first));
-  }
-  return found;
 }
 
 }  // namespace aeroloom::forest

@@ -64,13 +64,4 @@ Forest grow(const parallel::Communicator& communicator, const Judge& judge, para
 Forest deal_out(const parallel::Communicator& communicator, const Forest& forest,
                 std::span<const std::int32_t> weights, parallel::StageClock& clock);
 
-/// Leaves of other ranks.
-struct Ghosts {
-  Octants octants;
-  std::vector<std::int64_t> numbers;  ///< ascending
-};
-/// Those that touch leaves of this rank, over faces, edges or corners. Collective.
-Ghosts find_ghosts(const parallel::Communicator& communicator, const Forest& forest,
-                   parallel::StageClock& clock);
-
 }  // namespace aeroloom::forest

@@ -92,6 +92,7 @@ public:
     keep_each_once(known);
     for (bool changed = true; changed;) {
       std::vector<Joint> told;
+      told.reserve(known.size());
       for (const Joint& joint : known) told.push_back({set(joint.set), joint.with});
       changed = false;
       for (const Joint& joint : deliver(communicator, std::move(told))) {
@@ -264,6 +265,7 @@ public:
     std::sort(sets.begin(), sets.end());
     sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
     std::vector<Asked> asked;
+    asked.reserve(sets.size());
     for (const BlockNumber set : sets) asked.push_back({set, communicator.rank(), mesh::no_region});
     asked = mesh::deliver(communicator, std::move(asked), [&](const Asked& a) { return tree.owner(a.set); });
     for (Asked& a : asked) {

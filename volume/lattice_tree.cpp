@@ -13,7 +13,6 @@
 namespace aeroloom::volume {
 
 using forest::Verdict;
-using geometry::Vec3;
 using sizing::finest_level;
 
 namespace {
@@ -73,7 +72,7 @@ std::vector<KnownBlock> blocks_of(const forest::Octants& leaves) {
 }
 
 std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, const forest::Forest& forest,
-                                std::vector<std::uint64_t> triangle_keys) {
+                                const std::vector<std::uint64_t>& triangle_keys) {
   struct Key {
     std::uint64_t key;
     static constexpr auto fields() { return std::tuple(&Key::key); }
@@ -94,13 +93,12 @@ std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, cons
 
 LatticeTree::LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
                          const sizing::SizeField& field, const geometry::Box& box,
-                         parallel::StageClock& clock, std::vector<std::uint64_t> triangle_keys) {
+                         parallel::StageClock& clock, const std::vector<std::uint64_t>& triangle_keys) {
   std::vector<KnownBlock> mine;
   {
     forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box), clock);
     if (communicator.size() > 1)
-      forest = forest::deal_out(communicator, forest, weigh(communicator, forest, std::move(triangle_keys)),
-                                clock);
+      forest = forest::deal_out(communicator, forest, weigh(communicator, forest, triangle_keys), clock);
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     mine = blocks_of(forest.local());
   }

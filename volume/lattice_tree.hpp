@@ -51,7 +51,7 @@ public:
   /// other blocks than their own so far. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
               const sizing::SizeField& field, const geometry::Box& box, parallel::StageClock& clock,
-              std::vector<std::uint64_t> triangle_keys = {});
+              const std::vector<std::uint64_t>& triangle_keys = {});
   static constexpr double coarsest_edge = 1.53;
 
   /// With the cubes in between.
@@ -102,7 +102,8 @@ public:
     const int shift = sizing::finest_level - 1 - _blocks.levels[b];
     return static_cast<int>((p.x >> shift & 1) | (p.y >> shift & 1) << 1 | (p.z >> shift & 1) << 2);
   }
-  /// Whether a cube that touches a block of this rank has children. Where its low corner is not known it does.
+  /// Whether a cube that touches a block of this rank has children. Where its low corner is not known it
+  /// does.
   bool is_split(const GridCube& cube) const;
 
   /// The smallest cube that holds all of a box that is in the root.

@@ -73,7 +73,8 @@ void ZoneCuts::divide(std::vector<Part> parts, ZoneIndex count) {
   if (count == 1) return;
   double total = 0;
   for (const Part& part : parts) total += part.load;
-  const double share = total * (count / 2) / count;
+  const ZoneIndex half = count / 2;
+  const double share = total * half / count;
   Cut best{0, 0};
   double least = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
@@ -103,8 +104,8 @@ void ZoneCuts::divide(std::vector<Part> parts, ZoneIndex count) {
     if (part.high[best.axis] > place) above.push_back(upper);
   }
   std::vector<Part>().swap(parts);
-  divide(std::move(below), count / 2);
-  divide(std::move(above), count - count / 2);
+  divide(std::move(below), half);
+  divide(std::move(above), count - half);
 }
 
 ZoneIndex ZoneCuts::zone_of_all(const GridCube& cube) const {
