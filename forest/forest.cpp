@@ -187,7 +187,7 @@ Forest grow(const Communicator& communicator, const Judge& judge, parallel::Stag
   Crown crown;
   if (auto grown = grow_in(communicator, one_tree, crown, judge, limit, clock)) return std::move(*grown);
   parallel::agree(communicator, [&] {
-    const ScopedCpu repeated(clock, ScopedCpu::As::serial);
+    const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
     crown = judge_crown(judge);
   });
   return *grow_in(communicator, many_trees, crown, judge, limit, clock);

@@ -14,6 +14,8 @@ struct ImproveReport {
   std::int64_t swaps = 0;                            ///< cavities filled anew
   std::int64_t changed_triangles = 0;                ///< of the boundary
 
+  bool is_lattice = false;  ///< of one piece, left as it is
+
   static constexpr auto fields() {
     return std::tuple(&ImproveReport::bad_before, &ImproveReport::bad_after, &ImproveReport::min_angle_before,
                       &ImproveReport::min_angle_after, &ImproveReport::smoothed, &ImproveReport::slid,

@@ -3,6 +3,7 @@
 
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/message_counts.hpp"
 
 #include <algorithm>
 #include <span>
@@ -19,8 +20,11 @@ namespace aeroloom::mesh {
 template <parallel::Flat T, class Destination>
 std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T> items,
                        const Destination& destination) {
-  if (communicator.size() == 1) return items;
   constexpr std::size_t item_bytes = parallel::wire_size<T>;
+  if (communicator.size() == 1) {
+    parallel::note_spared_rendezvous(items.size() * item_bytes);
+    return items;
+  }
   const parallel::Rank here = communicator.rank();
   std::vector<std::size_t> counts(communicator.size(), 0);
   for (const T& item : items) ++counts[destination(item)];
@@ -41,6 +45,7 @@ std::vector<T> deliver(const parallel::Communicator& communicator, std::vector<T
       parallel::write_item(item, parcels[parcel_of[rank]].content.data() + counts[rank]++ * item_bytes);
     }
   }
+  parallel::note_kept(kept * item_bytes);
   items.resize(kept);
   items.shrink_to_fit();
   std::vector<parallel::Parcel> arrived = communicator.exchange(std::move(parcels));

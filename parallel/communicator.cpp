@@ -200,6 +200,7 @@ std::vector<Bytes> Communicator::gather(const Bytes& mine, Rank root) const {
   check(MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, root, handle.communicator),
         "gathering sizes");
   session::count_gather(handle, root, sizeof size);
+  session::count_exchange(&ExchangeCounts::gather, size);
   Transfers transfers(handle.communicator, tag_content, &MessageCounts::collective);
   std::vector<Bytes> all(sizes.size());
   if (receives) {
@@ -226,6 +227,9 @@ std::vector<Parcel> Communicator::exchange(std::vector<Parcel> outgoing) const {
   // A rank can leave the consensus and start the next one while another has not yet noticed the end of this
   // one, but nobody can be two ahead: two alternating tags keep them apart.
   const int tag = tag_consensus + static_cast<int>(_handle->exchanges++ % 2);
+  std::uint64_t handed_over = 0;
+  for (const Parcel& parcel : outgoing) handed_over += parcel.content.size();
+  session::count_exchange(&ExchangeCounts::rendezvous, handed_over);
   std::vector<Parcel> incoming = announce(handle, tag, outgoing);
   Transfers transfers(handle.communicator, tag_content, &MessageCounts::rendezvous);
   for (Parcel& parcel : incoming) {

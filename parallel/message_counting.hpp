@@ -12,7 +12,11 @@ namespace aeroloom::parallel::session {
 /// Counts one message of a kind.
 void count_message(Messages MessageCounts::*kind, std::uint64_t bytes);
 
-/// Each counts one operation of a group. Nothing in a group of one rank.
+/// Counts one exchange, with what this rank handed over.
+void count_exchange(Messages ExchangeCounts::*kind, std::uint64_t bytes);
+
+/// Each counts one operation of a group, and what was to be exchanged. Nothing is sent in a group of one
+/// rank.
 void count_barrier(const CommunicatorHandle& group);
 void count_broadcast(const CommunicatorHandle& group, int root, std::uint64_t bytes);
 /// Of the bytes of each rank.

@@ -42,6 +42,36 @@ struct MessageCounts {
 /// All that this process has sent so far.
 const MessageCounts& message_counts();
 
+/// What was to be exchanged, in a group of one rank as of many: what a model of other numbers of ranks goes
+/// by. Counts are calls, on every rank the same but where it says so.
+struct ExchangeCounts {
+  Messages broadcast;   ///< bytes of the content
+  Messages all_gather;  ///< bytes of all ranks together
+  Messages table;       ///< gathered on all ranks, from each rank equally many bytes: these
+  Messages gather;      ///< on one rank; bytes of this rank
+  Messages reduction;   ///< scans and barriers too; bytes of one value
+  Messages neighbour;   ///< exchanges of this rank, and what it handed over to others
+  Messages rendezvous;  ///< bytes this rank handed over, what it has for itself included
+
+  static constexpr auto fields() {
+    return std::tuple(&ExchangeCounts::broadcast, &ExchangeCounts::all_gather, &ExchangeCounts::table,
+                      &ExchangeCounts::gather, &ExchangeCounts::reduction, &ExchangeCounts::neighbour,
+                      &ExchangeCounts::rendezvous);
+  }
+  friend bool operator==(const ExchangeCounts&, const ExchangeCounts&) = default;
+  ExchangeCounts& operator+=(const ExchangeCounts& more);
+  ExchangeCounts& operator-=(const ExchangeCounts& less);
+  /// Of another rank: what is of all ranks is kept, the largest where ranks differ; what is of one is added.
+  void join(const ExchangeCounts& of_a_rank);
+};
+
+/// All of this process so far.
+const ExchangeCounts& exchange_counts();
+/// Counts what stays on this rank of something dealt out by rendezvous, and is not handed over.
+void note_kept(std::uint64_t bytes);
+/// The same of a rendezvous that is spared, since there is one rank.
+void note_spared_rendezvous(std::uint64_t bytes);
+
 /// Messages of one kind over all ranks: of all together, and of the rank that has most of them.
 struct MessageSummary {
   std::int64_t count = 0, count_max = 0, bytes = 0, bytes_max = 0;

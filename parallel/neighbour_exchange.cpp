@@ -1,6 +1,7 @@
 #include "parallel/neighbour_exchange.hpp"
 
 #include "parallel/host.hpp"
+#include "parallel/message_counting.hpp"
 #include "parallel/session.hpp"
 #include "parallel/transfers.hpp"
 
@@ -52,6 +53,7 @@ void NeighbourExchange::exchange(std::span<const std::byte> out, std::span<std::
   const session::MessageScope timed;
   const std::size_t out_size = size_of_item(out.size(), _sent_items);
   const std::size_t in_size = size_of_item(in.size(), _received_items);
+  session::count_exchange(&ExchangeCounts::neighbour, out.size());
   Transfers transfers(host_communicator(_communicator), tag_neighbours, &MessageCounts::neighbour);
   for (const PartnerItems& partner : _receives) {
     transfers.receive(in.first(partner.items * in_size), partner.rank);

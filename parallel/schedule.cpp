@@ -103,6 +103,25 @@ std::vector<Rank> keep_in_place(std::span<const double> loads, std::span<const R
   return assignment;
 }
 
+double heaviest(std::span<const double> loads, std::span<const Rank> assignment, int ranks) {
+  std::vector<double> burdens(static_cast<std::size_t>(ranks), 0);
+  for (std::size_t t = 0; t < loads.size(); ++t) burdens[static_cast<std::size_t>(assignment[t])] += loads[t];
+  return *std::max_element(burdens.begin(), burdens.end());
+}
+
+std::vector<Rank> rebalance(std::span<const double> loads, std::span<const Rank> now, int ranks) {
+  constexpr double tolerance = 1.05;  // of the mean
+  const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / ranks;
+  const double before = heaviest(loads, now, ranks);
+  std::vector<Rank> stay(now.begin(), now.end());
+  if (before <= tolerance * mean) return stay;
+  std::vector<Rank> moved = move_excess(loads, now, ranks);
+  const std::vector<Rank> even = assign_largest_first(loads, ranks);
+  if (heaviest(loads, moved, ranks) > std::max(tolerance * mean, heaviest(loads, even, ranks)))
+    moved = keep_in_place(loads, even, now, ranks);
+  return heaviest(loads, moved, ranks) < before ? moved : stay;
+}
+
 std::vector<int> tasks_of_rank(std::span<const Rank> assignment, std::span<const double> loads, Rank rank) {
   std::vector<int> tasks;
   for (std::size_t t = 0; t < assignment.size(); ++t) {

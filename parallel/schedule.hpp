@@ -27,6 +27,14 @@ std::vector<Rank> move_excess(std::span<const double> loads, std::span<const Ran
 std::vector<Rank> keep_in_place(std::span<const double> loads, std::span<const Rank> shares,
                                 std::span<const Rank> now, int ranks);
 
+/// The largest sum over ranks of the loads each one has.
+double heaviest(std::span<const double> loads, std::span<const Rank> assignment, int ranks);
+
+/// Where tasks that lie on ranks are to be worked on: where they are while no rank has more than 1.05 times
+/// the mean, or nothing would be gained; else few move where that makes the work even enough, and as few as
+/// go with the most even assignment where it does not. The same on every rank, without communication.
+std::vector<Rank> rebalance(std::span<const double> loads, std::span<const Rank> now, int ranks);
+
 /// The tasks of `rank` in the order it should run them: largest first.
 std::vector<int> tasks_of_rank(std::span<const Rank> assignment, std::span<const double> loads, Rank rank);
 

@@ -77,6 +77,12 @@ void add_messages(StageSummary& summary, const Communicator& communicator, const
   }
 }
 
+void add_exchanges(StageSummary& summary, const Communicator& communicator, const ExchangeCounts& mine) {
+  for (const ExchangeCounts& of_a_rank :
+       communicator.all_gather_items<ExchangeCounts>(std::span<const ExchangeCounts>(&mine, 1)))
+    summary.exchanges.join(of_a_rank);
+}
+
 }  // namespace
 
 double cpu_seconds() {
@@ -133,6 +139,7 @@ void StageClock::begin(const std::string& name) {
   _message_wall_start = session::message_time().wall_seconds;
   _message_cpu_start = session::message_time().cpu_seconds;
   _messages_at_start = message_counts();
+  _exchanges_at_start = exchange_counts();
   _shared_at_start = shared_bytes();
   stage_begins(name);
 }
@@ -147,6 +154,8 @@ void StageClock::end() {
   cost.other_cpu_seconds += std::max(0.0, cpu_seconds() - _cpu_start - known);
   cost.messages += message_counts();
   cost.messages -= _messages_at_start;
+  cost.exchanges += exchange_counts();
+  cost.exchanges -= _exchanges_at_start;
   const std::int64_t peak = status_bytes("VmHWM");
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, peak);
   // What was shared at the peak is not known: the least that it may have been leaves the most for the rest.
@@ -174,9 +183,14 @@ void StageClock::add_pieces(std::int64_t count) {
   if (_open) current().pieces += count;
 }
 
+void StageClock::begin_round() {
+  if (_open) ++current().rounds;
+}
+
 void StageClock::note_task(TaskRecord task) {
   if (!_open) return;
   task.stage = current().name;
+  task.round = current().rounds;
   _tasks.push_back(std::move(task));
 }
 
@@ -201,6 +215,7 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.cpu_seconds_mean = communicator.sum(cost.task_cpu_seconds) / ranks;
     summary.cpu_seconds_max = communicator.maximum(cost.task_cpu_seconds);
     summary.serial_seconds = communicator.maximum(cost.serial_cpu_seconds);
+    summary.repeated_seconds = communicator.maximum(cost.repeated_cpu_seconds);
     summary.check_seconds = communicator.maximum(cost.check_cpu_seconds);
     summary.other_seconds = communicator.maximum(cost.other_cpu_seconds);
     summary.waiting_seconds_mean = communicator.sum(cost.waiting_seconds) / ranks;
@@ -213,6 +228,7 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.peak_own_bytes_max = communicator.maximum(cost.peak_own_bytes);
     summary.peak_own_bytes_sum = communicator.sum(cost.peak_own_bytes);
     add_messages(summary, communicator, cost.messages);
+    add_exchanges(summary, communicator, cost.exchanges);
     summaries.push_back(summary);
   }
   return summaries;
@@ -233,7 +249,8 @@ ScopedCpu::~ScopedCpu() {
   if (!_clock._open) return;
   StageCost& cost = _clock.current();
   (_as == As::check ? cost.check_cpu_seconds : cost.task_cpu_seconds) += used;
-  if (_as == As::serial) cost.serial_cpu_seconds += used;
+  if (_as == As::serial || _as == As::repeated) cost.serial_cpu_seconds += used;
+  if (_as == As::repeated) cost.repeated_cpu_seconds += used;
 }
 
 }  // namespace aeroloom::parallel

@@ -48,7 +48,7 @@ struct OutputOptions {
   std::vector<io::FileFormat> formats = {io::FileFormat::vtu};  ///< that are written, each once
   std::int64_t parts = 0;  ///< of formats that come in parts; 0: what suits the size
   parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
-  bool tasks = false;                                   ///< writes tasks.csv, a row for each task
+  bool tasks = true;                                    ///< writes tasks.csv, a row for each task
   io::Compression compression = io::Compression::none;  ///< of mesh.pvtu and its like
   CheckpointUse checkpoints = CheckpointUse::none;      ///< in DIRECTORY/checkpoint
   bool pictures = true;                                 ///< in report.html

@@ -7,8 +7,10 @@
 #include "pipeline/load_domain.hpp"
 #include "pipeline/option_keys.hpp"
 #include "pipeline/place_text.hpp"
+#include "pipeline/report/parts_json.hpp"
 #include "pipeline/shown_changes.hpp"
 #include "pipeline/size_domain.hpp"
+#include "pipeline/task_table.hpp"
 #include "pipeline/text_file.hpp"
 
 #include <algorithm>
@@ -25,14 +27,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double gibibyte = 1024.0 * 1024 * 1024;
 constexpr std::size_t shown_contacts = 20;
 constexpr int pieces_per_rank = 4;
 
-Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
-                      const Case& input) {
-  parallel::StageClock clock;
+/// How many ranks a run is worth, by what the clock has of geometry and sizing. Collective.
+study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicator,
+                                        const parallel::StageClock& clock,
+                                        const sizing::PredictedCounts& counts, const Case& input) {
+  const std::string tasks = task_table(communicator, clock);
+  const Json measured{{"status", "ok"},
+                      {"ranks", communicator.size()},
+                      {"stages", stages_json(clock.summarise(communicator))}};
+  if (!communicator.is_root()) return {};
+  return predicted_ranks(study::costs_of(measured, tasks), counts, input);
+}
+
+/// The clock has the stage `geometry`.
+Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model, const Case& input,
+                      parallel::StageClock& clock) {
   Forecast forecast;
   const double begin = parallel::cpu_seconds();
+  clock.begin("sizing");
   const SizedDomain sized = size_domain(communicator, model, input.sizing, Simplification::of(input), clock);
   parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
@@ -42,6 +58,8 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   forecast.bounded = sized.bounded;
   forecast.walls = sized.walls;
   forecast.counts = sized.counts;
+  clock.end();
+  forecast.worthwhile = worthwhile_ranks(communicator, clock, forecast.counts, input);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
   forecast.seconds = predicted_seconds(forecast.counts);
   forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
@@ -126,16 +144,20 @@ std::string describe_forecast(const Forecast& forecast, int ranks) {
   const std::string unseen = describe(forecast.walls.unseen);
   if (!unseen.empty()) text += "gaps: " + unseen + "\n";
   const std::string coincident = describe(forecast.walls.coincident);
-  return text + fmt::format(
-                    "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
-                    "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
-                    "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
-                    "{}\n",
-                    forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
-                    forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
-                    forecast.bytes / (1024.0 * 1024 * 1024), ranks, forecast.piece_triangles,
-                    forecast.piece_tets,
-                    coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
+  return text +
+         fmt::format(
+             "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
+             "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
+             "       {} rank(s) work with 80 % efficiency ({} where geometry does not count), {:.2g} s, "
+             "{:.2g} GiB on the largest\n"
+             "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
+             "{}\n",
+             forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
+             forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
+             forecast.bytes / gibibyte, forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
+             forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / gibibyte, ranks,
+             forecast.piece_triangles, forecast.piece_tets,
+             coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
 }
 
 bool is_meshable(const CheckRecord& record) {
@@ -188,6 +210,7 @@ Json forecast_json(const Forecast& forecast) {
           {"tetrahedra", forecast.counts.tetrahedra},
           {"seconds_on_one_core", forecast.seconds},
           {"bytes", forecast.bytes},
+          {"scaling", study::to_json(forecast.worthwhile, {})},
           {"piece_triangles", forecast.piece_triangles},
           {"piece_tets", forecast.piece_tets},
           {"features", forecast.features ? to_json(*forecast.features) : Json()},
@@ -239,6 +262,7 @@ void print_record(const Case& input, const CheckRecord& record, int ranks) {
 ExitCode check_case(const parallel::Communicator& communicator, const Case& input) {
   CheckRecord record;
   parallel::StageClock clock;
+  clock.begin("geometry");
   parallel::Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
@@ -247,16 +271,18 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
     if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
+  if (!meshable) clock.end();
   if (meshable) {
     TypedPatches patches =
         apply_patch_rules(share_model(communicator, std::move(bytes), clock), input.patches);
+    clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;
     if (communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
-    record.forecast = forecast_run(communicator, model, input);
+    record.forecast = forecast_run(communicator, model, input, clock);
     parallel::agree(communicator, [&] {
       if (communicator.is_root())
         record.contacts = find_face_contacts(model, shown_contacts, record.contact_count);

@@ -10,6 +10,7 @@
 #include "pipeline/unresolved_features.hpp"
 #include "pipeline/wall_findings.hpp"
 #include "sizing/size_field.hpp"
+#include "study/prediction_files.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -36,6 +37,7 @@ struct Forecast {
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together
+  study::WorthwhileRanks worthwhile;                 ///< how many ranks are worth asking for
   std::int64_t piece_triangles = 0, piece_tets = 0;  ///< piece sizes that give every rank several pieces
 };
 

@@ -2,9 +2,13 @@
 
 #include "parallel/collective_error.hpp"
 #include "parallel/memory_limit.hpp"
+#include "partition/piece_size.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +18,20 @@ namespace {
 // What a run costs on one core, from runs at a million tetrahedra (docs/status.md).
 constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
 constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 120;
+
+// The shares of stages in that, of one core for a triangle or a tetrahedron, and what of it no further rank
+// spares, from the same runs.
+constexpr double surface_per_triangle = 23e-6;
+struct StageShare {
+  const char* name;
+  const char* pieces;  // the kind of its tasks; null: it has none
+  double seconds_per_tetrahedron, repeated;
+};
+constexpr std::array<StageShare, 5> stage_shares{{{"decompose", nullptr, 1.0e-6, 0.05},
+                                                  {"volume", "zone", 2.1e-6, 0},
+                                                  {"improve", "improved piece", 1.9e-6, 0},
+                                                  {"inspect", nullptr, 0.7e-6, 0},
+                                                  {"output", nullptr, 0.4e-6, 0}}};
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
@@ -31,7 +49,43 @@ std::string advise(double tetrahedra, double limit, int ranks_here, int ranks) {
       fitting, std::cbrt(tetrahedra / fitting), std::ceil(tetrahedra / fitting));
 }
 
+/// Tasks of equal cost, as many as come of pieces of that size.
+study::TaskGroup equal_tasks(const char* kind, double seconds, double elements, double of_piece) {
+  const double count = std::max(1.0, std::ceil(elements / of_piece));
+  study::TaskGroup group{kind, 1, {}};
+  for (double i = 0; i < count; ++i)
+    group.tasks.push_back({.number = static_cast<std::int64_t>(i),
+                           .predicted = elements / count,
+                           .seconds = seconds / count,
+                           .bytes = elements / count});
+  return group;
+}
+
 }  // namespace
+
+study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::PredictedCounts& counts,
+                                       const Case& input) {
+  const double held = measured.stages.empty() ? 0 : measured.stages.back().own_bytes;
+  measured.ranks = 1;
+  study::StageCosts surface{.name = "surface", .own_bytes = held};
+  surface.groups = {equal_tasks("surface piece", surface_per_triangle * counts.triangles, counts.triangles,
+                                static_cast<double>(input.surface.piece_triangles))};
+  measured.stages.push_back(std::move(surface));
+  const auto of_piece = static_cast<double>(
+      input.volume.piece_tets.value_or(partition::suitable_piece_tets(counts.tetrahedra)));
+  for (const StageShare& share : stage_shares) {
+    const double seconds = share.seconds_per_tetrahedron * counts.tetrahedra;
+    study::StageCosts stage{.name = share.name, .repeated = share.repeated * seconds};
+    stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra;
+    const double rest = seconds - stage.repeated;
+    if (share.pieces == nullptr)
+      stage.divisible = rest;
+    else
+      stage.groups = {equal_tasks(share.pieces, rest, counts.tetrahedra, of_piece)};
+    measured.stages.push_back(std::move(stage));
+  }
+  return study::worthwhile_ranks(measured, {});
+}
 
 double predicted_seconds(const sizing::PredictedCounts& counts) {
   return seconds_per_triangle * counts.triangles + seconds_per_tetrahedron * counts.tetrahedra;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "parallel/communicator.hpp"
+#include "pipeline/case.hpp"
 #include "pipeline/size_domain.hpp"
 #include "sizing/size_field.hpp"
+#include "study/prediction_files.hpp"
 
 #include <cstdint>
 
@@ -13,6 +15,12 @@ namespace aeroloom::pipeline {
 double predicted_seconds(const sizing::PredictedCounts& counts);
 /// Bytes of memory of all ranks together.
 double predicted_bytes(const sizing::PredictedCounts& counts, int ranks);
+
+/// How many ranks are worth asking for: a replay of geometry and sizing as `measured`, and of the rest as
+/// equal pieces of predicted cost that exchange nothing. Throws std::runtime_error where there is no record
+/// of those.
+study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::PredictedCounts& counts,
+                                       const Case& input);
 
 /// Ends a run that is predicted to take more than `bytes_of_node` on its fullest node, and says what would
 /// fit: CollectiveError (resources). Nothing where the limit is 0. Collective.

@@ -203,7 +203,7 @@ cad::Model share_model(const parallel::Communicator& communicator, parallel::Byt
   communicator.broadcast(bytes);
   std::optional<cad::Model> model;
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
     model = cad::Model::from_bytes(bytes);
   });
   return *model;

@@ -36,15 +36,18 @@ std::string write_report(const parallel::Communicator& communicator, const Case&
   ReportFacts facts{outcome, subject, communicator.size(), record.clock.summarise(communicator), {}, {}};
   facts.warnings = parallel::take_warnings(communicator);
   facts.date = utc_now();
-  const std::string tasks = input.output.tasks ? task_table(communicator, record.clock) : "";
+  facts.tasks = task_table(communicator, record.clock);
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     const std::string& folder = input.output.directory;
-    if (input.output.tasks) write_text(folder + "/tasks.csv", tasks);
+    std::error_code ignored;  // what an earlier run has left and cannot go stays
+    if (input.output.tasks)
+      write_text(folder + "/tasks.csv", facts.tasks);
+    else
+      std::filesystem::remove(folder + "/tasks.csv", ignored);
     const std::string json = report_json(input, record, facts);
     write_text(folder + "/report.json", json);
     const std::string page = page_of(json, record);
-    std::error_code ignored;  // a page of an earlier run that cannot go stays
     if (page.empty())
       std::filesystem::remove(folder + "/report.html", ignored);
     else

@@ -75,8 +75,9 @@ void declare_files(KeyTable& keys, OutputOptions& output) {
   keys.flag(
       "tasks", output.tasks,
       "Whether `tasks.csv` is written: a row for each task with its rank, stage, kind, number, the load "
-      "it was dealt out by, CPU seconds, bytes of what it made and peak memory of its child, for the "
-      "replay of scaling studies.");
+      "it was dealt out by, CPU seconds, bytes of what it made, peak memory of its child, its round within "
+      "the stage and what it "
+      "counts for when further tasks are dealt out: what `aeroloom scaling --predict` goes by.");
   keys.choice<io::Compression>(
       "compression", output.compression,
       {{"none", io::Compression::none}, {"lz4", io::Compression::lz4}, {"zlib", io::Compression::zlib}},

@@ -110,7 +110,7 @@ private:
     if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
       std::optional<cad::Domain> domain;
       parallel::agree(_communicator, [&] {
-        const parallel::ScopedCpu cpu(_record.clock, parallel::ScopedCpu::As::serial);
+        const parallel::ScopedCpu cpu(_record.clock, parallel::ScopedCpu::As::repeated);
         domain = unpack_domain_product(std::move(*found));
       });
       if (_communicator.is_root()) _record.domain = std::move(domain->report);
@@ -350,7 +350,10 @@ private:
   void write(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
              const FinishedSurface& surface) {
     const SurfaceView view{surface.mesh, surface.numbering};
-    write_outputs(_communicator, volume, numbering, &view, _input.output);
+    {
+      const parallel::ScopedCpu task(_record.clock, parallel::ScopedCpu::As::task);
+      write_outputs(_communicator, volume, numbering, &view, _input.output);
+    }
     if (_communicator.is_root()) {
       warn_of_units(_record, _input.output);
       if (const std::string coarse = coarse_region(_input.gate, _record); !coarse.empty())

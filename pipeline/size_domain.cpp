@@ -35,7 +35,7 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   if (narrow.empty()) return std::nullopt;
   std::optional<cad::Model> joined;
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
     what.groups = sizing::group_narrow_faces(model, narrow, tolerance);
     joined = cad::join_faces(model, what.groups);
   });

@@ -79,7 +79,7 @@ SizeField FieldBuilder::build(std::vector<SizeSource> sources) {
 
 std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sources,
                                                     std::int64_t most_leaves) {
-  const ScopedCpu repeated(_clock, ScopedCpu::As::serial);
+  const ScopedCpu repeated(_clock, ScopedCpu::As::repeated);
   for (const SizeSource& source : sources)
     require(source.size > 0 && std::isfinite(source.size), "a source must have a positive size", source.size);
   std::erase_if(sources, [&](const SizeSource& source) { return source.size >= _options.maximum; });

@@ -108,7 +108,9 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
     parallel::Progress progress("sizing", model.face_count(), "faces");
     for (FaceId f = 0; f < model.face_count(); ++f) {
       const bool mine = _owners[f] == communicator.rank();
+      const double begin = parallel::cpu_seconds();
       if (mine) add_face(f);
+      if (mine) _clock.note_task({"sampled face", f, loads[f], parallel::cpu_seconds() - begin});
       progress.advance(1, mine ? 1 : 0);
     }
     list_corners();
@@ -199,7 +201,7 @@ void ModelSampler::gather_triangles() {
   });
   std::vector<Wall> all = _communicator.all_gather_items<Wall>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
-  ScopedCpu cpu(_clock, ScopedCpu::As::serial);
+  ScopedCpu cpu(_clock, ScopedCpu::As::repeated);
   std::vector<Triangle> boundary;
   for (const Wall& t : all) {
     if (!_far_field[t.face]) {

@@ -50,6 +50,22 @@ Line ideal_line(const Json& study, double constant = 0) {
   return line;
 }
 
+/// Of the strong series as its smallest number of ranks foretells it; by CPU where the series is judged so.
+Line predicted_line(const Json& study, const std::string& key) {
+  Line line{"predicted", {}};
+  const std::vector<const Json*> rows = rows_of(study, "strong");
+  const bool by_cpu = std::any_of(rows.begin(), rows.end(), [](const Json* row) { return is_by_cpu(*row); });
+  double one = 0;
+  for (const Json& row : find(study, "/prediction/rows")) {
+    const double ranks = number(find(row, "/ranks"));
+    const double busy = number(find(row, "/busy_cpu_seconds"));
+    if (ranks == 1) one = busy;
+    const double speedup = by_cpu && busy > 0 ? one / busy : number(find(row, "/speedup"));
+    line.points.emplace_back(ranks, key == "efficiency" ? speedup / ranks : speedup);
+  }
+  return line;
+}
+
 std::string stage_piles(const Json& study) {
   std::vector<std::string> stages;
   std::vector<Pile> piles;
@@ -77,10 +93,11 @@ std::string charts(const Json& study) {
   std::vector<Line> speedup{
       line_of(study, "strong", "speedup", "against one rank in one piece"),
       line_of(study, "strong", "speedup_of_series", "against the smallest number of ranks"),
-      ideal_line(study)};
+      predicted_line(study, "speedup"), ideal_line(study)};
   if (speedup[0].points.empty()) speedup.erase(speedup.begin());
   const std::vector<Line> efficiency{line_of(study, "strong", "efficiency", "strong"),
-                                     line_of(study, "weak", "efficiency", "weak"), ideal_line(study, 1)};
+                                     line_of(study, "weak", "efficiency", "weak"),
+                                     predicted_line(study, "efficiency"), ideal_line(study, 1)};
   std::vector<Line> memory{line_of(study, "strong", "memory_of_rank_bytes", "strong"),
                            line_of(study, "weak", "memory_of_rank_bytes", "weak")};
   for (Line& line : memory)
@@ -146,6 +163,50 @@ std::string row_table(const Json& study) {
     table.add(cells);
   }
   return table.html();
+}
+
+/// Foretold beside measured, and where the time goes that is not shared out.
+std::string prediction_table(const Json& study) {
+  if (!find(study, "/prediction/rows").is_array()) return "";
+  std::vector<Column> columns{{"ranks", Align::right},
+                              {"seconds", Align::right, "foretold"},
+                              {"measured", Align::right, "by the clock"},
+                              {"CPU", Align::right, "seconds of the busiest rank, foretold"},
+                              {"measured", Align::right},
+                              {"efficiency", Align::right},
+                              {"memory/rank", Align::right, "of the largest, without what a node shares"}};
+  const std::vector<std::string> losses{"serial",    "repeated",      "granularity",
+                                        "imbalance", "communication", "waiting"};
+  for (const std::string& loss : losses) columns.push_back({loss, Align::right, "part of the seconds"});
+  Table table(std::move(columns), "scaling.json");
+  for (const Json& row : find(study, "/prediction/rows")) {
+    std::string wall = "–", busy = "–";
+    for (const Json* measured : rows_of(study, "strong")) {
+      if (find(*measured, "/ranks") != find(row, "/ranks")) continue;
+      wall = seconds(find(*measured, "/wall_seconds"));
+      busy = seconds(find(*measured, "/busy_cpu_seconds"));
+    }
+    std::vector<std::string> cells{count(find(row, "/ranks")),
+                                   seconds(find(row, "/seconds")),
+                                   wall,
+                                   seconds(find(row, "/busy_cpu_seconds")),
+                                   busy,
+                                   percent(number(find(row, "/efficiency"))),
+                                   memory(find(row, "/memory_of_rank_bytes"))};
+    const double all = number(find(row, "/seconds"));
+    for (const std::string& loss : losses)
+      cells.push_back(percent(all > 0 ? number(find(row, "/losses/" + loss)) / all : 0));
+    table.add(cells);
+  }
+  return section(
+      "prediction", "Foretold by the run on fewest ranks",
+      paragraph(fmt::format("{} rank(s) work with 80 % efficiency, {} where geometry does not count. "
+                            "Network: {:.3g} s, {:.3g} bytes/s.",
+                            count(find(study, "/prediction/ranks_at_80_percent")),
+                            count(find(study, "/prediction/ranks_at_80_percent_without_geometry")),
+                            number(find(study, "/prediction/latency_seconds")),
+                            number(find(study, "/prediction/bytes_per_second")))) +
+          table.html());
 }
 
 std::string stage_table(const Json& study) {
@@ -258,7 +319,7 @@ std::string study_page(const std::string& json) {
   const std::string stem = std::filesystem::path(text(find(study, "/case"))).stem().string();
   const std::string body =
       headline(study, stem) + remarks(study) + section("charts", "Charts", charts(study)) +
-      section("table", "Figures", row_table(study)) +
+      section("table", "Figures", row_table(study)) + prediction_table(study) +
       section("stages", "Seconds per stage", stage_table(study)) + section("runs", "Runs", run_table(study)) +
       section("machine", "Machine and versions", machine_facts(study)) +
       section("case", "Case",

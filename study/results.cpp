@@ -165,6 +165,31 @@ std::vector<RunResult> collect_runs(const StudyRecord& record,
   return results;
 }
 
+const RunResult* telling_run(const std::vector<RunResult>& runs) {
+  std::vector<const RunResult*> candidates;
+  for (const RunResult& run : runs)
+    if (run.spec.series == Series::strong && run.figures) candidates.push_back(&run);
+  if (candidates.empty()) return nullptr;
+  std::stable_sort(candidates.begin(), candidates.end(), [](const RunResult* a, const RunResult* b) {
+    return a->spec.ranks != b->spec.ranks ? a->spec.ranks < b->spec.ranks
+                                          : a->figures->busy < b->figures->busy;
+  });
+  const int least = candidates.front()->spec.ranks;
+  const auto end = std::find_if(candidates.begin(), candidates.end(),
+                                [&](const RunResult* run) { return run->spec.ranks != least; });
+  return candidates[static_cast<std::size_t>(end - candidates.begin() - 1) / 2];
+}
+
+std::vector<int> ranks_to_foretell(const std::vector<RunResult>& runs) {
+  std::set<int> ranks;
+  for (const RunResult& run : runs)
+    if (run.spec.series == Series::strong) ranks.insert(run.spec.ranks);
+  if (ranks.empty()) return {};
+  const int most = 4 * *ranks.rbegin();
+  for (int n = 1; n <= most; n *= 2) ranks.insert(n);
+  return {ranks.begin(), ranks.end()};
+}
+
 void require_equal_meshes(const std::vector<RunResult>& runs) {
   std::map<std::string, const RunResult*> first_of;
   const RunResult* first_read = nullptr;

@@ -64,6 +64,12 @@ RunFigures figures_of(const Json& report);
 std::vector<RunResult> collect_runs(const StudyRecord& record,
                                     const std::map<std::string, std::string>& queue = {});
 
+/// The strong run on the smallest number of ranks that has ended well, of its repeats the one with the median
+/// CPU time: whose records foretell the others. Null without one.
+const RunResult* telling_run(const std::vector<RunResult>& runs);
+/// The ranks of the strong series, and powers of two up to four times the largest.
+std::vector<int> ranks_to_foretell(const std::vector<RunResult>& runs);
+
 /// Throws std::runtime_error that names runs of equal configuration with different meshes, or runs that read
 /// different files.
 void require_equal_meshes(const std::vector<RunResult>& runs);

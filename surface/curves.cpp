@@ -209,7 +209,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   const auto legs = legs_of_edges(model, corners);
   parallel::agree(communicator, [&] {
     {
-      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
       for (EdgeId e = 0; e < model.edge_count(); ++e) {
         if (!is_constraining(model, e)) continue;
         edges.push_back(e);
@@ -219,10 +219,12 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
     const auto assignment = parallel::assign_largest_first(loads, communicator.size());
     for (const int task : parallel::tasks_of_rank(assignment, loads, communicator.rank())) {
+      const double begin = parallel::cpu_seconds();
       mine.push_back(edges[task]);
       stretches.push_back(between_legs(model, edges[task], legs[edges[task]]));
       lengths.push_back(metric_length(model, field, edges[task], stretches.back()));
       measures.push_back(measure_edge(model, edges[task], lengths.back(), stretches.back().legs));
+      clock.note_task({"curve", edges[task], loads[task], parallel::cpu_seconds() - begin});
     }
   });
   measures = communicator.all_gather_items(std::span<const EdgeMeasure>(measures));
@@ -230,7 +232,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   std::vector<PlacedVertex> placed;
   parallel::agree(communicator, [&] {
     const std::vector<int> segments = [&] {
-      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
       return count_segments(model, std::move(measures));
     }();
     const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
@@ -242,7 +244,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
   mesh.sharp_corners = std::move(corners);
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
     align_tips(model, sizing::closing_gap(field.options()), mesh);
   });
   return mesh;

@@ -301,7 +301,7 @@ std::vector<TriangleHit> find_intersections(const parallel::Communicator& commun
     return std::tie(a.piece, a.order) < std::tie(b.piece, b.order);
   });
   const std::vector<BatchPair> pairs = [&] {
-    const ScopedCpu cpu(clock, ScopedCpu::As::serial);
+    const ScopedCpu cpu(clock, ScopedCpu::As::repeated);
     return find_batch_pairs(table, communicator.rank());
   }();
   const auto at_hand = fetch_batches(communicator, table, pairs, std::move(contents));

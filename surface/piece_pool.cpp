@@ -24,6 +24,11 @@ constexpr double piece_overhead = 150;
 /// Rounds may come to so many triangles, however few the first one has.
 constexpr double few_triangles = 20'000;
 
+/// What meshing a piece is expected to cost, in triangles.
+double load_of_piece(double triangles, double facets) {
+  return triangles + piece_overhead + facets;
+}
+
 std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
   std::vector<double> sizes(piece.vertex_count());
   for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) sizes[v] = field(piece.point(v));
@@ -107,8 +112,14 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
       const double begin = parallel::cpu_seconds();
-      seeds.emplace(Key{faces[task], 0, 0}, seed_of_face(_model, faces[task], curves, field, _options));
-      _clock.note_task({"face", faces[task], loads[task], parallel::cpu_seconds() - begin});
+      const PieceSeed& seed =
+          seeds.emplace(Key{faces[task], 0, 0}, seed_of_face(_model, faces[task], curves, field, _options))
+              .first->second;
+      _clock.note_task({.kind = "face",
+                        .number = faces[task],
+                        .predicted = loads[task],
+                        .cpu_seconds = parallel::cpu_seconds() - begin,
+                        .burden = seed_cost(static_cast<double>(seed.support.triangles.size()))});
     }
   });
   return seeds;
@@ -190,12 +201,20 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& ro
         divided.emplace(key, std::move(seed));
         continue;
       }
+      const double begin = parallel::cpu_seconds();
+      const double load = division_cost(seed.load, static_cast<double>(seed.support.triangles.size()),
+                                        group_of(key), _options);
       SeedPieces pieces = divide_seed(_model, std::move(seed), group_of(key), sizes, _options);
       for (std::size_t i = 0; i < pieces.seeds.size(); ++i) {
         Key part = key;
         part[level] = static_cast<std::int32_t>(i);
         divided.emplace(part, std::move(pieces.seeds[i]));
       }
+      _clock.note_task({.kind = level == 1 ? "divided face" : "divided part",
+                        .number = key[0],
+                        .predicted = load,
+                        .cpu_seconds = parallel::cpu_seconds() - begin,
+                        .burden = load});
       std::vector<CutAngle>& angles = _angles[key];  // its first part has the key of the face
       angles.insert(angles.end(), pieces.angles.begin(), pieces.angles.end());
     }
@@ -251,8 +270,9 @@ void PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>
       Meshed meshed{
           mesh_or_find(seed, field, of_field), {}, edge_vertices(curves, key[0]), seed.load, places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
-      _clock.note_task({"surface piece", key[0], seed.load, parallel::cpu_seconds() - begin,
-                        mesh::bytes_at_rest(meshed.piece)});
+      _clock.note_task({"surface piece", key[0],
+                        load_of_piece(seed.load, static_cast<double>(seed.support.triangles.size())),
+                        parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
       if (conflicts.complaint.empty()) conflicts.complaint = conflict.what();
@@ -294,7 +314,7 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   std::map<Key, std::int32_t> places;
   for (const Row& row : rows) {
     places[row.key] = _parts[row.key[0]]++;
-    loads.push_back(row.load + piece_overhead + row.facets);
+    loads.push_back(load_of_piece(row.load, row.facets));
   }
   seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, _burdens));
   parallel::agree(_communicator, [&] { mesh_seeds(seeds, places, curves, field, conflicts); });

@@ -174,6 +174,7 @@ public:
 private:
   /// Whether this was the last round.
   bool mesh_once() {
+    _clock.begin_round();
     const CurveMesh curves = discretise_curves(_communicator, _model, _field, _clock, _short_legs);
     Conflicts conflicts = share(_communicator, _pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);

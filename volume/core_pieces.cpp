@@ -380,12 +380,24 @@ private:
     return lowest;
   }
 
+  /// The pieces from that one on were made of a range.
+  void note_range(std::int32_t range, std::size_t first, double seconds) {
+    double cells = 0;
+    std::int64_t bytes = 0;
+    for (std::size_t i = first; i < _mesh.pieces.size(); ++i) {
+      cells += _mesh.pieces[i].cell_count();
+      bytes += mesh::bytes_at_rest(_mesh.pieces[i]);
+    }
+    _clock.note_task({"core piece", range, cells, seconds, bytes});
+  }
+
   /// Of the ranges that are this rank's; what others have of them lies behind along the curve.
   void make_pieces(std::span<const Parcel> arrived) {
     const GhostBlocks& ghosts = _source.core.ghosts();
     std::size_t next = 0;
     for (std::size_t i = 0; i < ghosts.own_count();) {
-      const std::size_t first = i;
+      const std::size_t first = i, made = _mesh.pieces.size();
+      const double begin = parallel::cpu_seconds();
       const std::int32_t range = _ranges.of(ghosts.first() + static_cast<BlockIndex>(i));
       std::map<RegionId, std::vector<NumberedCell>> cells;
       const bool is_mine = range >= 0 && _ranges.rank(range) == _communicator.rank();
@@ -410,6 +422,7 @@ private:
         _mesh.tetrahedra += piece.cell_count();
         _mesh.pieces.push_back(std::move(piece));
       }
+      note_range(range, made, parallel::cpu_seconds() - begin);
     }
   }
 

@@ -103,7 +103,7 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
       coarsen(communicator, *data.tree, loads, all / (ZoneCuts::cells_per_zone * count));
   std::optional<ZoneCuts> cuts;
   {
-    const ScopedCpu repeated(clock, ScopedCpu::As::serial);
+    const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
     cuts.emplace(cells, count);
   }
   const double widest =

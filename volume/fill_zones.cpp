@@ -51,7 +51,8 @@ private:
   // --- one round of filling
 
   void fill(ZonePlan plan) {
-    for (const ZoneLoad& load : plan.loads) _results.erase(load.zone);
+    _clock.begin_round();
+    for (const ZoneLoad& load : plan.loads) _results.erase(load.zone), _work[load.zone] = load.work();
     std::erase_if(_results, [&](const auto& result) { return _ladder.is_gone(result.first); });
     constexpr std::int64_t steps = 1000;  // of a wave, whatever its zones
     parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.batches.size()),
@@ -104,7 +105,7 @@ private:
       const ZoneResult& made = _results[content.zone] = make_pieces(content, filling);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
-      _clock.note_task({"zone", content.zone, static_cast<double>(predict_tetrahedra(content.problem)),
+      _clock.note_task({"zone", content.zone, _work.at(content.zone),
                         parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
                         filling.child_peak_bytes});
       return static_cast<std::int64_t>(filling.owned.cells.size());
@@ -174,6 +175,7 @@ private:
   FillingBudget _budget;
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
+  std::map<ZoneIndex, double> _work;         // that zones were dealt out by
   std::vector<ZoneFailure> _failures;        // of this rank in this round
   std::vector<LeavingLeaf> _leaving;         // as well
   Evidence _evidence;

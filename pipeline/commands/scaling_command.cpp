@@ -1,11 +1,13 @@
 #include "parallel/termination.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
+#include "pipeline/commands/scaling_prediction.hpp"
 #include "pipeline/library_versions.hpp"
 #include "pipeline/output_lock.hpp"
 #include "pipeline/text_file.hpp"
 #include "study/jobs.hpp"
 #include "study/page.hpp"
+#include "study/prediction_files.hpp"
 #include "study/results.hpp"
 #include "study/series.hpp"
 #include "study/table.hpp"
@@ -26,12 +28,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ScalingArguments : CaseArguments {
-  std::vector<int> ranks{1, 2};
+  std::vector<int> ranks;  ///< empty: the usual ones
   std::vector<std::string> series{"strong"};
   int repeats = 3, ranks_per_node = 0;
   std::string launcher, jobs, header, collected;
   std::vector<std::string> compared;
   bool keep = false, without_serial = false;
+  PredictionArguments prediction;
 };
 
 /// Where the program itself is.
@@ -85,7 +88,7 @@ study::StudyRecord make_record(const ScalingArguments& arguments, const Case& in
   options.case_file = fs::absolute(arguments.file).string();
   options.overrides = arguments.overrides;
   options.directory = fs::absolute(input.output.directory).lexically_normal();
-  options.ranks = arguments.ranks;
+  options.ranks = arguments.ranks.empty() ? std::vector<int>{1, 2} : arguments.ranks;
   std::sort(options.ranks.begin(), options.ranks.end());
   options.ranks.erase(std::unique(options.ranks.begin(), options.ranks.end()), options.ranks.end());
   const auto wants = [&](const char* name) {
@@ -112,12 +115,30 @@ void add_earlier_runs(study::StudyRecord& record) {
   }
 }
 
+/// What the run on the smallest number of ranks foretells of the others, and of somewhat more.
+void add_prediction(study::Json& study, const study::StudyRecord& record,
+                    const std::vector<study::RunResult>& runs, const study::Network& network) {
+  const study::RunResult* from = study::telling_run(runs);
+  if (from == nullptr) return;
+  try {
+    const std::vector<int> ranks = study::ranks_to_foretell(runs);
+    const fs::path folder = study::folder_of(record.options.directory, from->spec);
+    study["prediction"] = study::prediction_json(
+        study::forecast_ranks(study::read_costs(folder), from->spec.name(), ranks, network));
+  } catch (const std::runtime_error& error) {
+    tell_progress(fmt::format("other numbers of ranks are not foretold: {}", error.what()));
+  }
+}
+
 /// Tables, page, and the exit code: that of the first run that failed.
-ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs) {
+ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs,
+                     const study::Network& network) {
   study::require_equal_meshes(runs);
   const study::Machine machine = study::this_machine();
   const std::vector<study::Row> rows = study::make_rows(record, runs, machine);
-  const std::string json = study::study_json(record, runs, rows, machine).dump(1) + "\n";
+  study::Json study = study::study_json(record, runs, rows, machine);
+  add_prediction(study, record, runs, network);
+  const std::string json = study.dump(1) + "\n";
   const fs::path& folder = record.options.directory;
   write_text((folder / "scaling.json").string(), json);
   write_text((folder / "scaling.csv").string(), study::study_csv(runs));
@@ -139,7 +160,7 @@ ExitCode carry_out_study(const ScalingArguments& arguments, const Case& input) {
   study::save(record);
   const parallel::LastWords last_words([](int) { study::end_line(); });
   study::carry_out(record, launcher, arguments.keep, tell_progress);
-  return write_study(record, study::collect_runs(record));
+  return write_study(record, study::collect_runs(record), network_of(arguments.prediction));
 }
 
 ExitCode write_study_jobs(const ScalingArguments& arguments, const Case& input) {
@@ -167,7 +188,7 @@ ExitCode collect_study(const ScalingArguments& arguments) {
   for (const study::RunResult& run : runs)
     if (run.figures && !arguments.keep)
       study::remove_meshes(study::folder_of(record.options.directory, run.spec));
-  return write_study(record, runs);
+  return write_study(record, runs, network_of(arguments.prediction));
 }
 
 ExitCode compare_studies(const ScalingArguments& arguments) {
@@ -182,7 +203,7 @@ void add_options(CLI::App& app, ScalingArguments& arguments) {
   app.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
       ->type_name(file_kind::of_case);
   add_overrides(app, arguments);
-  app.add_option("--ranks", arguments.ranks, "numbers of ranks, as 1,2,4,8")
+  app.add_option("--ranks", arguments.ranks, "numbers of ranks, as 1,2,4,8; 1,2 by default")
       ->delimiter(',')
       ->check(CLI::Range(1, 1000000))
       ->type_name("N,...");
@@ -217,11 +238,14 @@ void add_options(CLI::App& app, ScalingArguments& arguments) {
                              ->type_name("OLD NEW");
   jobs->excludes(collect);
   compare->excludes(jobs)->excludes(collect);
+  for (CLI::Option* other : add_prediction_options(app, arguments.prediction))
+    other->excludes(jobs)->excludes(collect)->excludes(compare);
 }
 
 int run_scaling(const parallel::Communicator& communicator, const ScalingArguments& arguments,
                 const Loudness& loudness) {
-  if (communicator.size() > 1)
+  const bool measures = !arguments.prediction.measured.empty();
+  if (communicator.size() > 1 && !measures)
     return fail(communicator, ExitCode::usage,
                 "scaling starts the ranks of its runs itself. Remedy: call it without a launcher");
   const auto guard = [&](const std::function<ExitCode()>& work) {
@@ -236,6 +260,9 @@ int run_scaling(const parallel::Communicator& communicator, const ScalingArgumen
     });
   };
   parallel::configure_log(communicator, loudness.level());
+  if (measures) return guard([&] { return measure_network(communicator, arguments.prediction.measured); });
+  if (!arguments.prediction.run.empty())
+    return guard([&] { return predict_run(arguments.prediction, arguments.ranks); });
   if (!arguments.compared.empty()) return guard([&] { return compare_studies(arguments); });
   if (!arguments.collected.empty()) return guard([&] { return collect_study(arguments); });
   if (arguments.file.empty())
@@ -264,7 +291,10 @@ Command add_scaling(CLI::App& program) {
        {"aeroloom scaling case.yaml --ranks 64,128,256 --write-jobs jobs --job-header account.txt",
         "scripts for a queue; sh jobs/submit.sh submits them"},
        {"aeroloom scaling --collect jobs", "what they have left so far"},
-       {"aeroloom scaling --compare before/out after/out", "two studies side by side"}},
+       {"aeroloom scaling --compare before/out after/out", "two studies side by side"},
+       {"aeroloom scaling --predict out --ranks 1,16,256,4096", "what that run would take on more ranks"},
+       {"mpirun -n 2 aeroloom scaling --measure-network network.json",
+        "latency and bandwidth, for --predict out --network network.json"}},
       {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return run_scaling(communicator, *arguments, loudness);

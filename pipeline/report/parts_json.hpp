@@ -25,5 +25,7 @@ Json unresolved_json(const RunRecord& record);
 Json patches_json(const RunRecord& record);
 Json regions_json(const RunRecord& record);
 Json stages_json(const std::vector<parallel::StageSummary>& stages);
+/// Of a report with its stages, and the records of tasks; null where they tell nothing.
+Json scaling_json(const Json& report, const std::string& tasks);
 
 }  // namespace aeroloom::pipeline

@@ -94,6 +94,7 @@ std::string report_json(const Case& input, const RunRecord& record, const Report
     json["volume"] = volume_json(record);
   }
   add_finished_mesh(json, input, record, facts);
+  json["scaling"] = scaling_json(json, facts.tasks);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -31,6 +31,7 @@ struct ReportFacts {
   std::vector<parallel::StageSummary> stages;  ///< over all ranks
   parallel::Warnings warnings;                 ///< of all ranks
   std::string date;                            ///< ISO 8601
+  std::string tasks = {};                      ///< of all ranks, as task_table() has them
 };
 
 /// The report as JSON text, UTF-8 whatever bytes names are made of. Rank 0 calls it.

@@ -32,6 +32,21 @@ Json messages_json(const parallel::MessageSummary& messages) {
           {"bytes_max", messages.bytes_max}};
 }
 
+Json exchanges_json(const parallel::ExchangeCounts& exchanges) {
+  Json json;
+  const auto add = [&](const char* kind, const parallel::Messages& of_kind) {
+    json[kind] = {{"count", of_kind.count}, {"bytes", of_kind.bytes}};
+  };
+  add("broadcast", exchanges.broadcast);
+  add("all_gather", exchanges.all_gather);
+  add("table", exchanges.table);
+  add("gather", exchanges.gather);
+  add("reduction", exchanges.reduction);
+  add("neighbour", exchanges.neighbour);
+  add("rendezvous", exchanges.rendezvous);
+  return json;
+}
+
 }  // namespace
 
 Json stages_json(const std::vector<parallel::StageSummary>& stages) {
@@ -43,6 +58,7 @@ Json stages_json(const std::vector<parallel::StageSummary>& stages) {
                     {"cpu_seconds_mean", stage.cpu_seconds_mean},
                     {"cpu_seconds_max", stage.cpu_seconds_max},
                     {"serial_seconds", stage.serial_seconds},
+                    {"repeated_seconds", stage.repeated_seconds},
                     {"check_seconds", stage.check_seconds},
                     {"other_seconds", stage.other_seconds},
                     {"waiting_seconds_mean", stage.waiting_seconds_mean},
@@ -55,7 +71,8 @@ Json stages_json(const std::vector<parallel::StageSummary>& stages) {
                     {"messages",
                      {{"collective", messages_json(stage.collective)},
                       {"neighbour", messages_json(stage.neighbour)},
-                      {"rendezvous", messages_json(stage.rendezvous)}}}});
+                      {"rendezvous", messages_json(stage.rendezvous)}}},
+                    {"exchanges", exchanges_json(stage.exchanges)}});
     add_load(json.back(), stage.cpu_seconds_of_ranks, stage.cpu_seconds_max);
   }
   return json;

@@ -85,6 +85,16 @@ TEST(ScheduleTest, SharesGoWhereMostOfThemIs) {
   EXPECT_TRUE(keep_in_place({}, {}, {}, 4).empty());
 }
 
+TEST(ScheduleTest, MovesTasksOnlyWhereThatPays) {
+  const std::vector<Rank> even{0, 0, 1, 1}, uneven{0, 0, 0, 1}, worst{0, 0, 0, 0};
+  EXPECT_EQ(rebalance(std::vector<double>{1, 1, 1, 1}, even, 2), even);
+  EXPECT_EQ(rebalance(std::vector<double>{1, 1, 1.04, 1.04}, even, 2), even);  // within five per cent
+  EXPECT_EQ(rebalance(std::vector<double>{5, 1, 1, 1}, uneven, 2), (std::vector<Rank>{0, 1, 1, 1}));
+  EXPECT_EQ(rebalance(std::vector<double>{9, 0, 0, 0}, worst, 2), worst);  // one task is no less anywhere
+  EXPECT_DOUBLE_EQ(heaviest(std::vector<double>{5, 1, 1, 1}, uneven, 2), 7);
+  EXPECT_TRUE(rebalance({}, {}, 3).empty());
+}
+
 TEST(ScheduleTest, TasksOfRanksPartitionAllTasksLargestFirst) {
   const std::vector<double> loads{4, 9, 4, 1, 7, 4, 2};
   const auto assignment = assign_largest_first(loads, 3);

@@ -203,10 +203,67 @@ TEST(StageClockTest, SummarisesOverRanks) {
     ASSERT_EQ(summary.cpu_seconds_of_ranks.size(), static_cast<std::size_t>(world.size()));
     EXPECT_DOUBLE_EQ(summary.cpu_seconds_of_ranks.back(), n);
     EXPECT_DOUBLE_EQ(summary.serial_seconds, 0.5 * (n - 1));
+    EXPECT_DOUBLE_EQ(summary.repeated_seconds, 0);
     EXPECT_EQ(summary.pieces, n * (n + 1) / 2);
     EXPECT_GE(summary.peak_resident_bytes_sum, summary.peak_resident_bytes_max);
     EXPECT_EQ(world.minimum(summary.wall_seconds), world.maximum(summary.wall_seconds));
   }
+}
+
+TEST(StageClockTest, SummarisesWhatWasToBeExchanged) {
+  const auto world = Communicator::world();
+  StageClock clock;
+  clock.begin("volume");
+  world.barrier();
+  Bytes bytes(world.is_root() ? 1000 : 0);
+  world.broadcast(bytes);
+  world.all_gather(Bytes(static_cast<std::size_t>(10 + world.rank())));
+  world.exchange({{world.rank(), Bytes(100)}});
+  clock.end();
+  const ExchangeCounts exchanges = clock.summarise(world)[0].exchanges;
+  const std::int64_t n = world.size();
+  EXPECT_EQ(exchanges.reduction, (Messages{1, 0}));
+  EXPECT_EQ(exchanges.broadcast, (Messages{2, 8 + 1000}));
+  EXPECT_EQ(exchanges.table, (Messages{1, 8}));
+  EXPECT_EQ(exchanges.all_gather, (Messages{1, 10 * n + n * (n - 1) / 2}));
+  EXPECT_EQ(exchanges.rendezvous, (Messages{1, 100 * n}));  // one call of each, the bytes of all
+  EXPECT_EQ(exchanges.neighbour, Messages{});
+}
+
+TEST(StageClockTest, TellsRepeatedWorkFromSerial) {
+  StageClock clock;
+  clock.begin("volume");
+  {
+    const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
+    work(0.02);
+  }
+  {
+    const ScopedCpu serial(clock, ScopedCpu::As::serial);
+    work(0.01);
+  }
+  clock.end();
+  const StageCost& cost = clock.costs()[0];
+  EXPECT_NEAR(cost.repeated_cpu_seconds, 0.02, 0.005);
+  EXPECT_NEAR(cost.serial_cpu_seconds, 0.03, 0.005);
+  EXPECT_DOUBLE_EQ(cost.task_cpu_seconds, cost.serial_cpu_seconds);
+}
+
+TEST(StageClockTest, NotesRoundsOfTasks) {
+  StageClock clock;
+  clock.begin_round();  // of no stage
+  clock.begin("surface");
+  clock.note_task({.kind = "curve"});
+  clock.begin_round();
+  clock.note_task({.kind = "face"});
+  clock.end();
+  clock.begin("volume");
+  clock.begin_round();
+  clock.note_task({.kind = "zone"});
+  clock.end();
+  ASSERT_EQ(clock.tasks().size(), 3u);
+  EXPECT_EQ(clock.tasks()[0].round, 0);
+  EXPECT_EQ(clock.tasks()[1].round, 1);
+  EXPECT_EQ(clock.tasks()[2].round, 1);
 }
 
 TEST(StageClockTest, RefusesDifferentStagesOnEveryRank) {

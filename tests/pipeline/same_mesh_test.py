@@ -14,10 +14,11 @@ def check_tasks(runs):
         with open(run.output / "tasks.csv", encoding="utf-8") as file:
             tables[ranks] = list(csv.DictReader(file))
         assert {int(row["rank"]) for row in tables[ranks]} == set(range(ranks))
-    tasks = {ranks: sorted((r["stage"], r["kind"], r["number"], r["predicted"]) for r in rows)
+    tasks = {ranks: sorted((r["stage"], r["kind"], r["number"], r["predicted"], r["round"], r["burden"]) for r in rows)
              for ranks, rows in tables.items()}
     assert tasks[1] == tasks[2] == tasks[3], "tasks depend on the number of ranks"
-    assert {kind for _, kind, _, _ in tasks[1]} == {"face", "surface piece", "zone", "improved piece", "cavity"}
+    assert {kind for _, kind, *_ in tasks[1]} == {"sampled face", "curve", "face", "divided face", "surface piece", "zone",
+                                                    "core piece", "improved piece", "cavity"}
     zones = [row for row in tables[1] if row["kind"] == "zone"]
     assert len(zones) >= runs[1].report["volume"]["zones"]
     assert all(int(row["bytes"]) > 0 and int(row["child_bytes"]) > 0 for row in zones), zones

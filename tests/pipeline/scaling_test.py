@@ -90,6 +90,65 @@ def check_refusals(shell):
     assert ended == 2 and "without a launcher" in error, error
 
 
+def busy_seconds(stage):
+    """CPU of the busiest rank; before there are clocks, the clock on the wall."""
+    busy = stage["cpu_seconds_max"] + stage["check_seconds"] + stage["other_seconds"]
+    return max(busy, stage["wall_seconds"]) if stage["name"] == "start" else busy
+
+
+def check_prediction(shell):
+    """The record of a run foretells that run; a network is measured and used; a study has both."""
+    for ranks, tolerance in ((1, 0.01), (2, 0.15)):
+        folder = shell.folder / "out" / "runs" / f"strong_{ranks}_1"
+        code, text, error = shell.run(f"scaling --predict {folder}")
+        assert code == 0 and "80 % efficiency" in text and "granularity" in text, text + error
+        told = json.loads((folder / "prediction.json").read_text())
+        rows = {row["ranks"]: row for row in told["rows"]}
+        assert set(rows) == {2**i for i in range(14)} | {10000} and told["recorded_ranks"] == ranks
+        report = json.loads((folder / "report.json").read_text())
+        for stage, predicted in zip(report["stages"], rows[ranks]["stages"], strict=True):
+            assert stage["name"] == predicted["name"]
+            busy = busy_seconds(stage)
+            assert abs(predicted["busy_cpu_seconds"] - busy) < tolerance * busy + 0.02 * ranks, (ranks, stage, predicted)
+        for row in told["rows"]:
+            lost = sum(row["losses"].values())
+            assert abs(row["seconds"] - rows[1]["seconds"] / row["ranks"] - lost) < 1e-6 * rows[1]["seconds"], row
+        assert rows[10000]["losses"]["communication"] > rows[2]["losses"]["communication"] > 0
+        assert report["scaling"]["ranks_at_80_percent"] == told["ranks_at_80_percent"] >= 1
+        assert report["scaling"]["bytes_per_rank"] == told["bytes_per_rank"] > 1e7
+    code, text, error = shell.run("scaling --measure-network network.json", ranks=2)
+    network = json.loads((shell.folder / "network.json").read_text())
+    assert code == 0 and 0 < network["latency_seconds"] < 0.1 and network["bytes_per_second"] > 1e6, text + error
+    record = "out/runs/strong_1_1"
+    code, text, error = shell.run(f"scaling --predict {record} --ranks 64,8 --network network.json")
+    told = json.loads((shell.folder / record / "prediction.json").read_text())
+    assert code == 0 and [row["ranks"] for row in told["rows"]] == [8, 64], text + error
+    assert told["latency_seconds"] == network["latency_seconds"]
+    with open(shell.folder / record / "prediction.csv", newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert {line["ranks"] for line in lines} == {"8", "64"} and lines[-1]["stage"] == "all"
+    assert [row["ranks"] for row in study(shell)["prediction"]["rows"]] == [1, 2, 4, 8]
+    page = (shell.folder / "out" / "scaling.html").read_text()
+    assert "Foretold" in page and ">predicted<" in page
+    code, text, error = shell.run("check case.yaml --set output.directory=checked")
+    told = json.loads((shell.folder / "checked" / "check.json").read_text())["forecast"]["scaling"]
+    assert code == 0 and "80 % efficiency" in text and told["ranks_at_80_percent"] >= 1, text + error
+    (shell.folder / "cut").mkdir()
+    for name in ("report.json", "tasks.csv"):
+        (shell.folder / "cut" / name).write_text((shell.folder / record / name).read_text()[:-20])
+    for line, code, words in (
+            ("scaling --predict nowhere", 7, "has no report.json"),
+            ("scaling --predict cut", 7, "is not JSON"),
+            (f"scaling --predict {record} --ranks 0", 2, "--ranks"),
+            (f"scaling --predict {record} --bandwidth 0", 2, "--bandwidth"),
+            (f"scaling --predict {record} --network case.yaml", 7, "--measure-network"),
+            (f"scaling --predict {record} --network network.json --latency 1e-6", 2, "--latency"),
+            (f"scaling --predict {record} --collect jobs", 2, "--predict"),
+            ("scaling --measure-network there.json", 2, "mpirun -n 2")):
+        ended, text, error = shell.run(line)
+        assert ended == code and words in error, (line, ended, text, error)
+
+
 def check_failures_are_shown(shell):
     code, text, error = shell.run("scaling case.yaml --ranks 1 --repeats 1 --no-serial --set output.directory=bad "
                                   "--set volume.inject=aborts")
@@ -120,7 +179,7 @@ def check_jobs(shell):
 def main():
     shell = Shell(sys.argv[1])
     (shell.folder / "case.yaml").write_text(CASE)
-    for check in (check_series, check_comparison, check_refusals, check_failures_are_shown, check_jobs):
+    for check in (check_series, check_comparison, check_prediction, check_refusals, check_failures_are_shown, check_jobs):
         check(shell)
         print(check.__name__, "good", flush=True)
 
