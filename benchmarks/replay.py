@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How well the replay of one rank's records foretells the busiest of several ranks, as a Markdown table.
+"""How well the replay of one run's records foretells the busiest of several ranks, as a Markdown table.
 
 usage: replay.py PROGRAM CASE [RANKS ...] [-- KEY=VALUE ...]
 
-Runs the case on one rank and on each number of ranks (default 2 4 8) three times, in turns, and predicts from the
-one-rank record with the median CPU time. Compared are CPU seconds of the busiest rank (tasks, checks, all else; start
+Runs the case on each number of ranks (default 1 2 4 8) three times, in turns, and predicts the others from the record on
+the first number, of its three that with the median CPU time. Compared are CPU seconds of the busiest rank (tasks, checks, all else; start
 left out), summed over stages, medians; and the tasks alone. "scaled" is the prediction times all ranks' measured
-CPU of tasks over that of one rank: what caches and doubled work make of it.
+CPU of tasks over that of the record's: what caches and doubled work make of it.
 """
 import json
 import pathlib
@@ -44,29 +44,29 @@ def main():
         settings = arguments[arguments.index("--") + 1:]
         arguments = arguments[:arguments.index("--")]
     program, case = arguments[:2]
-    many = [int(r) for r in arguments[2:]] or [2, 4, 8]
+    first, *many = [int(r) for r in arguments[2:]] or [1, 2, 4, 8]
     with tempfile.TemporaryDirectory() as name:
-        top, runs = pathlib.Path(name), {ranks: [] for ranks in [1, *many]}
+        top, runs = pathlib.Path(name), {ranks: [] for ranks in [first, *many]}
         for repeat in range(REPEATS):
             for ranks in runs:
                 runs[ranks].append(run(program, case, ranks, settings, top / f"{ranks}_{repeat}"))
         all_of = lambda stages: sum(busy(stage) for stage in stages.values())
-        order = sorted(range(REPEATS), key=lambda i: all_of(runs[1][i]))
-        record = top / f"1_{order[REPEATS // 2]}"
+        order = sorted(range(REPEATS), key=lambda i: all_of(runs[first][i]))
+        record = top / f"{first}_{order[REPEATS // 2]}"
         subprocess.run([program, "scaling", "--predict", record, "--ranks", ",".join(map(str, runs))], check=True,
                        capture_output=True)
         told = {row["ranks"]: {stage["name"]: stage["busy_cpu_seconds"] for stage in row["stages"]}
                 for row in json.loads((record / "prediction.json").read_text())["rows"]}
-    print("| ranks | stage | predicted | measured | ratio | CPU of all over one rank's | scaled |\n|---|---|---|---|---|---|---|")
+    print("| ranks | stage | predicted | measured | ratio | CPU of all over the record's | scaled |\n|---|---|---|---|---|---|---|")
     total = lambda stages, ranks, name: ranks * stages[name]["cpu_seconds_mean"]
     for ranks in many:
         rows = []
-        for stage in runs[1][0]:
-            grown = median_of(runs[ranks], lambda s: total(s, ranks, stage)) / max(1e-9, median_of(runs[1], lambda s: total(s, 1, stage)))
+        for stage in runs[first][0]:
+            grown = median_of(runs[ranks], lambda s: total(s, ranks, stage)) / max(1e-9, median_of(runs[first], lambda s: total(s, first, stage)))
             rows.append((stage, told[ranks][stage], median_of(runs[ranks], lambda s: busy(s[stage])), grown))
         rows.append(("all", sum(row[1] for row in rows), median_of(runs[ranks], all_of),
                      median_of(runs[ranks], lambda s: sum(total(s, ranks, n) for n in s)) /
-                     median_of(runs[1], lambda s: sum(total(s, 1, n) for n in s))))
+                     median_of(runs[first], lambda s: sum(total(s, first, n) for n in s))))
         for stage, predicted, measured, grown in rows:
             print(f"| {ranks} | {stage} | {predicted:.3f} | {measured:.3f} | {predicted / max(1e-9, measured):.2f} | {grown:.2f} "
                   f"| {predicted * grown / max(1e-9, measured):.2f} |")

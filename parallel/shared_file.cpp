@@ -2,6 +2,7 @@
 
 #include "parallel/collective_error.hpp"
 #include "parallel/host.hpp"
+#include "parallel/session.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,6 +39,13 @@ void require_success(int code, const char* what, const std::string& path) {
   throw fs::filesystem_error(fmt::format("{} ({})", what, text.data()), path, std::make_error_code(reason));
 }
 
+/// What ranks do together is time in messages, no work of theirs.
+template <class Call>
+int waiting_for_others(Call call) {
+  const session::MessageScope timed;
+  return call();
+}
+
 /// An empty place beside the file, and a folder for it. What is there stays until the new one is whole.
 void prepare(const std::string& path, const std::string& unfinished) {
   const fs::path folder = fs::path(path).parent_path();
@@ -63,7 +71,7 @@ void work_and_close(const Communicator& communicator, SharedFile::Handle& handle
   }
   // What a file system puts off, it may fail at later: closing through MPI would not tell.
   const int synchronized = named == Named::when_on_disk ? MPI_File_sync(handle.file) : MPI_SUCCESS;
-  const int closed = MPI_File_close(&handle.file);
+  const int closed = waiting_for_others([&] { return MPI_File_close(&handle.file); });
   agree(communicator, [&] {
     require_success(synchronized, "cannot write", handle.path);
     require_success(closed, "cannot close", handle.path);
@@ -94,8 +102,10 @@ void write_shared_file(const Communicator& communicator, const std::string& path
   agree(communicator, [&] {
     if (communicator.is_root()) prepare(path, handle.path);
   });
-  const int opened = MPI_File_open(host_communicator(communicator), handle.path.c_str(),
-                                   MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &handle.file);
+  const int opened = waiting_for_others([&] {
+    return MPI_File_open(host_communicator(communicator), handle.path.c_str(),
+                         MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &handle.file);
+  });
   try {
     // Closing is collective: where some ranks have not opened the file, the others cannot close it.
     agree(communicator, [&] { require_success(opened, "cannot create", handle.path); });

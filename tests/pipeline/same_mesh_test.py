@@ -17,8 +17,9 @@ def check_tasks(runs):
     tasks = {ranks: sorted((r["stage"], r["kind"], r["number"], r["predicted"], r["round"], r["burden"]) for r in rows)
              for ranks, rows in tables.items()}
     assert tasks[1] == tasks[2] == tasks[3], "tasks depend on the number of ranks"
-    assert {kind for _, kind, *_ in tasks[1]} == {"sampled face", "curve", "face", "divided face", "surface piece", "zone",
-                                                    "core piece", "improved piece", "cavity"}
+    kinds = {kind for _, kind, *_ in tasks[1]}
+    assert kinds == {"sampled face", "curve", "face", "surface piece", "zone", "core piece",
+                     "improved piece", "cavity"}, kinds
     zones = [row for row in tables[1] if row["kind"] == "zone"]
     assert len(zones) >= runs[1].report["volume"]["zones"]
     assert all(int(row["bytes"]) > 0 and int(row["child_bytes"]) > 0 for row in zones), zones
