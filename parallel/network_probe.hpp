@@ -11,13 +11,14 @@ namespace aeroloom::parallel {
 /// One length of messages.
 struct MessageTiming {
   std::int64_t bytes = 0;
-  double seconds = 0;  ///< one way: half of there and back, median over repeats, of the slowest pair of ranks
+  double seconds =
+      0;  ///< one way: half of there and back, the least of its repeats, of the slowest pair of ranks
 };
 
 /// Seconds for all lengths, the same on every rank.
 struct NetworkProbe {
   std::vector<MessageTiming> messages;  ///< by bytes
-  double reduction_seconds = 0;         ///< of one number over all ranks, median
+  double reduction_seconds = 0;         ///< of one number over all ranks, the least of its repeats
   /// Of the shortest message or, where that is longer, of one step of a reduction.
   double latency_seconds = 0;
   double bytes_per_second = 0;  ///< what the longest message takes beyond that

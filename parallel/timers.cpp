@@ -168,6 +168,7 @@ void StageClock::end() {
 void StageClock::note(const std::string& name, double wall_seconds) {
   begin(name);
   current().wall_seconds += wall_seconds;
+  current().other_cpu_seconds += cpu_seconds();
   end();
 }
 

@@ -83,7 +83,7 @@ public:
   /// std::logic_error when a stage is open.
   void begin(const std::string& name);
   void end();
-  /// Notes a stage that has ended before there was a clock. Throws std::logic_error when a stage is open.
+  /// Notes a stage before there was a clock, which has all CPU of the thread so far. Throws as begin.
   void note(const std::string& name, double wall_seconds);
   /// Adds to the open stage; ignored when none is open. CPU is that of others than the calling thread
   /// (ScopedCpu has its own).

@@ -354,11 +354,24 @@ private:
       const parallel::ScopedCpu task(_record.clock, parallel::ScopedCpu::As::task);
       write_outputs(_communicator, volume, numbering, &view, _input.output);
     }
+    if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files();
     if (_communicator.is_root()) {
       warn_of_units(_record, _input.output);
       if (const std::string coarse = coarse_region(_input.gate, _record); !coarse.empty())
         parallel::log_warning("quality gate: " + coarse);
     }
+  }
+
+  /// Puts files on record as tasks that cost equally much, what all ranks have spent on them together.
+  /// Collective.
+  void note_files() {
+    const double seconds = _communicator.sum(_record.clock.costs().back().task_cpu_seconds);
+    const std::int64_t files = (_record.counts.cells + io::cells_per_vtk_file - 1) / io::cells_per_vtk_file;
+    for (std::int64_t i = 0; _communicator.is_root() && i < files; ++i)
+      _record.clock.note_task({.kind = "file",
+                               .number = i,
+                               .predicted = static_cast<double>(io::cells_per_vtk_file),
+                               .cpu_seconds = seconds / static_cast<double>(files)});
   }
 
   const Communicator& _communicator;

@@ -138,8 +138,6 @@ StageCosts stage_costs(const Json& stage, int ranks, const std::vector<Row>& row
   costs.divisible += at("check_seconds") * ranks;
   // What is on no clock is taken as what every rank does.
   costs.repeated += at("other_seconds");
-  // What comes before there are clocks: starting the program and the message passing library.
-  if (costs.name == "start") costs.repeated = std::max(costs.repeated, at("wall_seconds"));
   costs.exchanges = exchanges_of(stage);
   costs.own_bytes = at("peak_own_bytes_max");
   return costs;

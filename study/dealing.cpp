@@ -25,7 +25,7 @@ struct Kind {
 };
 
 /// In the order in which they follow one another within a round.
-constexpr std::array<Kind, 10> kinds{{{"sampled face", Way::largest_first},
+constexpr std::array<Kind, 11> kinds{{{"sampled face", Way::largest_first},
                                       {"curve", Way::largest_first},
                                       {"face", Way::largest_first},
                                       {"divided face", Way::on_burdens},
@@ -34,7 +34,8 @@ constexpr std::array<Kind, 10> kinds{{{"sampled face", Way::largest_first},
                                       {"zone", Way::in_batches},
                                       {"core piece", Way::along_curve},
                                       {"improved piece", Way::rebalanced},
-                                      {"cavity", Way::largest_first}}};
+                                      {"cavity", Way::largest_first},
+                                      {"file", Way::largest_first}}};
 
 constexpr int zones_at_a_time = 4;  // as volume/zone_plan.cpp has it
 

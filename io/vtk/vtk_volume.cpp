@@ -26,10 +26,6 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Enough for a viewer to load parts side by side, little enough for the memory of one rank. Viewers see
-/// faces between parts as boundary: meshes of common size are one or two parts.
-constexpr mesh::GlobalIndex cells_per_part = 1'000'000;
-
 /// The cell arrays of a part.
 struct CellArrays {
   CellsOfShapes cells;
@@ -129,7 +125,7 @@ void write_volume(const parallel::Communicator& communicator, const FileMesh& me
                   const std::string& directory, const std::string& name, Compression compression) {
   const PartFiles files{directory, name, "pvtu", "vtu"};
   const std::size_t parts =
-      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_part, files,
+      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file, files,
                   [&](const std::vector<PartPiece>& pieces, const std::string& path) {
                     write_part(pieces, mesh, path, compression);
                   });

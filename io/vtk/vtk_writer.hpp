@@ -15,6 +15,10 @@ namespace aeroloom::io {
 /// Of the arrays in a file, in blocks.
 enum class Compression { none, lz4, zlib };
 
+/// Enough for a viewer to load parts side by side, little enough for the memory of one rank. Viewers see
+/// faces between parts as boundary: meshes of common size are one or two parts.
+inline constexpr mesh::GlobalIndex cells_per_vtk_file = 1'000'000;
+
 /// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/, each of consecutive parts of the mesh until
 /// they have a million cells. Cells by part, then shape, then region. Cell arrays `piece`, `region`,
 /// `mean_ratio` and `min_dihedral` (io/vtk/cell_quality.hpp); point array `global_id`. Field arrays

@@ -143,6 +143,8 @@ TEST(StageClockTest, NotesWhatWasBefore) {
   StageClock clock;
   clock.note("start", 2.5);
   EXPECT_NEAR(clock.costs()[0].wall_seconds, 2.5, 0.01);
+  EXPECT_GT(clock.costs()[0].other_cpu_seconds, 0);
+  EXPECT_LE(clock.costs()[0].other_cpu_seconds, cpu_seconds());
   // The age has the clock ticks of the system. On a busy machine a sleep is as long as it likes.
   const double age = process_age_seconds(), start = wall_seconds();
   EXPECT_GT(age, 0);

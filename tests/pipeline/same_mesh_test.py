@@ -19,7 +19,7 @@ def check_tasks(runs):
     assert tasks[1] == tasks[2] == tasks[3], "tasks depend on the number of ranks"
     kinds = {kind for _, kind, *_ in tasks[1]}
     assert kinds == {"sampled face", "curve", "face", "surface piece", "zone", "core piece",
-                     "improved piece", "cavity"}, kinds
+                     "improved piece", "cavity", "file"}, kinds
     zones = [row for row in tables[1] if row["kind"] == "zone"]
     assert len(zones) >= runs[1].report["volume"]["zones"]
     assert all(int(row["bytes"]) > 0 and int(row["child_bytes"]) > 0 for row in zones), zones

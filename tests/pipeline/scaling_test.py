@@ -91,9 +91,8 @@ def check_refusals(shell):
 
 
 def busy_seconds(stage):
-    """CPU of the busiest rank; before there are clocks, the clock on the wall."""
-    busy = stage["cpu_seconds_max"] + stage["check_seconds"] + stage["other_seconds"]
-    return max(busy, stage["wall_seconds"]) if stage["name"] == "start" else busy
+    """CPU of the busiest rank."""
+    return stage["cpu_seconds_max"] + stage["check_seconds"] + stage["other_seconds"]
 
 
 def check_prediction(shell):

@@ -77,12 +77,6 @@ TEST(Costs, GroupsFollowEachOtherAsTheyWait) {
   EXPECT_DOUBLE_EQ(costs.stages[0].groups[0].tasks[0].burden, 4);
 }
 
-TEST(Costs, StartIsTheClocks) {
-  Json report = a_report();
-  report["stages"][0]["name"] = "start";
-  EXPECT_DOUBLE_EQ(costs_of(report, head).stages[0].repeated, 9);
-}
-
 TEST(Costs, RefusesWhatTellsNothing) {
   Json failed = a_report(), resumed = a_report(), old = a_report();
   failed["status"] = "failed";
