@@ -19,7 +19,7 @@ struct ImproveReport {
   static constexpr auto fields() {
     return std::tuple(&ImproveReport::bad_before, &ImproveReport::bad_after, &ImproveReport::min_angle_before,
                       &ImproveReport::min_angle_after, &ImproveReport::smoothed, &ImproveReport::slid,
-                      &ImproveReport::swaps, &ImproveReport::changed_triangles);
+                      &ImproveReport::swaps, &ImproveReport::changed_triangles, &ImproveReport::is_lattice);
   }
   /// What another run has changed, on top.
   void add_changes(const ImproveReport& of) {
