@@ -141,13 +141,16 @@ private:
     const auto& [face, corners, parameters, deviation] = _walls.facets[wall];
     const Vec3 normal = _walls.normals[wall];
     if (!(norm(normal) > 0.5)) return;
+    const auto faces_it = [&](std::int32_t other) {
+      const FaceId beyond = _walls.facets[other].face;
+      return beyond != _face && std::abs(dot(normal, _walls.normals[other])) >= least_cosine &&
+             !_model.is_far_field(beyond);
+    };
     _near.clear();
-    _walls.rays.find_near(corners, _within_gap + 2 * deviation, _near, nodes);
+    _walls.rays.find_near(corners, _within_gap + 2 * deviation, faces_it, _near, nodes);
     for (const std::int32_t other : _near) {
       const Wall& beyond = _walls.facets[other];
-      if (beyond.face == _face || _model.is_far_field(beyond.face)) continue;
       const Vec3 other_normal = _walls.normals[other];
-      if (std::abs(dot(normal, other_normal)) < least_cosine) continue;
       const Overlap overlap = overlap_of(corners, normal, beyond.corners);
       if (!(overlap.area > least_overlap * std::min(area_of(corners), area_of(beyond.corners)))) continue;
       const double apart = std::abs(dot(overlap.middle - beyond.corners[0], other_normal));

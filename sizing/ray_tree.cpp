@@ -136,7 +136,8 @@ void RayTree::add_group(std::span<const Triangle> all, std::span<const std::int3
   group.tree = geometry::BoxTree(boxes, boxes_per_leaf);
 }
 
-void RayTree::find_near(const Triangle& triangle, double within, std::vector<std::int32_t>& found,
+void RayTree::find_near(const Triangle& triangle, double within,
+                        const std::function<bool(std::int32_t)>& counts, std::vector<std::int32_t>& found,
                         std::int64_t& nodes) const {
   found.clear();
   for (const Group& group : _groups) {
@@ -147,7 +148,10 @@ void RayTree::find_near(const Triangle& triangle, double within, std::vector<std
             ++nodes;
             return node.overlaps(around);
           },
-          [&](std::int32_t place) { found.push_back(group.triangles[group.tree.order()[place]]); });
+          [&](std::int32_t place) {
+            const std::int32_t near = group.triangles[group.tree.order()[place]];
+            if (counts(near)) found.push_back(near);
+          });
     });
   }
   std::sort(found.begin(), found.end());

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,10 +34,11 @@ public:
   std::array<Crossing, 2> nearest_crossings(geometry::Vec3 point, geometry::Vec3 direction, double reach,
                                             const Corners& corners, const Counts& counts,
                                             std::int64_t& nodes) const;
-  /// The triangles that may come as near as `within` to this one, itself included where it is one of them,
-  /// and some others; ascending. Adds the nodes that were visited to `nodes`.
-  void find_near(const Triangle& triangle, double within, std::vector<std::int32_t>& found,
-                 std::int64_t& nodes) const;
+  /// Of the triangles that `counts(triangle)`, which is asked more than once of some, those that may come as
+  /// near as `within` to this one, itself included where it is one of them, and some others; ascending. Adds
+  /// the nodes that were visited to `nodes`.
+  void find_near(const Triangle& triangle, double within, const std::function<bool(std::int32_t)>& counts,
+                 std::vector<std::int32_t>& found, std::int64_t& nodes) const;
 
 private:
   using Frame = std::array<geometry::Vec3, 3>;
