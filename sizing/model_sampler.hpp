@@ -128,10 +128,10 @@ public:
   /// the same on every rank.
   const std::vector<UnseenGaps>& unseen_gaps() const { return _unseen_gaps; }
 
-  /// Pairs of faces of the body, none between regions, that are nearer than 2e-5 of the body's extent, or with
-  /// a gap of up to 2e-4 that is meshed and would take ten million triangles, over more than a twentieth of the
-  /// smaller one's area; not where they run together towards a common edge. The largest areas first. By facets
-  /// and projections. For the model before any of its faces were joined. Collective.
+  /// Pairs of faces of the body, none between regions, that are nearer than 2e-5 of the body's extent, or
+  /// with a gap of up to 2e-4 that is meshed and would take ten million triangles, over more than a twentieth
+  /// of the smaller one's area; not where they run together towards a common edge. The largest areas first.
+  /// By facets and projections. For the model before any of its faces were joined. Collective.
   std::vector<CoincidentFaces> find_coincident_faces() const;
 
   const cad::Model& model() const { return _model; }

@@ -1,7 +1,7 @@
 #include "volume/core_pieces.hpp"
 
 #include "geometry/predicates.hpp"
-#include "mesh/delivery.hpp"
+#include "volume/core_parcels.hpp"
 #include "volume/core_ranges.hpp"
 
 #include <algorithm>
@@ -27,75 +27,6 @@ struct NumberedCell {
   std::uint8_t shared;  ///< points that other pieces may know, a bit each
 };
 
-/// A cell on its way to the piece it belongs to.
-struct Parcel {
-  std::int32_t target;  ///< a zone, or a range of the curve behind all of them
-  parallel::Rank rank;
-  RegionId region;
-  std::uint8_t shared;
-  std::array<std::int64_t, 4> points;
-
-  static constexpr auto fields() {
-    return std::tuple(&Parcel::target, &Parcel::rank, &Parcel::region, &Parcel::shared, &Parcel::points);
-  }
-};
-
-/// A point of a cell on its way.
-struct PointParcel {
-  parallel::Rank rank;
-  std::int64_t number;
-  Vec3 point;
-
-  static constexpr auto fields() {
-    return std::tuple(&PointParcel::rank, &PointParcel::number, &PointParcel::point);
-  }
-};
-
-/// Points of the lattice and what pieces call them.
-class Naming {
-public:
-  explicit Naming(const CoreSource& source) : _source(source) {}
-  const LatticeTree& tree() const { return _source.lattice.tree; }
-  Vec3 place(std::int64_t number) const {
-    const LeafNumber leaf = leaf_number_of_lattice(number);
-    if (tree().knows(leaf / 8))
-      return lattice_point(_source.lattice, tree().leaf_of(leaf), static_cast<int>(number % slots_per_leaf));
-    return std::lower_bound(_arrived.begin(), _arrived.end(), number,
-                            [](const PointParcel& p, std::int64_t wanted) { return p.number < wanted; })
-        ->point;
-  }
-  /// Cells of blocks that their rank may not know bring their points. Collective.
-  void send_points(const parallel::Communicator& communicator, std::span<const Parcel> cells) {
-    for (const Parcel& cell : cells) {
-      if (cell.rank == communicator.rank()) continue;
-      for (const std::int64_t number : cell.points) _arrived.push_back({cell.rank, number, {}});
-    }
-    const auto in_order = [](const PointParcel& a, const PointParcel& b) {
-      return std::tie(a.rank, a.number) < std::tie(b.rank, b.number);
-    };
-    std::sort(_arrived.begin(), _arrived.end(), in_order);
-    _arrived.erase(std::unique(_arrived.begin(), _arrived.end(),
-                               [](const PointParcel& a, const PointParcel& b) {
-                                 return a.rank == b.rank && a.number == b.number;
-                               }),
-                   _arrived.end());
-    for (PointParcel& parcel : _arrived) parcel.point = place(parcel.number);
-    _arrived = mesh::deliver(communicator, std::move(_arrived), [](const PointParcel& p) { return p.rank; });
-    std::sort(_arrived.begin(), _arrived.end(), in_order);
-  }
-  void add_vertex(std::int64_t number, RegionId region, Piece& piece) const {
-    const Vec3 p = place(number);
-    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-    piece.vertex_dimension.push_back(3);
-    piece.vertex_entity.push_back(region);
-  }
-  mesh::SharedToken token(std::int64_t number) const { return _source.finder.token_of(number); }
-
-private:
-  const CoreSource& _source;
-  std::vector<PointParcel> _arrived;
-};
-
 void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
   if (!geometry::has_positive_volume(piece.point(cell[0]), piece.point(cell[1]), piece.point(cell[2]),
                                      piece.point(cell[3])))
@@ -104,8 +35,8 @@ void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
 }
 
 /// A piece of the core from its cells; vertices by number.
-Piece make_piece(const Naming& naming, RegionId region, std::span<const NumberedCell> cells, BlockIndex first,
-                 BlockIndex last) {
+Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const NumberedCell> cells,
+                 BlockIndex first, BlockIndex last) {
   // Most numbers are those of the range: a place in a table each. The others are sorted.
   const std::int64_t low = lattice_number(naming.tree(), first, 0);
   const std::int64_t high = low + std::int64_t{last - first} * slots_per_block;
@@ -216,14 +147,14 @@ std::vector<std::uint8_t> find_open_vertices(std::vector<LocalTriangle> faces, L
 }
 
 /// Adds cells of the core to a zone's piece. What does not meet a face there is known elsewhere.
-void extend_piece(const Naming& naming, std::span<const Parcel> cells, CoreSide& side, Piece& piece) {
+void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, CoreSide& side, Piece& piece) {
   const auto find = [](const std::vector<std::int64_t>& numbers, std::int64_t n) {
     const auto at = std::lower_bound(numbers.begin(), numbers.end(), n);
     return at != numbers.end() && *at == n ? static_cast<LocalIndex>(at - numbers.begin()) : -1;
   };
   std::vector<std::int64_t> added;
   RecentNumbers met;
-  for (const Parcel& cell : cells) {
+  for (const CoreParcel& cell : cells) {
     for (const std::int64_t n : cell.points) {
       met(n, [&](std::int64_t number) {
         const LocalIndex known = find(side.lattice, number);
@@ -243,7 +174,7 @@ void extend_piece(const Naming& naming, std::span<const Parcel> cells, CoreSide&
   std::vector<LocalTriangle> faces = std::move(side.borders);
   faces.reserve(faces.size() + 4 * cells.size());
   RecentNumbers locals;
-  for (const Parcel& parcel : cells) {
+  for (const CoreParcel& parcel : cells) {
     std::array<LocalIndex, 4> cell;
     for (int k = 0; k < 4; ++k) cell[k] = locals(parcel.points[k], local_of);
     add_cell(cell, piece);
@@ -296,11 +227,11 @@ public:
         _cells(source.lattice.tree, source.core, source.squares) {}
 
   CoreMesh run() {
-    std::vector<Parcel> parcels = make_parcels(ranks_of_zones());
+    std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
     _naming.send_points(_communicator, parcels);
-    parcels = mesh::deliver(_communicator, std::move(parcels), [](const Parcel& p) { return p.rank; });
+    parcels = mesh::deliver(_communicator, std::move(parcels), [](const CoreParcel& p) { return p.rank; });
     const ScopedCpu task(_clock, ScopedCpu::As::task);
-    std::stable_sort(parcels.begin(), parcels.end(), [](const Parcel& a, const Parcel& b) {
+    std::stable_sort(parcels.begin(), parcels.end(), [](const CoreParcel& a, const CoreParcel& b) {
       return a.target != b.target ? a.target < b.target : a.region < b.region;
     });
     auto at = parcels.begin();
@@ -325,10 +256,10 @@ public:
   }
 
 private:
-  using Parcels = std::vector<Parcel>::iterator;
+  using Parcels = std::vector<CoreParcel>::iterator;
   static Parcels end_of_group(Parcels at, Parcels last) {
-    return std::find_if(at, last,
-                        [&](const Parcel& p) { return p.target != at->target || p.region != at->region; });
+    return std::find_if(
+        at, last, [&](const CoreParcel& p) { return p.target != at->target || p.region != at->region; });
   }
 
   std::vector<parallel::Rank> ranks_of_zones() const {
@@ -345,9 +276,9 @@ private:
   }
 
   /// Cells of zones, and of ranges that other ranks make into pieces.
-  std::vector<Parcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
+  std::vector<CoreParcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
     const ScopedCpu task(_clock, ScopedCpu::As::task);
-    std::vector<Parcel> parcels;
+    std::vector<CoreParcel> parcels;
     const GhostBlocks& ghosts = _source.core.ghosts();
     for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
       const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
@@ -392,7 +323,7 @@ private:
   }
 
   /// Of the ranges that are this rank's; what others have of them lies behind along the curve.
-  void make_pieces(std::span<const Parcel> arrived) {
+  void make_pieces(std::span<const CoreParcel> arrived) {
     const GhostBlocks& ghosts = _source.core.ghosts();
     std::size_t next = 0;
     for (std::size_t i = 0; i < ghosts.own_count();) {
@@ -430,7 +361,7 @@ private:
   const CoreSource& _source;
   std::map<ZoneIndex, ZoneResult>& _results;
   parallel::StageClock& _clock;
-  Naming _naming;
+  CoreNaming _naming;
   CoreRanges _ranges;
   CoreCells _cells;
   CoreMesh _mesh;

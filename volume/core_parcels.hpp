@@ -1,0 +1,86 @@
+/// Cells of the core on their way to the pieces they belong to, and what their points are called there.
+#pragma once
+
+#include "mesh/delivery.hpp"
+#include "volume/core_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A cell on its way to the piece it belongs to.
+struct CoreParcel {
+  std::int32_t target;  ///< a zone, or a range of the curve behind all of them
+  parallel::Rank rank;
+  mesh::RegionId region;
+  std::uint8_t shared;
+  std::array<std::int64_t, 4> points;
+
+  static constexpr auto fields() {
+    return std::tuple(&CoreParcel::target, &CoreParcel::rank, &CoreParcel::region, &CoreParcel::shared,
+                      &CoreParcel::points);
+  }
+};
+
+/// A point of a cell on its way.
+struct CorePoint {
+  parallel::Rank rank;
+  std::int64_t number;
+  geometry::Vec3 point;
+
+  static constexpr auto fields() {
+    return std::tuple(&CorePoint::rank, &CorePoint::number, &CorePoint::point);
+  }
+};
+
+/// Points of the lattice and what pieces call them.
+class CoreNaming {
+public:
+  explicit CoreNaming(const CoreSource& source) : _source(source) {}
+  const LatticeTree& tree() const { return _source.lattice.tree; }
+  geometry::Vec3 place(std::int64_t number) const {
+    const LeafNumber leaf = leaf_number_of_lattice(number);
+    if (tree().knows(leaf / 8))
+      return lattice_point(_source.lattice, tree().leaf_of(leaf), static_cast<int>(number % slots_per_leaf));
+    return std::lower_bound(_arrived.begin(), _arrived.end(), number,
+                            [](const CorePoint& p, std::int64_t wanted) { return p.number < wanted; })
+        ->point;
+  }
+  /// Cells of blocks that their rank may not know bring their points. Collective.
+  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells) {
+    for (const CoreParcel& cell : cells) {
+      if (cell.rank == communicator.rank()) continue;
+      for (const std::int64_t number : cell.points) _arrived.push_back({cell.rank, number, {}});
+    }
+    const auto in_order = [](const CorePoint& a, const CorePoint& b) {
+      return std::tie(a.rank, a.number) < std::tie(b.rank, b.number);
+    };
+    std::sort(_arrived.begin(), _arrived.end(), in_order);
+    _arrived.erase(std::unique(_arrived.begin(), _arrived.end(),
+                               [](const CorePoint& a, const CorePoint& b) {
+                                 return a.rank == b.rank && a.number == b.number;
+                               }),
+                   _arrived.end());
+    for (CorePoint& parcel : _arrived) parcel.point = place(parcel.number);
+    _arrived = mesh::deliver(communicator, std::move(_arrived), [](const CorePoint& p) { return p.rank; });
+    std::sort(_arrived.begin(), _arrived.end(), in_order);
+  }
+  void add_vertex(std::int64_t number, mesh::RegionId region, mesh::Piece& piece) const {
+    const geometry::Vec3 p = place(number);
+    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+    piece.vertex_dimension.push_back(3);
+    piece.vertex_entity.push_back(region);
+  }
+  mesh::SharedToken token(std::int64_t number) const { return _source.finder.token_of(number); }
+
+private:
+  const CoreSource& _source;
+  std::vector<CorePoint> _arrived;
+};
+
+}  // namespace aeroloom::volume
