@@ -17,7 +17,6 @@ namespace aeroloom::sizing {
 namespace {
 
 using cad::FaceId;
-using geometry::Box;
 using geometry::Vec2;
 using geometry::Vec3;
 using parallel::ScopedCpu;

@@ -32,7 +32,7 @@ void CoreCells::make_here() {
   for (int child = 0; child < 8; ++child) {
     if (!(core >> child & 1)) continue;
     for (int side = 0; side < 6; ++side)
-      make_side(child, _around.place_of(child), side / 2, side % 2 == 0 ? -1 : 1);
+      make_side({child, _around.place_of(child), side / 2, side % 2 == 0 ? -1 : 1});
   }
 }
 
@@ -50,74 +50,89 @@ const CoreCells::Point& CoreCells::point(const HalfPlace& at) {
   return _points[i];
 }
 
-/// What lies between a core leaf and the cube beside it, unless that is counted to what is there.
-void CoreCells::make_side(int child, const HalfPlace& leaf, int axis, int sign) {
-  using Size = LeafSurroundings::Size;
-  const int b = (axis + 1) % 3, d = (axis + 2) % 3;
-  HalfPlace beyond = leaf;
-  beyond[axis] += sign;
-  const LeafSurroundings::Cube& cube = _around.cube(beyond);
-  const Point center{center_of(_around.tree(), {_around.block(), child}), false};
-  const auto take_square = [&](int first_b, int first_d, int step) {
-    _pattern = 0;
-    for (int k = 0; k < 8; ++k) {
-      if (step == 1 && k % 2 == 1) continue;
-      HalfPlace at;
-      at[axis] = 2 * leaf[axis] + (sign > 0 ? 2 : 0);
-      at[b] = first_b + square_places[k][0] * step / 2;
-      at[d] = first_d + square_places[k][1] * step / 2;
-      if (k % 2 == 1 && !_around.has_point(at)) continue;
-      if (k % 2 == 1) _pattern |= 1U << k / 2;
-      _square[k] = point(at);
-    }
-  };
-  const auto cover = [&](const Leaf& other, bool counts_both) {
-    const bool is_core = _core.is_core(other);
-    if (is_core && !counts_both) return;
-    const Point across{is_core ? center_of(_around.tree(), other) : -1, false};
-    for (const auto& [p, q, r] : _squares.triangles(axis, _pattern)) {
-      const Point *x = &_square[p], *y = &_square[q], *z = &_square[r];
-      // Seen against the axis they turn counter-clockwise: the volume above is positive.
-      if (sign > 0) std::swap(y, z);
-      add_cell(child, {x, y, z, &center});
-      if (is_core)
-        add_cell(child, {x, z, y, &across});
-      else
-        _borders.push_back({{x->number, y->number, z->number}, static_cast<std::uint8_t>(child)});
-    }
-  };
-  if (cube.size == Size::finer) {
-    for (int part = 0; part < 4; ++part) {
-      std::array<int, 3> octant;
-      octant[axis] = sign > 0 ? 0 : 1;
-      octant[b] = part & 1;
-      octant[d] = part >> 1;
-      const Leaf other = _around.finer(beyond, octant[0] + 2 * octant[1] + 4 * octant[2]);
-      take_square(2 * leaf[b] + octant[b], 2 * leaf[d] + octant[d], 1);
-      cover(other, false);
-    }
-    return;
+/// The points of a square of the side, `step` halves of a leaf wide, from its low corner there.
+void CoreCells::take_square(const Side& side, int first, int second, int step) {
+  _pattern = 0;
+  for (int k = 0; k < 8; ++k) {
+    if (step == 1 && k % 2 == 1) continue;
+    HalfPlace at;
+    at[side.axis] = 2 * side.leaf[side.axis] + (side.sign > 0 ? 2 : 0);
+    at[side.first_axis()] = first + square_places[k][0] * step / 2;
+    at[side.second_axis()] = second + square_places[k][1] * step / 2;
+    if (k % 2 == 1 && !_around.has_point(at)) continue;
+    if (k % 2 == 1) _pattern |= 1U << k / 2;
+    _square[k] = point(at);
   }
-  if (cube.size == Size::same && sign < 0 && _core.is_core(cube.leaf)) return;
-  take_square(2 * leaf[b], 2 * leaf[d], 2);
-  const bool is_core = cube.size == Size::same && _core.is_core(cube.leaf);
-  const unsigned claims = cube.size == Size::same && !is_core ? _core.claims(cube.leaf) : 0;
-  if (!is_core && !(claims >> (2 * axis + (sign < 0)) & 1)) return cover(cube.leaf, true);
-  const Point across{center_of(_around.tree(), cube.leaf), !is_core && claims != CoreLeaves::all_sides};
-  const Point &below = sign > 0 ? center : across, &above = sign > 0 ? across : center;
+}
+
+/// The pyramid of the centre over the square, and that of the other leaf's, where it is core: both are cut
+/// alike.
+void CoreCells::cover_square(const Side& side, const Leaf& other, bool counts_both) {
+  const bool is_core = _core.is_core(other);
+  if (is_core && !counts_both) return;
+  const Point center{center_of(_around.tree(), {_around.block(), side.child}), false};
+  const Point across{is_core ? center_of(_around.tree(), other) : -1, false};
+  for (const auto& [p, q, r] : _squares.triangles(side.axis, _pattern)) {
+    const Point *x = &_square[p], *y = &_square[q], *z = &_square[r];
+    // Seen against the axis they turn counter-clockwise: the volume above is positive.
+    if (side.sign > 0) std::swap(y, z);
+    add_cell(side.child, {x, y, z, &center});
+    if (is_core)
+      add_cell(side.child, {x, z, y, &across});
+    else
+      _borders.push_back({{x->number, y->number, z->number}, static_cast<std::uint8_t>(side.child)});
+  }
+}
+
+/// Tetrahedra around the line to the centre of a leaf as large, for each part of an edge of the square.
+void CoreCells::surround_axis(const Side& side, const Leaf& other) {
+  const bool is_core = _core.is_core(other);
+  const unsigned claims = is_core ? 0 : _core.claims(other);
+  const Point center{center_of(_around.tree(), {_around.block(), side.child}), false};
+  const Point across{center_of(_around.tree(), other), !is_core && claims != CoreLeaves::all_sides};
+  const Point &below = side.sign > 0 ? center : across, &above = side.sign > 0 ? across : center;
   // Beyond each edge of the square lies another side of the leaf across it.
+  const int b = side.first_axis(), d = side.second_axis();
   const int beyond_edge[4] = {2 * d, 2 * b + 1, 2 * d + 1, 2 * b};
   const Point* last = &_square[0];
   for (int k = 1; k <= 8; ++k) {
     if (k % 2 == 1 && !(_pattern >> k / 2 & 1)) continue;
     const Point* next = &_square[k % 8];
-    add_cell(child, {&below, last, next, &above});
+    add_cell(side.child, {&below, last, next, &above});
     if (!is_core && !(claims >> beyond_edge[k / 2 - 1] & 1)) {
-      const Point *x = sign > 0 ? next : last, *y = sign > 0 ? last : next;
-      _borders.push_back({{x->number, y->number, across.number}, static_cast<std::uint8_t>(child)});
+      const Point *x = side.sign > 0 ? next : last, *y = side.sign > 0 ? last : next;
+      _borders.push_back({{x->number, y->number, across.number}, static_cast<std::uint8_t>(side.child)});
     }
     last = next;
   }
+}
+
+/// What lies between a core leaf and the cube beside it, unless that is counted to what is there.
+void CoreCells::make_side(const Side& side) {
+  using Size = LeafSurroundings::Size;
+  const int b = side.first_axis(), d = side.second_axis();
+  HalfPlace beyond = side.leaf;
+  beyond[side.axis] += side.sign;
+  const LeafSurroundings::Cube& cube = _around.cube(beyond);
+  if (cube.size == Size::finer) {
+    for (int part = 0; part < 4; ++part) {
+      std::array<int, 3> octant;
+      octant[side.axis] = side.sign > 0 ? 0 : 1;
+      octant[b] = part & 1;
+      octant[d] = part >> 1;
+      const Leaf other = _around.finer(beyond, octant[0] + 2 * octant[1] + 4 * octant[2]);
+      take_square(side, 2 * side.leaf[b] + octant[b], 2 * side.leaf[d] + octant[d], 1);
+      cover_square(side, other, false);
+    }
+    return;
+  }
+  const bool is_same = cube.size == Size::same;
+  const bool is_core = is_same && _core.is_core(cube.leaf);
+  if (is_core && side.sign < 0) return;
+  take_square(side, 2 * side.leaf[b], 2 * side.leaf[d], 2);
+  const unsigned claims = is_same && !is_core ? _core.claims(cube.leaf) : 0;
+  if (is_core || claims >> (2 * side.axis + (side.sign < 0)) & 1) return surround_axis(side, cube.leaf);
+  cover_square(side, cube.leaf, true);
 }
 
 void CoreCells::add_cell(int child, const std::array<const Point*, 4>& points) {

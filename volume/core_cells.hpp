@@ -54,7 +54,19 @@ private:
     bool of_shell;
   };
   const Point& point(const HalfPlace& at);
-  void make_side(int child, const HalfPlace& leaf, int axis, int sign);
+  /// A side of a core leaf; sign -1 the lower one along the axis, 1 the higher.
+  struct Side {
+    int child;
+    HalfPlace leaf;
+    int axis, sign;
+
+    int first_axis() const { return (axis + 1) % 3; }
+    int second_axis() const { return (axis + 2) % 3; }
+  };
+  void make_side(const Side& side);
+  void take_square(const Side& side, int first, int second, int step);
+  void cover_square(const Side& side, const Leaf& other, bool counts_both);
+  void surround_axis(const Side& side, const Leaf& other);
   void add_cell(int child, const std::array<const Point*, 4>& points);
 
   const CoreLeaves& _core;

@@ -13,7 +13,6 @@
 
 namespace aeroloom::volume {
 
-using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::Piece;
 using mesh::RegionId;
@@ -34,42 +33,73 @@ void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
   piece.cells.insert(piece.cells.end(), cell.begin(), cell.end());
 }
 
-/// A piece of the core from its cells; vertices by number.
-Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const NumberedCell> cells,
-                 BlockIndex first, BlockIndex last) {
-  // Most numbers are those of the range: a place in a table each. The others are sorted.
-  const std::int64_t low = lattice_number(naming.tree(), first, 0);
-  const std::int64_t high = low + std::int64_t{last - first} * slots_per_block;
-  constexpr LocalIndex unused = -1, used = 0;
-  std::vector<LocalIndex> local(static_cast<std::size_t>(high - low), unused);
-  std::vector<std::uint8_t> shared(local.size(), 0);
+/// The points of a piece by number, and what it calls them.
+class PieceNumbers {
+public:
+  /// Most numbers are from `low` to before `high`: a place in a table each. The others are sorted.
+  PieceNumbers(std::span<const NumberedCell> cells, std::int64_t low, std::int64_t high)
+      : _low(low),
+        _high(high),
+        _local(static_cast<std::size_t>(high - low), unused),
+        _shared(_local.size(), 0) {
+    for (const NumberedCell& cell : cells) {
+      for (int k = 0; k < 4; ++k) note(cell.points[k], cell.shared >> k & 1);
+    }
+    std::sort(_others.begin(), _others.end(), [](const Other& a, const Other& b) {
+      return a.number != b.number ? a.number < b.number : a.shared > b.shared;
+    });
+    _others.erase(std::unique(_others.begin(), _others.end(),
+                              [](const Other& a, const Other& b) { return a.number == b.number; }),
+                  _others.end());
+  }
+
+  /// Calls add(number, whether other pieces may know it) for each, ascending; it returns what the piece calls
+  /// the point.
+  template <class Add>
+  void name(const Add& add) {
+    std::size_t next = 0;
+    for (; next < _others.size() && _others[next].number < _low; ++next)
+      _others[next].local = add(_others[next].number, _others[next].shared);
+    for (std::size_t i = 0; i < _local.size(); ++i) {
+      if (_local[i] == used) _local[i] = add(_low + static_cast<std::int64_t>(i), _shared[i] != 0);
+    }
+    for (; next < _others.size(); ++next)
+      _others[next].local = add(_others[next].number, _others[next].shared);
+  }
+  LocalIndex operator()(std::int64_t number) const {
+    if (number >= _low && number < _high) return _local[number - _low];
+    return std::lower_bound(_others.begin(), _others.end(), number,
+                            [](const Other& other, std::int64_t wanted) { return other.number < wanted; })
+        ->local;
+  }
+
+private:
+  static constexpr LocalIndex unused = -1, used = 0;
   struct Other {
     std::int64_t number;
     bool shared;
     LocalIndex local;
   };
-  std::vector<Other> others;
-  for (const NumberedCell& cell : cells) {
-    for (int k = 0; k < 4; ++k) {
-      const std::int64_t n = cell.points[k];
-      const bool is_shared = cell.shared >> k & 1;
-      if (n >= low && n < high) {
-        local[n - low] = used;
-        shared[n - low] |= is_shared;
-      } else {
-        others.push_back({n, is_shared, unused});
-      }
-    }
+  void note(std::int64_t number, bool is_shared) {
+    if (number < _low || number >= _high) return _others.push_back({number, is_shared, unused});
+    _local[number - _low] = used;
+    _shared[number - _low] |= static_cast<std::uint8_t>(is_shared);
   }
-  std::sort(others.begin(), others.end(), [](const Other& a, const Other& b) {
-    return a.number != b.number ? a.number < b.number : a.shared > b.shared;
-  });
-  others.erase(std::unique(others.begin(), others.end(),
-                           [](const Other& a, const Other& b) { return a.number == b.number; }),
-               others.end());
+
+  std::int64_t _low, _high;
+  std::vector<LocalIndex> _local;
+  std::vector<std::uint8_t> _shared;
+  std::vector<Other> _others;
+};
+
+/// A piece of the core from its cells; vertices by number.
+Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const NumberedCell> cells,
+                 BlockIndex first, BlockIndex last) {
+  const std::int64_t low = lattice_number(naming.tree(), first, 0);
+  PieceNumbers numbers(cells, low, low + std::int64_t{last - first} * slots_per_block);
   Piece piece;
   piece.region = region;
-  const auto add = [&](std::int64_t number, bool is_shared) {
+  numbers.name([&](std::int64_t number, bool is_shared) {
     const LocalIndex v = piece.vertex_count();
     naming.add_vertex(number, region, piece);
     if (is_shared) {
@@ -77,24 +107,11 @@ Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const Numb
       piece.shared_tokens.push_back(naming.token(number));
     }
     return v;
-  };
-  std::size_t next = 0;
-  for (; next < others.size() && others[next].number < low; ++next)
-    others[next].local = add(others[next].number, others[next].shared);
-  for (std::size_t i = 0; i < local.size(); ++i) {
-    if (local[i] == used) local[i] = add(low + static_cast<std::int64_t>(i), shared[i] != 0);
-  }
-  for (; next < others.size(); ++next) others[next].local = add(others[next].number, others[next].shared);
-  const auto local_of = [&](std::int64_t n) {
-    if (n >= low && n < high) return local[n - low];
-    return std::lower_bound(others.begin(), others.end(), n,
-                            [](const Other& other, std::int64_t wanted) { return other.number < wanted; })
-        ->local;
-  };
+  });
   piece.cells.reserve(4 * cells.size());
   for (const NumberedCell& cell : cells) {
     std::array<LocalIndex, 4> corners;
-    for (int k = 0; k < 4; ++k) corners[k] = local_of(cell.points[k]);
+    for (int k = 0; k < 4; ++k) corners[k] = numbers(cell.points[k]);
     add_cell(corners, piece);
   }
   return piece;
