@@ -24,9 +24,9 @@ KEEP_TYPES = {"mesh.pvtu", "mesh.vtkhdf", "mesh.msh", "mesh.meshb"}
 
 
 def digests(folder):
-    """Of all that a run leaves but its reports."""
+    """Of all that a run leaves but what it says of itself."""
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(folder.rglob("*")) if path.is_file() and path.stem != "report"}
+            for path in sorted(folder.rglob("*")) if path.is_file() and path.stem not in ("report", "tasks")}
 
 
 def convert(program, source, target, ranks=1, *options):
