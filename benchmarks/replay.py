@@ -15,19 +15,14 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from volume_balance import run as report_of
+
 REPEATS = 3
 
 
 def run(program, case, ranks, settings, folder):
-    command = [str(ROOT / "scripts/mpirun_local.sh"), str(ranks), program, "run", case, "-q", "--set", f"output.directory={folder}",
-               "--set", "output.pictures=false"]
-    for setting in settings:
-        command += ["--set", setting]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{ranks} ranks ended with {done.returncode}:\n{done.stdout}{done.stderr}")
-    return {stage["name"]: stage for stage in json.loads((folder / "report.json").read_text())["stages"] if stage["name"] != "start"}
+    report = report_of(program, case, ranks, ["output.pictures=false", *settings], folder)
+    return {stage["name"]: stage for stage in report["stages"] if stage["name"] != "start"}
 
 
 def busy(stage):
