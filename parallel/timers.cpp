@@ -141,6 +141,7 @@ void StageClock::begin(const std::string& name) {
   _messages_at_start = message_counts();
   _exchanges_at_start = exchange_counts();
   _shared_at_start = shared_bytes();
+  _of_others_at_start = std::max<std::int64_t>(0, _shared_at_start - share_of_shared_bytes());
   stage_begins(name);
 }
 
@@ -200,8 +201,8 @@ void StageClock::note_child_memory(std::int64_t bytes) {
   StageCost& cost = current();
   const std::int64_t here = resident_bytes();
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, here + bytes);
-  const std::int64_t own = here - shared_bytes() + share_of_shared_bytes();
-  cost.peak_own_bytes = std::max(cost.peak_own_bytes, own + bytes);
+  // What others have of it is asked for once per stage: the system walks all pages for an answer.
+  cost.peak_own_bytes = std::max(cost.peak_own_bytes, here - _of_others_at_start + bytes);
 }
 
 std::vector<StageSummary> StageClock::summarise(const Communicator& communicator) const {

@@ -117,7 +117,8 @@ private:
   double _message_wall_start = 0, _message_cpu_start = 0;
   MessageCounts _messages_at_start;
   ExchangeCounts _exchanges_at_start;
-  std::int64_t _shared_at_start = 0;  // resident bytes that other processes may have in memory too
+  std::int64_t _shared_at_start = 0;     // resident bytes that other processes may have in memory too
+  std::int64_t _of_others_at_start = 0;  // of that, what other processes count as theirs
 };
 
 /// Adds the CPU time of a scope to the open stage, as task time, as serial work of one rank, as work that
