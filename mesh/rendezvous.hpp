@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -40,9 +41,8 @@ std::vector<Item> meet_by_key(const parallel::Communicator& communicator, std::v
     return meeting_rank(mix_key(0, std::invoke(key_of, item)), communicator.size());
   });
   std::sort(met.begin(), met.end(), [&](const Item& a, const Item& b) {
-    const auto& key = std::invoke(key_of, a);
-    const auto& other = std::invoke(key_of, b);
-    return key != other ? key < other : std::invoke(place_of, a) < std::invoke(place_of, b);
+    const auto order = std::invoke(key_of, a) <=> std::invoke(key_of, b);
+    return order != 0 ? order < 0 : std::invoke(place_of, a) < std::invoke(place_of, b);
   });
   return met;
 }
