@@ -83,12 +83,13 @@ private:
   std::vector<LocalIndex> _cells;
 };
 
-/// Calls visit(a, b), a < b, once for each edge of a tetrahedral piece, ascending.
+/// Calls visit(a, b), a < b, once for each edge of a tetrahedral piece, ascending; of those only whose first
+/// vertex is a multiple of `stride`.
 template <class Visit>
-void for_each_edge(const Piece& piece, const Visit& visit) {
+void for_each_edge(const Piece& piece, const Visit& visit, LocalIndex stride = 1) {
   const CellStars stars(piece, 3);
   std::vector<LocalIndex> seen_from(piece.vertex_count(), -1), ends;
-  for (LocalIndex a = 0; a < piece.vertex_count(); ++a) {
+  for (LocalIndex a = 0; a < piece.vertex_count(); a += stride) {
     ends.clear();
     stars.for_each(a, [&](LocalIndex, const AscendingCell& cell) {
       for (int k = 3; cell[k] != a; --k) {
