@@ -8,6 +8,12 @@
 #include <numbers>
 
 namespace aeroloom::surface {
+namespace {
+
+/// In a facet, by its area over the size at its middle squared.
+constexpr double many_elements = 2;
+
+}  // namespace
 
 double integrate_triangles(const Support& support, const sizing::SizeField& field) {
   double sum = 0;
@@ -21,10 +27,12 @@ double predict_triangles(const Support& support, const sizing::SizeField& field)
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
     const auto& [a, b, c] = support.triangles[t];
     const double area = norm(area_vector(support, static_cast<std::int32_t>(t)));
+    double density = 1 / std::pow(field((support.points[a] + support.points[b] + support.points[c]) / 3), 2);
     // Sizes vary inside a facet that spans many elements: the middles of its edges stand for it.
-    double density = 0;
-    for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-      density += 1 / std::pow(field(0.5 * (support.points[p] + support.points[q])), 2) / 3;
+    if (area * density > many_elements) {
+      density = 0;
+      for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
+        density += 1 / std::pow(field(0.5 * (support.points[p] + support.points[q])), 2) / 3;
     }
     vertices += 2 / std::numbers::sqrt3 * area * density;
   }
