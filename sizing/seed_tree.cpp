@@ -3,6 +3,7 @@
 #include "geometry/sort_by_key.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,6 +19,22 @@ float round_down(double value) {
   return rounded > value ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
 }
 
+/// Calls visit(first, last) for parts of four to eight neighbours along the curve, cut where it leaves the
+/// largest cubes: boxes of parts on both sides of one would be far larger.
+template <class Visit>
+void part_by_boundaries(const std::vector<std::uint64_t>& keys, const Visit& visit) {
+  constexpr std::size_t most = 8, least = 4;
+  const auto boundary = [&](std::size_t i) { return std::bit_width(keys[i] ^ keys[i - 1]); };
+  for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
+    last = std::min(first + most, keys.size());
+    if (last < keys.size()) {
+      for (std::size_t cut = last; cut-- > first + least;)
+        if (boundary(cut) > boundary(last)) last = cut;
+    }
+    visit(first, last);
+  }
+}
+
 }  // namespace
 
 SeedTree::SeedTree(std::vector<SizeSeed> seeds, double slope) : _slope(slope), _steps_per_size(1 / slope) {
@@ -26,40 +43,50 @@ SeedTree::SeedTree(std::vector<SizeSeed> seeds, double slope) : _slope(slope), _
   order.reserve(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) order.emplace_back(morton_key(seeds[i].low), i);
   geometry::sort_by_key(order, [](const auto& each) { return each.first; });
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  Group empty;
-  empty.size.fill(infinity);
-  for (int axis = 0; axis < 3; ++axis) empty.low[axis].fill(infinity), empty.high[axis].fill(-infinity);
-  const auto groups_for = [&](std::size_t count) {
-    return std::vector<Group>((count + group - 1) / group, empty);
-  };
-  std::vector<Group>& lowest = _levels.emplace_back(groups_for(seeds.size()));
-  _sizes.reserve(seeds.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const SizeSeed& s = seeds[order[i].second];
-    const std::array<std::uint32_t, 3> low{s.low.x, s.low.y, s.low.z};
-    Group& to = lowest[i / group];
-    for (int axis = 0; axis < 3; ++axis) {
-      to.low[axis][i % group] = static_cast<float>(low[axis]);
-      to.high[axis][i % group] = static_cast<float>(low[axis] + s.edge);
-    }
-    to.size[i % group] = round_down(s.size);
-    _sizes.push_back(s.size);
-  }
+  std::vector<std::uint64_t> keys;
+  keys.reserve(order.size()), _sizes.reserve(order.size());
+  for (const auto& [key, seed] : order) keys.push_back(key), _sizes.push_back(seeds[seed].size);
+  std::vector<Group>& lowest = _levels.emplace_back();
+  std::vector<std::uint64_t> first_keys;
+  part_by_boundaries(keys, [&](std::size_t first, std::size_t last) {
+    Group& to = lowest.emplace_back(first);
+    for (std::size_t i = first; i < last; ++i) to.put(i - first, seeds[order[i].second]);
+    first_keys.push_back(keys[first]);
+  });
   while (_levels.back().size() > 1) {
     const std::vector<Group>& below = _levels.back();
-    std::vector<Group> above = groups_for(below.size());
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      Group& to = above[i / group];
-      const Group& from = below[i];
-      for (int axis = 0; axis < 3; ++axis) {
-        to.low[axis][i % group] = *std::min_element(from.low[axis].begin(), from.low[axis].end());
-        to.high[axis][i % group] = *std::max_element(from.high[axis].begin(), from.high[axis].end());
-      }
-      to.size[i % group] = *std::min_element(from.size.begin(), from.size.end());
-    }
+    std::vector<Group> above;
+    keys = std::exchange(first_keys, {});
+    part_by_boundaries(keys, [&](std::size_t first, std::size_t last) {
+      Group& to = above.emplace_back(first);
+      for (std::size_t i = first; i < last; ++i) to.put(i - first, below[i]);
+      first_keys.push_back(keys[first]);
+    });
     _levels.push_back(std::move(above));
   }
+}
+
+SeedTree::Group::Group(std::size_t number) : first(static_cast<std::uint32_t>(number)) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  size.fill(infinity);
+  for (int axis = 0; axis < 3; ++axis) low[axis].fill(infinity), high[axis].fill(-infinity);
+}
+
+void SeedTree::Group::put(std::size_t i, const SizeSeed& seed) {
+  const std::array<std::uint32_t, 3> from{seed.low.x, seed.low.y, seed.low.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis][i] = static_cast<float>(from[axis]);
+    high[axis][i] = static_cast<float>(from[axis] + seed.edge);
+  }
+  size[i] = round_down(seed.size);
+}
+
+void SeedTree::Group::put(std::size_t i, const Group& below) {
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis][i] = *std::min_element(below.low[axis].begin(), below.low[axis].end());
+    high[axis][i] = *std::max_element(below.high[axis].begin(), below.high[axis].end());
+  }
+  size[i] = *std::min_element(below.size.begin(), below.size.end());
 }
 
 double SeedTree::offer(std::size_t seed, const Point& p) const {
@@ -69,7 +96,7 @@ double SeedTree::offer(std::size_t seed, const Point& p) const {
     return std::max({0.0, in.low[axis][i] - at, at - in.high[axis][i]});
   };
   const double dx = outside(0, p.x), dy = outside(1, p.y), dz = outside(2, p.z);
-  return _sizes[seed] + _slope * std::sqrt(dx * dx + dy * dy + dz * dz);
+  return _sizes[in.first + i] + _slope * std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
 template <bool any>
@@ -77,25 +104,38 @@ bool SeedTree::search(std::size_t level, std::size_t number, const Point& p, Bes
   // More than single precision can be wrong by.
   constexpr float rounding = 1 + 1e-5F;
   const Group& from = _levels[level][number];
-  std::array<float, group> squares;
+  std::array<float, group> squares, margins;
   for (int i = 0; i < group; ++i) {
     const float dx = std::max(std::max(0.0F, from.low[0][i] - p.x), p.x - from.high[0][i]);
     const float dy = std::max(std::max(0.0F, from.low[1][i] - p.y), p.y - from.high[1][i]);
     const float dz = std::max(std::max(0.0F, from.low[2][i] - p.z), p.z - from.high[2][i]);
     squares[i] = dx * dx + dy * dy + dz * dz;
   }
-  for (int i = 0; i < group; ++i) {
-    const auto within = static_cast<float>((best.size - from.size[i]) * _steps_per_size) * rounding;
-    if (!(within > 0 && squares[i] < within * within)) continue;
-    const std::size_t below = number * group + static_cast<std::size_t>(i);
+  const auto steps_per_size = static_cast<float>(_steps_per_size);
+  auto limit = static_cast<float>(best.size) * rounding;
+  const auto reach = [&](int i) {
+    return std::max(0.0F, (limit - from.size[i]) * steps_per_size * rounding);
+  };
+  for (int i = 0; i < group; ++i) margins[i] = reach(i) * reach(i) - squares[i];
+  const auto visit = [&](int i) {
     if (level > 0) {
-      if (search<any>(level - 1, below, p, best)) return true;
-      continue;
+      const bool found = search<any>(level - 1, from.first + static_cast<std::size_t>(i), p, best);
+      limit = static_cast<float>(best.size) * rounding;
+      return found;
     }
-    const double size = offer(below, p);
-    if (size >= best.size) continue;
-    best = {size, static_cast<std::int32_t>(below)};
-    if (any) return true;
+    const std::size_t seed = number * group + static_cast<std::size_t>(i);
+    const double size = offer(seed, p);
+    if (size >= best.size) return false;
+    best = {size, static_cast<std::int32_t>(seed)};
+    limit = static_cast<float>(size) * rounding;
+    return any;
+  };
+  // The most promising one first: most others are not looked at then.
+  const int first = static_cast<int>(std::max_element(margins.begin(), margins.end()) - margins.begin());
+  if (!(margins[first] > 0)) return false;
+  if (visit(first)) return true;
+  for (int i = 0; i < group; ++i) {
+    if (i != first && margins[i] > 0 && squares[i] < reach(i) * reach(i) && visit(i)) return true;
   }
   return false;
 }

@@ -17,9 +17,9 @@ struct SizeSeed {
 };
 
 /// The lower envelope of cones over seeds: at a point, the least of size + slope * distance over all seeds.
-/// Seeds are grouped by eights along the Morton curve, those groups by eights, and so on; a group is passed
-/// by where even its smallest size at its nearest point would be too much. The answer is the exact minimum,
-/// to the last bit, whatever order the search takes.
+/// Up to eight neighbours along the Morton curve are a group, up to eight of those, and so on; a group is
+/// passed by where even its smallest size at its nearest point would be too much. The answer is the exact
+/// minimum, to the last bit, whatever order the search takes.
 class SeedTree {
 public:
   SeedTree() = default;
@@ -34,11 +34,16 @@ public:
 
 private:
   static constexpr int group = 8;
-  /// The boxes of eight neighbours on the level below and the smallest size in each, rounded down;
+  /// The boxes of up to eight neighbours on the level below and the smallest size in each, rounded down;
   /// coordinates of the grid are exact in single precision.
   struct Group {
     std::array<std::array<float, group>, 3> low, high;  ///< by axis
     std::array<float, group> size;                      ///< infinite where there is no neighbour
+    std::uint32_t first;                                ///< number of the first of them
+
+    explicit Group(std::size_t number);
+    void put(std::size_t i, const SizeSeed& seed);
+    void put(std::size_t i, const Group& below);
   };
   struct Best {
     double size;
@@ -56,7 +61,7 @@ private:
   template <bool any>
   bool search(std::size_t level, std::size_t number, const Point& p, Best& best) const;
 
-  /// The seeds along the Morton curve in groups of eight; groups of eight of those, and so on up to one.
+  /// The seeds along the Morton curve in groups; groups of those, and so on up to one.
   std::vector<std::vector<Group>> _levels;
   std::vector<double> _sizes;  // of the seeds
   double _slope = 0, _steps_per_size = 0;
