@@ -49,7 +49,8 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   Forecast forecast;
   const double begin = parallel::cpu_seconds();
   clock.begin("sizing");
-  const SizedDomain sized = size_domain(communicator, model, input.sizing, Simplification::of(input), clock);
+  const SizedDomain sized = size_domain(communicator, model, input.sizing, Simplification::of(input), clock,
+                                        sizing::FieldFor::forecast);
   parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined.changes;

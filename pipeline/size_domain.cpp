@@ -88,12 +88,12 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
 }
 
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
-void tell_missed_target(const sizing::ModelSampler& sampler, const parallel::Communicator& communicator,
-                        const sizing::ChosenSizes& chosen, const SizingRequest& request, double target) {
+void tell_missed_target(const sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
+                        const SizingRequest& request, double target) {
   const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
   if (ratio < missed_target && ratio > 1 / missed_target) return;
   const std::string costs = describe_costs(sizing::costs_of_given(sampler, chosen, request));
-  if (!communicator.is_root()) return;
+  if (!sampler.communicator().is_root()) return;
   const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
                                    "larger sizes make it fewer"
                                  : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
@@ -127,24 +127,23 @@ Trial try_sizes(const sizing::ModelSampler& sampler, const SizingRequest& reques
 }
 
 /// The sized domain of the sampler's model, which stays as it is.
-SizedDomain finish(const parallel::Communicator& communicator, const sizing::ModelSampler& sampler,
-                   const SizingRequest& request, const Trial& trial, JoinedFaces joined) {
+SizedDomain finish(const sizing::ModelSampler& sampler, const SizingRequest& request, const Trial& trial,
+                   JoinedFaces joined, sizing::FieldFor purpose) {
   if (!trial.prospect) {
-    sizing::SizeField field = sampler.build_field(trial.sizes);
-    const sizing::PredictedCounts counts = sampler.predict(field);
+    sizing::ChosenSizes applied = sizing::apply_sizes(sampler, trial.sizes, purpose);
     return {sampler.model(),
             trial.sizes,
-            std::move(field),
+            std::move(applied.field),
             std::move(joined),
-            counts,
+            applied.counts,
             {},
             report_bounded_faces(sampler, trial.sizes),
             {},
             {}};
   }
   const double target = *target_of(request);
-  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request);
-  tell_missed_target(sampler, communicator, chosen, request, target);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request, purpose);
+  tell_missed_target(sampler, chosen, request, target);
   std::optional<FeatureReport> features;
   if (!request.holds_features())
     features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
@@ -160,10 +159,17 @@ SizedDomain finish(const parallel::Communicator& communicator, const sizing::Mod
           {}};
 }
 
-/// `near`: sizes for a model that is almost the same, where they are known and the target is to be met.
+/// What sizes are chosen for, and from where.
+struct Aim {
+  sizing::FieldFor purpose;
+  /// Sizes for a model that is almost the same, where they are known and the target is to be met.
+  std::optional<sizing::SizingOptions> near;
+};
+
 SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
                              const SizingRequest& request, const Simplification& simplification,
-                             parallel::StageClock& clock, std::optional<sizing::SizingOptions> near) {
+                             parallel::StageClock& clock, Aim aim) {
+  std::optional<sizing::SizingOptions>& near = aim.near;
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
@@ -190,8 +196,8 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   if (closed && trial.prospect) near = trial.prospect->options;
   SizedDomain sized =
       closed ? size_domain_near(communicator, *closed, request,
-                                {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, near)
-             : finish(communicator, sampled, request, trial, std::move(what));
+                                {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, aim)
+             : finish(sampled, request, trial, std::move(what), aim.purpose);
   if (!closed) sized.walls = report_walls(model, coincident, sampled, sized.field);
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
@@ -207,8 +213,8 @@ void require_walls_apart(const SizedDomain& sized) {
 
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, const Simplification& simplification,
-                        parallel::StageClock& clock) {
-  return size_domain_near(communicator, model, request, simplification, clock, {});
+                        parallel::StageClock& clock, sizing::FieldFor purpose) {
+  return size_domain_near(communicator, model, request, simplification, clock, {purpose, {}});
 }
 
 }  // namespace aeroloom::pipeline

@@ -10,6 +10,7 @@
 #include "pipeline/trailing_edges.hpp"
 #include "pipeline/unresolved_features.hpp"
 #include "pipeline/wall_findings.hpp"
+#include "sizing/choose_sizes.hpp"
 #include "sizing/size_field.hpp"
 
 #include <optional>
@@ -53,9 +54,10 @@ struct SizedDomain {
 /// narrow faces, as the simplification allows, and builds the field. What the user did not
 /// ask for is chosen from the model; bounds that the user gave bind the choice. The same on every rank.
 /// Collective. Throws std::invalid_argument where what was asked for contradicts what was chosen.
+/// Field and counts may be rough where the purpose is a forecast.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const SizingRequest& request, const Simplification& simplification,
-                        parallel::StageClock& clock);
+                        parallel::StageClock& clock, sizing::FieldFor purpose = sizing::FieldFor::mesh);
 
 /// Ends a run whose faces lie on one another: CollectiveError (input), with the faces. The same on every
 /// rank.

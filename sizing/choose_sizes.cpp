@@ -42,6 +42,10 @@ constexpr double leaves_per_tetrahedron = 0.5;
 /// Nor is anything sampled for it where faces would be cut into as many parts for each of these leaves.
 constexpr double parts_per_leaf = 8;
 constexpr std::int64_t least_limit = 100'000;
+/// Of faces, for which a field is built without asking first how large it would be.
+constexpr double most_parts_unasked = 1e6;
+/// Of coarse fields that tell what each bound does: some hundred million elements.
+constexpr std::int64_t most_coarse_leaves = 1'000'000;
 
 std::int64_t leaves_for(double tetrahedra) {
   return std::max<std::int64_t>(least_limit,
@@ -129,11 +133,15 @@ public:
   const SizingOptions& options() const { return _options; }
   double body_size() const { return _body_size; }
   /// As options(), with the field: of a search by fields that are as fine as asked for.
-  ChosenSizes best() {
-    if (_best) return {_options, std::move(_best->field), _best->counts, _features, _body_size};
-    SizeField field = _sampler.build_field(_options);
-    const PredictedCounts counts = _sampler.predict(field);
-    return {_options, std::move(field), counts, _features, _body_size};
+  ChosenSizes best(FieldFor purpose) {
+    if (_best) {
+      const PredictedCounts counts{_sampler.count_triangles(_best->field), _best->tetrahedra};
+      return {_options, std::move(_best->field), counts, _features, _body_size};
+    }
+    ChosenSizes chosen = apply_sizes(_sampler, _options, purpose);
+    chosen.features = _features;
+    chosen.body_size = _body_size;
+    return chosen;
   }
 
 private:
@@ -144,9 +152,10 @@ private:
     set_features(options, _features);
     std::optional<Trial> trial;
     std::optional<double> tetrahedra;
-    if (!_sampler.has_more_parts(options, parts_per_leaf * static_cast<double>(_most_leaves))) {
+    const double most_parts = parts_per_leaf * static_cast<double>(_most_leaves) * _coarser * _coarser;
+    if (!_sampler.has_more_parts(options, most_parts)) {
       if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
-      if (trial) tetrahedra = trial->counts.tetrahedra;
+      if (trial) tetrahedra = trial->tetrahedra;
       if (_coarser > 1) tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);
     }
     if (!tetrahedra) {
@@ -240,13 +249,26 @@ Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, d
   return prospect;
 }
 
+ChosenSizes apply_sizes(const ModelSampler& sampler, const SizingOptions& options, FieldFor purpose) {
+  if (sampler.has_more_parts(options, most_parts_unasked)) {
+    RoughField rough = sampler.build_rough_field(options);
+    const bool is_large = rough.counts.tetrahedra > least_rough;
+    if (is_large && purpose == FieldFor::forecast)
+      return {options, std::move(rough.field), rough.counts, {}, 0};
+    if (is_large) parallel::log_info(fmt::format("sizing: some {:.2g} tetrahedra", rough.counts.tetrahedra));
+  }
+  SizeField field = sampler.build_field(options);
+  const PredictedCounts counts = sampler.predict(field);
+  return {options, std::move(field), counts, {}, 0};
+}
+
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
-                         const GivenSizes& given) {
+                         const GivenSizes& given, FieldFor purpose) {
   Search search(sampler, target_tetrahedra, 1, prospect.features, given);
   search.run(prospect.body_size,
              prospect.features.share > little_share ? near_enough_with_features : near_enough,
              prospect.is_out_of_reach ? rounds_out_of_reach : most_rounds);
-  return search.best();
+  return search.best(purpose);
 }
 
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
@@ -271,7 +293,10 @@ std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenS
   const Preset preset = Preset::of(sampler.model());
   const double coarser = coarsening(chosen.counts.tetrahedra);
   const auto count = [&](const GivenSizes& these) {
-    const auto most = leaves_for(std::max(chosen.counts.tetrahedra, 1e7));
+    const auto most = std::min(leaves_for(std::max(chosen.counts.tetrahedra, 1e7)), most_coarse_leaves);
+    const double most_parts = parts_per_leaf * static_cast<double>(most) * coarser * coarser;
+    if (sampler.has_more_parts(sizes_for(chosen.body_size, preset, these), most_parts))
+      return std::optional<double>();
     return sampler.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarser, most);
   };
   const std::optional<double> all = count(given);

@@ -71,9 +71,18 @@ ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
 Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given);
 
+/// What a field is for: to make a mesh, or to tell what mesh that would be. For that alone it is a rough one
+/// (ModelSampler::build_rough_field) where there would be more elements than this.
+enum class FieldFor : bool { mesh, forecast };
+inline constexpr double least_rough = 3e7;
+
 /// The second half. Collective.
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
-                         const GivenSizes& given);
+                         const GivenSizes& given, FieldFor purpose = FieldFor::mesh);
+
+/// The field of given sizes and what it predicts. Where it is for a mesh of so many elements that it takes
+/// long, the log says first how many. Collective.
+ChosenSizes apply_sizes(const ModelSampler& sampler, const SizingOptions& options, FieldFor purpose);
 
 /// Where the minimum is given and does not bind them.
 inline constexpr const char* of_features = "features";

@@ -19,6 +19,8 @@ constexpr double triangle_over_square = 0.433;
 /// need samples along their longest edge alone, so far from each other at most; halves of slender triangles
 /// would be thrice as many for each time that they are half as long.
 constexpr double slender = 0.25, same_size = 0.8, spacing_along = 0.5 * spacing;
+/// Points, some three megabytes with what belongs to them.
+constexpr std::size_t most_remembered = 30'000;
 /// What is over a limit by less is on it.
 constexpr double within_rounding = 1.01;
 
@@ -26,9 +28,9 @@ constexpr double within_rounding = 1.01;
 
 std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceId face,
                                              const cad::Facets& facets, bool far_field,
-                                             const SizingOptions& options) {
-  Demand demand{model, face, options, curvature_limits(far_field, options), largest_size(far_field, options),
-                {},    {}};
+                                             const SizingOptions& options, double coarser) {
+  Demand demand{model,  face, options, curvature_limits(far_field, options), largest_size(far_field, options),
+                coarser};
   if (_planar && demand.largest >= options.maximum) return {};
   if (_points.empty()) start(demand, facets);
   demand.sizes.resize(_points.size(), -1);
@@ -37,14 +39,14 @@ std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceI
     const auto& [a, b, c] = facets.triangles[t];
     cover(static_cast<std::int32_t>(t), {a, b, c}, 0, demand);
   }
+  if (_points.size() > most_remembered) *this = FaceSamples(_planar);
   return std::move(demand.sources);
 }
 
 FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId face,
                                             const cad::Facets& facets, bool far_field,
                                             const SizingOptions& options) {
-  Demand demand{model, face, options, curvature_limits(far_field, options), largest_size(far_field, options),
-                {},    {}};
+  Demand demand{model, face, options, curvature_limits(far_field, options), largest_size(far_field, options)};
   if (_points.empty()) start(demand, facets);
   Overview seen;
   for (const auto& corners : facets.triangles) {
@@ -131,12 +133,12 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
     if (edge > length) length = edge, longest = i;
     size = std::min(size, demand.sizes[corners[i]]);
   }
-  if (length <= spacing * size || depth >= deepest_bisection) return;
+  if (length <= spacing * demand.coarser * size || depth >= deepest_bisection) return;
   const std::int32_t a = corners[longest], b = corners[(longest + 1) % 3], c = corners[(longest + 2) % 3];
   const Vec3 p = _points[a].point;
   const double height = norm(cross(_points[b].point - p, _points[c].point - p)) / length;
   const double largest = std::max({demand.sizes[a], demand.sizes[b], demand.sizes[c]});
-  if (height <= slender * spacing * size && size >= same_size * largest) {
+  if (height <= slender * spacing * demand.coarser * size && size >= same_size * largest) {
     cover_edge(a, b, depth, demand);
     return;
   }
@@ -154,7 +156,7 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
 void FaceSamples::cover_edge(std::int32_t a, std::int32_t b, int depth, Demand& demand) {
   const double length = distance(_points[a].point, _points[b].point);
   const double size = std::min(demand.sizes[a], demand.sizes[b]);
-  if (length <= spacing_along * size || depth >= deepest_bisection) return;
+  if (length <= spacing_along * demand.coarser * size || depth >= deepest_bisection) return;
   const std::int32_t middle = middle_of(demand, a, b, length);
   ask(middle, demand);
   cover_edge(a, middle, depth + 1, demand);

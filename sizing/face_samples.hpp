@@ -14,16 +14,17 @@ namespace aeroloom::sizing {
 
 /// Points of a face with the curvature there, found by bisecting the longest edges of its facets as finely as
 /// sizes have asked for so far, of slender parts that edge alone: what was evaluated once serves all sizes
-/// that come later. What comes out does not depend on what was asked before.
+/// that come later, unless it is so much that it is not worth its memory. What comes out does not depend on
+/// what was asked before.
 class FaceSamples {
 public:
   explicit FaceSamples(bool planar) : _planar(planar) {}
 
   /// Sources that cover the face about as densely as the sizes they ask for: curvature, and surface_maximum
   /// off the far field. Nowhere the maximum or more. Always called with the same face, whatever its number in
-  /// the model, and its facets. Throws CadError.
+  /// the model, and its facets. `coarser`: as densely as sizes so many times as large would. Throws CadError.
   std::vector<SizeSource> sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
-                                  bool far_field, const SizingOptions& options);
+                                  bool far_field, const SizingOptions& options, double coarser = 1);
 
   /// What is asked for, told by the corners of the facets alone.
   struct Overview {
@@ -60,8 +61,9 @@ private:
     const SizingOptions& options;
     CurvatureLimits limits;
     double largest;
-    std::vector<double> sizes;  // per point; -1 where none is asked for yet
-    std::vector<SizeSource> sources;
+    double coarser = 1;
+    std::vector<double> sizes = {};  // per point; -1 where none is asked for yet
+    std::vector<SizeSource> sources = {};
   };
 
   void start(const Demand& demand, const cad::Facets& facets);

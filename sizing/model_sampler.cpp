@@ -215,7 +215,7 @@ void ModelSampler::gather_triangles() {
   if (_body_box.empty()) _body_box = _model.bounds();
 }
 
-std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) const {
+std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options, double coarser) const {
   std::vector<SizeSource> mine;
   const auto keep = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
@@ -224,7 +224,8 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options) c
     const bool far_field = _far_field[face.id];
     FaceSamples once(_model.is_planar(face.id));
     FaceSamples& samples = _fields == Fields::several ? face.samples : once;
-    std::vector<SizeSource> sources = samples.sources(_model, face.id, face.facets, far_field, options);
+    std::vector<SizeSource> sources =
+        samples.sources(_model, face.id, face.facets, far_field, options, coarser);
     const std::vector<SizeSource> strips =
         strip_sources(_model, face.facets, face.closed_corners, options, largest_size(far_field, options));
     sources.insert(sources.end(), strips.begin(), strips.end());
@@ -251,13 +252,13 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
   return mine;
 }
 
-std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, double factor) const {
+std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, double coarser) const {
   check_options(options);
   require_possible(options);
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    mine = sample_own(options);
+    mine = sample_own(options, coarser);
   });
   std::vector<SizeSource> all = _communicator.all_gather_items<SizeSource>(mine);
   parallel::agree(_communicator, [&] {
@@ -266,7 +267,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   });
   const std::vector<SizeSource> behind_corners = _communicator.all_gather_items<SizeSource>(mine);
   all.insert(all.end(), behind_corners.begin(), behind_corners.end());
-  for (SizeSource& source : all) source.size *= factor;
+  for (SizeSource& source : all) source.size *= coarser;
   return all;
 }
 
@@ -369,8 +370,8 @@ std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& option
 std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, std::int64_t most_leaves) const {
   std::optional<SizeField> field = build_coarser(options, 1, most_leaves);
   if (!field) return std::nullopt;
-  const PredictedCounts counts = predict(*field);
-  return Trial{std::move(*field), counts};
+  const double tetrahedra = count_tetrahedra(*field);
+  return Trial{std::move(*field), tetrahedra};
 }
 
 std::optional<double> ModelSampler::estimate_tetrahedra(const SizingOptions& options, double coarser,

@@ -20,6 +20,12 @@ namespace aeroloom::sizing {
 /// A field and what it predicts.
 struct Trial {
   SizeField field;
+  double tetrahedra;
+};
+
+/// What sizes ask for about, by a field whose sizes are some times as large.
+struct RoughField {
+  SizeField field;  ///< as asked for, but smooth over that many sizes
   PredictedCounts counts;
 };
 
@@ -91,9 +97,13 @@ public:
   SizeField build_field(const SizingOptions& options) const;
   /// As predict_counts. Collective.
   PredictedCounts predict(const SizeField& field) const;
-  /// The field under these options with what it predicts; nothing where it has clearly more leaves.
-  /// Collective.
+  /// Those of predict(). Collective.
+  double count_triangles(const SizeField& field) const;
+  /// The field under these options with the tetrahedra that it predicts; nothing where it has clearly more
+  /// leaves. Collective.
   std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves) const;
+  /// In seconds, whatever they ask for. Collective.
+  RoughField build_rough_field(const SizingOptions& options) const;
   /// About what they would predict, by a field whose sizes are all `coarser` times as large; with one,
   /// exactly. Nothing where that has clearly more leaves. Remembered for sizes that are asked for again.
   /// Collective.
@@ -175,14 +185,13 @@ private:
   /// What all ranks have found. Collective.
   void gather_gaps();
   /// What the faces and edges of this rank ask for.
-  std::vector<SizeSource> sample_own(const SizingOptions& options) const;
-  /// What all ask for, corners included, sizes multiplied by `factor`. Collective.
-  std::vector<SizeSource> sample(const SizingOptions& options, double factor) const;
+  std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser) const;
+  /// What all ask for, corners included, all sizes `coarser` times as large. Collective.
+  std::vector<SizeSource> sample(const SizingOptions& options, double coarser) const;
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources,
                                          const SizingOptions& options) const;
   /// Facets of all faces that bound the domain.
   const TriangleTree& boundary() const { return _part_on_boundary ? *_part_on_boundary : _walls->tree; }
-  double count_triangles(const SizeField& field) const;
   double count_tetrahedra(const SizeField& field) const;
 
   parallel::Communicator _communicator;

@@ -148,7 +148,7 @@ TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
   const auto exact = sampler.try_sizes(options, many);
   const auto estimate = sampler.estimate_tetrahedra(options, 1, many);
   ASSERT_TRUE(exact && estimate);
-  EXPECT_EQ(*estimate, exact->counts.tetrahedra);
+  EXPECT_EQ(*estimate, exact->tetrahedra);
   SizingOptions rounded = options, with_floor = options, finer = options;
   rounded.minimum *= 1 + 1e-14;
   with_floor.feature_minimum = smallest_feature_size(options);

@@ -1,0 +1,46 @@
+// Fields of sizes that ask for more elements than anyone would build a field for to be told so.
+#include "sizing/field_builder.hpp"
+#include "sizing/model_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace aeroloom::sizing {
+namespace {
+
+/// Leaves of a field that only tells how many elements there would be, and parts of faces for each of them.
+constexpr std::int64_t most_leaves = 1'000'000;
+constexpr double parts_per_leaf = 4;
+constexpr double coarsest = 4096;  // sizes over those asked for
+
+/// What a field predicts over what one does whose sizes are `coarser` times as large. Over an area A of a
+/// wall with sizes h there are A / h^2 times the thickness, in sizes, of what leaves around sources keep at
+/// h, which sizes make as many times thicker, and 1 / (2 s) for what lies beyond, where sizes grow by s a
+/// length: the integral of h^2 / (h + s d)^3. The thickness is such that fields with sizes four times as
+/// large have the bias that was measured (median of eleven models, nine within 12 %).
+double bias_of(double coarser, double growth) {
+  constexpr double thickness = 0.84;
+  const double slope = std::log(growth), coarse = std::min(slope, std::log(largest_growth) / coarser);
+  return (thickness + 0.5 / slope) / (thickness * coarser + 0.5 / coarse);
+}
+
+}  // namespace
+
+RoughField ModelSampler::build_rough_field(const SizingOptions& options) const {
+  for (double coarser = 4;; coarser *= 2) {
+    const bool last = coarser >= coarsest;
+    const double most_parts = parts_per_leaf * coarser * coarser * static_cast<double>(most_leaves);
+    if (!last && has_more_parts(options, most_parts)) continue;
+    std::optional<SizeField> field =
+        build_coarser(options, coarser, last ? std::numeric_limits<std::int64_t>::max() : most_leaves);
+    if (!field) continue;
+    PredictedCounts counts{std::pow(coarser, 2) * count_triangles(*field),
+                           std::pow(coarser, 3) * count_tetrahedra(*field)};
+    counts.tetrahedra *= bias_of(coarser, options.growth);
+    return {field->scaled(1 / coarser), counts};
+  }
+}
+
+}  // namespace aeroloom::sizing
