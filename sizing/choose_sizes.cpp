@@ -30,6 +30,8 @@ constexpr int rounds_out_of_reach = 2;  // of full fields, where coarse ones fou
 // features do.
 constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
 constexpr double largest_step = 1.4;  // of the logarithm of the size
+// Far too many, and no fewer over a step that tells: what is given rules, not this size.
+constexpr double hopeless = 2, flat = 0.02;  // of the logarithm of the count
 // Over a shorter step counts may jump by more than they change: a flat slope says nothing then.
 constexpr double least_telling_step = 0.2;
 // Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
@@ -44,8 +46,8 @@ constexpr double parts_per_leaf = 8;
 constexpr std::int64_t least_limit = 100'000;
 /// Of faces, for which a field is built without asking first how large it would be.
 constexpr double most_parts_unasked = 1e6;
-/// Of coarse fields that tell what each bound does: some hundred million elements.
-constexpr std::int64_t most_coarse_leaves = 1'000'000;
+/// Of coarse fields that tell what each bound does: some ten million elements.
+constexpr std::int64_t most_coarse_leaves = 300'000;
 
 std::int64_t leaves_for(double tetrahedra) {
   return std::max<std::int64_t>(least_limit,
@@ -113,6 +115,9 @@ public:
     for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
       const double error = judge(std::exp(size), preset);
       if (round > 0 && last_error < 1e300 && error < 1e300) {
+        const bool is_flat =
+            std::abs(error - last_error) < flat && std::abs(size - last_size) >= least_telling_step;
+        if (is_flat && error > hopeless) break;
         const double measured = (error - last_error) / (size - last_size);
         const bool tells = measured <= flattest_slope || std::abs(size - last_size) >= least_telling_step;
         if (tells) slope = std::clamp(measured, steepest_slope, flattest_slope);

@@ -11,7 +11,7 @@ namespace aeroloom::sizing {
 namespace {
 
 /// Leaves of a field that only tells how many elements there would be, and parts of faces for each of them.
-constexpr std::int64_t most_leaves = 1'000'000;
+constexpr std::int64_t most_leaves = 300'000;
 constexpr double parts_per_leaf = 4;
 constexpr double coarsest = 4096;  // sizes over those asked for
 
