@@ -1,7 +1,9 @@
 #include "sizing/ray_tree.hpp"
 
 #include <limits>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 namespace aeroloom::sizing {
 namespace {
@@ -17,10 +19,17 @@ constexpr double least_emptiness = 16, most_emptiness = 1e6;
 constexpr int most_cuts = 6;
 constexpr std::size_t boxes_per_triangle = 3;
 constexpr double rounding = 1e-12;  // of the extent, by which boxes are wider
-// Groups of slender triangles, at most; how many make one; the cosine of what their directions differ by,
-// about two degrees.
+// Groups of about one direction, at most; how many slender triangles make one; the cosine of what their
+// directions differ by, about two degrees.
 constexpr std::size_t most_groups = 16, least_group = 256;
 constexpr double same_direction = 0.9994;
+// Directions are counted in cells of a grid of this edge around the sphere, about twice that: one that counts
+// has a cell with so many triangles, and this part of the sides of all boxes. Every other direction costs
+// each ray more than it saves.
+constexpr double cell_of_directions = 0.07, least_part = 0.02;
+constexpr std::size_t least_in_cell = least_group / 4;
+// Triangles join a group where the sides of their boxes are this part of what they are along the axes.
+constexpr double far_smaller = 0.5;
 
 constexpr Frame unturned{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
@@ -80,40 +89,92 @@ Frame frame_along(Vec3 axis) {
   return {axis, second, cross(axis, second)};
 }
 
-/// Takes those of about the same direction as the slender triangle with the largest box out of `slender`.
-std::vector<std::int32_t> take_group(std::span<const Triangle> all, std::vector<std::int32_t>& slender,
-                                     Vec3& direction) {
-  const auto largest = std::max_element(slender.begin(), slender.end(), [&](std::int32_t a, std::int32_t b) {
-    return sides_of(box_around(all[a])) < sides_of(box_around(all[b]));
-  });
-  direction = direction_of(all[*largest]);
-  std::vector<std::int32_t> group, rest;
-  for (const std::int32_t t : slender)
-    (std::abs(dot(direction_of(all[t]), direction)) >= same_direction ? group : rest).push_back(t);
-  slender = std::move(rest);
-  return group;
+/// A triangle that is slender.
+struct Slender {
+  std::int32_t triangle;
+  double sides;  ///< of its box
+  Vec3 direction;
+  std::int32_t cell = 0;  ///< of directions
+};
+
+/// Numbers the cells of a grid of directions, opposite ones being the same, that slender triangles have.
+std::int32_t number_cells(std::vector<Slender>& slender) {
+  std::map<std::array<int, 3>, std::int32_t> numbers;
+  for (Slender& each : slender) {
+    Vec3 d = each.direction;
+    if (std::tie(d.x, d.y, d.z) < std::tuple(0.0, 0.0, 0.0)) d = -1 * d;
+    const auto step = [](double x) { return static_cast<int>(std::floor(x / cell_of_directions)); };
+    const auto next = static_cast<std::int32_t>(numbers.size());
+    each.cell = numbers.try_emplace({step(d.x), step(d.y), step(d.z)}, next).first->second;
+  }
+  return static_cast<std::int32_t>(numbers.size());
+}
+
+struct Direction {
+  Vec3 along;
+  std::size_t count = 0;  ///< of triangles along it
+};
+
+/// That in the cell with the largest boxes in all, of those whose sides add up to enough; takes away what is
+/// along it. None: a count of nothing.
+Direction take_direction(std::vector<Slender>& slender, std::int32_t cells, double least_sides) {
+  struct Cell {
+    double sides = 0;
+    std::size_t count = 0;
+    const Slender* largest = nullptr;
+  };
+  std::vector<Cell> all(cells);
+  for (const Slender& each : slender) {
+    Cell& cell = all[each.cell];
+    if (cell.largest == nullptr || each.sides > cell.largest->sides) cell.largest = &each;
+    cell.sides += each.sides, ++cell.count;
+  }
+  const Cell* best = nullptr;
+  for (const Cell& cell : all) {
+    if (cell.count >= least_in_cell && cell.sides >= least_sides &&
+        (best == nullptr || cell.sides > best->sides))
+      best = &cell;
+  }
+  if (best == nullptr) return {};
+  const Vec3 along = best->largest->direction;
+  const auto count = std::erase_if(
+      slender, [&](const Slender& each) { return std::abs(dot(each.direction, along)) >= same_direction; });
+  return {along, count};
 }
 
 }  // namespace
 
 RayTree::RayTree(std::span<const Triangle> triangles) {
-  std::vector<std::int32_t> slender, others;
+  std::vector<Slender> left;
+  double all_sides = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const double area = area_of_triangle(triangles[t]);
-    const bool is_slender = area > 0 && sides_of(box_around(triangles[t])) > least_emptiness * area;
-    (is_slender ? slender : others).push_back(static_cast<std::int32_t>(t));
+    const double area = area_of_triangle(triangles[t]), sides = sides_of(box_around(triangles[t]));
+    all_sides += sides;
+    if (area > 0 && sides > least_emptiness * area)
+      left.push_back({static_cast<std::int32_t>(t), sides, direction_of(triangles[t])});
   }
-  for (std::size_t i = 0; i < most_groups && slender.size() >= least_group; ++i) {
-    Vec3 direction;
-    const std::vector<std::int32_t> group = take_group(triangles, slender, direction);
-    if (group.size() < least_group) {
-      others.insert(others.end(), group.begin(), group.end());
-    } else {
-      add_group(triangles, group, frame_along(direction));
+  std::vector<Frame> frames;
+  const std::int32_t cells = number_cells(left);
+  for (std::size_t i = 0; i < most_groups && left.size() >= least_group; ++i) {
+    const Direction direction = take_direction(left, cells, least_part * all_sides);
+    if (direction.count == 0) break;
+    if (direction.count >= least_group) frames.push_back(frame_along(direction.along));
+  }
+  // What lies across a direction may be flat in its frame.
+  std::vector<std::vector<std::int32_t>> members(frames.size());
+  std::vector<std::int32_t> others;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    double least = far_smaller * sides_of(box_around(triangles[t]));
+    std::vector<std::int32_t>* to = &others;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const double sides = sides_of(box_around(turned(frames[i], triangles[t])));
+      if (sides < least) least = sides, to = &members[i];
     }
+    to->push_back(static_cast<std::int32_t>(t));
   }
-  others.insert(others.end(), slender.begin(), slender.end());
-  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!members[i].empty()) add_group(triangles, members[i], frames[i]);
+  }
   if (!others.empty()) add_group(triangles, others, unturned);
 }
 

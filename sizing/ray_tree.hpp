@@ -15,8 +15,9 @@
 namespace aeroloom::sizing {
 
 /// A box around a slender triangle that lies askew is mostly empty, and met by rays that miss the triangle.
-/// So slender triangles of about one direction have a tree of their own, in a frame with an axis along them;
-/// those left over are in several boxes, each around a part of one. For estimates: floating point.
+/// So where many slender triangles have about one direction, they and what is flat across it have a tree of
+/// their own, in a frame with an axis along them; slender ones left over are in several boxes, each around a
+/// part of one. For estimates: floating point.
 class RayTree {
 public:
   explicit RayTree(std::span<const Triangle> triangles);

@@ -43,6 +43,26 @@ struct Search {
   }
 };
 
+/// Rays from within the pipes of a bundle, beside other triangles far away.
+void expect_cheap_rays(std::vector<Triangle> triangles) {
+  const Vec3 axis = normalized(Vec3{1, 2, 1.5}), across = normalized(cross(axis, Vec3{1, 0, 0})),
+             third = cross(axis, across);
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 20; ++j) add_pipe(0.3 * i * across + 0.3 * j * third, 0.1, triangles);
+  }
+  Search search{triangles};
+  // Through the edges between facets.
+  const Vec3 direction = across;
+  const int rays = 1000;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 middle = 0.3 * (i % 20) * across + 0.3 * (i / 20 % 20) * third + (1 + 0.008 * i) * axis;
+    const auto found = search(middle, direction, 5, [](std::int32_t) { return true; });
+    EXPECT_NEAR(found[0].distance, 0.1, 0.002);
+    EXPECT_NEAR(found[1].distance, 0.1, 0.002);
+  }
+  EXPECT_LT(search.nodes, 400 * rays);
+}
+
 }  // namespace
 
 /// What all triangles, one by one, tell.
@@ -75,23 +95,19 @@ TEST(RayTree, FindsWhatALineCrossesFirstAheadAndBehind) {
 /// A ray from the wall of a pipe in a bundle meets the other side of it: what lies behind costs nothing,
 /// however long the facets are.
 TEST(RayTree, LooksNoFartherThanTheFirstWall) {
-  std::vector<Triangle> triangles;
-  const Vec3 axis = normalized(Vec3{1, 2, 1.5}), across = normalized(cross(axis, Vec3{1, 0, 0})),
-             third = cross(axis, across);
-  for (int i = 0; i < 20; ++i) {
-    for (int j = 0; j < 20; ++j) add_pipe(0.3 * i * across + 0.3 * j * third, 0.1, triangles);
+  expect_cheap_rays({});
+}
+
+/// Some long needles in all directions, as a plate with many holes has them, do not hide the direction of the
+/// pipes.
+TEST(RayTree, NeedlesDoNotHideWhatMostFacetsRunAlong) {
+  std::mt19937_64 random(5);
+  std::vector<Triangle> needles;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 from = 20 * point_at_random(random) + Vec3{60, 0, 0}, along = 20 * point_at_random(random);
+    needles.push_back({from, from + along, from + 0.5 * along + 0.01 * point_at_random(random)});
   }
-  Search search{triangles};
-  // Through the edges between facets.
-  const Vec3 direction = across;
-  const int rays = 1000;
-  for (int i = 0; i < rays; ++i) {
-    const Vec3 middle = 0.3 * (i % 20) * across + 0.3 * (i / 20 % 20) * third + (1 + 0.008 * i) * axis;
-    const auto found = search(middle, direction, 5, [](std::int32_t) { return true; });
-    EXPECT_NEAR(found[0].distance, 0.1, 0.002);
-    EXPECT_NEAR(found[1].distance, 0.1, 0.002);
-  }
-  EXPECT_LT(search.nodes, 400 * rays);
+  expect_cheap_rays(needles);
 }
 
 /// Rays from within a closed surface, through its edges and corners: each meets a wall on both sides.
