@@ -18,10 +18,19 @@ constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
 // Times 1/h^3: what meshes of ten models have on average, with edges of 0.98 h. Regular tetrahedra of edges h
 // would be 6 sqrt(2) = 8.5 if they filled space, those of a body-centred lattice are 9.1.
 constexpr double tetrahedra_per_volume = 11.3;
-constexpr double facet_per_size = 3;  // edge of a part of a facet that one value of h stands for
-constexpr double cube_per_size = 1;   // edge of a cube on the boundary that one value of h stands for
+constexpr double facet_per_size = 3;         // edge of a part of a facet that one value of h stands for
+constexpr double needle_per_element = 1e-3;  // area of a facet that is not cut, over the square of h
+constexpr double cube_per_size = 1;          // edge of a cube on the boundary that one value of h stands for
 constexpr int deepest_subdivision = 8;
 constexpr std::int64_t leaves_per_task = 1024;
+
+/// Whether there is room for next to nothing of an element, by the sizes in the middle and at the corners.
+/// Facets of a face whose edges are cut finely may be needles along these by the ten thousand.
+bool is_needle(const SizeField& field, const Triangle& t, double area, double size_in_middle) {
+  const auto has_room = [&](double h) { return area > needle_per_element * h * h; };
+  return !has_room(size_in_middle) && !has_room(field(t[0])) && !has_room(field(t[1])) &&
+         !has_room(field(t[2]));
+}
 
 /// Integral of 1/h^2 over one facet.
 double integrate(const SizeField& field, const Triangle& t, int depth) {
@@ -31,10 +40,9 @@ double integrate(const SizeField& field, const Triangle& t, int depth) {
     const double edge = distance(t[i], t[(i + 1) % 3]);
     if (edge > length) length = edge, longest = i;
   }
-  const double h = field((t[0] + t[1] + t[2]) / 3.0);
-  if (length <= facet_per_size * h || depth >= deepest_bisection) {
-    return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0])) / (h * h);
-  }
+  const double h = field((t[0] + t[1] + t[2]) / 3.0), area = 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
+  if (length <= facet_per_size * h || depth >= deepest_bisection || is_needle(field, t, area, h))
+    return area / (h * h);
   const Vec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3], middle = 0.5 * (a + b);
   return integrate(field, {a, middle, c}, depth + 1) + integrate(field, {middle, b, c}, depth + 1);
 }

@@ -1,6 +1,7 @@
 #include "cad/builtin/primitives.hpp"
 #include "parallel/collective_error.hpp"
 #include "sizing/choose_sizes.hpp"
+#include "sizing/facet_integral.hpp"
 #include "sizing/size_field.hpp"
 
 #include <cmath>
@@ -63,6 +64,31 @@ Model sphere_in_box(double edge, double radius) {
   dimensions.box = {edge, edge, edge};
   dimensions.radius = radius;
   return make_primitive_domain(PrimitiveKind::box_with_sphere, dimensions);
+}
+
+/// A face cut off along an edge of fine elements may come as needles along it, ten thousand times as long as
+/// those: each has room for next to nothing, and is not cut as often as it is longer.
+TEST(PredictCounts, NeedlesAlongAFineEdgeCountWhatTheyCoverTogether) {
+  constexpr double length = 200, fine = 0.01, bend = 4e-11;
+  constexpr int needles = 2000;
+  std::vector<sizing::SizeSource> sources;
+  for (int i = 0; i < 20000; ++i) sources.push_back({{(i + 0.5) * fine, 0, 0}, fine});
+  const SizeField field =
+      SizeField::build({{0, -1, -1}, {length, 1, 1}}, sources, SizingOptions{fine, 1, 15, 1.3, 0});
+  // Between the edge, slightly bent, and its far end: a fan.
+  const auto on_edge = [](int i) {
+    const double x = length * i / needles;
+    return geometry::Vec3{x, bend * x * (length - x), 0};
+  };
+  double sum = 0;
+  for (int i = 0; i + 1 < needles; ++i)
+    sum += sizing::integrate_facet(field, {on_edge(i), on_edge(i + 1), on_edge(needles)});
+  double expected = 0;  // sizes are the finest all along
+  for (int i = 0; i < needles; ++i) {
+    const double x = (i + 0.5) * length / needles;
+    expected += length / needles * bend * x * (length - x) / (fine * fine);
+  }
+  EXPECT_NEAR(sum, expected, 0.05 * expected);
 }
 
 TEST(PredictCounts, LeavesOutTheBody) {
