@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -19,10 +20,28 @@ constexpr double triangle_over_square = 0.433;
 /// need samples along their longest edge alone, so far from each other at most; halves of slender triangles
 /// would be thrice as many for each time that they are half as long.
 constexpr double slender = 0.25, same_size = 0.8, spacing_along = 0.5 * spacing;
+/// None are needed along an edge where the cells on its way, of a grid with edges of this part of the size at
+/// most, have had another with sizes as small as that: a pipe far thinner than its elements is sampled along
+/// some of its facets.
+constexpr double cell_per_size = 0.5 * spacing, as_small = 1.05;
+constexpr double most_cells_along = 1e6;
 /// Points, some three megabytes with what belongs to them.
 constexpr std::size_t most_remembered = 30'000;
 /// What is over a limit by less is on it.
 constexpr double within_rounding = 1.01;
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Of a cell of the grid with edges of 2^level, of which the point counts in edges. Cells far away from each
+/// other may have the same.
+std::uint64_t key_of_cell(Vec3 point, int level) {
+  std::uint64_t key = static_cast<std::uint64_t>(level);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto cell = static_cast<std::int64_t>(std::floor(point[axis]));
+    key = key << 19 | (static_cast<std::uint64_t>(cell) & 0x7ffff);
+  }
+  return key;
+}
 
 }  // namespace
 
@@ -68,9 +87,10 @@ FaceSamples::Overview FaceSamples::overview(const cad::Model& model, cad::FaceId
       seen.bounded_area += share;
       seen.degrees = std::max(seen.degrees, turn * 180 / std::numbers::pi);
     }
-    // A facet narrower than the size is cut along its length alone.
-    seen.parts +=
-        std::max(3 * share / (triangle_over_square * widest * widest), longest / (spacing * widest));
+    // A facet narrower than the size is cut along its length alone, and some of those beside it are not.
+    const double height = 6 * share / longest;
+    seen.parts += std::max(3 * share / (triangle_over_square * widest * widest),
+                           longest / (spacing * widest) * std::min(1.0, height / (cell_per_size * widest)));
   }
   return seen;
 }
@@ -139,7 +159,7 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
   const double height = norm(cross(_points[b].point - p, _points[c].point - p)) / length;
   const double largest = std::max({demand.sizes[a], demand.sizes[b], demand.sizes[c]});
   if (height <= slender * spacing * demand.coarser * size && size >= same_size * largest) {
-    cover_edge(a, b, depth, demand);
+    if (!is_covered(a, b, demand)) cover_edge(a, b, depth, demand);
     return;
   }
   if (_parts[part].middle < 0) {
@@ -161,6 +181,24 @@ void FaceSamples::cover_edge(std::int32_t a, std::int32_t b, int depth, Demand& 
   ask(middle, demand);
   cover_edge(a, middle, depth + 1, demand);
   cover_edge(middle, b, depth + 1, demand);
+}
+
+/// Whether another edge was sampled all along this one; notes that this one is from now on.
+bool FaceSamples::is_covered(std::int32_t a, std::int32_t b, Demand& demand) const {
+  const double size = std::min(demand.sizes[a], demand.sizes[b]);
+  const int level = std::ilogb(cell_per_size * demand.coarser * size);
+  const double edge = std::ldexp(1.0, level);
+  const Vec3 from = _points[a].point, to = _points[b].point;
+  const double steps = std::ceil(distance(from, to) / edge);
+  if (!(steps <= most_cells_along)) return false;
+  bool covered = true;
+  for (int i = 0; i <= static_cast<int>(steps); ++i) {
+    const Vec3 at = (1 / edge) * (from + i / steps * (to - from));
+    double& smallest = demand.along.try_emplace(key_of_cell(at, level), nowhere).first->second;
+    covered = covered && smallest <= as_small * size;
+    smallest = std::min(smallest, size);
+  }
+  return covered;
 }
 
 }  // namespace aeroloom::sizing

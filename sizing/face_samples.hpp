@@ -13,9 +13,9 @@
 namespace aeroloom::sizing {
 
 /// Points of a face with the curvature there, found by bisecting the longest edges of its facets as finely as
-/// sizes have asked for so far, of slender parts that edge alone: what was evaluated once serves all sizes
-/// that come later, unless it is so much that it is not worth its memory. What comes out does not depend on
-/// what was asked before.
+/// sizes have asked for so far, of slender parts that edge alone, and only where none was beside it: what was
+/// evaluated once serves all sizes that come later, unless it is so much that it is not worth its memory.
+/// What comes out does not depend on what was asked before.
 class FaceSamples {
 public:
   explicit FaceSamples(bool planar) : _planar(planar) {}
@@ -64,6 +64,7 @@ private:
     double coarser = 1;
     std::vector<double> sizes = {};  // per point; -1 where none is asked for yet
     std::vector<SizeSource> sources = {};
+    std::unordered_map<std::uint64_t, double> along = {};  // smallest size sampled along lines, by cell
   };
 
   void start(const Demand& demand, const cad::Facets& facets);
@@ -74,6 +75,7 @@ private:
   void ask(std::int32_t point, Demand& demand) const;
   void cover(std::int32_t part, const std::array<std::int32_t, 3>& corners, int depth, Demand& demand);
   void cover_edge(std::int32_t a, std::int32_t b, int depth, Demand& demand);
+  bool is_covered(std::int32_t a, std::int32_t b, Demand& demand) const;
 
   bool _planar;
   std::vector<Point> _points;  // those of the facets first
