@@ -1,17 +1,17 @@
-#include "geometry/box_tree.hpp"
 #include "pipeline/check.hpp"
 #include "sizing/model_sources.hpp"
+#include "sizing/ray_tree.hpp"
 #include "surface/triangle_contact.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace aeroloom::pipeline {
 namespace {
 
 struct Facet {
-  geometry::Vec3 corners[3];
+  sizing::Triangle corners;
   cad::FaceId face;
 };
 
@@ -28,25 +28,36 @@ std::vector<Facet> collect_facets(const cad::Model& model) {
   return facets;
 }
 
-/// The vertices around each face, ascending.
-std::vector<std::vector<cad::VertexId>> vertices_of_faces(const cad::Model& model) {
-  std::vector<std::vector<cad::VertexId>> vertices(model.face_count());
-  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    for (const auto& loop : model.face(f).loops) {
-      for (const cad::EdgeUse& use : loop) {
-        vertices[f].push_back(model.edge(use.edge).first);
-        vertices[f].push_back(model.edge(use.edge).last);
+/// Which faces share a vertex.
+class Neighbours {
+public:
+  explicit Neighbours(const cad::Model& model) {
+    std::vector<std::vector<cad::FaceId>> around(model.vertex_count());
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+      for (const auto& loop : model.face(f).loops) {
+        for (const cad::EdgeUse& use : loop) {
+          around[model.edge(use.edge).first].push_back(f);
+          around[model.edge(use.edge).last].push_back(f);
+        }
       }
     }
-    std::sort(vertices[f].begin(), vertices[f].end());
+    for (const std::vector<cad::FaceId>& faces : around) {
+      for (const cad::FaceId a : faces) {
+        for (const cad::FaceId b : faces) _pairs.insert({a, b});
+      }
+    }
   }
-  return vertices;
-}
+  bool are(cad::FaceId a, cad::FaceId b) const { return _pairs.contains({a, b}); }
 
-bool share_vertex(const std::vector<cad::VertexId>& a, const std::vector<cad::VertexId>& b) {
-  std::vector<cad::VertexId> common;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
-  return !common.empty();
+private:
+  std::set<std::pair<cad::FaceId, cad::FaceId>> _pairs;
+};
+
+std::vector<sizing::Triangle> corners_of(const std::vector<Facet>& facets) {
+  std::vector<sizing::Triangle> corners;
+  corners.reserve(facets.size());
+  for (const Facet& facet : facets) corners.push_back(facet.corners);
+  return corners;
 }
 
 surface::NamedTriangle named(const Facet& facet, std::int64_t index) {
@@ -62,26 +73,28 @@ surface::NamedTriangle named(const Facet& facet, std::int64_t index) {
 
 std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t most, std::int64_t& count) {
   const std::vector<Facet> facets = collect_facets(model);
-  const auto vertices = vertices_of_faces(model);
-  std::vector<geometry::Box> boxes;
-  for (const Facet& facet : facets) {
-    geometry::Box& box = boxes.emplace_back();
-    for (const geometry::Vec3 corner : facet.corners) box.add(corner);
-  }
-  const geometry::BoxTree tree(boxes, 8);
+  const Neighbours neighbours(model);
+  const sizing::RayTree tree(corners_of(facets));
   std::set<std::pair<cad::FaceId, cad::FaceId>> met;
   std::vector<FaceContact> contacts;
+  std::vector<std::int32_t> near;
+  std::int64_t nodes = 0;
   for (std::size_t i = 0; i < facets.size(); ++i) {
-    geometry::for_each_overlap(tree, boxes, boxes[i], [&](std::int32_t other) {
-      const Facet &a = facets[i], &b = facets[other];
-      if (a.face >= b.face || met.contains({a.face, b.face})) return;
-      if (share_vertex(vertices[a.face], vertices[b.face])) return;
-      if (!surface::meet_wrongly(named(a, static_cast<std::int64_t>(i)), named(b, other))) return;
+    const Facet& a = facets[i];
+    const auto counts = [&](std::int32_t other) {
+      const Facet& b = facets[other];
+      return a.face < b.face && !neighbours.are(a.face, b.face) && !met.contains({a.face, b.face});
+    };
+    tree.find_near(a.corners, 0, counts, near, nodes);
+    for (const std::int32_t other : near) {
+      const Facet& b = facets[other];
+      if (met.contains({a.face, b.face}) ||
+          !surface::meet_wrongly(named(a, static_cast<std::int64_t>(i)), named(b, other)))
+        continue;
       met.insert({a.face, b.face});
-      if (contacts.size() < most) {
+      if (contacts.size() < most)
         contacts.push_back({a.face, b.face, (a.corners[0] + a.corners[1] + a.corners[2]) / 3});
-      }
-    });
+    }
   }
   count = static_cast<std::int64_t>(met.size());
   return contacts;
