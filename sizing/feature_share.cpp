@@ -58,7 +58,7 @@ public:
       if (tetrahedra && share <= _most) {
         _found = step, _share = share;
       } else {
-        low = step;
+        low = step, _share_below = share;
       }
       lame = 2 * (_found - low) > rest + 1 ? lame + 1 : 0;
     }
@@ -78,8 +78,19 @@ private:
   /// The finest step that should be within the budget, between those known.
   int guess(int low) const {
     int step = low + 1;
-    while (step < _found - 1 && expected(step) > _most) ++step;
+    while (step < _found - 1 && expected_between(step, low) > _most) ++step;
     return step;
+  }
+
+  /// Between two steps that were counted what comes on top goes by a power of the elements.
+  double expected_between(int step, int low) const {
+    const double last = _elements.back();
+    if (low < 0 || !(_share_below > _share && _share > 1)) return expected(step);
+    const double below = _elements[low] - last, above = _elements[_found] - last,
+                 here = _elements[step] - last;
+    if (!(below > above && above > 0)) return expected(step);
+    const double power = std::log((_share_below - 1) / (_share - 1)) / std::log(below / above);
+    return 1 + (_share - 1) * std::pow(here / above, power);
   }
 
   /// The finest step that was counted tells most of the strips.
@@ -94,7 +105,7 @@ private:
   std::vector<double> _elements;
   double _most, _per_element = 0;
   int _found, _finest_known;
-  double _share = 1;
+  double _share = 1, _share_below = 0;  // of the finest step within the budget, and of the next one tried
 };
 
 /// Predicts tetrahedra, and tells of it.

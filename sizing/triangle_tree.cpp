@@ -215,6 +215,9 @@ double TriangleTree::share_behind(Vec3 low, double edge, std::span<const std::in
   Vec3 direction;
   for (const std::int32_t i : triangles) {
     const Triangle& t = _triangles[i];
+    // No triangle is nearer than its plane.
+    const double over = dot(_normals[i], middle - t[0]);
+    if (over * over > nearest * (1 + 1e-8) * dot(_normals[i], _normals[i])) continue;
     const double square = squared_distance(middle, t, _normals[i]);
     if (square > nearest * (1 + 1e-9)) continue;
     const Vec3 normal = geometry::normalized(_normals[i]);
