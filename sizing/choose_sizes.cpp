@@ -134,6 +134,7 @@ public:
   }
 
   bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
+  bool is_hopeless() const { return _error > hopeless; }
   /// What came nearest to the target; the coarsest tried where all were far too fine.
   const SizingOptions& options() const { return _options; }
   double body_size() const { return _body_size; }
@@ -246,7 +247,7 @@ Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, d
   Search base(sampler, target_tetrahedra, coarser, {}, given);
   const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(sampler);
   base.run(start, near ? near_enough : close_enough, most_rounds);
-  Prospect prospect{base.options(), base.body_size(), base.is_out_of_reach(), {}};
+  Prospect prospect{base.options(), base.body_size(), base.is_out_of_reach(), base.is_hopeless(), {}};
   if (!given.holds_features()) {
     prospect.features = share_of_features(sampler, base.options(), feature_budget, coarser,
                                           leaves_for(target_tetrahedra * feature_budget));
@@ -269,6 +270,12 @@ ChosenSizes apply_sizes(const ModelSampler& sampler, const SizingOptions& option
 
 ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
                          const GivenSizes& given, FieldFor purpose) {
+  if (prospect.is_hopeless && purpose == FieldFor::forecast) {
+    ChosenSizes applied = apply_sizes(sampler, prospect.with_features(), purpose);
+    applied.features = prospect.features;
+    applied.body_size = prospect.body_size;
+    return applied;
+  }
   Search search(sampler, target_tetrahedra, 1, prospect.features, given);
   search.run(prospect.body_size,
              prospect.features.share > little_share ? near_enough_with_features : near_enough,

@@ -51,6 +51,7 @@ struct Prospect {
   SizingOptions options;  ///< where no feature is finer than the minimum
   double body_size;       ///< from which the bounds that are not given follow
   bool is_out_of_reach;   ///< nothing came near the target
+  bool is_hopeless;       ///< what is given takes many times as many
   FeatureShare features;  ///< as given options have them where features' sizes are given
   /// `options` with what features ask for.
   SizingOptions with_features() const;

@@ -160,4 +160,19 @@ TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
   EXPECT_FALSE(sampler.estimate_tetrahedra(options, 1, exact->field.leaf_count() - 1).has_value());
 }
 
+TEST(ModelSampler, RoughFieldsTellAboutAsManyAndDoSoForAnySizes) {
+  parallel::StageClock clock;
+  const Model model = cad::shapes::split_cylinder(3, 2);
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, Fields::several);
+  const SizingOptions options{0.02, 0.3, 15, 1.3, 0};
+  const PredictedCounts exact = sampler.predict(sampler.build_field(options));
+  const RoughField rough = sampler.build_rough_field(options);
+  EXPECT_NEAR(rough.counts.tetrahedra, exact.tetrahedra, 0.25 * exact.tetrahedra);
+  EXPECT_NEAR(rough.counts.triangles, exact.triangles, 0.3 * exact.triangles);
+  const SizingOptions tiny{2e-4, 1e-3, 1, 1.3, 0};
+  const RoughField of_tiny = sampler.build_rough_field(tiny);
+  EXPECT_GT(of_tiny.counts.tetrahedra, 1e9);
+  EXPECT_LT(of_tiny.field.leaf_count(), 1'000'000);
+}
+
 }  // namespace aeroloom::sizing

@@ -28,6 +28,19 @@ TEST(MetricLength, IntegratesAndInvertsASmoothDensity) {
   }
 }
 
+TEST(MetricLength, InvertsWithoutAskingForTheDensityAgain) {
+  int asked = 0;
+  const MetricLength length(
+      [&](double t) {
+        ++asked;
+        return 10 + t;
+      },
+      {0, 1});
+  const int before = asked;
+  EXPECT_EQ(equal_parts(length, 10).size(), 9U);
+  EXPECT_EQ(asked, before);
+}
+
 TEST(MetricLength, CopesWithKinksAndJumps) {
   const MetricLength length([](double t) { return t < 0.31 ? 100.0 : 1.0 + std::abs(t - 0.7); }, {0, 1});
   const double exact = 31 + 0.69 + 0.5 * (0.39 * 0.39 + 0.3 * 0.3);
