@@ -136,6 +136,7 @@ std::optional<double> share_among_strips(const ModelSampler& sampler, const Sizi
   found.limited = !base;
   if (!base) return base;
   std::vector<double> aspects;
+  aspects.reserve(last_step + 1);
   for (int step = 0; step < last_step; ++step) aspects.push_back(at_step(step));
   aspects.push_back(no_aspect);
   SizingOptions finest = options;
