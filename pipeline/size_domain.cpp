@@ -97,9 +97,12 @@ void tell_missed_target(const sizing::ModelSampler& sampler, const sizing::Chose
   const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
                                    "larger sizes make it fewer"
                                  : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
+  const bool has_features = chosen.features.share > 1.01;
   parallel::log_warning(fmt::format(
-      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}: {}", target,
-      chosen.counts.tetrahedra, costs.empty() ? "" : "; ", costs, remedy));
+      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}{}: {}",
+      target, chosen.counts.tetrahedra / chosen.features.share,
+      has_features ? " without features finer than the smallest size" : "", costs.empty() ? "" : "; ", costs,
+      remedy));
 }
 
 /// What a model has become on the way to its sizes, and what they may be.

@@ -302,6 +302,9 @@ std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenS
       {"growth", &GivenSizes::growth},
       {"proximity", &GivenSizes::proximity},
   }};
+  if (std::none_of(bounds.begin(), bounds.end(),
+                   [&](const auto& each) { return (given.*each.second).has_value(); }))
+    return {};
   const Preset preset = Preset::of(sampler.model());
   const double coarser = coarsening(chosen.counts.tetrahedra);
   const auto count = [&](const GivenSizes& these) {
