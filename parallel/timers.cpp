@@ -133,6 +133,8 @@ void StageClock::begin(const std::string& name) {
       std::find_if(_costs.begin(), _costs.end(), [&](const StageCost& cost) { return cost.name == name; });
   _current = static_cast<std::size_t>(known - _costs.begin());
   if (known == _costs.end()) _costs.emplace_back().name = name;
+  _shared_at_start = shared_bytes();
+  _of_others_at_start = std::max<std::int64_t>(0, _shared_at_start - share_of_shared_bytes());
   _wall_start = wall_seconds();
   _cpu_start = cpu_seconds();
   _scoped_start = _scoped_cpu;
@@ -140,8 +142,6 @@ void StageClock::begin(const std::string& name) {
   _message_cpu_start = session::message_time().cpu_seconds;
   _messages_at_start = message_counts();
   _exchanges_at_start = exchange_counts();
-  _shared_at_start = shared_bytes();
-  _of_others_at_start = std::max<std::int64_t>(0, _shared_at_start - share_of_shared_bytes());
   stage_begins(name);
 }
 
