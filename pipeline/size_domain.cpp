@@ -176,32 +176,32 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
-  sizing::ModelSampler sampler(communicator, model, clock, layers, fields);
-  const std::vector<sizing::CoincidentFaces> coincident = sampler.find_coincident_faces();
+  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields);
+  const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
   const bool join = simplification.narrow_faces == NarrowFaces::join;
   const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;
   // What is narrow is told by an estimate; sizes are chosen for what is left of the model.
-  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(sampler, *target, request);
+  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*sampler, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);
   std::vector<sizing::TrailingEdge> edges;
-  if (automatic) edges = sizing::find_trailing_edges(sampler, width);
+  if (automatic) edges = sizing::find_trailing_edges(*sampler, width);
   JoinedFaces what;
-  std::optional<sizing::ModelSampler> of_joined;
   if (join) {
-    if (const auto joined = join_narrow_faces(communicator, model, width, clock, what))
-      of_joined.emplace(std::move(sampler), *joined);
+    if (const auto joined = join_narrow_faces(communicator, model, width, clock, what)) {
+      sizing::ModelSampler of_joined(std::move(*sampler), *joined);
+      sampler.emplace(std::move(of_joined));
+    }
   }
-  const sizing::ModelSampler& sampled = of_joined ? *of_joined : sampler;
-  const Trial trial = try_sizes(sampled, request, near);
-  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(sampled, trial));
+  const Trial trial = try_sizes(*sampler, request, near);
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*sampler, trial));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
   if (closed && trial.prospect) near = trial.prospect->options;
   SizedDomain sized =
       closed ? size_domain_near(communicator, *closed, request,
                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, aim)
-             : finish(sampled, request, trial, std::move(what), aim.purpose);
-  if (!closed) sized.walls = report_walls(model, coincident, sampled, sized.field);
+             : finish(*sampler, request, trial, std::move(what), aim.purpose);
+  if (!closed) sized.walls = report_walls(model, coincident, *sampler, sized.field);
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
   return sized;
