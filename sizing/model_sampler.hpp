@@ -102,7 +102,7 @@ public:
   /// The field under these options with the tetrahedra that it predicts; nothing where it has clearly more
   /// leaves. Collective.
   std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves) const;
-  /// In seconds, whatever they ask for. Collective.
+  /// By a field of at most 300,000 leaves, or one whose sizes are 4096 times as large. Collective.
   RoughField build_rough_field(const SizingOptions& options) const;
   /// About what they would predict, by a field whose sizes are all `coarser` times as large; with one,
   /// exactly. Nothing where that has clearly more leaves. Remembered for sizes that are asked for again.
