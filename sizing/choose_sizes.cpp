@@ -44,7 +44,8 @@ constexpr double leaves_per_tetrahedron = 0.5;
 /// Nor is anything sampled for it where faces would be cut into as many parts for each of these leaves.
 constexpr double parts_per_leaf = 8;
 constexpr std::int64_t least_limit = 100'000;
-/// Of faces, for which a field is built without asking first how large it would be: a second of sampling.
+/// Of faces, for which a field is built without asking first how large it would be; chosen, not
+/// measured.
 constexpr double most_parts_unasked = 1e6;
 /// Of coarse fields that tell what each bound does: some ten million elements.
 constexpr std::int64_t most_coarse_leaves = 300'000;
