@@ -19,10 +19,9 @@ constexpr double coarsest = 4096;  // sizes over those asked for
 /// wall with sizes h there are A / h^2 times the thickness, in sizes, of what leaves around sources keep at
 /// h, which sizes make as many times thicker, and 1 / (2 s) for what lies beyond, where sizes grow by s a
 /// length: the integral of h^2 / (h + s d)^3. The thickness is such that fields with sizes four times as
-/// large have the bias that was measured (0.52: median of eleven models, nine within 12 %, when coarse fields
-/// were sampled finely; 0.55 of seven since).
+/// large have the bias that was measured (0.55: median of seven models).
 double bias_of(double coarser, double growth) {
-  constexpr double thickness = 0.84;
+  constexpr double thickness = 0.71;
   const double slope = std::log(growth), coarse = std::min(slope, std::log(largest_growth) / coarser);
   return (thickness + 0.5 / slope) / (thickness * coarser + 0.5 / coarse);
 }
