@@ -22,12 +22,19 @@ void broadcast_content(const CommunicatorHandle& handle, std::span<std::byte> by
 }
 
 template <class T>
-T reduce(const CommunicatorHandle& handle, T value, MPI_Datatype type, MPI_Op operation) {
+void reduce_each(const CommunicatorHandle& handle, std::span<T> values, MPI_Datatype type, MPI_Op operation) {
   const session::MessageScope timed;
-  T result{};
-  check(MPI_Allreduce(&value, &result, 1, type, operation, handle.communicator), "reducing");
-  session::count_reduction(handle, sizeof(T));
-  return result;
+  for_each_part(values.size(), [&](std::size_t offset, int count) {
+    check(MPI_Allreduce(MPI_IN_PLACE, values.data() + offset, count, type, operation, handle.communicator),
+          "reducing");
+    session::count_reduction(handle, static_cast<std::uint64_t>(count) * sizeof(T));
+  });
+}
+
+template <class T>
+T reduce(const CommunicatorHandle& handle, T value, MPI_Datatype type, MPI_Op operation) {
+  reduce_each(handle, std::span(&value, 1), type, operation);
+  return value;
 }
 
 /// The value of every rank, on every rank.
@@ -275,6 +282,14 @@ double Communicator::minimum(double value) const {
 
 double Communicator::maximum(double value) const {
   return reduce(usable_handle(), value, MPI_DOUBLE, MPI_MAX);
+}
+
+void Communicator::sum_each(std::span<std::int64_t> values) const {
+  reduce_each(usable_handle(), values, MPI_INT64_T, MPI_SUM);
+}
+
+void Communicator::minimum_each(std::span<double> values) const {
+  reduce_each(usable_handle(), values, MPI_DOUBLE, MPI_MIN);
 }
 
 double Communicator::sum(double value) const {

@@ -60,6 +60,10 @@ public:
   std::int64_t exclusive_scan(std::int64_t value) const;
   double minimum(double value) const;
   double maximum(double value) const;
+  /// Each of the values becomes the sum, or the smallest, of those at its place on all ranks, which give as
+  /// many.
+  void sum_each(std::span<std::int64_t> values) const;
+  void minimum_each(std::span<double> values) const;
   /// Sum in rank order, the same bits on every rank for the same number of ranks. The bits depend on how
   /// values are spread over ranks: never feed it into a mesh.
   double sum(double value) const;

@@ -20,6 +20,10 @@ public:
   /// is gone on the last rank, which may let it go whenever it likes. Collective.
   static std::shared_ptr<const std::byte> share(const Communicator& communicator,
                                                 std::span<const std::byte> bytes);
+  /// The bytes of all ranks one after another, which come to each node once; nothing where the memory cannot
+  /// be had on some node. Collective.
+  static std::shared_ptr<const std::byte> gather(const Communicator& communicator,
+                                                 std::span<const std::byte> mine);
 };
 
 /// An array that does not change. Cheap to copy: copies refer to the same memory.
@@ -44,6 +48,19 @@ public:
     result._owner = NodeMemory::share(communicator, std::as_bytes(_items));
     if (!result._owner) return *this;
     result._items = {static_cast<const T*>(result._owner.get()), _items.size()};
+    return result;
+  }
+
+  /// Concatenation of every rank's items in rank order, in memory of the node where that can be had.
+  /// Collective.
+  static NodeArray gathered(const Communicator& communicator, std::vector<T> mine) {
+    static_assert(is_exact<T>, "items lie in memory as they travel");
+    const std::int64_t count = communicator.sum(static_cast<std::int64_t>(mine.size()));
+    NodeArray result;
+    result._owner = NodeMemory::gather(communicator, std::as_bytes(std::span<const T>(mine)));
+    if (!result._owner && communicator.size() == 1) return NodeArray(std::move(mine));
+    if (!result._owner) return NodeArray(communicator.template all_gather_items<T>(mine));
+    result._items = {static_cast<const T*>(result._owner.get()), static_cast<std::size_t>(count)};
     return result;
   }
 

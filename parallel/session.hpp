@@ -12,7 +12,8 @@ struct CommunicatorHandle {
   MPI_Comm communicator = MPI_COMM_NULL;
   int rank = 0;
   int size = 1;
-  unsigned exchanges = 0;  ///< so far; consecutive ones must not share a tag
+  unsigned exchanges = 0;                  ///< so far; consecutive ones must not share a tag
+  std::shared_ptr<const void> nodes = {};  ///< its ranks by node, once somebody has asked (node_array.cpp)
 };
 
 namespace session {

@@ -1,6 +1,8 @@
 #include "sizing/field_builder.hpp"
 
+#include "geometry/sort_by_key.hpp"
 #include "parallel/collective_error.hpp"
+#include "parallel/deliver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,8 @@ namespace {
 /// Edge of a leaf over the size at its centre, at most, where no source lies in it: there h is a cone or a
 /// plane, which trilinear interpolation follows within a few percent.
 constexpr double leaf_edge_per_size = 2.0;
+/// More sources, or leaves of the field to start from, are shared by several pages.
+constexpr std::int64_t cells_per_page = 500;
 /// Masters are not looked through for equal ones before there are so many.
 constexpr std::size_t least_masters = 1 << 20;
 
@@ -67,10 +71,6 @@ FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel:
                            const SizeField& previous)
     : FieldBuilder(communicator, clock, previous._domain, previous._options) {
   _previous = &previous;
-  for (std::size_t leaf = 0; leaf < previous._leaf_keys.size(); ++leaf) {
-    if (previous._leaf_levels[leaf] > 0)
-      _cells.split(previous._leaf_keys[leaf], previous._leaf_levels[leaf] - 1);
-  }
 }
 
 SizeField FieldBuilder::build(std::vector<SizeSource> sources) {
@@ -79,26 +79,51 @@ SizeField FieldBuilder::build(std::vector<SizeSource> sources) {
 
 std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sources,
                                                     std::int64_t most_leaves) {
-  const ScopedCpu repeated(_clock, ScopedCpu::As::repeated);
   for (const SizeSource& source : sources)
     require(source.size > 0 && std::isfinite(source.size), "a source must have a positive size", source.size);
   std::erase_if(sources, [&](const SizeSource& source) { return source.size >= _options.maximum; });
-  _sources = thin_sources(_root, sources);
-  sources = {};
+  const ScopedCpu own(_clock, ScopedCpu::As::task);
+  sources = thin_sources(_root, sources);
+  _cells = SplitCubes(_communicator, divide_root(sources));
+  _sources = deal_out(_cells.pages(), std::move(sources));
   split_at_sources();
+  if (_previous != nullptr) split_as_before();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  if (!split_where_coarse(_cells.leaves(), SeedTree(seeds_at_sources(), _slope), most_leaves / 8))
+  if (!split_where_coarse(SeedTree(_communicator, seeds_at_sources(), _slope), most_leaves / 8))
     return std::nullopt;
   _cells.balance();
-  Octree octree = grow_octree();
+  const Octree octree = grow_octree();
   const SeedTree seeds = plant_seeds(octree);
   std::vector<float> mine;
   parallel::agree(_communicator, [&] {
-    const ScopedCpu own(_clock, ScopedCpu::As::task);
-    mine = sizes_at_corners(octree, seeds, own_range(octree.leaves.keys.size()));
+    mine = sizes_at_corners(octree, seeds, own_range(_communicator, octree.keys.size()));
   });
-  return finish(std::move(octree), _communicator.all_gather_items<float>(mine));
+  return finish(octree, std::move(mine));
+}
+
+Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {
+  if (_previous != nullptr) {
+    const Range range = own_range(_communicator, _previous->_leaf_keys.size());
+    const CellSpans leaves{_previous->_leaf_keys.items().subspan(range.first, range.size()),
+                           _previous->_leaf_levels.items().subspan(range.first, range.size())};
+    return {_communicator, leaves, cells_per_page};
+  }
+  std::vector<Cell> cells;
+  for (const SizeSource& source : own) cells.push_back(cell_of(source));
+  geometry::sort_by_key(cells, [](const Cell& cell) { return cell.key; });
+  std::vector<std::uint64_t> keys;
+  std::vector<std::uint8_t> levels;
+  for (const Cell& cell : cells) {
+    keys.push_back(cell.key);
+    levels.push_back(static_cast<std::uint8_t>(cell.level));
+  }
+  return {_communicator, {keys, levels}, cells_per_page};
+}
+
+std::vector<SizeSource> FieldBuilder::deal_out(const Pages& pages, std::vector<SizeSource> own) const {
+  const auto owner = [&](const SizeSource& source) { return pages.owner(pages.find(cell_of(source).key)); };
+  return thin_sources(_root, parallel::deliver(_communicator, std::move(own), owner));
 }
 
 FieldBuilder::Cell FieldBuilder::cell_of(const SizeSource& source) const {
@@ -113,6 +138,20 @@ void FieldBuilder::split_at_sources() {
   }
 }
 
+void FieldBuilder::split_as_before() {
+  const std::span<const std::uint64_t> keys = _previous->_leaf_keys.items();
+  const Range own = _cells.own_pages();
+  if (own.size() == 0) return;
+  const Pages& pages = _cells.pages();
+  const auto first = std::lower_bound(keys.begin(), keys.end(), pages.key(own.first));
+  const auto last =
+      own.last < pages.count() ? std::lower_bound(first, keys.end(), pages.key(own.last)) : keys.end();
+  for (auto key = first; key < last; ++key) {
+    const int level = _previous->_leaf_levels[static_cast<std::size_t>(key - keys.begin())];
+    if (level > 0) _cells.split(*key, level - 1);
+  }
+}
+
 std::vector<SizeSeed> FieldBuilder::seeds_at_sources() const {
   std::vector<SizeSeed> seeds;
   seeds.reserve(_sources.size());
@@ -123,51 +162,49 @@ std::vector<SizeSeed> FieldBuilder::seeds_at_sources() const {
   return seeds;
 }
 
-std::vector<FieldBuilder::PointSize> FieldBuilder::sizes_at_masters(const Octree& octree,
-                                                                    Range sources) const {
+void FieldBuilder::keep_smallest(std::vector<PointSize>& sizes) {
+  std::sort(sizes.begin(), sizes.end());
+  const auto same_point = [](const PointSize& a, const PointSize& b) { return a.key == b.key; };
+  sizes.erase(std::unique(sizes.begin(), sizes.end(), same_point), sizes.end());
+}
+
+std::vector<FieldBuilder::PointSize> FieldBuilder::sizes_at_masters(const Octree& octree) const {
   std::vector<PointSize> at_masters;
   std::size_t room = least_masters;
-  const auto keep_smallest = [&] {
-    std::sort(at_masters.begin(), at_masters.end());
-    const auto same_point = [](const PointSize& a, const PointSize& b) { return a.key == b.key; };
-    at_masters.erase(std::unique(at_masters.begin(), at_masters.end(), same_point), at_masters.end());
-    room = std::max(least_masters, 2 * at_masters.size());
-  };
-  for (std::size_t s = sources.first; s < sources.last; ++s) {
-    const Cell cell = cell_of(_sources[s]);
+  for (const SizeSource& source : _sources) {
+    const Cell cell = cell_of(source);
     const std::int32_t leaf = octree.table.find(cell.key);
-    if (octree.leaves.levels[leaf] != cell.level) continue;  // of smaller leaves none hangs outside the cell
-    for (const GridPoint master : masters_of_corners(octree.leaves, octree.table, leaf))
-      at_masters.push_back({morton_key(master), _sources[s].size});
-    if (at_masters.size() > room) keep_smallest();
+    if (octree.levels[leaf] != cell.level) continue;  // of smaller leaves none hangs outside the cell
+    for (const GridPoint master : masters_of_corners(octree.leaves(), octree.table, leaf))
+      at_masters.push_back({morton_key(master), source.size});
+    if (at_masters.size() <= room) continue;
+    keep_smallest(at_masters);
+    room = std::max(least_masters, 2 * at_masters.size());
   }
-  keep_smallest();
+  keep_smallest(at_masters);
   return at_masters;
 }
 
 // A hanging node takes the mean of its masters in the end: where a source asks for its size they must, too.
 SeedTree FieldBuilder::plant_seeds(const Octree& octree) const {
-  std::vector<PointSize> mine;
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu own(_clock, ScopedCpu::As::task);
-    mine = sizes_at_masters(octree, own_range(_sources.size()));
-  });
+  std::vector<PointSize> at_masters;
+  parallel::agree(_communicator, [&] { at_masters = sizes_at_masters(octree); });
   std::vector<SizeSeed> seeds = seeds_at_sources();
-  for (const PointSize& at : _communicator.all_gather_items<PointSize>(mine))
-    seeds.push_back({grid_point(at.key), 0, at.size});
-  return SeedTree(std::move(seeds), _slope);
+  const Pages& pages = _cells.pages();
+  const auto owner = [&](const PointSize& at) { return pages.owner(pages.find(at.key)); };
+  at_masters = parallel::deliver(_communicator, std::move(at_masters), owner);
+  keep_smallest(at_masters);
+  for (const PointSize& at : at_masters) seeds.push_back({grid_point(at.key), 0, at.size});
+  return SeedTree(_communicator, seeds, _slope);
 }
 
-FieldBuilder::Octree FieldBuilder::grow_octree() {
-  Octree octree{_cells.leaves(), {}};
-  octree.table = LeafTable(octree.leaves);
+FieldBuilder::Octree FieldBuilder::grow_octree() const {
+  SplitCubes::Leaves own = _cells.leaves();
+  Octree octree;
+  octree.table = LeafTable(_communicator, _cells.pages(), own);
+  octree.keys = parallel::NodeArray<std::uint64_t>::gathered(_communicator, std::move(own.keys));
+  octree.levels = parallel::NodeArray<std::uint8_t>::gathered(_communicator, std::move(own.levels));
   return octree;
-}
-
-FieldBuilder::Range FieldBuilder::own_range(std::size_t count) const {
-  const auto rank = static_cast<std::size_t>(_communicator.rank());
-  const auto ranks = static_cast<std::size_t>(_communicator.size());
-  return {count * rank / ranks, count * (rank + 1) / ranks};
 }
 
 double FieldBuilder::bound_at(GridPoint p) const {
@@ -176,40 +213,30 @@ double FieldBuilder::bound_at(GridPoint p) const {
   return _previous->interpolate(unit * p.x, unit * p.y, unit * p.z);
 }
 
-bool FieldBuilder::split_where_coarse(const SplitCubes::Leaves& leaves, const SeedTree& seeds,
-                                      std::int64_t most_cubes) {
-  struct Cube {
-    std::uint64_t key;
-    std::int64_t level;
-
-    static constexpr auto fields() { return std::tuple(&Cube::key, &Cube::level); }
-  };
-  std::vector<Cube> mine;
+bool FieldBuilder::split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes) {
+  std::int64_t count = 0;
   const auto visit = [&](auto&& self, std::uint64_t key, int level) -> void {
-    if (level >= finest_level || static_cast<std::int64_t>(mine.size()) > most_cubes) return;
+    if (level >= finest_level || count > most_cubes) return;
     const std::uint32_t half = grid_size >> level >> 1;
     const GridPoint low = grid_point(key), center{low.x + half, low.y + half, low.z + half};
     const double too_small = std::ldexp(_root.edge, -level) / leaf_edge_per_size;
     if (!seeds.offers_less(center, std::min(too_small, bound_at(center)))) return;
-    mine.push_back({key, level});
+    _cells.split(key, level);
+    ++count;
     for (std::uint64_t child = 0; child < 8; ++child)
       self(self, key | child << 3 * (finest_level - level - 1), level + 1);
   };
   parallel::agree(_communicator, [&] {
-    const ScopedCpu own(_clock, ScopedCpu::As::task);
-    const Range range = own_range(leaves.keys.size());
-    for (std::size_t leaf = range.first; leaf < range.last; ++leaf)
+    const SplitCubes::Leaves leaves = _cells.leaves();
+    for (std::size_t leaf = 0; leaf < leaves.keys.size(); ++leaf)
       visit(visit, leaves.keys[leaf], leaves.levels[leaf]);
   });
-  if (_communicator.sum(static_cast<std::int64_t>(mine.size())) > most_cubes) return false;
-  for (const Cube& cube : _communicator.all_gather_items<Cube>(mine))
-    _cells.split(cube.key, static_cast<int>(cube.level));
-  return true;
+  return _communicator.sum(count) <= most_cubes;
 }
 
 std::vector<float> FieldBuilder::sizes_at_corners(const Octree& octree, const SeedTree& seeds,
                                                   Range range) const {
-  const OctreeNodes nodes = collect_nodes(octree.leaves, octree.table, range.first, range.last);
+  const OctreeNodes nodes = collect_nodes(octree.leaves(), octree.table, range);
   std::int32_t near = -1;
   const auto size_at = [&](GridPoint p) { return seeds.cheapest(p, bound_at(p), near); };
   std::vector<double> sizes(nodes.points.size());
@@ -235,16 +262,16 @@ std::vector<float> FieldBuilder::sizes_at_corners(const Octree& octree, const Se
   return corner_sizes;
 }
 
-SizeField FieldBuilder::finish(Octree octree, std::vector<float> corner_sizes) const {
+SizeField FieldBuilder::finish(const Octree& octree, std::vector<float> corner_sizes) const {
   SizeField field;
   field._options = _options;
   field._domain = _domain;
   field._low = _root.low;
   field._root_edge = _root.edge;
-  field._corner_sizes = {_communicator, std::move(corner_sizes)};
-  field._leaf_keys = {_communicator, std::move(octree.leaves.keys)};
-  field._leaf_levels = {_communicator, std::move(octree.leaves.levels)};
-  field._leaf_table = octree.table.shared(_communicator);
+  field._corner_sizes = parallel::NodeArray<float>::gathered(_communicator, std::move(corner_sizes));
+  field._leaf_keys = octree.keys;
+  field._leaf_levels = octree.levels;
+  field._leaf_table = octree.table;
   return field;
 }
 

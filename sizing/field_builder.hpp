@@ -24,8 +24,9 @@ void check_options(const SizingOptions& options);
 
 /// One build of a field by all ranks, the same on each and for any number of them. A source asks for its size
 /// in the whole cell around it whose edge is at most that size; elsewhere the size is that of the cheapest
-/// source, size + ln(growth) * distance from that cell. Leaves are looked at, and sizes at their corners
-/// found, by the ranks in ranges of the Morton curve; the octree itself is made by all alike.
+/// source, size + ln(growth) * distance from that cell. The root is shared as pages: a rank has the sources
+/// and makes the leaves in its own. Sizes at corners of leaves are found by ranges of the Morton curve. What
+/// is looked up everywhere, leaves, the cells of sources, is held once per node.
 class FieldBuilder {
 public:
   /// Collective, as all that follows.
@@ -35,8 +36,7 @@ public:
   FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
                const SizeField& previous);
 
-  /// The field under these sources, the same on every rank, whose sizes may lie below the minimum. Called
-  /// once.
+  /// The field under the sources of all ranks, whose sizes may lie below the minimum. Called once.
   SizeField build(std::vector<SizeSource> sources);
   /// As above; nothing, at less cost, where the field has clearly more than `most_leaves`.
   std::optional<SizeField> build_within(std::vector<SizeSource> sources, std::int64_t most_leaves);
@@ -48,8 +48,11 @@ private:
     int level;
   };
   struct Octree {
-    SplitCubes::Leaves leaves;
+    parallel::NodeArray<std::uint64_t> keys;
+    parallel::NodeArray<std::uint8_t> levels;
     LeafTable table;
+
+    CellSpans leaves() const { return {keys.items(), levels.items()}; }
   };
   /// A point of the finest grid, by its key, with a size asked for there.
   struct PointSize {
@@ -59,27 +62,29 @@ private:
     static constexpr auto fields() { return std::tuple(&PointSize::key, &PointSize::size); }
     friend auto operator<=>(const PointSize&, const PointSize&) = default;
   };
-  /// A range of leaves or sources.
-  struct Range {
-    std::size_t first, last;
-  };
-
   Cell cell_of(const SizeSource& source) const;
+  /// The root in pages, by these sources, or by the leaves of the field it starts from.
+  Pages divide_root(std::span<const SizeSource> own) const;
+  /// Gives sources to the ranks in whose pages their cells begin; of those of one cell the smallest is kept.
+  std::vector<SizeSource> deal_out(const Pages& pages, std::vector<SizeSource> own) const;
   void split_at_sources();
+  /// As the field that it starts from is.
+  void split_as_before();
   std::vector<SizeSeed> seeds_at_sources() const;
-  /// What hanging corners of leaves hang on, with the smallest size that these sources ask for in such
-  /// leaves.
-  std::vector<PointSize> sizes_at_masters(const Octree& octree, Range sources) const;
+  /// Of those at one point the smallest, along the curve.
+  static void keep_smallest(std::vector<PointSize>& sizes);
+  /// What hanging corners of leaves hang on, with the smallest size that the sources of this rank ask for in
+  /// such leaves.
+  std::vector<PointSize> sizes_at_masters(const Octree& octree) const;
   /// The tree of the sources' cells and of those.
   SeedTree plant_seeds(const Octree& octree) const;
-  Octree grow_octree();
-  Range own_range(std::size_t count) const;
-  /// False where that would take more cubes than that; then nothing is split.
-  bool split_where_coarse(const SplitCubes::Leaves& leaves, const SeedTree& seeds, std::int64_t most_cubes);
+  Octree grow_octree() const;
+  /// False where that would take more cubes than that.
+  bool split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes);
   /// What no size may exceed at a point.
   double bound_at(GridPoint p) const;
   std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;
-  SizeField finish(Octree octree, std::vector<float> corner_sizes) const;
+  SizeField finish(const Octree& octree, std::vector<float> own_corner_sizes) const;
 
   const parallel::Communicator& _communicator;
   parallel::StageClock& _clock;

@@ -59,22 +59,6 @@ constexpr double finest_strip = 0.01;
 constexpr double aspect_of_parts = 8;
 constexpr double largest_aspect = 1e30;  // finite, for widths of nothing
 
-/// Sizes that differ by rounding alone.
-bool is_same(double a, double b) {
-  constexpr double rounding = 1e-9;
-  return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
-}
-
-bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
-  return is_same(a.minimum, b.minimum) && is_same(a.maximum, b.maximum) &&
-         is_same(a.surface_maximum, b.surface_maximum) && is_same(a.growth, b.growth) &&
-         is_same(a.curvature_angle, b.curvature_angle) && is_same(a.proximity, b.proximity) &&
-         is_same(a.chordal_deviation, b.chordal_deviation) && is_same(a.feature_aspect, b.feature_aspect) &&
-         is_same(smallest_feature_size(a), smallest_feature_size(b)) &&
-         is_same(smallest_strip_size(a), smallest_strip_size(b)) &&
-         is_same(smallest_gap_size(a), smallest_gap_size(b));
-}
-
 /// What walls opposite to each other ask for.
 std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& options) {
   std::vector<SizeSource> sources;
@@ -238,17 +222,38 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options, d
   return mine;
 }
 
-std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource> sources,
-                                                     const SizingOptions& options) const {
-  const double slope = std::log(options.growth);
-  std::vector<SizeSource> mine;
-  for (const cad::FaceCorner& corner : _corners) {
-    const geometry::Vec3 point = _model.vertex(corner.vertex);
-    double size = options.maximum;
-    for (const SizeSource& s : sources) size = std::min(size, s.size + slope * distance(s.point, point));
-    const auto more = corner_sources(_model, corner, size, options);
-    mine.insert(mine.end(), more.begin(), more.end());
+std::vector<double> ModelSampler::sizes_at(std::span<const geometry::Vec3> points,
+                                           std::span<const SizeSource> own,
+                                           const SizingOptions& options) const {
+  std::vector<double> sizes(points.size(), options.maximum);
+  {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const double slope = std::log(options.growth);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (const SizeSource& s : own)
+        sizes[i] = std::min(sizes[i], s.size + slope * distance(s.point, points[i]));
+    }
   }
+  _communicator.minimum_each(sizes);
+  return sizes;
+}
+
+std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource> own,
+                                                     const SizingOptions& options) const {
+  std::vector<geometry::Vec3> points;
+  for (const cad::FaceCorner& corner : _corners) points.push_back(_model.vertex(corner.vertex));
+  const auto before =
+      static_cast<std::size_t>(_communicator.exclusive_scan(static_cast<std::int64_t>(points.size())));
+  points = _communicator.all_gather_items<geometry::Vec3>(points);
+  const std::vector<double> sizes = sizes_at(points, own, options);
+  std::vector<SizeSource> mine;
+  parallel::agree(_communicator, [&] {
+    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    for (std::size_t i = 0; i < _corners.size(); ++i) {
+      const auto more = corner_sources(_model, _corners[i], sizes[before + i], options);
+      mine.insert(mine.end(), more.begin(), more.end());
+    }
+  });
   return mine;
 }
 
@@ -260,15 +265,10 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
     mine = sample_own(options, coarser);
   });
-  std::vector<SizeSource> all = _communicator.all_gather_items<SizeSource>(mine);
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    mine = sample_corners(all, options);
-  });
-  const std::vector<SizeSource> behind_corners = _communicator.all_gather_items<SizeSource>(mine);
-  all.insert(all.end(), behind_corners.begin(), behind_corners.end());
-  for (SizeSource& source : all) source.size *= coarser;
-  return all;
+  const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
+  mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
+  for (SizeSource& source : mine) source.size *= coarser;
+  return mine;
 }
 
 std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minimum) const {
@@ -341,57 +341,9 @@ std::vector<double> ModelSampler::sizes_without_features(std::span<const geometr
                                                          const SizingOptions& options) const {
   SizingOptions without = options;
   without.feature_minimum = without.strip_minimum = options.maximum;
-  const std::vector<SizeSource> sources = sample(without, 1);
-  const double slope = std::log(options.growth);
-  std::vector<double> sizes;
-  for (const geometry::Vec3 place : places) {
-    double size = options.maximum;
-    for (const SizeSource& s : sources) size = std::min(size, s.size + slope * distance(s.point, place));
-    sizes.push_back(std::max(size, options.minimum));
-  }
+  std::vector<double> sizes = sizes_at(places, sample(without, 1), options);
+  for (double& size : sizes) size = std::max(size, options.minimum);
   return sizes;
-}
-
-SizeField ModelSampler::build_field(const SizingOptions& options) const {
-  return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
-}
-
-std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& options, double coarser,
-                                                     std::int64_t most_leaves) const {
-  SizingOptions coarse = options;
-  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum, &coarse.gap_minimum,
-                       &coarse.surface_maximum, &coarse.maximum})
-    *size *= coarser;
-  if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
-  return FieldBuilder(_communicator, _clock, _model.bounds(), coarse)
-      .build_within(sample(options, coarser), most_leaves);
-}
-
-std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, std::int64_t most_leaves) const {
-  std::optional<SizeField> field = build_coarser(options, 1, most_leaves);
-  if (!field) return std::nullopt;
-  const double tetrahedra = count_tetrahedra(*field);
-  return Trial{std::move(*field), tetrahedra};
-}
-
-std::optional<double> ModelSampler::estimate_tetrahedra(const SizingOptions& options, double coarser,
-                                                        std::int64_t most_leaves) const {
-  const auto known = std::find_if(_estimates.begin(), _estimates.end(), [&](const Estimate& each) {
-    return each.coarser == coarser && are_same_sizes(each.options, options);
-  });
-  if (known != _estimates.end())
-    return known->leaves > most_leaves ? std::nullopt : std::optional(known->tetrahedra);
-  const std::optional<SizeField> field = build_coarser(options, coarser, most_leaves);
-  if (!field) return std::nullopt;
-  const double tetrahedra = std::pow(coarser, 3) * count_tetrahedra(*field);
-  _estimates.push_back({options, coarser, field->leaf_count(), tetrahedra});
-  return tetrahedra;
-}
-
-SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
-                           const SizingOptions& options, parallel::StageClock& clock) {
-  check_options(options);
-  return ModelSampler(communicator, model, clock, options.proximity, Fields::one).build_field(options);
 }
 
 }  // namespace aeroloom::sizing

@@ -186,10 +186,14 @@ private:
   void gather_gaps();
   /// What the faces and edges of this rank ask for.
   std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser) const;
-  /// What all ask for, corners included, all sizes `coarser` times as large. Collective.
+  /// What the faces, edges and corners of this rank ask for, all sizes `coarser` times as large. Collective,
+  /// as what follows.
   std::vector<SizeSource> sample(const SizingOptions& options, double coarser) const;
-  std::vector<SizeSource> sample_corners(std::span<const SizeSource> sources,
-                                         const SizingOptions& options) const;
+  /// What corners ask for, whose sides are as long as the sources of all ranks make them.
+  std::vector<SizeSource> sample_corners(std::span<const SizeSource> own, const SizingOptions& options) const;
+  /// The sizes under the sources of all ranks, at points that are the same on each.
+  std::vector<double> sizes_at(std::span<const geometry::Vec3> points, std::span<const SizeSource> own,
+                               const SizingOptions& options) const;
   /// Facets of all faces that bound the domain.
   const TriangleTree& boundary() const { return _part_on_boundary ? *_part_on_boundary : _walls->tree; }
   double count_tetrahedra(const SizeField& field) const;

@@ -1,32 +1,9 @@
 #include "sizing/octree.hpp"
 
-#include "geometry/sort_by_key.hpp"
-
 #include <algorithm>
 
 namespace aeroloom::sizing {
 namespace {
-
-void sort_unique(std::vector<std::uint64_t>& keys) {
-  geometry::sort_by_key(keys, [](std::uint64_t key) { return key; });
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-}
-
-/// For each child of a cell, which of the 27 cells around the parent, it included, the child touches: bit
-/// x + 3 y + 9 z.
-constexpr std::array<std::uint32_t, 8> around_child = [] {
-  std::array<std::uint32_t, 8> touched{};
-  for (int child = 0; child < 8; ++child) {
-    for (int side = 0; side < 8; ++side) {
-      const auto step = [&](int axis) {
-        const bool high = (child >> axis & 1) != 0, beside = (side >> axis & 1) != 0;
-        return beside ? (high ? 2 : 0) : 1;
-      };
-      touched[child] |= 1U << (step(0) + 3 * step(1) + 9 * step(2));
-    }
-  }
-  return touched;
-}();
 
 /// The corner of a leaf that has the given offset bits.
 GridPoint corner_point(GridPoint low, std::uint32_t edge, int corner) {
@@ -40,7 +17,7 @@ bool is_corner(GridPoint p, std::uint32_t edge) {
 
 /// Finds the leaves in the eight octants around a corner of `leaf`, -1 outside, until a leaf before it, but
 /// not before `first`, turns up that has the node as a corner too: then returns that octant, else -1.
-int find_leaves_around(GridPoint p, std::int32_t leaf, std::int32_t first, const SplitCubes::Leaves& leaves,
+int find_leaves_around(GridPoint p, std::int32_t leaf, std::int32_t first, CellSpans leaves,
                        const LeafTable& table, std::array<std::int32_t, 8>& around) {
   for (int octant = 0; octant < 8; ++octant) {
     const GridPoint cell{p.x - (octant & 1 ? 0 : 1), p.y - (octant & 2 ? 0 : 1), p.z - (octant & 4 ? 0 : 1)};
@@ -54,8 +31,7 @@ int find_leaves_around(GridPoint p, std::int32_t leaf, std::int32_t first, const
 
 /// The masters of a node that lies on an edge or face of the given leaf: its corners that agree with the node
 /// on every axis where the node is no middle; `master_nodes` says which corners.
-OctreeNodes::Hanging hang(std::int32_t node, GridPoint p, std::int32_t leaf,
-                          const SplitCubes::Leaves& leaves) {
+OctreeNodes::Hanging hang(std::int32_t node, GridPoint p, std::int32_t leaf, CellSpans leaves) {
   const std::uint32_t edge = grid_size >> leaves.levels[leaf], inside = edge - 1;
   const GridPoint low = grid_point(leaves.keys[leaf]);
   const auto agrees = [&](std::uint32_t at, std::uint32_t from, bool high) {
@@ -72,8 +48,7 @@ OctreeNodes::Hanging hang(std::int32_t node, GridPoint p, std::int32_t leaf,
 }
 
 /// The octant of a leaf around a node that has the node on an edge or face, -1 where none does.
-int octant_to_hang_on(GridPoint p, const std::array<std::int32_t, 8>& around,
-                      const SplitCubes::Leaves& leaves) {
+int octant_to_hang_on(GridPoint p, const std::array<std::int32_t, 8>& around, CellSpans leaves) {
   for (int octant = 0; octant < 8; ++octant) {
     if (around[octant] >= 0 && !is_corner(p, grid_size >> leaves.levels[around[octant]])) return octant;
   }
@@ -108,80 +83,8 @@ private:
 
 }  // namespace
 
-void SplitCubes::balance() {
-  for (int level = finest_level - 1; level > 0; --level) {
-    sort_unique(_cells[level]);
-    // A split cell needs neighbours of its own level: their parents, itself included, must be split. Siblings
-    // share most of those: each is asked for once, by its place among the 27 around their own parent.
-    std::vector<std::uint64_t>& parents = _cells[level - 1];
-    const std::uint32_t range = 1U << (level - 1);
-    const std::vector<std::uint64_t>& cells = _cells[level];
-    for (std::size_t i = 0; i < cells.size();) {
-      const std::uint64_t parent = cells[i] >> 3;
-      std::uint32_t wanted = 0;
-      for (; i < cells.size() && cells[i] >> 3 == parent; ++i) wanted |= around_child[cells[i] & 7];
-      const GridPoint c = grid_point(parent);
-      for (int place = 0; place < 27; ++place) {
-        if ((wanted >> place & 1) == 0) continue;
-        const GridPoint p{c.x + static_cast<std::uint32_t>(place % 3) - 1,
-                          c.y + static_cast<std::uint32_t>(place / 3 % 3) - 1,
-                          c.z + static_cast<std::uint32_t>(place / 9) - 1};
-        if (p.x < range && p.y < range && p.z < range) parents.push_back(morton_key(p));
-      }
-    }
-  }
-  sort_unique(_cells[0]);
-}
-
-SplitCubes::Leaves SplitCubes::leaves() const {
-  Leaves result;
-  std::array<std::size_t, finest_level> next{};
-  // Cells are met in Morton order, so on each level the split ones are met in the order of their list.
-  const auto visit = [&](auto&& self, std::uint64_t key, int level) -> void {
-    if (level < finest_level && next[level] < _cells[level].size() && _cells[level][next[level]] == key) {
-      ++next[level];
-      for (std::uint64_t child = 0; child < 8; ++child) self(self, key << 3 | child, level + 1);
-    } else {
-      result.keys.push_back(key << 3 * (finest_level - level));
-      result.levels.push_back(static_cast<std::uint8_t>(level));
-    }
-  };
-  visit(visit, 0, 0);
-  return result;
-}
-
-LeafTable::LeafTable(const SplitCubes::Leaves& leaves) {
-  std::vector<std::int32_t> entries(64, 0);
-  for (std::size_t leaf = 0; leaf < leaves.keys.size(); ++leaf) {
-    const std::uint64_t key = leaves.keys[leaf];
-    const int level = leaves.levels[leaf];
-    std::size_t node = 0;
-    int shift = top_shift, depth = 2;
-    for (; depth < level; depth += 2, shift -= 6) {
-      std::int32_t& entry = entries[node * 64 + (key >> shift & 63)];
-      if (entry >= 0) {
-        entry = -static_cast<std::int32_t>(entries.size() / 64);
-        node = static_cast<std::size_t>(-entry);
-        entries.resize(entries.size() + 64, 0);
-      } else {
-        node = static_cast<std::size_t>(-entry);
-      }
-    }
-    const std::size_t first = node * 64 + (key >> shift & 63);
-    std::fill_n(entries.begin() + static_cast<std::ptrdiff_t>(first), 1ULL << 3 * (depth - level),
-                static_cast<std::int32_t>(leaf));
-  }
-  _entries = parallel::NodeArray<std::int32_t>(std::move(entries));
-}
-
-LeafTable LeafTable::shared(const parallel::Communicator& communicator) const {
-  LeafTable result;
-  result._entries = _entries.shared(communicator);
-  return result;
-}
-
-OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table, std::size_t first,
-                          std::size_t last) {
+OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, Range range) {
+  const auto [first, last] = range;
   OctreeNodes nodes;
   std::vector<std::int32_t> hung_on;  // per hanging node
   RecentNodes recent;
@@ -222,8 +125,7 @@ OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& tab
   return nodes;
 }
 
-std::vector<GridPoint> masters_of_corners(const SplitCubes::Leaves& leaves, const LeafTable& table,
-                                          std::int32_t leaf) {
+std::vector<GridPoint> masters_of_corners(CellSpans leaves, const LeafTable& table, std::int32_t leaf) {
   std::vector<GridPoint> masters;
   if (leaves.levels[leaf] == 0) return masters;
   const GridPoint low = grid_point(leaves.keys[leaf]);

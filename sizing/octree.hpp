@@ -3,46 +3,76 @@
 #pragma once
 
 #include "parallel/node_array.hpp"
-#include "sizing/morton.hpp"
+#include "sizing/pages.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
 
 /// An octree as the sets of its split cells, one ascending list of level keys per level (a level key has
-/// three bits per level). Splitting a cell splits its ancestors once balance() has run.
+/// three bits per level). Splitting a cell splits its ancestors once balance() has run. Each rank has the
+/// cells in its own pages; those that hold several pages are all split.
 class SplitCubes {
 public:
-  /// Splits the cell of `level` that holds the finest cell `key`.
-  void split(std::uint64_t key, int level) { _cells[level].push_back(key >> 3 * (finest_level - level)); }
+  /// On this rank alone.
+  SplitCubes() = default;
+  SplitCubes(const parallel::Communicator& communicator, Pages pages);
+
+  /// Splits the cell of `level` that holds the finest cell `key`, in a page of this rank.
+  void split(std::uint64_t key, int level) {
+    if (level >= _pages.level(_pages.find(key))) _cells[level].push_back(key >> 3 * (finest_level - level));
+  }
   /// Splits what it takes to have leaves of at most one level apart across faces, edges and corners.
+  /// Collective, as leaf_count().
   void balance();
+
+  const Pages& pages() const { return _pages; }
+  /// The pages of this rank.
+  Range own_pages() const { return _pages.of_rank(_rank); }
 
   /// Leaves along the Morton curve: key of the low corner, level.
   struct Leaves {
     std::vector<std::uint64_t> keys;
     std::vector<std::uint8_t> levels;
+
+    operator CellSpans() const { return {keys, levels}; }
   };
-  /// After balance().
+  /// Those in this rank's pages. After balance().
   Leaves leaves() const;
-  /// How many there are, once balanced.
-  std::int64_t leaf_count() const {
-    std::int64_t split = 0;
-    for (const std::vector<std::uint64_t>& cells : _cells) split += static_cast<std::int64_t>(cells.size());
-    return 7 * split + 1;
-  }
+  /// How many there are on all ranks, once balanced.
+  std::int64_t leaf_count() const;
 
 private:
+  /// A cell of a level to be split in another rank's page.
+  struct Request {
+    std::uint64_t cell;
+    std::int64_t owner;
+
+    static constexpr auto fields() { return std::tuple(&Request::cell, &Request::owner); }
+  };
+  /// Splits cells of a level around one of them, that included, by their places among the 27.
+  void split_around(std::uint64_t parent, int level, std::uint32_t wanted);
+
   std::array<std::vector<std::uint64_t>, finest_level> _cells;
+  std::array<std::vector<std::uint64_t>, finest_level> _above;  // cells that hold several pages
+  std::vector<Request> _of_others;
+  Pages _pages;
+  std::optional<parallel::Communicator> _communicator;  // where there are several ranks
+  parallel::Rank _rank = 0;
 };
 
 /// Finds the leaf of a finest cell: a tree with 64 branches per node, two octree levels each.
 class LeafTable {
 public:
   LeafTable() = default;
-  explicit LeafTable(const SplitCubes::Leaves& leaves);
+  /// Of all leaves of the root.
+  explicit LeafTable(CellSpans leaves);
+  /// Each rank gives the leaves in its pages; held once per node. Collective.
+  LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own);
 
   /// Index of the leaf that holds the finest cell with this key.
   std::int32_t find(std::uint64_t key) const {
@@ -76,12 +106,10 @@ struct OctreeNodes {
   };
   std::vector<Hanging> hanging;  ///< ascending node
 };
-/// Of the leaves [first, last).
-OctreeNodes collect_nodes(const SplitCubes::Leaves& leaves, const LeafTable& table, std::size_t first,
-                          std::size_t last);
+/// Of a range of all leaves.
+OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, Range range);
 
 /// The corners of a leaf that hang on larger leaves beside it: their masters, some more than once.
-std::vector<GridPoint> masters_of_corners(const SplitCubes::Leaves& leaves, const LeafTable& table,
-                                          std::int32_t leaf);
+std::vector<GridPoint> masters_of_corners(CellSpans leaves, const LeafTable& table, std::int32_t leaf);
 
 }  // namespace aeroloom::sizing

@@ -1,6 +1,7 @@
 #include "sizing/seed_tree.hpp"
 
 #include "geometry/sort_by_key.hpp"
+#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +13,9 @@ namespace aeroloom::sizing {
 namespace {
 
 static_assert(grid_size <= 1U << 24, "coordinates must be exact in single precision");
+
+/// Levels of groups that ranks make of their own seeds, so that what is above has hundreds of seeds in each.
+constexpr std::size_t levels_of_ranks = 3;
 
 /// Not above the value.
 float round_down(double value) {
@@ -37,42 +41,71 @@ void part_by_boundaries(const std::vector<std::uint64_t>& keys, const Visit& vis
 
 }  // namespace
 
-SeedTree::SeedTree(std::vector<SizeSeed> seeds, double slope) : _slope(slope), _steps_per_size(1 / slope) {
-  if (seeds.empty()) return;
+/// Groups of one level, and the keys that they begin with.
+struct SeedTree::Layer {
+  std::vector<Group> groups;
+  std::vector<std::uint64_t> keys;
+};
+
+SeedTree::Layer SeedTree::lowest_layer(const std::vector<SizeSeed>& seeds, std::vector<double>& sizes) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   order.reserve(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) order.emplace_back(morton_key(seeds[i].low), i);
   geometry::sort_by_key(order, [](const auto& each) { return each.first; });
   std::vector<std::uint64_t> keys;
-  keys.reserve(order.size()), _sizes.reserve(order.size());
-  for (const auto& [key, seed] : order) keys.push_back(key), _sizes.push_back(seeds[seed].size);
-  std::vector<Group>& lowest = _levels.emplace_back();
-  std::vector<std::uint64_t> first_keys;
+  keys.reserve(order.size()), sizes.reserve(order.size());
+  for (const auto& [key, seed] : order) keys.push_back(key), sizes.push_back(seeds[seed].size);
+  Layer layer;
   part_by_boundaries(keys, [&](std::size_t first, std::size_t last) {
-    Group& to = lowest.emplace_back(first);
+    Group& to = layer.groups.emplace_back(first);
     for (std::size_t i = first; i < last; ++i) to.put(i - first, seeds[order[i].second]);
-    first_keys.push_back(keys[first]);
+    layer.keys.push_back(keys[first]);
   });
-  while (_levels.back().size() > 1) {
-    const std::vector<Group>& below = _levels.back();
-    std::vector<Group> above;
-    keys = std::exchange(first_keys, {});
-    part_by_boundaries(keys, [&](std::size_t first, std::size_t last) {
-      Group& to = above.emplace_back(first);
-      for (std::size_t i = first; i < last; ++i) to.put(i - first, below[i]);
-      first_keys.push_back(keys[first]);
-    });
-    _levels.push_back(std::move(above));
-  }
+  return layer;
 }
 
-SeedTree::Group::Group(std::size_t number) : first(static_cast<std::uint32_t>(number)) {
+SeedTree::Layer SeedTree::layer_above(const Layer& below) {
+  Layer layer;
+  part_by_boundaries(below.keys, [&](std::size_t first, std::size_t last) {
+    Group& to = layer.groups.emplace_back(first);
+    for (std::size_t i = first; i < last; ++i) to.put(i - first, below.groups[i]);
+    layer.keys.push_back(below.keys[first]);
+  });
+  return layer;
+}
+
+SeedTree::SeedTree(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own, double slope)
+    : _slope(slope), _steps_per_size(1 / slope) {
+  std::vector<double> sizes;
+  std::vector<Layer> mine;
+  parallel::agree(communicator, [&] {
+    mine.push_back(lowest_layer(own, sizes));
+    while (mine.size() < levels_of_ranks) mine.push_back(layer_above(mine.back()));
+  });
+  std::int64_t before = communicator.exclusive_scan(static_cast<std::int64_t>(sizes.size()));
+  _sizes = parallel::NodeArray<double>::gathered(communicator, std::move(sizes));
+  for (Layer& layer : mine) {
+    for (Group& each : layer.groups) each.first += static_cast<std::uint32_t>(before);
+    before = communicator.exclusive_scan(static_cast<std::int64_t>(layer.groups.size()));
+    _levels.push_back(parallel::NodeArray<Group>::gathered(communicator, std::move(layer.groups)));
+  }
+  // The levels above are small, and every rank makes them.
+  const std::span<const Group> last = _levels.back().items();
+  Layer above{{last.begin(), last.end()}, communicator.all_gather_items<std::uint64_t>(mine.back().keys)};
+  while (above.groups.size() > 1) {
+    above = layer_above(above);
+    _levels.emplace_back(above.groups);
+  }
+  if (above.groups.empty()) _levels.clear();
+}
+
+SeedGroup::SeedGroup(std::size_t number) : first(static_cast<std::uint32_t>(number)) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   size.fill(infinity);
   for (int axis = 0; axis < 3; ++axis) low[axis].fill(infinity), high[axis].fill(-infinity);
 }
 
-void SeedTree::Group::put(std::size_t i, const SizeSeed& seed) {
+void SeedGroup::put(std::size_t i, const SizeSeed& seed) {
   const std::array<std::uint32_t, 3> from{seed.low.x, seed.low.y, seed.low.z};
   for (int axis = 0; axis < 3; ++axis) {
     low[axis][i] = static_cast<float>(from[axis]);
@@ -81,7 +114,7 @@ void SeedTree::Group::put(std::size_t i, const SizeSeed& seed) {
   size[i] = round_down(seed.size);
 }
 
-void SeedTree::Group::put(std::size_t i, const Group& below) {
+void SeedGroup::put(std::size_t i, const SeedGroup& below) {
   for (int axis = 0; axis < 3; ++axis) {
     low[axis][i] = *std::min_element(below.low[axis].begin(), below.low[axis].end());
     high[axis][i] = *std::max_element(below.high[axis].begin(), below.high[axis].end());

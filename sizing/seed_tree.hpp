@@ -1,10 +1,13 @@
 /// Cubes that ask for sizes, searched for what counts at a point.
 #pragma once
 
+#include "parallel/communicator.hpp"
+#include "parallel/node_array.hpp"
 #include "sizing/morton.hpp"
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -16,15 +19,33 @@ struct SizeSeed {
   double size = 0;
 };
 
+/// The boxes of up to eight neighbours along the Morton curve, seeds or groups of them, and the smallest size
+/// in each, rounded down; coordinates of the grid are exact in single precision.
+struct SeedGroup {
+  static constexpr int most = 8;
+  std::array<std::array<float, most>, 3> low, high;  ///< by axis
+  std::array<float, most> size;                      ///< infinite where there is no neighbour
+  std::uint32_t first = 0;                           ///< number of the first of them
+
+  static constexpr auto fields() {
+    return std::tuple(&SeedGroup::low, &SeedGroup::high, &SeedGroup::size, &SeedGroup::first);
+  }
+  SeedGroup() = default;
+  explicit SeedGroup(std::size_t number);
+  void put(std::size_t i, const SizeSeed& seed);
+  void put(std::size_t i, const SeedGroup& below);
+};
+
 /// The lower envelope of cones over seeds: at a point, the least of size + slope * distance over all seeds.
 /// Up to eight neighbours along the Morton curve are a group, up to eight of those, and so on; a group is
 /// passed by where even its smallest size at its nearest point would be too much. The answer is the exact
-/// minimum, to the last bit, whatever order the search takes.
+/// minimum, to the last bit, whatever order the search takes. Held once per node.
 class SeedTree {
 public:
   SeedTree() = default;
-  /// `slope` counts in size per finest cell.
-  SeedTree(std::vector<SizeSeed> seeds, double slope);
+  /// `slope` counts in size per finest cell. Each rank gives seeds that lie along the curve before those of
+  /// higher ranks. Collective.
+  SeedTree(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own, double slope);
 
   /// The least offer at a point, `bound` where none is below it. `near` makes the search quick where the last
   /// point was close by: the seed whose offer won there, -1 none. The result does not depend on it.
@@ -33,18 +54,8 @@ public:
   bool offers_less(GridPoint p, double bound) const;
 
 private:
-  static constexpr int group = 8;
-  /// The boxes of up to eight neighbours on the level below and the smallest size in each, rounded down;
-  /// coordinates of the grid are exact in single precision.
-  struct Group {
-    std::array<std::array<float, group>, 3> low, high;  ///< by axis
-    std::array<float, group> size;                      ///< infinite where there is no neighbour
-    std::uint32_t first;                                ///< number of the first of them
-
-    explicit Group(std::size_t number);
-    void put(std::size_t i, const SizeSeed& seed);
-    void put(std::size_t i, const Group& below);
-  };
+  using Group = SeedGroup;
+  static constexpr int group = SeedGroup::most;
   struct Best {
     double size;
     std::int32_t seed;
@@ -61,9 +72,13 @@ private:
   template <bool any>
   bool search(std::size_t level, std::size_t number, const Point& p, Best& best) const;
 
+  struct Layer;
+  static Layer lowest_layer(const std::vector<SizeSeed>& seeds, std::vector<double>& sizes);
+  static Layer layer_above(const Layer& below);
+
   /// The seeds along the Morton curve in groups; groups of those, and so on up to one.
-  std::vector<std::vector<Group>> _levels;
-  std::vector<double> _sizes;  // of the seeds
+  std::vector<parallel::NodeArray<Group>> _levels;
+  parallel::NodeArray<double> _sizes;  // of the seeds
   double _slope = 0, _steps_per_size = 0;
 };
 

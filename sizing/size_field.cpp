@@ -39,7 +39,10 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
 
 SizeField SizeField::refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
                              parallel::StageClock& clock) const {
-  return FieldBuilder(communicator, clock, *this).build({more.begin(), more.end()});
+  // All ranks have the same: one gives them.
+  std::vector<SizeSource> sources;
+  if (communicator.is_root()) sources.assign(more.begin(), more.end());
+  return FieldBuilder(communicator, clock, *this).build(std::move(sources));
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {

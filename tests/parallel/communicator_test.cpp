@@ -63,6 +63,17 @@ TEST_F(CommunicatorTest, ReducesReals) {
   EXPECT_EQ(world.sum(term(rank)), expected);
 }
 
+TEST_F(CommunicatorTest, ReducesManyAtOnce) {
+  std::vector<std::int64_t> counts{rank, std::int64_t{1} << 40, -rank};
+  world.sum_each(counts);
+  const std::int64_t sum = static_cast<std::int64_t>(size) * (size - 1) / 2;
+  EXPECT_EQ(counts, (std::vector<std::int64_t>{sum, size * (std::int64_t{1} << 40), -sum}));
+  std::vector<double> sizes{1.5 + rank, 2.5 - rank};
+  world.minimum_each(sizes);
+  EXPECT_EQ(sizes, (std::vector<double>{1.5, 3.5 - size}));
+  world.sum_each({});
+}
+
 TEST_F(CommunicatorTest, BroadcastsFromEveryRoot) {
   for (Rank root = 0; root < size; ++root) {
     Bytes bytes = rank == root ? letter(root, 0, 1000) : letter(rank, 1, 3);

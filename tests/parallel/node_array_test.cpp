@@ -47,6 +47,26 @@ TEST(NodeArrayTest, LiesInMemoryOfTheNodeWhereThereAreOthers) {
   EXPECT_FALSE(lies_in_shared_memory(own.data()));
 }
 
+TEST(NodeArrayTest, GathersWhatRanksHaveInTheirOrder) {
+  const Communicator world = Communicator::world();
+  for (const std::int64_t most : {0, 1, 7, 100'000}) {
+    // Every third rank has nothing.
+    const auto count_of = [&](Rank r) { return r % 3 == 1 ? 0 : most * (r + 1); };
+    std::vector<std::int64_t> mine, expected;
+    for (Rank r = 0; r < world.size(); ++r) {
+      for (std::int64_t i = 0; i < count_of(r); ++i) expected.push_back(1'000'000'000LL * r + i);
+    }
+    for (std::int64_t i = 0; i < count_of(world.rank()); ++i)
+      mine.push_back(1'000'000'000LL * world.rank() + i);
+    const auto all = NodeArray<std::int64_t>::gathered(world, mine);
+    ASSERT_EQ(all.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_EQ(all[i], expected[i]);
+    if (most == 100'000) {
+      EXPECT_EQ(lies_in_shared_memory(all.data()), world.size() > 1);
+    }
+  }
+}
+
 TEST(NodeArrayTest, IsLetGoByRanksOneByOne) {
   const Communicator world = Communicator::world();
   for (Rank first = 0; first < world.size(); ++first) {

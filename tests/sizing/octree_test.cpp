@@ -25,7 +25,7 @@ SplitCubes random_splits(unsigned seed, int count) {
 }
 
 OctreeNodes collect_all(const SplitCubes::Leaves& leaves, const LeafTable& table) {
-  return collect_nodes(leaves, table, 0, leaves.keys.size());
+  return collect_nodes(leaves, table, {0, leaves.keys.size()});
 }
 
 std::vector<std::uint64_t> keys_of(std::span<const GridPoint> points) {
@@ -161,7 +161,7 @@ TEST(Octree, RangesOfLeavesHaveTheirCornersAndHangingOnes) {
   for (const std::size_t parts : {2U, 3U, 7U}) {
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t first = count * part / parts, last = count * (part + 1) / parts;
-      const OctreeNodes some = collect_nodes(leaves, table, first, last);
+      const OctreeNodes some = collect_nodes(leaves, table, {first, last});
       ASSERT_EQ(some.corners.size(), 8 * (last - first));
       EXPECT_EQ(keys_of(some.points).size(), some.points.size());
       for (std::size_t i = 0; i < some.corners.size(); ++i) {

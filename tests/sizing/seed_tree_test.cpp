@@ -47,10 +47,11 @@ double least_of_all(const std::vector<SizeSeed>& seeds, double slope, GridPoint 
 }  // namespace
 
 TEST(SeedTree, FindsTheCheapestToTheLastBitFromAnyStart) {
+  const auto alone = aeroloom::parallel::Communicator::self();
   Random random(3);
   for (const int count : {1, 7, 8, 9, 64, 65, 700, 5000}) {
     const std::vector<SizeSeed> seeds = random.seeds(count);
-    const SeedTree tree(seeds, 0.3);
+    const SeedTree tree(alone, seeds, 0.3);
     std::int32_t follows = -1;
     for (int i = 0; i < 300; ++i) {
       const GridPoint p = i % 2 ? random.point() : GridPoint{random.below(5000), random.below(5000), 77};
@@ -70,9 +71,10 @@ TEST(SeedTree, FindsTheCheapestToTheLastBitFromAnyStart) {
 }
 
 TEST(SeedTree, WithoutSeedsTheBoundCounts) {
+  const auto alone = aeroloom::parallel::Communicator::self();
   std::int32_t near = -1;
   EXPECT_EQ(SeedTree().cheapest({1, 2, 3}, 5, near), 5);
-  EXPECT_EQ(SeedTree({}, 0.3).cheapest({1, 2, 3}, 5, near), 5);
-  EXPECT_FALSE(SeedTree({}, 0.3).offers_less({1, 2, 3}, 5));
+  EXPECT_EQ(SeedTree(alone, {}, 0.3).cheapest({1, 2, 3}, 5, near), 5);
+  EXPECT_FALSE(SeedTree(alone, {}, 0.3).offers_less({1, 2, 3}, 5));
   EXPECT_EQ(near, -1);
 }

@@ -1,0 +1,132 @@
+// How a point finds its leaf.
+#include "sizing/octree.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace aeroloom::sizing {
+namespace {
+
+constexpr std::size_t branches = 64;
+
+/// The level of the branches that a cell consists of, or is.
+int branch_level(int level) {
+  return std::max(2, level + level % 2);
+}
+
+/// How many branches that is.
+std::size_t branches_of(int level) {
+  return std::size_t{1} << 3 * (branch_level(level) - level);
+}
+
+/// Nodes as a table has them, those below a first one.
+class Nodes {
+public:
+  /// Where the entries of a cell stand. The branches of the first node are of level `level`, and begin with
+  /// the finest cell `low`.
+  std::size_t place(std::uint64_t low, int level, std::uint64_t key, int cell_level) {
+    std::size_t at = (key - low) >> 3 * (finest_level - level);
+    for (; level < cell_level; level += 2) {
+      std::int32_t& entry = _entries[at];
+      std::size_t node = static_cast<std::size_t>(-entry);
+      if (entry >= 0) {
+        node = count();
+        entry = -static_cast<std::int32_t>(node);
+        _entries.resize(_entries.size() + branches, 0);
+      }
+      at = node * branches + (key >> 3 * (finest_level - level - 2) & (branches - 1));
+    }
+    return at;
+  }
+  void put(std::uint64_t low, int level, std::uint64_t key, int cell_level, std::size_t entry) {
+    const std::size_t at = place(low, level, key, cell_level);
+    std::fill_n(_entries.begin() + static_cast<std::ptrdiff_t>(at), branches_of(cell_level),
+                static_cast<std::int32_t>(entry));
+  }
+  std::size_t count() const { return _entries.size() / branches; }
+  std::vector<std::int32_t>& entries() { return _entries; }
+
+private:
+  std::vector<std::int32_t> _entries = std::vector<std::int32_t>(branches, 0);
+};
+
+/// A rank's part of a table, with branches of pages in place of the first node.
+struct PartOfTable {
+  std::vector<std::int32_t> branches;  ///< of its pages, in their order
+  std::vector<std::int32_t> entries;   ///< of the nodes below
+
+  /// From numbers among this rank's leaves and nodes to those among all.
+  void renumber(std::size_t first_leaf, std::size_t first_node) {
+    for (std::vector<std::int32_t>* all : {&branches, &entries}) {
+      for (std::int32_t& entry : *all)
+        entry += entry >= 0 ? static_cast<std::int32_t>(first_leaf) : -static_cast<std::int32_t>(first_node);
+    }
+  }
+};
+
+PartOfTable tabulate(const Pages& pages, Range own, CellSpans leaves) {
+  Nodes nodes;
+  PartOfTable part;
+  std::size_t leaf = 0;
+  for (std::size_t page = own.first; page < own.last; ++page) {
+    const std::uint64_t low = pages.key(page);
+    const std::uint64_t end = low + (1ULL << 3 * (finest_level - pages.level(page)));
+    const int level = branch_level(pages.level(page));
+    std::fill_n(nodes.entries().begin(), branches, 0);
+    for (; leaf < leaves.size() && leaves.keys[leaf] < end; ++leaf)
+      nodes.put(low, level, leaves.keys[leaf], leaves.levels[leaf], leaf);
+    part.branches.insert(
+        part.branches.end(), nodes.entries().begin(),
+        nodes.entries().begin() + static_cast<std::ptrdiff_t>(branches_of(pages.level(page))));
+  }
+  part.entries.assign(nodes.entries().begin() + branches, nodes.entries().end());
+  return part;
+}
+
+/// The nodes above pages; entries where pages are remain open.
+Nodes above_pages(const Pages& pages) {
+  Nodes nodes;
+  for (std::size_t page = 0; page < pages.count(); ++page)
+    nodes.place(0, 2, pages.key(page), pages.level(page));
+  return nodes;
+}
+
+}  // namespace
+
+LeafTable::LeafTable(CellSpans leaves) {
+  Nodes nodes;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+    nodes.put(0, 2, leaves.keys[leaf], leaves.levels[leaf], leaf);
+  _entries = parallel::NodeArray<std::int32_t>(std::move(nodes.entries()));
+}
+
+LeafTable::LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own) {
+  PartOfTable part = tabulate(pages, pages.of_rank(communicator.rank()), own);
+  Nodes above = above_pages(pages);
+  const auto before = [&](std::size_t count) {
+    return static_cast<std::size_t>(communicator.exclusive_scan(static_cast<std::int64_t>(count)));
+  };
+  // A rank's nodes count from 1.
+  const std::size_t nodes_before = above.count() + before(part.entries.size() / branches);
+  part.renumber(before(own.size()), nodes_before - 1);
+  const std::vector<std::int32_t> of_pages = communicator.all_gather_items<std::int32_t>(part.branches);
+  if (communicator.is_root()) {
+    auto next = of_pages.begin();
+    for (std::size_t page = 0; page < pages.count(); ++page) {
+      const std::size_t at = above.place(0, 2, pages.key(page), pages.level(page));
+      const auto end = next + static_cast<std::ptrdiff_t>(branches_of(pages.level(page)));
+      std::copy(next, end, above.entries().begin() + static_cast<std::ptrdiff_t>(at));
+      next = end;
+    }
+    part.entries.insert(part.entries.begin(), above.entries().begin(), above.entries().end());
+  }
+  _entries = parallel::NodeArray<std::int32_t>::gathered(communicator, std::move(part.entries));
+}
+
+LeafTable LeafTable::shared(const parallel::Communicator& communicator) const {
+  LeafTable result;
+  result._entries = _entries.shared(communicator);
+  return result;
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,146 @@
+#include "sizing/pages.hpp"
+
+#include "sizing/octree.hpp"
+#include "sizing/seed_tree.hpp"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+using namespace aeroloom::sizing;
+using aeroloom::parallel::Communicator;
+using aeroloom::parallel::Rank;
+
+namespace {
+
+constexpr std::uint64_t end_of_root = 1ULL << 3 * finest_level;
+
+struct Cell {
+  std::uint64_t key;
+  std::uint8_t level;
+};
+
+/// The low corners of random cells, along the curve, many of them in one corner of the root; the same on
+/// every rank.
+std::vector<Cell> random_cells(unsigned seed, int count) {
+  std::mt19937_64 random(seed);
+  std::vector<Cell> cells;
+  for (int i = 0; i < count; ++i) {
+    const int level = 1 + static_cast<int>(random() % finest_level), below = 3 * (finest_level - level);
+    const std::uint64_t key = random() >> (i % 3 == 0 ? 4 : 22);
+    cells.push_back({key >> below << below, static_cast<std::uint8_t>(level)});
+  }
+  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key < b.key; });
+  return cells;
+}
+
+/// Pages of cells, of which every rank gives each so-and-so-many-th.
+Pages pages_of(const Communicator& ranks, const std::vector<Cell>& cells, std::int64_t most) {
+  std::vector<std::uint64_t> keys;
+  std::vector<std::uint8_t> levels;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (static_cast<Rank>(i % ranks.size()) != ranks.rank()) continue;
+    keys.push_back(cells[i].key), levels.push_back(cells[i].level);
+  }
+  return {ranks, {keys, levels}, most};
+}
+
+std::uint64_t size_of(const Pages& pages, std::size_t page) {
+  return 1ULL << 3 * (finest_level - pages.level(page));
+}
+
+}  // namespace
+
+TEST(Pages, TileTheRootAndHoldFewCells) {
+  const Communicator world = Communicator::world();
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const std::vector<Cell> cells = random_cells(seed, 400);
+    const Pages pages = pages_of(world, cells, 20);
+    EXPECT_GT(pages.count(), 50U);
+    std::uint64_t end = 0;
+    for (std::size_t page = 0; page < pages.count(); ++page) {
+      ASSERT_EQ(pages.key(page), end);
+      ASSERT_EQ(pages.find(end), page);
+      end += size_of(pages, page);
+      ASSERT_EQ(pages.find(end - 1), page);
+      const auto lies_within = [&](const Cell& c) { return c.key >= pages.key(page) && c.key < end; };
+      const auto is_smaller = [&](const Cell& c) { return lies_within(c) && c.level > pages.level(page); };
+      EXPECT_TRUE(std::count_if(cells.begin(), cells.end(), lies_within) <= 20 ||
+                  std::none_of(cells.begin(), cells.end(), is_smaller));
+    }
+    EXPECT_EQ(end, end_of_root);
+  }
+}
+
+TEST(Pages, AreSharedAlikeInTheirOrder) {
+  const Communicator world = Communicator::world();
+  const Pages pages = pages_of(world, random_cells(3, 2000), 20);
+  std::size_t next = 0;
+  for (Rank rank = 0; rank < world.size(); ++rank) {
+    const Range own = pages.of_rank(rank);
+    ASSERT_EQ(own.first, next);
+    next = own.last;
+    for (std::size_t page = own.first; page < own.last; ++page) ASSERT_EQ(pages.owner(page), rank);
+    EXPECT_NEAR(static_cast<double>(own.size()) * world.size() / static_cast<double>(pages.count()), 1, 0.4);
+  }
+  EXPECT_EQ(next, pages.count());
+}
+
+TEST(Pages, OfOneSpotMayLeaveRanksWithout) {
+  const Communicator world = Communicator::world();
+  const Pages pages = pages_of(world, std::vector<Cell>(30, {0, 5}), 1000);
+  ASSERT_EQ(pages.count(), 1U);
+  std::size_t all = 0;
+  for (Rank rank = 0; rank < world.size(); ++rank) all += pages.of_rank(rank).size();
+  EXPECT_EQ(all, 1U);
+  EXPECT_EQ(pages.of_rank(pages.owner(0)).size(), 1U);
+}
+
+TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
+  const Communicator world = Communicator::world();
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const std::vector<Cell> cells = random_cells(seed, 40 * static_cast<int>(seed));
+    SplitCubes alone, paged(world, pages_of(world, cells, 4));
+    const Range own = paged.own_pages();
+    for (const Cell& cell : cells) {
+      alone.split(cell.key, cell.level - 1);
+      const std::size_t page = paged.pages().find(cell.key);
+      if (page >= own.first && page < own.last) paged.split(cell.key, cell.level - 1);
+    }
+    alone.balance(), paged.balance();
+    const SplitCubes::Leaves expected = alone.leaves(), mine = paged.leaves();
+    EXPECT_EQ(paged.leaf_count(), static_cast<std::int64_t>(expected.keys.size()));
+    ASSERT_EQ(world.all_gather_items<std::uint64_t>(mine.keys), expected.keys);
+    ASSERT_EQ(world.all_gather_items<std::uint8_t>(mine.levels), expected.levels);
+
+    const LeafTable of_all(expected), of_pages(world, paged.pages(), mine);
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < 5000; ++i) {
+      const std::uint64_t start = expected.keys[random() % expected.keys.size()];
+      const std::uint64_t key = i % 2 ? random() >> 4 : start + random() % 2;
+      ASSERT_EQ(of_pages.find(key), of_all.find(key));
+    }
+  }
+}
+
+TEST(SeedTree, OfManyRanksFindsTheCheapest) {
+  const Communicator world = Communicator::world();
+  for (const int count : {1, 50, 3000}) {
+    std::vector<SizeSeed> seeds, mine;
+    std::mt19937_64 random(7);
+    for (const Cell& cell : random_cells(5, count))
+      seeds.push_back(
+          {grid_point(cell.key), grid_size >> cell.level, 1.0 + static_cast<double>(random() % 9999)});
+    const Range own = own_range(world, seeds.size());
+    for (std::size_t i = own.first; i < own.last; ++i) mine.push_back(seeds[i]);
+    const SeedTree whole(Communicator::self(), seeds, 0.3), shared(world, mine, 0.3);
+    for (int i = 0; i < 500; ++i) {
+      const GridPoint p = grid_point(random() >> 4);
+      std::int32_t near = -1, near_shared = -1;
+      ASSERT_EQ(shared.cheapest(p, 1e30, near_shared), whole.cheapest(p, 1e30, near));
+    }
+  }
+}
