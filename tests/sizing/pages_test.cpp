@@ -77,16 +77,23 @@ TEST(Pages, TileTheRootAndHoldFewCells) {
 
 TEST(Pages, AreSharedAlikeInTheirOrder) {
   const Communicator world = Communicator::world();
-  const Pages pages = pages_of(world, random_cells(3, 2000), 20);
+  const std::vector<Cell> cells = random_cells(3, 2000);
+  const Pages pages = pages_of(world, cells, 20);
+  std::vector<double> of_pages(pages.count(), 1), work(static_cast<std::size_t>(world.size()));
+  for (const Cell& cell : cells) of_pages[pages.find(cell.key)] += 1;
   std::size_t next = 0;
   for (Rank rank = 0; rank < world.size(); ++rank) {
     const Range own = pages.of_rank(rank);
     ASSERT_EQ(own.first, next);
     next = own.last;
-    for (std::size_t page = own.first; page < own.last; ++page) ASSERT_EQ(pages.owner(page), rank);
-    EXPECT_NEAR(static_cast<double>(own.size()) * world.size() / static_cast<double>(pages.count()), 1, 0.4);
+    for (std::size_t page = own.first; page < own.last; ++page) {
+      ASSERT_EQ(pages.owner(page), rank);
+      work[rank] += of_pages[page];
+    }
   }
   EXPECT_EQ(next, pages.count());
+  const double mean = static_cast<double>(cells.size() + pages.count()) / world.size();
+  for (const double each : work) EXPECT_NEAR(each, mean, *std::max_element(of_pages.begin(), of_pages.end()));
 }
 
 TEST(Pages, OfOneSpotMayLeaveRanksWithout) {
