@@ -366,11 +366,12 @@ private:
   /// Collective.
   void note_files() {
     const double seconds = _communicator.sum(_record.clock.costs().back().task_cpu_seconds);
-    const std::int64_t files = (_record.counts.cells + io::cells_per_vtk_file - 1) / io::cells_per_vtk_file;
+    const std::int64_t of_file = io::cells_per_vtk_file(_record.counts.cells);
+    const std::int64_t files = (_record.counts.cells + of_file - 1) / of_file;
     for (std::int64_t i = 0; _communicator.is_root() && i < files; ++i)
       _record.clock.note_task({.kind = "file",
                                .number = i,
-                               .predicted = static_cast<double>(io::cells_per_vtk_file),
+                               .predicted = static_cast<double>(of_file),
                                .cpu_seconds = seconds / static_cast<double>(files)});
   }
 

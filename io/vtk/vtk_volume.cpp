@@ -125,8 +125,8 @@ void write_volume(const parallel::Communicator& communicator, const FileMesh& me
                   const std::string& directory, const std::string& name, Compression compression) {
   const PartFiles files{directory, name, "pvtu", "vtu"};
   const std::size_t parts =
-      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file, files,
-                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
+      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file(mesh.cell_count()),
+                  files, [&](const std::vector<PartPiece>& pieces, const std::string& path) {
                     write_part(pieces, mesh, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};

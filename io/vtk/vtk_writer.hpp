@@ -6,6 +6,7 @@
 #include "mesh/distributed_mesh.hpp"
 #include "parallel/communicator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -15,12 +16,17 @@ namespace aeroloom::io {
 /// Of the arrays in a file, in blocks.
 enum class Compression { none, lz4, zlib };
 
-/// Enough for a viewer to load parts side by side, little enough for the memory of one rank. Viewers see
-/// faces between parts as boundary: meshes of common size are one or two parts.
-inline constexpr mesh::GlobalIndex cells_per_vtk_file = 1'000'000;
+/// Of a mesh with so many. Viewers see faces between parts as boundary: meshes of common size are one or two
+/// parts. Larger ones are some fifty, for as many ranks to write them, and up to five hundred: no more files,
+/// however large the mesh.
+constexpr mesh::GlobalIndex cells_per_vtk_file(mesh::GlobalIndex cells) {
+  constexpr mesh::GlobalIndex most = 1'000'000, least = 200'000, largest_whole = 2'000'000, most_files = 500;
+  const mesh::GlobalIndex of_large = most * largest_whole / std::max<mesh::GlobalIndex>(cells, 1);
+  return std::max(std::clamp(of_large, least, most), cells / most_files);
+}
 
 /// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/, each of consecutive parts of the mesh until
-/// they have a million cells. Cells by part, then shape, then region. Cell arrays `piece`, `region`,
+/// they have cells_per_vtk_file. Cells by part, then shape, then region. Cell arrays `piece`, `region`,
 /// `mean_ratio` and `min_dihedral` (io/vtk/cell_quality.hpp); point array `global_id`. Field arrays
 /// `region_names`, and the boundary of these cells, with patches between regions: `patch_names`,
 /// `patch_types` (mesh/patch.hpp), `boundary_patch` (k), `boundary_corners` (global ids, CellShape's

@@ -235,6 +235,18 @@ TEST_F(VtkWriter, LeavesOrphansOut) {
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 5);
 }
 
+TEST_F(VtkWriter, MakesNoMoreFilesHoweverLargeTheMesh) {
+  const auto files = [](mesh::GlobalIndex cells) {
+    return (cells + cells_per_vtk_file(cells) - 1) / cells_per_vtk_file(cells);
+  };
+  EXPECT_EQ(files(0), 0);
+  EXPECT_EQ(files(900'000), 1);
+  EXPECT_EQ(files(1'900'000), 2);
+  EXPECT_EQ(files(10'000'000), 50);
+  for (mesh::GlobalIndex cells = 1; cells < 100'000'000'000; cells = 2 * cells + 1)
+    EXPECT_LE(files(cells), 501);
+}
+
 TEST_F(VtkWriter, RemovesPartsOfAnEarlierRunAndNothingElse) {
   write_cube(world, 2, 3, folder);
   if (world.is_root()) {
