@@ -1,5 +1,7 @@
 #include "cavities/piece_update.hpp"
 
+#include "mesh/piece_room.hpp"
+
 #include <algorithm>
 
 namespace aeroloom::cavities {
@@ -30,16 +32,8 @@ mesh::Piece PieceUpdate::finish(std::span<const WireTet> tets, const std::vector
   append_cells(tets);
   append_triangles(triangles);
   list_shared();
-  trim();
+  mesh::shrink_to_fit(_piece);
   return std::move(_piece);
-}
-
-/// Pieces rest for long: what their arrays have reserved in vain goes back.
-void PieceUpdate::trim() {
-  _piece.coordinates.shrink_to_fit();
-  _piece.cells.shrink_to_fit();
-  _piece.vertex_dimension.shrink_to_fit();
-  _piece.vertex_entity.shrink_to_fit();
 }
 
 void PieceUpdate::number_old() {

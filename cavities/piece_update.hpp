@@ -72,7 +72,6 @@ private:
   void append_cells(std::span<const WireTet> tets);
   void append_triangles(const std::vector<WireTriangle>& triangles);
   void sort_names();
-  void trim();
   mesh::LocalIndex find(mesh::SharedToken token) const;
   void list_shared();
 

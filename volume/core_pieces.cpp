@@ -1,6 +1,7 @@
 #include "volume/core_pieces.hpp"
 
 #include "geometry/predicates.hpp"
+#include "mesh/piece_room.hpp"
 #include "volume/core_parcels.hpp"
 #include "volume/core_ranges.hpp"
 
@@ -114,6 +115,7 @@ Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const Numb
     for (int k = 0; k < 4; ++k) corners[k] = numbers(cell.points[k]);
     add_cell(corners, piece);
   }
+  mesh::shrink_to_fit(piece);
   return piece;
 }
 
@@ -190,6 +192,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
   };
   std::vector<LocalTriangle> faces = std::move(side.borders);
   faces.reserve(faces.size() + 4 * cells.size());
+  piece.cells.reserve(piece.cells.size() + 4 * cells.size());
   RecentNumbers locals;
   for (const CoreParcel& parcel : cells) {
     std::array<LocalIndex, 4> cell;
@@ -214,6 +217,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
   }
   piece.shared_vertices = std::move(vertices);
   piece.shared_tokens = std::move(tokens);
+  mesh::shrink_to_fit(piece);
 }
 
 /// The piece of a zone in a region, and where it meets the core.
@@ -267,7 +271,9 @@ public:
           extend_piece(_naming, {}, result.core_sides[i], result.pieces[i]);
       }
     }
-    make_pieces(std::span(at, parcels.end()));
+    parcels.erase(parcels.begin(), at);
+    parcels.shrink_to_fit();
+    make_pieces(parcels);
     for (auto& [zone, result] : _results) result.core_sides.clear();
     return std::move(_mesh);
   }
