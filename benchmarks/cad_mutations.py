@@ -69,7 +69,7 @@ def one(options, file, seed):
         closed = len(re.findall(r"below the noise of .*: closed", log))
         errors = [line for line in log.splitlines() if line.startswith("error")]
         if code != 0:
-            message = errors[0].removeprefix("error: ").replace(f"{file.parent}/", "") if errors else "no message"
+            message = errors[0].removeprefix("error: ").replace(f"{mutated.parent}/", "") if errors else "no message"
             placed = re.search(r"\([-\d.e+]+, [-\d.e+]+, [-\d.e+]+\)", message) is not None
             good = code > 0 and placed and seconds <= LIMIT_S
             return Row(file.name, seed, kind, share, code, None, None, 0, seconds, closed, message, good)
