@@ -1,7 +1,9 @@
 /// Cells of the core on their way to the pieces they belong to, and what their points are called there.
 #pragma once
 
+#include "geometry/sort_by_key.hpp"
 #include "mesh/delivery.hpp"
+#include "parallel/timers.hpp"
 #include "volume/core_pieces.hpp"
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -52,23 +55,13 @@ public:
         ->point;
   }
   /// Cells of blocks that their rank may not know bring their points. Collective.
-  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells) {
-    for (const CoreParcel& cell : cells) {
-      if (cell.rank == communicator.rank()) continue;
-      for (const std::int64_t number : cell.points) _arrived.push_back({cell.rank, number, {}});
-    }
-    const auto in_order = [](const CorePoint& a, const CorePoint& b) {
-      return std::tie(a.rank, a.number) < std::tie(b.rank, b.number);
-    };
-    std::sort(_arrived.begin(), _arrived.end(), in_order);
-    _arrived.erase(std::unique(_arrived.begin(), _arrived.end(),
-                               [](const CorePoint& a, const CorePoint& b) {
-                                 return a.rank == b.rank && a.number == b.number;
-                               }),
-                   _arrived.end());
-    for (CorePoint& parcel : _arrived) parcel.point = place(parcel.number);
+  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells,
+                   parallel::StageClock& clock) {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (const auto& [rank, number] : wanted_by_others(communicator.rank(), cells))
+      _arrived.push_back({rank, number, place(number)});
     _arrived = mesh::deliver(communicator, std::move(_arrived), [](const CorePoint& p) { return p.rank; });
-    std::sort(_arrived.begin(), _arrived.end(), in_order);
+    geometry::sort_by_key(_arrived, [](const CorePoint& p) { return static_cast<std::uint64_t>(p.number); });
   }
   void add_vertex(std::int64_t number, mesh::RegionId region, mesh::Piece& piece) const {
     const geometry::Vec3 p = place(number);
@@ -79,6 +72,23 @@ public:
   mesh::SharedToken token(std::int64_t number) const { return _source.finder.token_of(number); }
 
 private:
+  using Wanted = std::pair<parallel::Rank, std::int64_t>;
+  /// The points of cells that go to other ranks, each once, ascending.
+  static std::vector<Wanted> wanted_by_others(parallel::Rank here, std::span<const CoreParcel> cells) {
+    std::vector<Wanted> wanted, met(1 << 12, Wanted{-1, -1});  // cells next to each other share most points
+    for (const CoreParcel& cell : cells) {
+      if (cell.rank == here) continue;
+      for (const std::int64_t number : cell.points) {
+        Wanted& lately = met[static_cast<std::size_t>(number) % met.size()];
+        if (std::exchange(lately, {cell.rank, number}) != Wanted{cell.rank, number})
+          wanted.emplace_back(cell.rank, number);
+      }
+    }
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    return wanted;
+  }
+
   const CoreSource& _source;
   std::vector<CorePoint> _arrived;
 };

@@ -249,7 +249,7 @@ public:
 
   CoreMesh run() {
     std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
-    _naming.send_points(_communicator, parcels);
+    _naming.send_points(_communicator, parcels, _clock);
     parcels = mesh::deliver(_communicator, std::move(parcels), [](const CoreParcel& p) { return p.rank; });
     const ScopedCpu task(_clock, ScopedCpu::As::task);
     std::stable_sort(parcels.begin(), parcels.end(), [](const CoreParcel& a, const CoreParcel& b) {
