@@ -50,7 +50,7 @@ def main():
         assert values.count(values[0]) == len(values), f"volume.{key} depends on the number of ranks: {values}"
     check_tasks(runs)
     walls = sum(s["wall_seconds"] for s in report["stages"])
-    assert abs(walls - report["wall_seconds"]) < 0.02 * report["wall_seconds"] + 0.05, "stages do not add up to the run"
+    assert abs(walls - report["wall_seconds"]) < 0.02 * report["wall_seconds"] + 0.25, "stages do not add up to the run"
     names = [s["name"] for s in report["stages"]]
     assert names == ["start", "geometry", "sizing", "surface", "decompose", "volume", "improve", "inspect",
                          "output"], names
