@@ -22,7 +22,7 @@ namespace {
 /// Edge of a leaf over the size at its centre, at most, where no source lies in it: there h is a cone or a
 /// plane, which trilinear interpolation follows within a few percent.
 constexpr double leaf_edge_per_size = 2.0;
-/// More sources, or leaves of the field to start from, are shared by several pages.
+/// More sources, or leaves of the field to start from, are shared by several pages; chosen, not measured.
 constexpr std::int64_t cells_per_page = 500;
 /// Masters are not looked through for equal ones before there are so many.
 constexpr std::size_t least_masters = 1 << 20;
@@ -79,8 +79,7 @@ SizeField FieldBuilder::build(std::vector<SizeSource> sources) {
 
 std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sources,
                                                     std::int64_t most_leaves) {
-  for (const SizeSource& source : sources)
-    require(source.size > 0 && std::isfinite(source.size), "a source must have a positive size", source.size);
+  require_positive(sources);
   std::erase_if(sources, [&](const SizeSource& source) { return source.size >= _options.maximum; });
   const ScopedCpu own(_clock, ScopedCpu::As::task);
   sources = thin_sources(_root, sources);
@@ -100,6 +99,15 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
     mine = sizes_at_corners(octree, seeds, own_range(_communicator, octree.keys.size()));
   });
   return finish(octree, std::move(mine));
+}
+
+// Ranks have different sources: all must hear of one that is impossible.
+void FieldBuilder::require_positive(std::span<const SizeSource> own) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const SizeSource& source : own)
+    smallest = std::min(smallest, std::isfinite(source.size) ? source.size : 0);
+  smallest = _communicator.minimum(smallest);
+  require(smallest > 0, "a source must have a positive, finite size", smallest);
 }
 
 Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {

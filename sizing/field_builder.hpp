@@ -10,6 +10,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -63,6 +64,8 @@ private:
     friend auto operator<=>(const PointSize&, const PointSize&) = default;
   };
   Cell cell_of(const SizeSource& source) const;
+  /// Throws std::invalid_argument on all ranks where one has an impossible source.
+  void require_positive(std::span<const SizeSource> own) const;
   /// The root in pages, by these sources, or by the leaves of the field it starts from.
   Pages divide_root(std::span<const SizeSource> own) const;
   /// Gives sources to the ranks in whose pages their cells begin; of those of one cell the smallest is kept.

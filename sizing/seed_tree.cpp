@@ -14,7 +14,8 @@ namespace {
 
 static_assert(grid_size <= 1U << 24, "coordinates must be exact in single precision");
 
-/// Levels of groups that ranks make of their own seeds, so that what is above has hundreds of seeds in each.
+/// Levels of groups that ranks make of their own seeds: what is above has hundreds of seeds in each. Chosen,
+/// not measured.
 constexpr std::size_t levels_of_ranks = 3;
 
 /// Not above the value.

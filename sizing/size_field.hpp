@@ -144,9 +144,9 @@ private:
 };
 
 /// The field of a model: curvature and chordal deviation of faces and edges, proximity, narrow strips, sharp
-/// corners, far field, bounds, growth. Faces are sampled by the ranks in parallel, sources are gathered and
-/// thinned; sizes are found by ranges of the leaves and gathered. Collective. Throws std::invalid_argument
-/// for impossible options, CollectiveError where the CAD library fails.
+/// corners, far field, bounds, growth. Faces are sampled, leaves made and sizes at their corners found by the
+/// ranks in parallel; no rank has the sources of all. Collective. Throws std::invalid_argument for impossible
+/// options, CollectiveError where the CAD library fails.
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock);
 

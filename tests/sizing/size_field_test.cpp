@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -313,6 +314,16 @@ TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
     const Vec3 p = points.around_sphere();
     ASSERT_EQ(together(p), alone(p));
     ASSERT_EQ(refined(p), refined_alone(p));
+  }
+}
+
+TEST(FieldBuilder, AllRanksHearOfAnImpossibleSourceOfOne) {
+  const auto world = parallel::Communicator::world();
+  parallel::StageClock clock;
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    std::vector<SizeSource> mine{{{1, 0, 0}, 0.1}};
+    if (world.rank() == world.size() - 1) mine.push_back({{0, 1, 0}, size});
+    EXPECT_THROW(sizing::FieldBuilder(world, clock, cube(2), options).build(mine), std::invalid_argument);
   }
 }
 
