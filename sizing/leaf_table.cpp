@@ -2,7 +2,6 @@
 #include "sizing/octree.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace aeroloom::sizing {
 namespace {
