@@ -154,15 +154,13 @@ const sizing::SizeField& CoarseSizes::field(int power) {
   return _fields[power];
 }
 
-double seed_cost(double facets) {
-  return 3 * facets;
-}
-
 double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options) {
   // A part costs its background triangles; the cuts of so many parts have about so many edges.
-  constexpr double per_part = 400, per_cut_edge = 2, per_facet = 1.5;
+  // Facets of a face, as the CAD library made them, cost more than those of parts.
+  constexpr double per_part = 400, per_cut_edge = 2, per_facet = 1.5, of_face = 1.6;
   const double parts = count_parts(triangles, group, options);
-  return per_part * parts + per_cut_edge * 1.3 * std::sqrt(triangles * parts) + per_facet * facets;
+  return (group == 0 ? of_face : 1) *
+         (per_part * parts + per_cut_edge * 1.3 * std::sqrt(triangles * parts) + per_facet * facets);
 }
 
 bool is_heavy(double load, const SurfaceOptions& options) {

@@ -28,9 +28,8 @@ private:
   std::deque<sizing::SizeField> _fields;  // references to those made stay good
 };
 
-/// What it costs to make a face's seed with so many facets, and to divide a seed of so many triangles and
-/// facets (group 0: a face), both in triangles to mesh. About; no result depends on it.
-double seed_cost(double facets);
+/// What it costs to divide a seed of so many triangles and facets (group 0: a face), in triangles to mesh.
+/// About; no result depends on it.
 double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options);
 
 struct SeedPieces {

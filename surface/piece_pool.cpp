@@ -98,10 +98,24 @@ std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const Size
   return changed;
 }
 
-/// The faces as seeds, spread over the ranks.
+double PiecePool::seconds_per_triangle() const {
+  constexpr double usual = 3e-6, of_curve = 0.8;  // the latter over what a unit of a curve's load takes
+  double load = 0, seconds = 0;
+  for (const parallel::TaskRecord& task : _clock.tasks()) {
+    if (task.kind == "curve") load += task.predicted, seconds += task.cpu_seconds;
+  }
+  load = _communicator.sum(load);
+  seconds = _communicator.sum(seconds);
+  return load > 0 && seconds > 0 ? of_curve * seconds / load : usual;
+}
+
+/// The faces as seeds, spread over the ranks. What one takes, most of it in the CAD library, cannot be told
+/// before: it is measured, and who has had more gets fewer pieces.
 PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, const CurveMesh& curves,
                                             const SizeField& field) {
   Seeds seeds;
+  _costs.clear();
+  const double of_triangle = seconds_per_triangle();
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     std::vector<double> loads;
@@ -112,14 +126,15 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
       const double begin = parallel::cpu_seconds();
-      const PieceSeed& seed =
-          seeds.emplace(Key{faces[task], 0, 0}, seed_of_face(_model, faces[task], curves, field, _options))
-              .first->second;
+      const Key key{faces[task], 0, 0};
+      seeds.emplace(key, seed_of_face(_model, faces[task], curves, field, _options));
+      const double seconds = parallel::cpu_seconds() - begin;
+      _costs[key] = seconds / of_triangle;
       _clock.note_task({.kind = "face",
                         .number = faces[task],
                         .predicted = loads[task],
-                        .cpu_seconds = parallel::cpu_seconds() - begin,
-                        .burden = seed_cost(static_cast<double>(seed.support.triangles.size()))});
+                        .cpu_seconds = seconds,
+                        .burden = _costs[key]});
     }
   });
   return seeds;
@@ -129,8 +144,9 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
 std::vector<PiecePool::Row> PiecePool::tabulate(const Seeds& seeds) const {
   std::vector<Row> rows;
   for (const auto& [key, seed] : seeds) {
-    rows.push_back(
-        {key, seed.load, static_cast<double>(seed.support.triangles.size()), _communicator.rank()});
+    const auto cost = _costs.find(key);
+    rows.push_back({key, seed.load, static_cast<double>(seed.support.triangles.size()),
+                    cost == _costs.end() ? 0 : cost->second, _communicator.rank()});
   }
   rows = _communicator.all_gather_items<Row>(rows);
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
@@ -197,7 +213,7 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& ro
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     for (auto& [key, seed] : seeds) {
-      if (!is_to_divide({key, seed.load, 0, 0}, level)) {
+      if (!is_to_divide({key, seed.load, 0, 0, 0}, level)) {
         divided.emplace(key, std::move(seed));
         continue;
       }
@@ -240,7 +256,7 @@ PiecePool::Seeds PiecePool::divide(Seeds seeds, const SizeField& field) {
   CoarseSizes sizes(field);
   for (const int level : {1, 2}) {
     const std::vector<Row> rows = tabulate(seeds);
-    for (const Row& row : rows) _burdens[row.at] += level == 1 ? seed_cost(row.facets) : 0;
+    for (const Row& row : rows) _burdens[row.at] += level == 1 ? row.cost : 0;
     seeds = divide_heavy(std::move(seeds), rows, level, sizes);
   }
   return seeds;

@@ -67,9 +67,12 @@ private:
     Key key;
     double load;    // predicted triangles
     double facets;  // of the support
+    double cost;    // of making it, in triangles to mesh
     parallel::Rank at;
 
-    static constexpr auto fields() { return std::tuple(&Row::key, &Row::load, &Row::facets, &Row::at); }
+    static constexpr auto fields() {
+      return std::tuple(&Row::key, &Row::load, &Row::facets, &Row::cost, &Row::at);
+    }
   };
 
   bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, cad::FaceId face,
@@ -79,6 +82,8 @@ private:
   /// Triangles of the whole surface: of faces that are kept, and of these seeds.
   double predict(const Seeds& seeds, const sizing::SizeField& field) const;
   Seeds divide(Seeds seeds, const sizing::SizeField& field);
+  /// What a triangle takes to mesh on this machine, from what curves took. Collective.
+  double seconds_per_triangle() const;
   Seeds make_face_seeds(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                         const sizing::SizeField& field);
   Seeds divide_heavy(Seeds seeds, const std::vector<Row>& rows, int level, CoarseSizes& sizes);
@@ -100,6 +105,7 @@ private:
   std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
   std::vector<char> _whole;          // per face: 1 where it must not be divided
   std::vector<double> _burdens;      // per rank: what it has done in this round, in triangles to mesh, about
+  std::map<Key, double> _costs;      // of the seeds of faces made here in this round, in triangles to mesh
   std::map<Key, Meshed> _meshed;     // on this rank
   std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };
