@@ -1,12 +1,12 @@
 // From a case to its surface mesh, for benchmarks of the stages behind it.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/size_domain.hpp"
-#include "surface/surface_mesher.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
 
 namespace aeroloom::benchmarks {
 
@@ -16,12 +16,12 @@ struct CaseSurface {
 };
 
 /// Collective.
-inline CaseSurface mesh_surface(const parallel::Communicator& communicator, const pipeline::Case& input) {
+inline CaseSurface mesh_surface(const parallel::Communicator& communicator, const cases::Case& input) {
   parallel::StageClock clock;
   cad::DomainReport domain;
-  const cad::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
-  const pipeline::SizedDomain sized =
-      pipeline::size_domain(communicator, model, input.sizing, pipeline::Simplification::of(input), clock);
+  const cad::Model model = domain::load_domain(communicator, input.domain, clock, domain);
+  const domain::SizedDomain sized =
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock);
   CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface, clock), {}};
   result.numbering = mesh::number_mesh(communicator, result.surface.mesh);
   return result;

@@ -1,11 +1,11 @@
 /// The improver alone, piece by piece on one rank: improve_benchmark CASE [KEY=VALUE ...] prints one RESULT
 /// line. The boundary may change, but does not slide on the CAD.
+#include "aeroloom/improve/improver.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "benchmarks/case_surface.hpp"
-#include "improve/improver.hpp"
-#include "mesh/quality.hpp"
-#include "parallel/environment.hpp"
-#include "parallel/log.hpp"
-#include "volume/volume_mesher.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <array>
 #include <cstdio>
@@ -48,7 +48,7 @@ mesh::DistributedMesh fill(const Communicator& communicator, const benchmarks::C
   return volume::fill_zones(communicator, task, volume::decompose(communicator, task, clock), clock, report);
 }
 
-void run(const Communicator& communicator, const pipeline::Case& input) {
+void run(const Communicator& communicator, const cases::Case& input) {
   const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
   mesh::DistributedMesh filled = fill(communicator, from, input.volume);
   const Angles before = measure_angles(filled);
@@ -85,7 +85,7 @@ void run(const Communicator& communicator, const pipeline::Case& input) {
 
 int main(int argc, char** argv) {
   volume::register_volume_tasks();
-  pipeline::register_geometry_tasks();
+  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2 || world.size() > 1) {
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   }
   try {
     parallel::configure_log(world, parallel::LogLevel::quiet);
-    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc}));
+    run(world, cases::read_case(argv[1], {argv + 2, argv + argc}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

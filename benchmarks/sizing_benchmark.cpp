@@ -1,11 +1,11 @@
 /// The sizing stage alone: mpirun -n N sizing_benchmark CASE ... prints one RESULT line per case, with what
 /// geometry and sizing cost by the stage clock and a hash of the field, the same on any number of ranks.
-#include "parallel/communicator.hpp"
-#include "parallel/environment.hpp"
-#include "parallel/log.hpp"
-#include "parallel/timers.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/size_domain.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <bit>
 #include <cstdint>
@@ -33,15 +33,15 @@ std::uint64_t hash_field(const sizing::SizeField& field) {
 }
 
 void run(const Communicator& communicator, const char* file) {
-  const pipeline::Case input = pipeline::read_case(file, {});
+  const cases::Case input = cases::read_case(file, {});
   parallel::StageClock clock;
   cad::DomainReport domain;
   clock.begin("geometry");
-  const cad::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain, clock, domain);
   clock.end();
   clock.begin("sizing");
-  const pipeline::SizedDomain sized =
-      pipeline::size_domain(communicator, model, input.sizing, pipeline::Simplification::of(input), clock);
+  const domain::SizedDomain sized =
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   if (!communicator.is_root()) return;
@@ -58,7 +58,7 @@ void run(const Communicator& communicator, const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  pipeline::register_geometry_tasks();
+  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2) {

@@ -5,15 +5,15 @@
 ///
 /// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
 /// on a border between pieces of one CAD face. Needles: below 10 degrees, below 5, the least angle.
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/io/vtk/vtk_writer.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
 #include "benchmarks/surface_details.hpp"
-#include "io/vtk/vtk_writer.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
-#include "parallel/environment.hpp"
-#include "parallel/log.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/size_domain.hpp"
-#include "surface/surface_mesher.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -216,15 +216,15 @@ Request read_request(const std::vector<std::string>& arguments) {
   return request;
 }
 
-void run(const Communicator& communicator, const pipeline::Case& input, const Request& request) {
+void run(const Communicator& communicator, const cases::Case& input, const Request& request) {
   parallel::StageClock clock;
   cad::DomainReport domain;
   clock.begin("geometry");
-  const cad::Model model = pipeline::load_domain(communicator, input.domain, clock, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain, clock, domain);
   clock.end();
   clock.begin("sizing");
-  const pipeline::SizedDomain sized =
-      pipeline::size_domain(communicator, model, input.sizing, pipeline::Simplification::of(input), clock);
+  const domain::SizedDomain sized =
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock);
   clock.end();
   clock.begin("surface");
   const surface::SurfaceMesh surface =
@@ -284,7 +284,7 @@ void run(const Communicator& communicator, const pipeline::Case& input, const Re
 }  // namespace
 
 int main(int argc, char** argv) {
-  pipeline::register_geometry_tasks();
+  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2) {
@@ -295,7 +295,7 @@ int main(int argc, char** argv) {
     const bool verbose = std::getenv("AEROLOOM_VERBOSE") != nullptr;
     parallel::configure_log(world, verbose ? parallel::LogLevel::verbose : parallel::LogLevel::quiet);
     const Request request = read_request({argv + 2, argv + argc});
-    pipeline::Case input = pipeline::read_case(argv[1], request.settings);
+    cases::Case input = cases::read_case(argv[1], request.settings);
     input.surface.division = request.steps;
     run(world, input, request);
   } catch (const std::exception& error) {

@@ -2,11 +2,11 @@
 // touch, and histograms. docs/experiments.md is made from it.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/tokens.hpp"
-#include "parallel/communicator.hpp"
-#include "surface/surface_report.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/surface/surface_report.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,7 +98,7 @@ private:
     PieceShape shape{piece.common_face(), piece.id};
     std::vector<char> on_cut(piece.vertex_count(), 0);
     for (std::size_t i = 0; i < piece.shared_vertices.size(); ++i)
-      on_cut[piece.shared_vertices[i]] = mesh::is_cut_token(piece.shared_tokens[i]);
+      on_cut[piece.shared_vertices[i]] = mesh::is_cut_vertex_key(piece.shared_keys[i]);
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
       const bool cut = std::any_of(v, v + 3, [&](mesh::LocalIndex at) { return on_cut[at] != 0; });

@@ -1,12 +1,12 @@
 /// The volume stage alone: mpirun -n N volume_benchmark CASE [KEY=VALUE ...] prints one RESULT line.
 ///
-/// CPU figures are those of the stage clock: around the tasks and in the contained children, without waiting.
+/// CPU figures are those of the stage clock: around the tasks and in the sandboxed children, without waiting.
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "benchmarks/case_surface.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
-#include "parallel/environment.hpp"
-#include "parallel/log.hpp"
-#include "volume/volume_mesher.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <cstdio>
 #include <exception>
@@ -16,7 +16,7 @@ namespace {
 using namespace aeroloom;
 using parallel::Communicator;
 
-void run(const Communicator& communicator, const pipeline::Case& input) {
+void run(const Communicator& communicator, const cases::Case& input) {
   const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
   const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, input.volume};
   parallel::StageClock clock;
@@ -58,7 +58,7 @@ void run(const Communicator& communicator, const pipeline::Case& input) {
 
 int main(int argc, char** argv) {
   volume::register_volume_tasks();
-  pipeline::register_geometry_tasks();
+  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2) {
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   }
   try {
     parallel::configure_log(world, parallel::LogLevel::quiet);
-    run(world, pipeline::read_case(argv[1], {argv + 2, argv + argc}));
+    run(world, cases::read_case(argv[1], {argv + 2, argv + argc}));
   } catch (const std::exception& error) {
     if (world.is_root()) std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -8,8 +8,8 @@ namespace aeroloom::cavities {
 
 using geometry::Vec3;
 
-PieceUpdate::PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedToken>& tokens)
-    : _old(old), _tokens(tokens), _number(old.vertex_count(), -1), _named(old.vertex_count(), 0) {
+PieceUpdate::PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedVertexKey>& vertex_keys)
+    : _old(old), _vertex_keys(vertex_keys), _number(old.vertex_count(), -1), _named(old.vertex_count(), 0) {
   for (const mesh::LocalIndex v : old.shared_vertices) _named[v] = 1;
   _piece.id = old.id;
   _piece.kind = old.kind;
@@ -40,7 +40,7 @@ void PieceUpdate::number_old() {
   for (mesh::LocalIndex v = 0; v < _old.vertex_count(); ++v) {
     if (_number[v] < 0) continue;
     _number[v] = add(_old.point(v), _old.vertex_dimension[v], _old.vertex_entity[v]);
-    if (_named[v]) _names.push_back({_tokens[v], _number[v]});
+    if (_named[v]) _names.push_back({_vertex_keys[v], _number[v]});
   }
   sort_names();
 }
@@ -54,20 +54,21 @@ mesh::LocalIndex PieceUpdate::add(Vec3 p, std::int32_t dimension, std::int32_t e
 }
 
 void PieceUpdate::add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices) {
-  std::vector<mesh::SharedToken> wanted;
+  std::vector<mesh::SharedVertexKey> wanted;
   for (const WireTet& t : tets) wanted.insert(wanted.end(), t.vertices.begin(), t.vertices.end());
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   std::vector<const WireVertex*> missing;
   for (const WireVertex& v : vertices) {
-    if (std::binary_search(wanted.begin(), wanted.end(), v.token) && find(v.token) < 0) missing.push_back(&v);
+    if (std::binary_search(wanted.begin(), wanted.end(), v.vertex_key) && find(v.vertex_key) < 0)
+      missing.push_back(&v);
   }
   std::sort(missing.begin(), missing.end(),
-            [](const WireVertex* a, const WireVertex* b) { return a->token < b->token; });
+            [](const WireVertex* a, const WireVertex* b) { return a->vertex_key < b->vertex_key; });
   std::vector<Named> names;
   for (const WireVertex* v : missing) {
-    if (!names.empty() && v->token == names.back().token) continue;
-    names.push_back({v->token, add(v->point, v->dimension, v->entity)});
+    if (!names.empty() && v->vertex_key == names.back().vertex_key) continue;
+    names.push_back({v->vertex_key, add(v->point, v->dimension, v->entity)});
   }
   _names.insert(_names.end(), names.begin(), names.end());
   sort_names();
@@ -78,7 +79,7 @@ void PieceUpdate::append_cells(std::span<const WireTet> tets) {
     for (int k = 0; k < 4; ++k) _piece.cells.push_back(_number[_old.cell(c)[k]]);
   }
   for (const WireTet& t : tets) {
-    for (const mesh::SharedToken token : t.vertices) _piece.cells.push_back(find(token));
+    for (const mesh::SharedVertexKey vertex_key : t.vertices) _piece.cells.push_back(find(vertex_key));
   }
 }
 
@@ -89,27 +90,28 @@ void PieceUpdate::append_triangles(const std::vector<WireTriangle>& triangles) {
     _piece.triangle_patch.push_back(_old.triangle_patch[t]);
   }
   for (const WireTriangle& t : triangles) {
-    for (const mesh::SharedToken token : t.vertices) _piece.boundary.push_back(find(token));
+    for (const mesh::SharedVertexKey vertex_key : t.vertices) _piece.boundary.push_back(find(vertex_key));
     _piece.triangle_face.push_back(t.face);
     _piece.triangle_patch.push_back(t.patch);
   }
 }
 
 void PieceUpdate::sort_names() {
-  std::sort(_names.begin(), _names.end(), [](const Named& a, const Named& b) { return a.token < b.token; });
+  std::sort(_names.begin(), _names.end(),
+            [](const Named& a, const Named& b) { return a.vertex_key < b.vertex_key; });
 }
 
-mesh::LocalIndex PieceUpdate::find(mesh::SharedToken token) const {
-  const auto at = std::lower_bound(_names.begin(), _names.end(), token,
-                                   [](const Named& n, mesh::SharedToken t) { return n.token < t; });
-  return at != _names.end() && at->token == token ? at->vertex : -1;
+mesh::LocalIndex PieceUpdate::find(mesh::SharedVertexKey vertex_key) const {
+  const auto at = std::lower_bound(_names.begin(), _names.end(), vertex_key,
+                                   [](const Named& n, mesh::SharedVertexKey t) { return n.vertex_key < t; });
+  return at != _names.end() && at->vertex_key == vertex_key ? at->vertex : -1;
 }
 
 void PieceUpdate::list_shared() {
   std::sort(_names.begin(), _names.end(), [](const Named& a, const Named& b) { return a.vertex < b.vertex; });
   for (const Named& n : _names) {
     _piece.shared_vertices.push_back(n.vertex);
-    _piece.shared_tokens.push_back(n.token);
+    _piece.shared_keys.push_back(n.vertex_key);
   }
 }
 

@@ -8,12 +8,12 @@
 
 namespace aeroloom::cavities {
 
-// What travels between pieces and cavities, its vertices by token.
+// What travels between pieces and cavities, its vertices by shared-vertex key.
 struct WireTet {
   CavityId cavity;
   mesh::PieceId piece;
   mesh::RegionId region;
-  std::array<mesh::SharedToken, 4> vertices;
+  std::array<mesh::SharedVertexKey, 4> vertices;
 
   static constexpr auto fields() {
     return std::tuple(&WireTet::cavity, &WireTet::piece, &WireTet::region, &WireTet::vertices);
@@ -23,20 +23,20 @@ struct WireVertex {
   CavityId cavity;
   mesh::PieceId piece;
   std::int32_t dimension;
-  mesh::SharedToken token;
+  mesh::SharedVertexKey vertex_key;
   geometry::Vec3 point;
   std::int32_t entity;
 
   static constexpr auto fields() {
-    return std::tuple(&WireVertex::cavity, &WireVertex::piece, &WireVertex::dimension, &WireVertex::token,
-                      &WireVertex::point, &WireVertex::entity);
+    return std::tuple(&WireVertex::cavity, &WireVertex::piece, &WireVertex::dimension,
+                      &WireVertex::vertex_key, &WireVertex::point, &WireVertex::entity);
   }
 };
 struct WireTriangle {
   CavityId cavity;
   mesh::PieceId piece;
   std::int32_t face;
-  std::array<mesh::SharedToken, 3> vertices;
+  std::array<mesh::SharedVertexKey, 3> vertices;
   std::int32_t patch;
 
   static constexpr auto fields() {
@@ -48,8 +48,8 @@ struct WireTriangle {
 /// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.
 class PieceUpdate {
 public:
-  /// `tokens` names every vertex of the piece in this round.
-  PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedToken>& tokens);
+  /// `shared-vertex keys` names every vertex of the piece in this round.
+  PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedVertexKey>& vertex_keys);
 
   /// A cell that leaves: those of its vertices that stay behind are shared from now on.
   void leave(mesh::LocalIndex cell);
@@ -62,7 +62,7 @@ public:
 
 private:
   struct Named {
-    mesh::SharedToken token;
+    mesh::SharedVertexKey vertex_key;
     mesh::LocalIndex vertex;
   };
 
@@ -72,16 +72,16 @@ private:
   void append_cells(std::span<const WireTet> tets);
   void append_triangles(const std::vector<WireTriangle>& triangles);
   void sort_names();
-  mesh::LocalIndex find(mesh::SharedToken token) const;
+  mesh::LocalIndex find(mesh::SharedVertexKey vertex_key) const;
   void list_shared();
 
   const mesh::Piece& _old;
-  const std::vector<mesh::SharedToken>& _tokens;
+  const std::vector<mesh::SharedVertexKey>& _vertex_keys;
   mesh::Piece _piece;
   std::vector<mesh::LocalIndex> _number;  // new number of an old vertex, -1: gone
   std::vector<char> _named;               // per old vertex: shared from now on
   std::vector<mesh::LocalIndex> _kept, _kept_triangles;
-  std::vector<Named> _names;  // by token
+  std::vector<Named> _names;  // by shared-vertex key
 };
 
 }  // namespace aeroloom::cavities

@@ -1,15 +1,15 @@
 #include "cavities/rounds.hpp"
 
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "cavities/claims.hpp"
 #include "cavities/piece_update.hpp"
 #include "cavities/shares.hpp"
-#include "cavities/wishes.hpp"
 #include "geometry/runs.hpp"
-#include "mesh/delivery.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/mixing.hpp"
-#include "mesh/tokens.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/schedule.hpp"
+#include "mesh/shared_vertex_keys.hpp"
+#include "parallel/communication/schedule.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -35,13 +35,13 @@ void sort_by(std::vector<T>& items, const Less& less) {
 }
 
 /// The names of a piece's vertices in this round.
-std::vector<mesh::SharedToken> tokens_of(const mesh::Piece& piece, int round) {
-  std::vector<mesh::SharedToken> tokens(piece.vertex_count());
+std::vector<mesh::SharedVertexKey> vertex_keys_of(const mesh::Piece& piece, int round) {
+  std::vector<mesh::SharedVertexKey> vertex_keys(piece.vertex_count());
   for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
-    tokens[v] = mesh::late_token(round, piece.id, v);
+    vertex_keys[v] = mesh::late_key(round, piece.id, v);
   for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-    tokens[piece.shared_vertices[s]] = piece.shared_tokens[s];
-  return tokens;
+    vertex_keys[piece.shared_vertices[s]] = piece.shared_keys[s];
+  return vertex_keys;
 }
 
 std::array<mesh::LocalIndex, 3> sorted(std::array<mesh::LocalIndex, 3> v) {
@@ -54,9 +54,9 @@ struct Contribution {
   std::vector<WireTet> tets;
   std::vector<WireVertex> vertices;
   std::vector<WireTriangle> triangles;
-  std::vector<std::vector<CavityId>> of_cell;          ///< per local piece, per cell
-  std::vector<std::vector<CavityId>> of_triangle;      ///< per local piece, per boundary triangle
-  std::vector<std::vector<mesh::SharedToken>> tokens;  ///< per local piece, per vertex
+  std::vector<std::vector<CavityId>> of_cell;                   ///< per local piece, per cell
+  std::vector<std::vector<CavityId>> of_triangle;               ///< per local piece, per boundary triangle
+  std::vector<std::vector<mesh::SharedVertexKey>> vertex_keys;  ///< per local piece, per vertex
 };
 
 /// The boundary triangles of a piece whose tetrahedron is in a cavity.
@@ -88,33 +88,36 @@ void mark_triangles(const mesh::Piece& piece, const std::vector<CavityId>& of_ce
   }
 }
 
-/// A cavity lies in one region: a wish on the face between two makes one on either side.
-CavityId within_region(CavityId wish, mesh::RegionId region) {
-  const CavityId id = mesh::mix_in(wish, static_cast<std::uint64_t>(region));
+/// A cavity lies in one region: a claim on the face between two makes one on either side.
+CavityId within_region(CavityId claim, mesh::RegionId region) {
+  const CavityId id = mesh::mix_in(claim, static_cast<std::uint64_t>(region));
   return id == no_cavity ? CavityId{1} : id;
 }
 
-Contribution collect(const mesh::DistributedMesh& mesh, const CavityWishes& wishes, int round) {
+Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& claims, int round) {
   Contribution result;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const mesh::Piece& piece = mesh.pieces[p];
-    const std::vector<mesh::SharedToken>& token = result.tokens.emplace_back(tokens_of(piece, round));
+    const std::vector<mesh::SharedVertexKey>& vertex_key =
+        result.vertex_keys.emplace_back(vertex_keys_of(piece, round));
     std::vector<CavityId>& of_cell = result.of_cell.emplace_back(piece.cell_count(), no_cavity);
     std::vector<std::pair<CavityId, mesh::LocalIndex>> used;
     for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
       const mesh::LocalIndex* v = piece.cell(c);
-      const CavityId wish = cavity_of(wishes[p], v, 4);
-      if (wish == no_cavity) continue;
-      of_cell[c] = within_region(wish, piece.region);
-      result.tets.push_back(
-          {of_cell[c], piece.id, piece.region, {token[v[0]], token[v[1]], token[v[2]], token[v[3]]}});
+      const CavityId claim = cavity_of(claims[p], v, 4);
+      if (claim == no_cavity) continue;
+      of_cell[c] = within_region(claim, piece.region);
+      result.tets.push_back({of_cell[c],
+                             piece.id,
+                             piece.region,
+                             {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]], vertex_key[v[3]]}});
       for (int k = 0; k < 4; ++k) used.push_back({of_cell[c], v[k]});
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const auto& [cavity, v] : used)
-      result.vertices.push_back(
-          {cavity, piece.id, piece.vertex_dimension[v], token[v], piece.point(v), piece.vertex_entity[v]});
+      result.vertices.push_back({cavity, piece.id, piece.vertex_dimension[v], vertex_key[v], piece.point(v),
+                                 piece.vertex_entity[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
@@ -123,7 +126,7 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityWishes& wish
       result.triangles.push_back({cavity,
                                   piece.id,
                                   piece.triangle_face[t],
-                                  {token[v[0]], token[v[1]], token[v[2]]},
+                                  {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]]},
                                   piece.triangle_patch[t]});
     }
   }
@@ -143,24 +146,25 @@ struct CavityTable {
 };
 
 CavityTable list_cavities(const parallel::Communicator& communicator, const Contribution& mine) {
-  struct Row {
+  struct CavitySize {
     CavityId cavity;
     std::int64_t tets;
 
-    static constexpr auto fields() { return std::tuple(&Row::cavity, &Row::tets); }
+    static constexpr auto fields() { return std::tuple(&CavitySize::cavity, &CavitySize::tets); }
   };
   std::vector<CavityId> all;
   for (const WireTet& t : mine.tets) all.push_back(t.cavity);
   std::sort(all.begin(), all.end());
-  std::vector<Row> rows;
+  std::vector<CavitySize> rows;
   geometry::for_each_run(std::span<const CavityId>(all), std::equal_to<>{},
                          [&](std::size_t first, std::size_t last) {
                            rows.push_back({all[first], static_cast<std::int64_t>(last - first)});
                          });
-  std::vector<Row> table = communicator.all_gather_items<Row>(rows);
-  std::sort(table.begin(), table.end(), [](const Row& a, const Row& b) { return a.cavity < b.cavity; });
+  std::vector<CavitySize> table = communicator.all_gather_items<CavitySize>(rows);
+  std::sort(table.begin(), table.end(),
+            [](const CavitySize& a, const CavitySize& b) { return a.cavity < b.cavity; });
   CavityTable result;
-  for (const Row& row : table) {
+  for (const CavitySize& row : table) {
     if (result.ids.empty() || result.ids.back() != row.cavity) {
       result.ids.push_back(row.cavity);
       result.loads.push_back(0);
@@ -174,8 +178,8 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
 /// A cavity on the rank that refills it.
 struct OwnedCavity {
   Cavity cavity;
-  std::vector<mesh::SharedToken> tokens;  ///< per point, ascending
-  std::vector<mesh::PieceId> giver;       ///< per tetrahedron: the piece it comes from
+  std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per point, ascending
+  std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
   std::optional<Refilling> refilling;
   CavityShares shares;  ///< of the refilling
 };
@@ -191,7 +195,7 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.piece < b.piece;
   });
   sort_by(vertices, [](const WireVertex& a, const WireVertex& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.token < b.token;
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
   });
   sort_by(triangles, [](const WireTriangle& a, const WireTriangle& b) {
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
@@ -203,20 +207,21 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
     owned.cavity.id = tets[i].cavity;
     owned.cavity.region = tets[i].region;
     for (; v < vertices.size() && vertices[v].cavity == owned.cavity.id; ++v) {
-      if (!owned.tokens.empty() && owned.tokens.back() == vertices[v].token) continue;
-      owned.tokens.push_back(vertices[v].token);
+      if (!owned.vertex_keys.empty() && owned.vertex_keys.back() == vertices[v].vertex_key) continue;
+      owned.vertex_keys.push_back(vertices[v].vertex_key);
       owned.cavity.entity.push_back(vertices[v].entity);
       owned.cavity.points.push_back(vertices[v].point);
       owned.cavity.dimension.push_back(static_cast<std::int8_t>(vertices[v].dimension));
     }
-    const auto local = [&](mesh::SharedToken token) {
-      return static_cast<mesh::LocalIndex>(std::lower_bound(owned.tokens.begin(), owned.tokens.end(), token) -
-                                           owned.tokens.begin());
+    const auto local = [&](mesh::SharedVertexKey vertex_key) {
+      return static_cast<mesh::LocalIndex>(
+          std::lower_bound(owned.vertex_keys.begin(), owned.vertex_keys.end(), vertex_key) -
+          owned.vertex_keys.begin());
     };
     for (; j < tets.size() && tets[j].cavity == owned.cavity.id; ++j) {
       const auto& w = tets[j].vertices;
       owned.cavity.tets.push_back({local(w[0]), local(w[1]), local(w[2]), local(w[3])});
-      owned.giver.push_back(tets[j].piece);
+      owned.donor.push_back(tets[j].piece);
     }
     for (; s < triangles.size() && triangles[s].cavity == owned.cavity.id; ++s) {
       const auto& w = triangles[s].vertices;
@@ -237,38 +242,41 @@ struct Delivery {
 /// Adds a refilled cavity. `first_added` is the number of its first new vertex among those of the round.
 void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added, Delivery& out) {
   const CavityId id = owned.cavity.id;
-  const auto known = static_cast<mesh::LocalIndex>(owned.tokens.size());
-  const auto token = [&](mesh::LocalIndex v) {
-    return v < known ? owned.tokens[v] : mesh::placed_token(round, first_added + (v - known));
+  const auto known = static_cast<mesh::LocalIndex>(owned.vertex_keys.size());
+  const auto vertex_key = [&](mesh::LocalIndex v) {
+    return v < known ? owned.vertex_keys[v] : mesh::placed_key(round, first_added + (v - known));
   };
   const CavityShares& shares = owned.shares;
   std::vector<std::pair<mesh::PieceId, mesh::LocalIndex>> uses;
   for (std::size_t i = 0; i < owned.refilling->tets.size(); ++i) {
     const auto& t = owned.refilling->tets[i];
-    out.tets.push_back(
-        {id, shares.of_tet[i], owned.cavity.region, {token(t[0]), token(t[1]), token(t[2]), token(t[3])}});
+    out.tets.push_back({id,
+                        shares.of_tet[i],
+                        owned.cavity.region,
+                        {vertex_key(t[0]), vertex_key(t[1]), vertex_key(t[2]), vertex_key(t[3])}});
     for (const mesh::LocalIndex v : t) uses.emplace_back(shares.of_tet[i], v);
   }
   std::sort(uses.begin(), uses.end());
   uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
   for (const auto& [piece, v] : uses) {
     if (v < known) {
-      out.vertices.push_back({id, piece, owned.cavity.dimension[v], owned.tokens[v], owned.cavity.points[v],
-                              owned.cavity.entity[v]});
+      out.vertices.push_back({id, piece, owned.cavity.dimension[v], owned.vertex_keys[v],
+                              owned.cavity.points[v], owned.cavity.entity[v]});
     } else {
       const AddedVertex& added = owned.refilling->added[v - known];
-      out.vertices.push_back({id, piece, added.dimension, token(v), added.point,
+      out.vertices.push_back({id, piece, added.dimension, vertex_key(v), added.point,
                               added.dimension == 3 ? owned.cavity.region : added.entity});
     }
   }
   const std::vector<CavityTriangle>& triangles = owned.refilling->triangles_of(owned.cavity);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const CavityTriangle& t = triangles[i];
-    out.triangles.push_back({id,
-                             shares.of_triangle[i],
-                             t.face,
-                             {token(t.vertices[0]), token(t.vertices[1]), token(t.vertices[2])},
-                             t.patch});
+    out.triangles.push_back(
+        {id,
+         shares.of_triangle[i],
+         t.face,
+         {vertex_key(t.vertices[0]), vertex_key(t.vertices[1]), vertex_key(t.vertices[2])},
+         t.patch});
   }
 }
 
@@ -285,16 +293,16 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     const OwnedCavity& owned = cavities[next++];
     if (owned.refilling) pack_refilled(owned, round, first, out);
   }
-  const auto taker_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
+  const auto receiver_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
-  in.tets = mesh::deliver(communicator, std::move(out.tets), taker_rank);
-  in.vertices = mesh::deliver(communicator, std::move(out.vertices), taker_rank);
-  in.triangles = mesh::deliver(communicator, std::move(out.triangles), taker_rank);
+  in.tets = mesh::deliver(communicator, std::move(out.tets), receiver_rank);
+  in.vertices = mesh::deliver(communicator, std::move(out.vertices), receiver_rank);
+  in.triangles = mesh::deliver(communicator, std::move(out.triangles), receiver_rank);
   std::stable_sort(in.tets.begin(), in.tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.piece != b.piece ? a.piece < b.piece : a.cavity < b.cavity;
   });
   sort_by(in.vertices, [](const WireVertex& a, const WireVertex& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.token < b.token;
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
   });
   sort_by(in.triangles, [](const WireTriangle& a, const WireTriangle& b) {
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
@@ -328,7 +336,7 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
     const bool touched = last > first || std::any_of(mine.of_cell[p].begin(), mine.of_cell[p].end(), gone);
     change.first_new = piece.cell_count();
     if (touched) {
-      PieceUpdate update(piece, mine.tokens[p]);
+      PieceUpdate update(piece, mine.vertex_keys[p]);
       for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
         if (gone(mine.of_cell[p][c])) {
           update.leave(c);
@@ -351,16 +359,17 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 }  // namespace
 
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const CavityWishes& wishes, Reach reach,
-                            const RefillCavity& refill, parallel::StageClock& clock) {
+                            const mesh::SharedVertices& shared, const RefillRequest& request,
+                            parallel::StageClock& clock) {
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
-  if (round >= mesh::most_token_rounds) throw std::logic_error("refill_cavities: too many rounds");
-  CavityWishes settled = wishes;
-  spread_wishes(shared, settled);
-  settle_wishes(mesh, shared, settled);
+  if (round >= mesh::most_key_rounds) throw std::logic_error("refill_cavities: too many rounds");
+  CavityClaims settled = request.claims;
+  spread_claims(shared, settled);
+  settle_claims(mesh, shared, settled);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    for (int ring = 0; ring < reach.rings; ++ring) widen(mesh.pieces[p], reach.along_surface, settled[p]);
+    for (int ring = 0; ring < request.extent.rings; ++ring)
+      widen(mesh.pieces[p], request.extent.along_surface, settled[p]);
   }
   Contribution mine = collect(mesh, settled, round);
   const CavityTable table = list_cavities(communicator, mine);
@@ -368,8 +377,8 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   std::vector<Outcome> outcomes;
   parallel::agree(communicator, [&] {
     for (OwnedCavity& owned : cavities) {
-      owned.refilling = refill(owned.cavity);
-      if (owned.refilling) owned.shares = share_out(owned.cavity, owned.giver, *owned.refilling);
+      owned.refilling = request.refill(owned.cavity);
+      if (owned.refilling) owned.shares = share_out(owned.cavity, owned.donor, *owned.refilling);
       const auto added = owned.refilling ? static_cast<std::int32_t>(owned.refilling->added.size()) : 0;
       outcomes.push_back({owned.cavity.id, owned.refilling ? 1 : 0, added});
     }

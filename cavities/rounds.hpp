@@ -3,10 +3,10 @@
 /// the mesh stays one mesh, whatever the rank count.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "mesh/shared_vertices.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
 
 #include <array>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct CavityTriangle {
 };
 
 /// One cavity before it is refilled. Vertices are numbered within the cavity; those that pieces share come
-/// by token, the others by piece, so the order is the same for any rank count.
+/// by shared-vertex key, the others by piece, so the order is the same for any rank count.
 struct Cavity {
   CavityId id = no_cavity;
   mesh::RegionId region = 0;
@@ -65,8 +65,8 @@ struct Refilling {
 using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
 
 /// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. What one
-/// piece wishes for a shared vertex, the others do too; where they differ the higher number counts.
-using CavityWishes = std::vector<std::vector<CavityId>>;
+/// piece claims a shared vertex, the others do too; where they differ the higher number counts.
+using CavityClaims = std::vector<std::vector<CavityId>>;
 
 /// What a round did to a piece: the cells that are left kept their order, and what came stands behind them.
 struct PieceChange {
@@ -79,20 +79,27 @@ struct CavityRound {
   std::vector<PieceChange> changes;         ///< per local piece
 };
 
-/// How far cavities reach beyond the stars of vertices that are wished for: how often they take the stars of
-/// their vertices too, where these lie inside a piece and near one cavity only; those on the surface where
-/// asked for.
-struct Reach {
+/// How far cavities extend beyond the stars of claimed vertices: how often they take the stars of their
+/// vertices too, where these lie inside a piece and near one cavity only; those on the surface where asked
+/// for.
+struct CavityExtent {
   int rings = 1;
   bool along_surface = false;
 };
 
-/// One round. Cavities do not reach from one region into another. A vertex's star is taken when no neighbour
-/// is wished for by another cavity, so cavities do not touch in a tetrahedron; the others have to wait for
-/// another round with other wishes. Deals cavities out by size. At most 255 rounds on one mesh. `shared` are
-/// those of the mesh as it comes in. Collective. Throws CollectiveError.
+/// What a round takes out of the pieces, and what refills it.
+struct RefillRequest {
+  const CavityClaims& claims;
+  CavityExtent extent;
+  const RefillCavity& refill;
+};
+
+/// One round. A cavity lies in one region. A vertex's star is taken when no neighbour is claimed by another
+/// cavity, so cavities do not touch in a tetrahedron; the others have to wait for another round with other
+/// claims. Cavities are assigned to ranks by size. At most 255 rounds on one mesh. `shared` are those of the
+/// mesh as it comes in. Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const CavityWishes& wishes, Reach reach,
-                            const RefillCavity& refill, parallel::StageClock& clock);
+                            const mesh::SharedVertices& shared, const RefillRequest& request,
+                            parallel::StageClock& clock);
 
 }  // namespace aeroloom::cavities

@@ -18,7 +18,7 @@ const mesh::TetFace* find_face(const std::vector<mesh::TetFace>& faces,
 
 }  // namespace
 
-CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& giver,
+CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
                        const Refilling& refilling) {
   // The same faces, with the old and the new tetrahedron behind them.
   const std::vector<mesh::TetFace> given = mesh::boundary_faces(cavity.tets);
@@ -40,7 +40,7 @@ CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& g
     if (!old) continue;
     ++kept;
     if (shares.of_tet[face.tet] >= 0) continue;
-    shares.of_tet[face.tet] = giver[old->tet];
+    shares.of_tet[face.tet] = donor[old->tet];
     front.push_back(face.tet);
   }
   const std::vector<CavityTriangle>& triangles = refilling.triangles_of(cavity);
@@ -53,7 +53,7 @@ CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& g
     throw std::logic_error("share_out: the refilling has another boundary");
   }
   if (front.empty()) {  // nothing is left of the boundary of a whole region
-    shares.of_tet[0] = *std::min_element(giver.begin(), giver.end());
+    shares.of_tet[0] = *std::min_element(donor.begin(), donor.end());
     front.push_back(0);
   }
   for (std::size_t i = 0; i < front.size(); ++i) {

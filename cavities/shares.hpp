@@ -13,8 +13,8 @@ struct CavityShares {
 };
 
 /// Each piece that gave to the cavity takes what is nearest to the part of the cavity's boundary it gave, in
-/// steps from tetrahedron to tetrahedron; so it stays about as large as it was. `giver`: per old tetrahedron.
-CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& giver,
+/// steps from tetrahedron to tetrahedron; so it stays about as large as it was. `donor`: per old tetrahedron.
+CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
                        const Refilling& refilling);
 
 }  // namespace aeroloom::cavities

@@ -20,8 +20,7 @@ function(aeroloom_library folder)
   endif()
   set_target_properties(aeroloom_${folder} PROPERTIES EXPORT_NAME ${folder})
   target_include_directories(aeroloom_${folder} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/aeroloom>)
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_compile_features(aeroloom_${folder} PUBLIC cxx_std_20)
   # One mesh on every machine: no contraction into fused multiply-add, no value-changing optimisation. Headers
   # compute too, so the flags travel with the target.

@@ -1,4 +1,4 @@
-# cmake --install: the program, the stages as static libraries, their headers under include/aeroloom, what
+# cmake --install: the program, the stages as static libraries, the headers of include/aeroloom, what
 # find_package(Aeroloom) reads, manual pages, completion, cases and documentation. The program's own folder, pipeline/, is
 # no library for others.
 include(GNUInstallDirs)
@@ -7,9 +7,8 @@ include(CMakePackageConfigHelpers)
 list(REMOVE_ITEM AEROLOOM_FOLDERS pipeline)
 foreach(folder IN LISTS AEROLOOM_FOLDERS)
   install(TARGETS aeroloom_${folder} EXPORT AeroloomTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aeroloom/${folder}
-    FILES_MATCHING PATTERN "*.hpp")
 endforeach()
+install(DIRECTORY include/aeroloom DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(TARGETS aeroloom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 # Completion for bash, printed by the program itself.

@@ -1,6 +1,6 @@
 #include "forest/brick.hpp"
 
-#include "parallel/host.hpp"
+#include "aeroloom/parallel/communication/host.hpp"
 
 #include <array>
 #include <tuple>
@@ -132,17 +132,17 @@ Forest Brick::take() const {
       }
     }
   });
-  struct Row {
+  struct TreeStart {
     std::int64_t count;
     std::uint64_t key;
-    static constexpr auto fields() { return std::tuple(&Row::count, &Row::key); }
+    static constexpr auto fields() { return std::tuple(&TreeStart::count, &TreeStart::key); }
   };
   constexpr std::uint64_t end = 1ULL << 3 * finest_level;
-  const std::vector<Row> mine{
+  const std::vector<TreeStart> mine{
       {static_cast<std::int64_t>(local.size()), local.keys.empty() ? end : local.keys[0]}};
-  const std::vector<Row> rows = _communicator.all_gather_items<Row>(mine);
+  const std::vector<TreeStart> rows = _communicator.all_gather_items<TreeStart>(mine);
   result._firsts.push_back(0);
-  for (const Row& row : rows) {
+  for (const TreeStart& row : rows) {
     result._firsts.push_back(result._firsts.back() + row.count);
     result._keys.push_back(row.key);
   }

@@ -1,9 +1,9 @@
 #include "forest/forest.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "forest/brick.hpp"
 #include "forest/library.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/memory_limit.hpp"
+#include "parallel/observation/memory_limit.hpp"
 
 #include <exception>
 #include <limits>
@@ -128,7 +128,7 @@ std::int64_t most_octants(const Communicator& communicator, const Limits& limits
   return std::min<std::int64_t>(bytes / bytes_per_octant, std::numeric_limits<p4est_locidx_t>::max());
 }
 
-/// Splits what is judged so; on several ranks level by level, dealt out anew after each. False: the trees
+/// Splits what is judged so; on several ranks level by level, distributed anew after each. False: the trees
 /// have too few levels.
 bool refine(const Communicator& communicator, Brick& brick, Growth& growth, parallel::StageClock& clock) {
   p8est_t& forest = brick.forest();
@@ -193,8 +193,8 @@ Forest grow(const Communicator& communicator, const Judge& judge, parallel::Stag
   return *grow_in(communicator, many_trees, crown, judge, limit, clock);
 }
 
-Forest deal_out(const Communicator& communicator, const Forest& forest, std::span<const std::int32_t> weights,
-                parallel::StageClock& clock) {
+Forest partition_by_weight(const Communicator& communicator, const Forest& forest,
+                           std::span<const std::int32_t> weights, parallel::StageClock& clock) {
   const LibraryScope library(communicator.rank(), "partitioning");
   const ScopedCpu task(clock, ScopedCpu::As::task);
   Brick brick(communicator, forest, weights);

@@ -3,9 +3,9 @@
 /// folder sees.
 #pragma once
 
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "forest/octants.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -60,8 +60,8 @@ struct Limits {
 Forest grow(const parallel::Communicator& communicator, const Judge& judge, parallel::StageClock& clock,
             Limits limits = {});
 
-/// The same leaves, dealt out by weight, one per leaf of this rank, none negative. Collective.
-Forest deal_out(const parallel::Communicator& communicator, const Forest& forest,
-                std::span<const std::int32_t> weights, parallel::StageClock& clock);
+/// The same leaves, distributed by weight, one per leaf of this rank, none negative. Collective.
+Forest partition_by_weight(const parallel::Communicator& communicator, const Forest& forest,
+                           std::span<const std::int32_t> weights, parallel::StageClock& clock);
 
 }  // namespace aeroloom::forest

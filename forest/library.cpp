@@ -1,7 +1,7 @@
 #include "forest/library.hpp"
 
-#include "parallel/environment.hpp"
-#include "parallel/memory_limit.hpp"
+#include "parallel/communication/environment.hpp"
+#include "parallel/observation/memory_limit.hpp"
 
 #include <cstdio>
 #include <cstring>

@@ -1,7 +1,7 @@
 /// p4est and the library under it, sc, while they work for us. Internal to forest/.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 namespace aeroloom::forest {
 

@@ -1,7 +1,7 @@
 /// Leaves of an octree as flat arrays.
 #pragma once
 
-#include "geometry/morton.hpp"
+#include "aeroloom/geometry/morton.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -47,7 +47,7 @@ void mark_inside(const FrontInput& boundary, Delaunay& plane) {
       const std::int32_t t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        const geometry::LinkedEdge edge = geometry::linked_edge(t, i), other = plane.mesh.mate(edge);
+        const geometry::LinkedEdge edge = geometry::linked_edge(t, i), other = plane.mesh.twin(edge);
         if (other == geometry::no_linked_edge)
           throw FrontError("the boundary is open or runs clockwise around the region", {});
         if (!plane.mesh.is_fixed(edge)) reach(geometry::triangle_of(other));

@@ -37,12 +37,12 @@ std::uint64_t scramble(std::uint64_t x) {
 /// Rounds of doubling size, each along a Hilbert curve: neither long walks nor large cavities (Amenta, Choi
 /// and Rote, Proc. Symp. Comput. Geom. 2003, doi:10.1145/777792.777824).
 std::vector<std::int32_t> insertion_order(std::span<const Vec2> points, Vec2 low, double extent) {
-  struct Place {
+  struct InsertionKey {
     int round;
     std::uint32_t key;
     std::int32_t vertex;
   };
-  std::vector<Place> places(points.size());
+  std::vector<InsertionKey> places(points.size());
   const double scale = extent > 0 ? 65535.0 / extent : 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2 q = scale * (points[i] - low);
@@ -50,11 +50,11 @@ std::vector<std::int32_t> insertion_order(std::span<const Vec2> points, Vec2 low
                  hilbert_key(static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y)),
                  static_cast<std::int32_t>(i)};
   }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+  std::sort(places.begin(), places.end(), [](const InsertionKey& a, const InsertionKey& b) {
     return a.round != b.round ? a.round < b.round : a.key != b.key ? a.key < b.key : a.vertex < b.vertex;
   });
   std::vector<std::int32_t> order(points.size());
-  std::transform(places.begin(), places.end(), order.begin(), [](const Place& p) { return p.vertex; });
+  std::transform(places.begin(), places.end(), order.begin(), [](const InsertionKey& p) { return p.vertex; });
   return order;
 }
 
@@ -182,7 +182,7 @@ void Delaunay::connect_cavity(std::int32_t vertex) {
 }
 
 bool Delaunay::is_flip_wanted(geometry::LinkedEdge edge) const {
-  const geometry::LinkedEdge other = mesh.mate(edge);
+  const geometry::LinkedEdge other = mesh.twin(edge);
   if (other == geometry::no_linked_edge || mesh.is_fixed(edge)) return false;
   const auto& v = mesh.triangles[geometry::triangle_of(edge)].vertices;
   return circle_side(points[v[0]], points[v[1]], points[v[2]], points[mesh.apex(other)]) > 0;
@@ -194,7 +194,7 @@ void Delaunay::restore(std::vector<geometry::LinkedEdge>& stack) {
     stack.pop_back();
     if (!is_flip_wanted(edge)) continue;
     const geometry::LinkedEdge diagonal = mesh.flip(edge);
-    const std::int32_t t = geometry::triangle_of(diagonal), u = geometry::triangle_of(mesh.mate(diagonal));
+    const std::int32_t t = geometry::triangle_of(diagonal), u = geometry::triangle_of(mesh.twin(diagonal));
     stack.insert(stack.end(), {geometry::linked_edge(t, 0), geometry::linked_edge(t, 2),
                                geometry::linked_edge(u, 0), geometry::linked_edge(u, 2)});
   }
@@ -244,7 +244,7 @@ bool Delaunay::collect_crossings(std::int32_t a, std::int32_t b, geometry::Linke
   for (geometry::LinkedEdge edge = first;;) {
     if (mesh.is_fixed(edge)) return false;
     _crossings.push_back({mesh.origin(edge), mesh.target(edge)});
-    const geometry::LinkedEdge other = mesh.mate(edge);
+    const geometry::LinkedEdge other = mesh.twin(edge);
     const std::int32_t apex = mesh.apex(other);
     if (apex == b) return true;
     const int side = orientation(points[a], points[b], points[apex]);
@@ -264,7 +264,7 @@ void Delaunay::flip_crossings(std::int32_t a, std::int32_t b) {
   for (std::size_t k = 0; k < _crossings.size(); ++k) {
     const VertexPair pair = _crossings[k];
     const geometry::LinkedEdge edge = mesh.find(pair.a, pair.b);
-    const std::int32_t x = mesh.apex(edge), y = mesh.apex(mesh.mate(edge));
+    const std::int32_t x = mesh.apex(edge), y = mesh.apex(mesh.twin(edge));
     const bool convex = orientation(points[y], points[x], points[pair.a]) > 0 &&
                         orientation(points[x], points[y], points[pair.b]) > 0;
     if (!convex) {

@@ -5,9 +5,9 @@
 /// 1993, doi:10.1016/0045-7949(93)90239-A). All signs are exact, so every step keeps a valid triangulation.
 #pragma once
 
+#include "aeroloom/geometry/vec.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_links.hpp"
-#include "geometry/vec.hpp"
 
 #include <cmath>
 #include <cstdint>

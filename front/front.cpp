@@ -129,7 +129,7 @@ void Front::offer(geometry::LinkedEdge edge) {
   if (state_of(_mesh.triangles[geometry::triangle_of(edge)]) != TriangleState::waiting ||
       _mesh.is_tagged(edge))
     return;
-  const geometry::LinkedEdge other = _mesh.mate(edge);
+  const geometry::LinkedEdge other = _mesh.twin(edge);
   if (!_mesh.is_fixed(edge) &&
       state_of(_mesh.triangles[geometry::triangle_of(other)]) != TriangleState::accepted)
     return;
@@ -146,7 +146,7 @@ void Front::offer_edges(std::int32_t t) {
     if (state == TriangleState::waiting) {
       offer(edge);
     } else if (!_mesh.is_fixed(edge)) {
-      offer(_mesh.mate(edge));
+      offer(_mesh.twin(edge));
     }
   }
 }

@@ -6,7 +6,7 @@
 /// Mech. Eng. 157, 1998, doi:10.1016/S0045-7825(97)00222-3).
 #pragma once
 
-#include "geometry/vec.hpp"
+#include "aeroloom/geometry/vec.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "geometry/box_tree.hpp"
+#include "aeroloom/geometry/box_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -17,7 +17,7 @@ constexpr std::uint32_t all_edge_bits = 0b111111u;
 
 void TriangleLinks::build(const std::vector<std::array<std::int32_t, 3>>& triples,
                           std::int32_t vertex_count) {
-  struct Side {
+  struct OpenEdge {
     std::int32_t high;
     LinkedEdge edge;
   };
@@ -37,7 +37,7 @@ void TriangleLinks::build(const std::vector<std::array<std::int32_t, 3>>& triple
     }
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Side> sides(3 * triples.size());
+  std::vector<OpenEdge> sides(3 * triples.size());
   std::vector<std::int32_t> end(begin.begin(), begin.end() - 1);
   for (std::int32_t t = 0; t < count; ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -47,11 +47,11 @@ void TriangleLinks::build(const std::vector<std::array<std::int32_t, 3>>& triple
   }
   for (std::int32_t v = 0; v < vertex_count; ++v) {
     const auto first = sides.begin() + begin[v], last = sides.begin() + begin[v + 1];
-    std::sort(first, last, [](const Side& a, const Side& b) {
+    std::sort(first, last, [](const OpenEdge& a, const OpenEdge& b) {
       return a.high != b.high ? a.high < b.high : a.edge < b.edge;
     });
     for (auto at = first; at != last;) {
-      const auto next = std::find_if(at, last, [&](const Side& side) { return side.high != at->high; });
+      const auto next = std::find_if(at, last, [&](const OpenEdge& side) { return side.high != at->high; });
       if (next - at == 2 && origin(at->edge) != origin(at[1].edge)) join(at->edge, at[1].edge);
       at = next;
     }
@@ -60,7 +60,7 @@ void TriangleLinks::build(const std::vector<std::array<std::int32_t, 3>>& triple
 
 void TriangleLinks::fix(LinkedEdge edge) {
   triangles[triangle_of(edge)].flags |= 1u << corner_of(edge);
-  if (const LinkedEdge other = mate(edge); other != no_linked_edge) {
+  if (const LinkedEdge other = twin(edge); other != no_linked_edge) {
     triangles[triangle_of(other)].flags |= 1u << corner_of(other);
   }
 }
@@ -86,7 +86,7 @@ LinkedEdge TriangleLinks::find(std::int32_t a, std::int32_t b) const {
 }
 
 LinkedEdge TriangleLinks::flip(LinkedEdge edge) {
-  const LinkedEdge other = mate(edge);
+  const LinkedEdge other = twin(edge);
   const std::int32_t t = triangle_of(edge), u = triangle_of(other);
   const int i = corner_of(edge), j = corner_of(other);
   const LinkedTriangle left = triangles[t], right = triangles[u];
@@ -113,7 +113,7 @@ LinkedEdge TriangleLinks::flip(LinkedEdge edge) {
 }
 
 std::int32_t TriangleLinks::divide(LinkedEdge edge) {
-  const LinkedEdge other = mate(edge);
+  const LinkedEdge other = twin(edge);
   const std::int32_t t = triangle_of(edge), u = triangle_of(other);
   const int i = corner_of(edge), j = corner_of(other);
   const LinkedTriangle left = triangles[t], right = triangles[u];
@@ -145,9 +145,9 @@ void TriangleLinks::contract(LinkedEdge edge) {
   const std::int32_t gone = origin(edge), kept = target(edge);
   std::vector<std::int32_t> fan;
   gather_fan(gone, fan);
-  const std::int32_t removed[2] = {triangle_of(edge), triangle_of(mate(edge))};
+  const std::int32_t removed[2] = {triangle_of(edge), triangle_of(twin(edge))};
   for (const std::int32_t t : fan) triangles[t].vertices[corner(t, gone)] = kept;
-  for (const LinkedEdge e : {edge, mate(edge)}) {
+  for (const LinkedEdge e : {edge, twin(edge)}) {
     // The triangle's other two edges become one; that which was the vanished vertex's has a triangle beyond.
     auto& triangle = triangles[triangle_of(e)];
     LinkedEdge first = triangle.links[next_corner(corner_of(e))],

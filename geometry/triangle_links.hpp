@@ -49,7 +49,7 @@ public:
   std::int32_t origin(LinkedEdge edge) const { return corner_vertex(edge, next_corner(corner_of(edge))); }
   std::int32_t target(LinkedEdge edge) const { return corner_vertex(edge, previous_corner(corner_of(edge))); }
   std::int32_t apex(LinkedEdge edge) const { return corner_vertex(edge, corner_of(edge)); }
-  LinkedEdge mate(LinkedEdge edge) const { return triangles[triangle_of(edge)].links[corner_of(edge)]; }
+  LinkedEdge twin(LinkedEdge edge) const { return triangles[triangle_of(edge)].links[corner_of(edge)]; }
 
   bool is_fixed(LinkedEdge edge) const { return triangles[triangle_of(edge)].flags >> corner_of(edge) & 1u; }
   bool is_tagged(LinkedEdge edge) const {

@@ -1,6 +1,6 @@
 #include "improve/bad_cells.hpp"
 
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ std::array<geometry::Vec3, 4> points_of(const Piece& piece, LocalIndex cell) {
   return {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
 }
 
-double quality_of(const Piece& piece, LocalIndex cell, const TetQuality& measure) {
+double quality_of(const Piece& piece, LocalIndex cell, const mesh::TetQuality& measure) {
   const auto p = points_of(piece, cell);
   return measure(p[0], p[1], p[2], p[3]);
 }
@@ -30,7 +30,7 @@ void Examination::add(double quality, const std::array<geometry::Vec3, 4>& p) {
   _bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
 }
 
-BadState examine(const Piece& piece, const TetQuality& measure) {
+BadState examine(const Piece& piece, const mesh::TetQuality& measure) {
   Examination examination(measure);
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const auto p = points_of(piece, t);
@@ -39,7 +39,7 @@ BadState examine(const Piece& piece, const TetQuality& measure) {
   return examination.state;
 }
 
-BadCells::BadCells(const mesh::DistributedMesh& mesh, const TetQuality& measure)
+BadCells::BadCells(const mesh::DistributedMesh& mesh, const mesh::TetQuality& measure)
     : _measure(measure), _cells(mesh.pieces.size()) {
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) add(mesh.pieces[p], p, 0);
 }

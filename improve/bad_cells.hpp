@@ -2,9 +2,9 @@
 /// another look at all.
 #pragma once
 
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "cavities/rounds.hpp"
-#include "improve/tet_quality.hpp"
-#include "mesh/distributed_mesh.hpp"
+#include "mesh/tet_quality.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -20,7 +20,7 @@ struct BadState {
 /// Adds tetrahedra to a state, their qualities known.
 class Examination {
 public:
-  explicit Examination(const TetQuality& measure) : _target(measure.target()) {}
+  explicit Examination(const mesh::TetQuality& measure) : _target(measure.target()) {}
   void add(double quality, const std::array<geometry::Vec3, 4>& p);
 
   BadState state;
@@ -34,14 +34,14 @@ private:
 std::array<geometry::Vec3, 4> points_of(const mesh::Piece& piece, mesh::LocalIndex cell);
 
 /// The quality of a piece's cell.
-double quality_of(const mesh::Piece& piece, mesh::LocalIndex cell, const TetQuality& measure);
+double quality_of(const mesh::Piece& piece, mesh::LocalIndex cell, const mesh::TetQuality& measure);
 
-BadState examine(const mesh::Piece& piece, const TetQuality& measure);
+BadState examine(const mesh::Piece& piece, const mesh::TetQuality& measure);
 
 class BadCells {
 public:
   /// Looks at every cell of this rank.
-  BadCells(const mesh::DistributedMesh& mesh, const TetQuality& measure);
+  BadCells(const mesh::DistributedMesh& mesh, const mesh::TetQuality& measure);
 
   /// Follows a round: what it left, and those among what it brought.
   void update(const mesh::DistributedMesh& mesh, const cavities::CavityRound& round);
@@ -54,7 +54,7 @@ public:
 private:
   void add(const mesh::Piece& piece, std::size_t p, mesh::LocalIndex first);
 
-  TetQuality _measure;
+  mesh::TetQuality _measure;
   std::vector<std::vector<mesh::LocalIndex>> _cells;  ///< per local piece
 };
 

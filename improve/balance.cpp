@@ -1,6 +1,6 @@
 #include "improve/balance.hpp"
 
-#include "parallel/schedule.hpp"
+#include "parallel/communication/schedule.hpp"
 
 #include <tuple>
 
@@ -8,19 +8,21 @@ namespace aeroloom::improve {
 
 void balance_pieces(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
                     const std::vector<double>& work) {
-  struct Row {
+  struct PieceWork {
     mesh::PieceId piece;
     parallel::Rank owner;
     double work;
 
-    static constexpr auto fields() { return std::tuple(&Row::piece, &Row::owner, &Row::work); }
+    static constexpr auto fields() {
+      return std::tuple(&PieceWork::piece, &PieceWork::owner, &PieceWork::work);
+    }
   };
-  std::vector<Row> mine;
+  std::vector<PieceWork> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
     mine.push_back({mesh.pieces[i].id, communicator.rank(), work[i]});
   std::vector<double> all(mesh.piece_count, 0);
   std::vector<parallel::Rank> now(mesh.piece_count, 0);
-  for (const Row& row : communicator.all_gather_items<Row>(mine)) {
+  for (const PieceWork& row : communicator.all_gather_items<PieceWork>(mine)) {
     all[row.piece] = row.work;
     now[row.piece] = row.owner;
   }

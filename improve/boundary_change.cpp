@@ -1,6 +1,6 @@
 #include "improve/boundary_change.hpp"
 
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ bool BoundaryEdges::exists(TetMesh& mesh, LocalIndex from, LocalIndex to) {
     if (c[there] != to) continue;
     const int here = mesh.local_vertex(t, from);
     for (int f = 0; f < 4; ++f) {
-      if (f != here && f != there && mesh.mate(4 * t + f) < 0) return true;
+      if (f != here && f != there && mesh.twin(4 * t + f) < 0) return true;
     }
   }
   return false;

@@ -18,8 +18,8 @@ bool BoundaryFlip::keeps_boundary(TetMesh& mesh) {
   if (_fan.tets.size() > 1) return true;
   // The faces behind the only tetrahedron become the boundary.
   const LocalIndex t = _fan.tets[0];
-  return mesh.mate(4 * t + mesh.local_vertex(t, _fan.start)) >= 0 &&
-         mesh.mate(4 * t + mesh.local_vertex(t, _fan.end)) >= 0;
+  return mesh.twin(4 * t + mesh.local_vertex(t, _fan.start)) >= 0 &&
+         mesh.twin(4 * t + mesh.local_vertex(t, _fan.end)) >= 0;
 }
 
 bool BoundaryFlip::propose(TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity) {

@@ -1,11 +1,11 @@
 #include "improve/cavity_improver.hpp"
 
-#include "improve/improver.hpp"
+#include "aeroloom/improve/improver.hpp"
 #include "improve/reach.hpp"
 #include "improve/scatter.hpp"
 #include "mesh/mixing.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 #include "mesh/tet_faces.hpp"
-#include "mesh/tokens.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -35,13 +35,14 @@ std::vector<char> near_borders(const Piece& piece) {
 
 }  // namespace
 
-std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad, const TetQuality& measure,
-                          int shift, Effort effort, cavities::CavityWishes& wishes) {
+std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad,
+                           const mesh::TetQuality& measure, int shift, Effort effort,
+                           cavities::CavityClaims& claims) {
   std::int64_t count = 0;
-  wishes.clear();
+  claims.clear();
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
-    std::vector<cavities::CavityId>& mine = wishes.emplace_back(piece.vertex_count(), cavities::no_cavity);
+    std::vector<cavities::CavityId>& mine = claims.emplace_back(piece.vertex_count(), cavities::no_cavity);
     if (bad.of_piece(i).empty()) continue;
     const Reach reach = effort == Effort::unsparing ? Reach(measure) : Reach(piece, measure);
     std::vector<char> beside;  // a border, once needed
@@ -58,7 +59,7 @@ std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad
       }
       ++count;
       const cavities::CavityId id =
-          cavities::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mean_edge(p), cell_width, shift);
+          cavities::cavity_at(0.25 * (p[0] + p[1] + p[2] + p[3]), mesh::mean_edge(p), cell_width, shift);
       for (int k = 0; k < 4; ++k) mine[v[k]] = std::max(mine[v[k]], id);
     }
   }
@@ -113,7 +114,7 @@ void CavityImprover::build_piece(const cavities::Cavity& cavity) {
   }
   for (LocalIndex v = 0; v < _staying; ++v) {
     _piece.shared_vertices.push_back(v);
-    _piece.shared_tokens.push_back(mesh::running_token(v));
+    _piece.shared_keys.push_back(mesh::running_key(v));
   }
 }
 
@@ -165,7 +166,7 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
 namespace {
 
 /// The worst quality, then how many miss the target: what is greater is better.
-std::pair<double, std::int64_t> judge(const Piece& piece, const TetQuality& measure) {
+std::pair<double, std::int64_t> judge(const Piece& piece, const mesh::TetQuality& measure) {
   std::pair<double, std::int64_t> result{std::numeric_limits<double>::max(), 0};
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const double quality = quality_of(piece, t, measure);

@@ -1,23 +1,24 @@
 /// Improvement across pieces: what was frozen on the border of a piece is inside of a cavity.
 #pragma once
 
+#include "aeroloom/improve/improve_options.hpp"
+#include "aeroloom/improve/improve_report.hpp"
+#include "aeroloom/improve/mesh_source.hpp"
 #include "cavities/rounds.hpp"
 #include "improve/bad_cells.hpp"
-#include "improve/improve_options.hpp"
-#include "improve/improve_report.hpp"
-#include "improve/mesh_source.hpp"
-#include "improve/tet_quality.hpp"
+#include "mesh/tet_quality.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace aeroloom::improve {
 
-/// Wishes for the stars of all vertices of tetrahedra that miss what is within reach (reach.hpp; the target,
+/// Claims the stars of all vertices of tetrahedra that miss what is within reach (reach.hpp; the target,
 /// where nothing is to be spared), grouped by place; `shift` as in cavities::cavity_at. Returns their number
 /// on this rank.
-std::int64_t wish_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad, const TetQuality& measure,
-                          int shift, Effort effort, cavities::CavityWishes& wishes);
+std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad,
+                           const mesh::TetQuality& measure, int shift, Effort effort,
+                           cavities::CavityClaims& claims);
 
 /// Improves the tetrahedra of cavities. What other tetrahedra have in common with a cavity stays, and so do
 /// triangles between two regions; other triangles of the surface mesh may change as in a piece.
@@ -44,7 +45,7 @@ private:
 
   const mesh::DistributedMesh& _mesh;
   const ImproveOptions& _options;
-  TetQuality _measure;
+  mesh::TetQuality _measure;
   const MeshSource& _source;
   std::vector<mesh::LocalIndex> _order;   ///< of the cavity's vertices: those that stay first
   std::vector<mesh::LocalIndex> _number;  ///< per vertex of the cavity: its place in that order

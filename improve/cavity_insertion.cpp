@@ -37,7 +37,7 @@ bool CavityInsertion::contains(LocalIndex t) const {
 
 void CavityInsertion::add_walls(const TetMesh& mesh, LocalIndex t) {
   for (int f = 0; f < 4; ++f) {
-    const HalfFace side = 4 * t + f, other = mesh.mate(side);
+    const HalfFace side = 4 * t + f, other = mesh.twin(side);
     if (other >= 0 && contains(other >> 2)) continue;
     const auto& face = mesh::tetrahedron_faces[f];
     const Corners& c = mesh.corners(t);
@@ -54,7 +54,7 @@ void CavityInsertion::collect_walls(const TetMesh& mesh) {
 }
 
 void CavityInsertion::swallow(const TetMesh& mesh, LocalIndex t) {
-  std::erase_if(_walls, [&](const Wall& w) { return mesh.mate(w.side) >= 0 && mesh.mate(w.side) >> 2 == t; });
+  std::erase_if(_walls, [&](const Wall& w) { return mesh.twin(w.side) >= 0 && mesh.twin(w.side) >> 2 == t; });
   _tets.push_back(t);
   add_walls(mesh, t);
 }
@@ -70,7 +70,7 @@ void CavityInsertion::grow(const TetMesh& mesh) {
     double worst = std::numeric_limits<double>::max();
     for (const Wall& w : _walls) {
       worst = std::min(worst, w.quality);
-      const bool is_open = mesh.mate(w.side) >= 0 && w.quality < mesh.measure().target();
+      const bool is_open = mesh.twin(w.side) >= 0 && w.quality < mesh.measure().target();
       if (is_open && (worst_open == nullptr || w.quality < worst_open->quality)) worst_open = &w;
     }
     if (worst > best) {
@@ -81,7 +81,7 @@ void CavityInsertion::grow(const TetMesh& mesh) {
         _tets.size() >= best_size + patience) {
       break;
     }
-    swallow(mesh, mesh.mate(worst_open->side) >> 2);
+    swallow(mesh, mesh.twin(worst_open->side) >> 2);
   }
   _tets.resize(best_size);
   collect_walls(mesh);
@@ -150,7 +150,7 @@ bool CavityInsertion::start_behind(const TetMesh& mesh, LocalIndex t) {
   _tets.assign(1, t);
   bool on_boundary = false;
   for (int f = 0; f < 4; ++f) {
-    const HalfFace other = mesh.mate(4 * t + f);
+    const HalfFace other = mesh.twin(4 * t + f);
     on_boundary = on_boundary || other < 0;
     if (other >= 0 && !contains(other >> 2)) _tets.push_back(other >> 2);
   }

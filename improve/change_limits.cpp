@@ -1,6 +1,6 @@
 #include "improve/change_limits.hpp"
 
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 
 #include <algorithm>
 

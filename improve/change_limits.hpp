@@ -1,10 +1,10 @@
 /// What a change must keep to beside the quality that it is made for: sizes and decent shapes.
 #pragma once
 
-#include "improve/improve_options.hpp"
+#include "aeroloom/improve/improve_options.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "improve/reach.hpp"
 #include "improve/tet_mesh.hpp"
-#include "sizing/size_field.hpp"
 
 #include <limits>
 #include <span>

@@ -7,7 +7,7 @@ namespace aeroloom::improve {
 
 int count_boundary_faces(const TetMesh& mesh, LocalIndex t) {
   int count = 0;
-  for (int face = 0; face < 4; ++face) count += is_triangle(mesh.mate(4 * t + face)) ? 1 : 0;
+  for (int face = 0; face < 4; ++face) count += is_triangle(mesh.twin(4 * t + face)) ? 1 : 0;
   return count;
 }
 
@@ -19,7 +19,7 @@ int CornerCount::added_by(const TetMesh& mesh, const Replacement& cavity) {
     const Corners& c = mesh.corners(t);
     for (int face = 0; face < 4; ++face) {
       const auto& corner = mesh::tetrahedron_faces[face];
-      if (is_triangle(mesh.mate(4 * t + face)))
+      if (is_triangle(mesh.twin(4 * t + face)))
         _sides.push_back(sorted(c[corner[0]], c[corner[1]], c[corner[2]]));
     }
   }

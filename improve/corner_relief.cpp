@@ -72,7 +72,7 @@ void CornerRelief::find_new_vertices(TetMesh& mesh, LocalIndex t) {
 }
 
 void CornerRelief::swap_face(const TetMesh& mesh, LocalIndex t, int face) {
-  const HalfFace other = mesh.mate(4 * t + face);
+  const HalfFace other = mesh.twin(4 * t + face);
   if (other < 0) return;
   const LocalIndex below = mesh.corners(t)[face], above = mesh.corners(other >> 2)[other & 3];
   _trial.clear();
@@ -145,7 +145,7 @@ void CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalInde
     const Corners& c = mesh.corners(t);
     for (int face = 0; face < 4; ++face) {
       place += mesh.point(c[face]) / (4.0 * static_cast<double>(cavity.size()));
-      if (is_inside(mesh.mate(4 * t + face))) continue;
+      if (is_inside(mesh.twin(4 * t + face))) continue;
       const auto& corner = mesh::tetrahedron_faces[face];
       const LocalIndex p = c[corner[0]], q = c[corner[2]], r = c[corner[1]];  // counter-clockwise from inside
       _trial.new_tets.push_back({p, q, r, middle});
@@ -158,7 +158,7 @@ void CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalInde
 void CornerRelief::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
   _cavity.assign(1, t);
   for (int face = 0; face < 4; ++face) {
-    if (const HalfFace other = mesh.mate(4 * t + face); other >= 0) _cavity.push_back(other >> 2);
+    if (const HalfFace other = mesh.twin(4 * t + face); other >= 0) _cavity.push_back(other >> 2);
   }
   const std::vector<LocalIndex> all = _cavity;
   fill_around_vertex(mesh, all);

@@ -1,9 +1,9 @@
 #include "improve/corner_trials.hpp"
 
-#include "improve/cad_dimension.hpp"
 #include "improve/corner_relief.hpp"
 #include "improve/reach.hpp"
 #include "improve/schedule.hpp"
+#include "mesh/cad_dimension.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -24,7 +24,7 @@ bool is_forced(const TetMesh& mesh, LocalIndex t) {
   std::array<Vec3, 4> normals;
   int count = 0;
   for (int face = 0; face < 4; ++face) {
-    if (!is_triangle(mesh.mate(4 * t + face))) continue;
+    if (!is_triangle(mesh.twin(4 * t + face))) continue;
     const auto& corner = mesh::tetrahedron_faces[face];
     const Vec3 a = mesh.point(c[corner[0]]);
     normals[count++] = normalized(cross(mesh.point(c[corner[1]]) - a, mesh.point(c[corner[2]]) - a));
@@ -147,7 +147,7 @@ mesh::Piece CornerTrials::copy(const TetMesh& mesh) const {
   for (const LocalIndex t : _tets) {
     for (const LocalIndex v : mesh.corners(t)) piece.cells.push_back(_number[v]);
     for (int face = 0; face < 4; ++face) {
-      const HalfFace other = mesh.mate(4 * t + face);
+      const HalfFace other = mesh.twin(4 * t + face);
       if (!is_triangle(other)) continue;
       for (const LocalIndex v : mesh.triangle(triangle_of(other))) piece.boundary.push_back(_number[v]);
       piece.triangle_face.push_back(mesh.face_of(triangle_of(other)));

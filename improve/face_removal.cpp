@@ -11,12 +11,12 @@ bool FaceRemoval::find_neighbour(const TetMesh& mesh, const Sandwich& from, Loca
   for (const LocalIndex w : mesh.corners(from.below)) {
     if (w != u && w != v && w != _below) third = w;
   }
-  const HalfFace below = mesh.mate(4 * from.below + mesh.local_vertex(from.below, third));
-  const HalfFace above = mesh.mate(4 * from.above + mesh.local_vertex(from.above, third));
+  const HalfFace below = mesh.twin(4 * from.below + mesh.local_vertex(from.below, third));
+  const HalfFace above = mesh.twin(4 * from.above + mesh.local_vertex(from.above, third));
   if (below < 0 || above < 0) return false;
   next = {below >> 2, above >> 2};
   apex = mesh.corners(next.below)[below & 3];
-  const HalfFace through = mesh.mate(4 * next.below + mesh.local_vertex(next.below, _below));
+  const HalfFace through = mesh.twin(4 * next.below + mesh.local_vertex(next.below, _below));
   if (through < 0 || through >> 2 != next.above || mesh.corners(next.above)[above & 3] != apex) return false;
   // Growth around a vertex must not meet itself.
   return std::none_of(_faces.begin(), _faces.end(), [&](const Sandwich& s) { return s.below == next.below; });
@@ -40,7 +40,7 @@ double FaceRemoval::grow(const TetMesh& mesh, const Sandwich& from, LocalIndex u
 }
 
 bool FaceRemoval::propose(const TetMesh& mesh, LocalIndex t, int face, double floor, Replacement& cavity) {
-  const HalfFace other = mesh.mate(4 * t + face);
+  const HalfFace other = mesh.twin(4 * t + face);
   if (other < 0) return false;
   _below = mesh.corners(t)[face];
   _above = mesh.corners(other >> 2)[other & 3];

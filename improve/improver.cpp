@@ -1,19 +1,19 @@
-#include "improve/improver.hpp"
+#include "aeroloom/improve/improver.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "improve/bad_cells.hpp"
 #include "improve/balance.hpp"
-#include "improve/border_relaxation.hpp"
+#include "improve/border_smoothing.hpp"
 #include "improve/cavity_improver.hpp"
 #include "improve/corner_relief.hpp"
 #include "improve/corner_trials.hpp"
-#include "improve/relaxation.hpp"
+#include "improve/mean_ratio_smoothing.hpp"
 #include "improve/schedule.hpp"
 #include "improve/tet_mesh.hpp"
-#include "improve/tet_quality.hpp"
-#include "mesh/quality.hpp"
 #include "mesh/shared_vertices.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/progress.hpp"
+#include "mesh/tet_quality.hpp"
+#include "parallel/observation/progress.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -23,7 +23,7 @@
 namespace aeroloom::improve {
 namespace {
 
-BadState examine(const TetMesh& mesh) {
+BadState state_of(const TetMesh& mesh) {
   Examination examination(mesh.measure());
   for (mesh::LocalIndex t = 0; t < mesh.slot_count(); ++t) {
     if (mesh.is_alive(t)) examination.add(mesh.quality(t), mesh.points(t));
@@ -40,7 +40,7 @@ constexpr double lattice_angle = 33;
 /// most of what is spent on it. Nothing for others, which are looked at until the first such tetrahedron.
 std::optional<BadState> look_at_lattice(const mesh::Piece& piece, const ImproveOptions& options) {
   if (piece.boundary_count() > 0 || options.target_angle > lattice_angle) return std::nullopt;
-  const TetQuality measure(lattice_angle);
+  const mesh::TetQuality measure(lattice_angle);
   Examination examination(measure);
   for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const auto p = points_of(piece, t);
@@ -62,7 +62,7 @@ constexpr double work_per_lattice_cell = 0.1;
 
 double expected_work(const mesh::Piece& piece, const ImproveOptions& options) {
   if (look_at_lattice(piece, options)) return work_per_lattice_cell * static_cast<double>(piece.cell_count());
-  const TetQuality measure(options.target_angle);
+  const mesh::TetQuality measure(options.target_angle);
   std::int64_t bad = 0;
   for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
     bad += quality_of(piece, t, measure) < measure.target();
@@ -77,7 +77,7 @@ constexpr int sweeps_after_relief = 3;
 
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source,
                             std::vector<mesh::LocalIndex>* numbered, Effort effort) {
-  const TetQuality measure(options.target_angle);
+  const mesh::TetQuality measure(options.target_angle);
   ImproveReport report;
   if (numbered) {
     numbered->resize(piece.vertex_count());
@@ -95,7 +95,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   const Reach strips(piece, measure);
   const Reach reach = effort == Effort::unsparing ? Reach(measure) : strips;
   TetMesh mesh(piece, measure, options.boundary_may_change);
-  note_before(examine(mesh));
+  note_before(state_of(mesh));
   const ChangeLimits limits(source.sizes, &strips, effort);
   Schedule schedule(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
   schedule.run(options.sweeps);
@@ -107,8 +107,8 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     report.swaps += CornerRelief(limits).run(mesh);
   }
   report.swaps += CornerTrials(source.sizes, options.corner_trials, effort).run(mesh);
-  report.smoothed += Relaxation().run(mesh, options.relaxation);
-  const BadState after = examine(mesh);
+  report.smoothed += MeanRatioSmoothing().run(mesh, options.relaxation);
+  const BadState after = state_of(mesh);
   mesh.finish();
   if (numbered) *numbered = mesh.origin();
   report.changed_triangles = mesh.changed_triangles();
@@ -130,7 +130,7 @@ namespace {
 /// that no order of changes decides.
 constexpr int last_rounds = 3;
 constexpr int most_trials = 8;
-constexpr cavities::Reach last_reach{2, true};
+constexpr cavities::CavityExtent last_reach{2, true};
 
 /// So many that they are no burden, for each of the bad ones: one takes about as long as improving ten
 /// thousand tetrahedra. None where too many are left.
@@ -148,17 +148,17 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                     parallel::StageClock& clock) {
   if (!options.enabled) return;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-  const TetQuality measure(options.target_angle);
+  const mesh::TetQuality measure(options.target_angle);
   mesh::SharedVertices shared(communicator, mesh);
-  const std::int64_t border_moves = relax_borders(communicator, mesh, shared, measure, options.relaxation);
+  const std::int64_t border_moves = smooth_borders(communicator, mesh, shared, measure, options.relaxation);
   if (communicator.rank() == 0) total.smoothed += border_moves;
   // Where borders stayed as they were, all is known already.
   if (border_moves == 0 && communicator.sum(total.bad_after) == 0) return;
 
   BadCells bad(mesh, measure);
-  cavities::CavityWishes wishes;
+  cavities::CavityClaims claims;
   CavityImprover improver(mesh, options, source);
-  const auto refill = [&](cavities::Reach reach, int trials, int shift) {
+  const auto refill = [&](cavities::CavityExtent extent, int trials, int shift) {
     clock.begin_round();
     const auto improve = [&](const cavities::Cavity& cavity) {
       const double begin = parallel::cpu_seconds();
@@ -169,20 +169,20 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                        static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
       return refilling;
     };
-    bad.update(mesh, cavities::refill_cavities(communicator, mesh, shared, wishes, reach, improve, clock));
+    bad.update(mesh, cavities::refill_cavities(communicator, mesh, shared, {claims, extent, improve}, clock));
     shared = mesh::SharedVertices(communicator, mesh);
     shared.drop_unshared(mesh);  // cavities name more than borders
   };
   int shift = 0;
   parallel::Progress progress("improve", options.shifted_rounds + last_rounds, "tetrahedra to improve");
-  const auto wish = [&](Effort effort) {
-    const std::int64_t left = communicator.sum(wish_for_bad(mesh, bad, measure, shift, effort, wishes));
+  const auto claim = [&](Effort effort) {
+    const std::int64_t left = communicator.sum(claim_for_bad(mesh, bad, measure, shift, effort, claims));
     progress.reach(shift, left);
     return left;
   };
-  for (; shift < options.shifted_rounds && wish(Effort::sparing) > 0; ++shift) refill({}, 0, shift);
+  for (; shift < options.shifted_rounds && claim(Effort::sparing) > 0; ++shift) refill({}, 0, shift);
   for (const int end = shift + last_rounds; options.shifted_rounds > 0 && shift < end; ++shift) {
-    const std::int64_t left = wish(Effort::unsparing);
+    const std::int64_t left = claim(Effort::unsparing);
     const int trials = affordable_trials(communicator, mesh, left);
     if (left == 0 || trials == 0) break;
     refill(last_reach, trials, shift);
@@ -280,7 +280,7 @@ double part_below(const parallel::Communicator& communicator, const mesh::Distri
 
 /// What a report says about the target once more has been done. Collective.
 void examine_again(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                   const TetQuality& measure, ImproveReport& report) {
+                   const mesh::TetQuality& measure, ImproveReport& report) {
   std::int64_t bad = 0;
   double least = 180;
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -309,7 +309,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
     more.target_angle = std::min(target.angle, largest_target);
     total.add_changes(improve_for_target(communicator, mesh, more, clock, source, tasks));
   }
-  examine_again(communicator, mesh, TetQuality(options.target_angle), total);
+  examine_again(communicator, mesh, mesh::TetQuality(options.target_angle), total);
   return total;
 }
 

@@ -1,6 +1,6 @@
 #include "improve/reach.hpp"
 
-#include "improve/cad_dimension.hpp"
+#include "mesh/cad_dimension.hpp"
 
 #include <cmath>
 
@@ -30,10 +30,11 @@ double width_to_length(Vec3 a, Vec3 b, Vec3 c) {
 
 }  // namespace
 
-Reach::Reach(const mesh::Piece& piece, const TetQuality& measure) : _target(measure.target()) {
+Reach::Reach(const mesh::Piece& piece, const mesh::TetQuality& measure) : _target(measure.target()) {
   for (LocalIndex i = 0; i < piece.boundary_count(); ++i) {
     const LocalIndex* v = piece.boundary_triangle(i);
-    if (std::any_of(v, v + 3, [&](LocalIndex k) { return piece.vertex_dimension[k] > on_curve; })) continue;
+    if (std::any_of(v, v + 3, [&](LocalIndex k) { return piece.vertex_dimension[k] > mesh::on_curve; }))
+      continue;
     const double least = std::sqrt(width_to_length(piece.point(v[0]), piece.point(v[1]), piece.point(v[2])));
     if (!(least < narrow * _target)) continue;
     if (_least.empty()) _least.assign(piece.vertex_count(), static_cast<float>(_target));

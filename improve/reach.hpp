@@ -2,9 +2,9 @@
 /// curves that are narrower than the elements along them.
 #pragma once
 
+#include "aeroloom/mesh/piece.hpp"
 #include "improve/tet_mesh.hpp"
-#include "improve/tet_quality.hpp"
-#include "mesh/piece.hpp"
+#include "mesh/tet_quality.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,9 @@ namespace aeroloom::improve {
 class Reach {
 public:
   /// The target is within reach everywhere.
-  explicit Reach(const TetQuality& measure) : _target(measure.target()) {}
+  explicit Reach(const mesh::TetQuality& measure) : _target(measure.target()) {}
   /// Reads the boundary triangles of a piece.
-  Reach(const mesh::Piece& piece, const TetQuality& measure);
+  Reach(const mesh::Piece& piece, const mesh::TetQuality& measure);
 
   /// The quality, at most the target, below which a tetrahedron with these vertices is worth working on.
   /// Vertices that the piece did not have count as free ones.

@@ -1,7 +1,7 @@
 /// Another start for local improvement: vertices thrown a little at random.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <cstdint>
 

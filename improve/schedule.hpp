@@ -1,13 +1,13 @@
 /// Which bad tetrahedron is worked on when, and with what.
 #pragma once
 
+#include "aeroloom/improve/improve_options.hpp"
 #include "improve/boundary_flip.hpp"
 #include "improve/cavity_insertion.hpp"
 #include "improve/corner_count.hpp"
 #include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
-#include "improve/improve_options.hpp"
 #include "improve/reach.hpp"
 #include "improve/sliding.hpp"
 #include "improve/small_polyhedron.hpp"

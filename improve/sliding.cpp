@@ -1,6 +1,6 @@
 #include "improve/sliding.hpp"
 
-#include "improve/cad_dimension.hpp"
+#include "mesh/cad_dimension.hpp"
 
 #include <algorithm>
 
@@ -93,7 +93,7 @@ bool Sliding::collect_triangles(const TetMesh& mesh, LocalIndex vertex, const st
   _triangles.clear();
   for (const LocalIndex t : star) {
     for (int f = 0; f < 4; ++f) {
-      const HalfFace other = mesh.mate(4 * t + f);
+      const HalfFace other = mesh.twin(4 * t + f);
       if (other >= 0 || mesh.corners(t)[f] == vertex) continue;
       if (!is_triangle(other) || !mesh.is_free_triangle(triangle_of(other))) return false;
       TriangleCorners corners = mesh.triangle(triangle_of(other));
@@ -112,7 +112,7 @@ double Sliding::mean_distance(const TetMesh& mesh, LocalIndex vertex) const {
 
 bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star) {
   const int dimension = mesh.dimension(vertex);
-  if (mesh.is_shared(vertex) || (dimension != on_face && dimension != on_curve)) return false;
+  if (mesh.is_shared(vertex) || (dimension != mesh::on_face && dimension != mesh::on_curve)) return false;
   mesh.collect_star(vertex, star);
   if (!collect_triangles(mesh, vertex, star)) return false;
   const cad::Model& model = _locator.model();
@@ -120,7 +120,7 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
   const double tolerance = nearness * mean_distance(mesh, vertex);
   const GentleTriangles gentle(_triangles);
   bool moved = false;
-  if (dimension == on_face) {
+  if (dimension == mesh::on_face) {
     // The CAD is asked only where the tangent plane promises something.
     TangentPlane plane(_triangles, gentle);
     if (!_smoothing.promises(mesh, vertex, star, plane, Smoothing::least_gain)) return false;

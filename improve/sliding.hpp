@@ -2,7 +2,7 @@
 /// gets better.
 #pragma once
 
-#include "cad/model/point_locator.hpp"
+#include "aeroloom/cad/model/evaluation/point_locator.hpp"
 #include "improve/boundary_change.hpp"
 #include "improve/smoothing.hpp"
 

@@ -31,7 +31,7 @@ void SmallPolyhedron::grow(const TetMesh& mesh, LocalIndex t) {
     bool inside = false;
     for (const LocalIndex tet : _tets) {
       for (int f = 0; f < 4; ++f) {
-        const HalfFace other = mesh.mate(4 * tet + f);
+        const HalfFace other = mesh.twin(4 * tet + f);
         if (other < 0 || has(_tets, other >> 2)) continue;
         const LocalIndex candidate = other >> 2, opposite = mesh.corners(candidate)[other & 3];
         const bool known = has(_vertices, opposite);
@@ -55,7 +55,7 @@ bool SmallPolyhedron::open_front(const TetMesh& mesh) {
   std::array<bool, most_vertices> outer{};
   for (const LocalIndex tet : _tets) {
     for (int f = 0; f < 4; ++f) {
-      const HalfFace other = mesh.mate(4 * tet + f);
+      const HalfFace other = mesh.twin(4 * tet + f);
       if (other >= 0 && std::find(_tets.begin(), _tets.end(), other >> 2) != _tets.end()) continue;
       const auto& face = mesh::tetrahedron_faces[f];
       const Corners& c = mesh.corners(tet);

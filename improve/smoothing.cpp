@@ -29,7 +29,7 @@ Vec3 nearest_to_origin(const std::vector<Vec3>& vectors) {
 
 }  // namespace
 
-double ConeOptimiser::worst(const TetQuality& measure, Vec3 p, double floor) {
+double ConeOptimiser::worst(const mesh::TetQuality& measure, Vec3 p, double floor) {
   double least = std::numeric_limits<double>::max();
   std::size_t decider = 0;
   for (std::size_t i = 0; i < _bases.size(); ++i) {
@@ -44,7 +44,7 @@ double ConeOptimiser::worst(const TetQuality& measure, Vec3 p, double floor) {
 }
 
 // What promises nothing need not settle.
-double ConeOptimiser::worst_on(const TetQuality& measure, Vec3& p, double floor, Locus& locus) {
+double ConeOptimiser::worst_on(const mesh::TetQuality& measure, Vec3& p, double floor, Locus& locus) {
   const Vec3 before = p;
   const double reached = worst(measure, p, floor);
   if (reached <= floor || !locus.settle(p)) return floor;
@@ -57,7 +57,7 @@ double ConeOptimiser::mean_distance(Vec3 p) const {
   return sum / static_cast<double>(_bases.size());
 }
 
-Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe,
+Vec3 ConeOptimiser::ascent_direction(const mesh::TetQuality& measure, Vec3 p, double quality, double probe,
                                      const Locus& locus) {
   _gradients.clear();
   for (const Base& base : _bases) {
@@ -74,7 +74,7 @@ Vec3 ConeOptimiser::ascent_direction(const TetQuality& measure, Vec3 p, double q
   return nearest_to_origin(_gradients);
 }
 
-double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality, Locus& locus) {
+double ConeOptimiser::climb(const mesh::TetQuality& measure, Vec3& p, double quality, Locus& locus) {
   const double size = mean_distance(p);
   double length = 0.1 * size;
   for (int i = 0; i < most_steps; ++i) {
@@ -98,7 +98,7 @@ double ConeOptimiser::climb(const TetQuality& measure, Vec3& p, double quality, 
   return quality;
 }
 
-double ConeOptimiser::optimise(const TetQuality& measure, Vec3& p, double quality, Locus& locus) {
+double ConeOptimiser::optimise(const mesh::TetQuality& measure, Vec3& p, double quality, Locus& locus) {
   Vec3 mean;
   for (const Base& base : _bases) mean += base.a + base.b + base.c;
   mean = mean / (3 * static_cast<double>(_bases.size()));

@@ -37,14 +37,14 @@ public:
 
   /// The worst quality with the free point at p; where it is not above `floor`, some value not above `floor`.
   /// Bases that once decided move to the front.
-  double worst(const TetQuality& measure, Vec3 p, double floor);
+  double worst(const mesh::TetQuality& measure, Vec3 p, double floor);
 
   /// Improves the point from p, which is on the locus, with worst quality `quality`: first towards the mean
   /// of the bases' corners, then by steepest ascent of the active qualities (Freitag and Ollivier-Gooch, Int.
   /// J. Numer. Meth. Engng 40, 1997, doi:10.1002/(SICI)1097-0207(19971115)40:21<3979::AID-NME251>3.0.CO;2-9).
   /// Returns the new worst quality and moves p.
-  double optimise(const TetQuality& measure, Vec3& p, double quality, Locus& locus);
-  double optimise(const TetQuality& measure, Vec3& p, double quality) {
+  double optimise(const mesh::TetQuality& measure, Vec3& p, double quality, Locus& locus);
+  double optimise(const mesh::TetQuality& measure, Vec3& p, double quality) {
     Space space;
     return optimise(measure, p, quality, space);
   }
@@ -53,9 +53,10 @@ private:
   struct Base {
     Vec3 a, b, c;
   };
-  double climb(const TetQuality& measure, Vec3& p, double quality, Locus& locus);
-  double worst_on(const TetQuality& measure, Vec3& p, double floor, Locus& locus);
-  Vec3 ascent_direction(const TetQuality& measure, Vec3 p, double quality, double probe, const Locus& locus);
+  double climb(const mesh::TetQuality& measure, Vec3& p, double quality, Locus& locus);
+  double worst_on(const mesh::TetQuality& measure, Vec3& p, double floor, Locus& locus);
+  Vec3 ascent_direction(const mesh::TetQuality& measure, Vec3 p, double quality, double probe,
+                        const Locus& locus);
   double mean_distance(Vec3 p) const;
 
   std::vector<Base> _bases;

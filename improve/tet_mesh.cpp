@@ -11,7 +11,7 @@ using mesh::tetrahedron_faces;
 
 }  // namespace
 
-TetMesh::TetMesh(mesh::Piece& piece, const TetQuality& measure, bool boundary_may_change)
+TetMesh::TetMesh(mesh::Piece& piece, const mesh::TetQuality& measure, bool boundary_may_change)
     : _piece(piece), _measure(measure) {
   _original_count = piece.cell_count();
   _cells.resize(_original_count);
@@ -46,7 +46,7 @@ void TetMesh::match_all_faces() {
     std::int32_t next;
   };
   const std::size_t sides = 4 * _cells.size();
-  _mates.assign(sides, -1);
+  _twins.assign(sides, -1);
   std::vector<std::int32_t> first(_incident.size(), -1);
   std::vector<Face> faces;
   faces.reserve(sides / 2 + sides / 16);
@@ -59,11 +59,11 @@ void TetMesh::match_all_faces() {
     if (at < 0) {
       faces.push_back({upper, side, first[key[0]]});
       first[key[0]] = static_cast<std::int32_t>(faces.size() - 1);
-    } else if (_mates[faces[at].side] >= 0) {
+    } else if (_twins[faces[at].side] >= 0) {
       throw std::logic_error("improve: three tetrahedra share a face");
     } else {
-      _mates[side] = faces[at].side;
-      _mates[faces[at].side] = side;
+      _twins[side] = faces[at].side;
+      _twins[faces[at].side] = side;
     }
   }
 }
@@ -75,8 +75,8 @@ void TetMesh::fix_vertices() {
   _shared.assign(_incident.size(), 0);
   for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = _shared[v] = 1;
   for (const LocalIndex v : _piece.boundary) _fixed[v] = 1;
-  for (std::size_t h = 0; h < _mates.size(); ++h) {
-    if (_mates[h] >= 0) continue;
+  for (std::size_t h = 0; h < _twins.size(); ++h) {
+    if (_twins[h] >= 0) continue;
     for (const LocalIndex v : face_key(static_cast<HalfFace>(h))) _fixed[v] = 1;
   }
 }
@@ -100,7 +100,7 @@ void TetMesh::collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets) {
   for (std::size_t i = 0; i < tets.size(); ++i) {
     const LocalIndex t = tets[i];
     for (int f = 0; f < 4; ++f) {
-      const HalfFace other = _mates[4 * t + f];
+      const HalfFace other = _twins[4 * t + f];
       if (_cells[t][f] == vertex || other < 0 || _tet_mark[other >> 2] == _mark) continue;
       _tet_mark[other >> 2] = _mark;
       tets.push_back(other >> 2);
@@ -120,7 +120,7 @@ void TetMesh::take_slots(const Replacement& cavity, std::vector<LocalIndex>& pla
       _cells.emplace_back();
       _quality.push_back(0);
       _tet_mark.push_back(0);
-      _mates.insert(_mates.end(), 4, -1);
+      _twins.insert(_twins.end(), 4, -1);
     }
     _cells[slot] = cavity.new_tets[i];
     _quality[slot] = quality_of(cavity.new_tets[i]);
@@ -138,8 +138,8 @@ void TetMesh::match_cavity_faces() {
     if (a.key != b.key || (a.outer && b.outer)) {
       throw std::logic_error("improve: a cavity and its filling differ in their faces");
     }
-    if (a.side >= 0) _mates[a.side] = b.side;
-    if (b.side >= 0) _mates[b.side] = a.side;
+    if (a.side >= 0) _twins[a.side] = b.side;
+    if (b.side >= 0) _twins[b.side] = a.side;
   }
 }
 
@@ -153,7 +153,7 @@ void TetMesh::replace(const Replacement& cavity, std::vector<LocalIndex>& placed
   };
   for (const LocalIndex t : cavity.old_tets) {
     for (int f = 0; f < 4; ++f) {
-      const HalfFace other = _mates[4 * t + f];
+      const HalfFace other = _twins[4 * t + f];
       if (other >= 0 && _tet_mark[other >> 2] == _mark) continue;
       if (is_triangle(other) && goes(triangle_of(other))) continue;
       _faces.push_back({face_key(4 * t + f), other, true});

@@ -2,9 +2,9 @@
 /// change goes through, the replacement of a cavity.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "improve/tet_quality.hpp"
-#include "mesh/piece.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
+#include "mesh/tet_quality.hpp"
 
 #include <array>
 #include <cstdint>
@@ -75,14 +75,14 @@ class TetMesh {
 public:
   /// Takes the cells out of the piece; finish() puts them back. Throws std::logic_error when three tetrahedra
   /// share a face. Where the boundary may not change, its triangles count as faces without a neighbour.
-  TetMesh(mesh::Piece& piece, const TetQuality& measure, bool boundary_may_change = true);
+  TetMesh(mesh::Piece& piece, const mesh::TetQuality& measure, bool boundary_may_change = true);
 
   /// Slots of tetrahedra, dead ones included.
   LocalIndex slot_count() const { return static_cast<LocalIndex>(_cells.size()); }
   bool is_alive(LocalIndex t) const { return _cells[t][0] >= 0; }
   const Corners& corners(LocalIndex t) const { return _cells[t]; }
   double quality(LocalIndex t) const { return _quality[t]; }
-  HalfFace mate(HalfFace h) const { return _mates[h]; }
+  HalfFace twin(HalfFace h) const { return _twins[h]; }
   bool is_fixed(LocalIndex v) const { return _fixed[v] != 0; }
   /// False for vertices that a replaced cavity has swallowed.
   bool is_used(LocalIndex v) const { return _incident[v] >= 0; }
@@ -92,12 +92,12 @@ public:
     const Corners& c = _cells[t];
     return {point(c[0]), point(c[1]), point(c[2]), point(c[3])};
   }
-  const TetQuality& measure() const { return _measure; }
+  const mesh::TetQuality& measure() const { return _measure; }
   double quality_of(const Corners& c) const {
     return _measure(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
   }
   bool is_positive(const Corners& c) const {
-    return has_positive_volume(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
+    return geometry::has_positive_volume(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
   }
   /// The local number of a vertex in a tetrahedron that has it.
   int local_vertex(LocalIndex t, LocalIndex v) const;
@@ -167,9 +167,9 @@ private:
   void next_mark();
 
   mesh::Piece& _piece;
-  TetQuality _measure;
+  mesh::TetQuality _measure;
   std::vector<Corners> _cells;   ///< first corner -1 in dead slots
-  std::vector<HalfFace> _mates;  ///< 4 per slot
+  std::vector<HalfFace> _twins;  ///< 4 per slot
   std::vector<double> _quality;
   std::vector<LocalIndex> _incident;  ///< a tetrahedron of each vertex
   std::vector<std::uint8_t> _fixed, _shared;

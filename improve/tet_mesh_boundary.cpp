@@ -28,11 +28,11 @@ void TetMesh::match_triangles() {
   }
   const auto before = [](const Named& a, const Named& b) { return a.key < b.key; };
   std::sort(named.begin(), named.end(), before);
-  for (std::size_t h = 0; h < _mates.size() && !named.empty(); ++h) {
-    if (_mates[h] >= 0) continue;
+  for (std::size_t h = 0; h < _twins.size() && !named.empty(); ++h) {
+    if (_twins[h] >= 0) continue;
     const Named wanted{face_key(static_cast<HalfFace>(h)), 0};
     const auto found = std::lower_bound(named.begin(), named.end(), wanted, before);
-    if (found != named.end() && found->key == wanted.key) _mates[h] = -2 - found->triangle;
+    if (found != named.end() && found->key == wanted.key) _twins[h] = -2 - found->triangle;
   }
 }
 
@@ -54,7 +54,7 @@ bool TetMesh::on_same_face(LocalIndex i, LocalIndex k) const {
 // A face that is open from now on is the boundary's triangle `triangle`, as seen from outside.
 void TetMesh::open_boundary(const FaceRecord& record, LocalIndex triangle) {
   if (record.side < 0) throw std::logic_error("improve: a boundary triangle without a tetrahedron");
-  _mates[record.side] = -2 - triangle;
+  _twins[record.side] = -2 - triangle;
   const auto& face = tetrahedron_faces[record.side & 3];
   const Corners& c = _cells[record.side >> 2];
   for (int k = 0; k < 3; ++k) _piece.boundary[3 * static_cast<std::size_t>(triangle) + k] = c[face[k]];
@@ -103,7 +103,7 @@ bool TetMesh::collect_fan(LocalIndex t, int edge, int most, Fan& fan) const {
   // Back to the first tetrahedron, then forward through all of them.
   LocalIndex current = t;
   for (int steps = 0;; ++steps) {
-    const HalfFace previous = _mates[4 * current + local_vertex(current, to)];
+    const HalfFace previous = _twins[4 * current + local_vertex(current, to)];
     if (is_triangle(previous)) {
       fan.triangles[0] = triangle_of(previous);
       break;
@@ -120,7 +120,7 @@ bool TetMesh::collect_fan(LocalIndex t, int edge, int most, Fan& fan) const {
     if (static_cast<int>(fan.tets.size()) == most) return false;
     fan.tets.push_back(current);
     fan.ring.push_back(to);
-    const HalfFace next = _mates[4 * current + local_vertex(current, from)];
+    const HalfFace next = _twins[4 * current + local_vertex(current, from)];
     if (is_triangle(next)) {
       fan.triangles[1] = triangle_of(next);
       return true;
@@ -143,7 +143,7 @@ bool TetMesh::collect_edge_ring(LocalIndex t, int edge, int most, EdgeRing& edge
     if (static_cast<int>(edge_ring.tets.size()) == most) return false;
     edge_ring.tets.push_back(current);
     edge_ring.ring.push_back(from);
-    const HalfFace next = _mates[4 * current + local_vertex(current, from)];
+    const HalfFace next = _twins[4 * current + local_vertex(current, from)];
     if (next < 0) return false;
     from = to;
     current = next >> 2;

@@ -1,10 +1,10 @@
+#include "aeroloom/mesh/cell_measures.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/predicates.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
 #include "mesh/build_pieces.hpp"
-#include "mesh/cell_measures.hpp"
 #include "mesh/id_table.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -221,7 +221,7 @@ PointTable store_points(const parallel::Communicator& communicator, RawMesh& raw
     for (const GlobalIndex id : cells) limit = std::max(limit, id + 1);
   }
   limit = communicator.maximum(limit);
-  std::vector<PointTable::Row> points(raw.point_ids.size());
+  std::vector<PointTable::KeyedValue> points(raw.point_ids.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double* p = raw.coordinates.data() + 3 * i;
     points[i] = {raw.point_ids[i], {p[0], p[1], p[2]}};
@@ -266,7 +266,7 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
   PieceItems items;
   NumberedShare share;
   {
-    const PointTable::Found found = store.fetch(ids.numbers());
+    const PointTable::Fetched found = store.fetch(ids.numbers());
     if (found.missing >= 0)
       refuse(path, fmt::format("a cell refers to point {}, which there is not", found.missing));
     const IdTable of_faces = face_ids(raw);

@@ -1,8 +1,8 @@
 #include "io/checkpoint_file.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/schedule.hpp"
-#include "parallel/shared_file.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/schedule.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -40,24 +40,26 @@ struct Preamble {
 };
 
 /// The common bytes, or an item.
-struct Row {
+struct SavedItem {
   std::int64_t number = 0, bytes = 0;
   Digest digest;
 
-  static constexpr auto fields() { return std::tuple(&Row::number, &Row::bytes, &Row::digest); }
+  static constexpr auto fields() {
+    return std::tuple(&SavedItem::number, &SavedItem::bytes, &SavedItem::digest);
+  }
 };
 
 constexpr std::int64_t preamble_bytes = parallel::wire_size<Preamble>;
 
 struct Header {
   CheckpointLabel label;
-  std::vector<Row> rows;  ///< of the common bytes, then of the items by number
+  std::vector<SavedItem> rows;  ///< of the common bytes, then of the items by number
 
   static constexpr auto fields() { return std::tuple(&Header::label, &Header::rows); }
   /// Where the bytes of each row begin, and where the last ones end.
   std::vector<std::int64_t> offsets(std::int64_t first) const {
     std::vector<std::int64_t> offsets;
-    for (const Row& row : rows) offsets.push_back(std::exchange(first, first + row.bytes));
+    for (const SavedItem& row : rows) offsets.push_back(std::exchange(first, first + row.bytes));
     offsets.push_back(first);
     return offsets;
   }
@@ -109,24 +111,25 @@ Bytes share_header(const Communicator& communicator, const std::string& path) {
 
 /// Rows and places of the whole file, the same on every rank.
 Header plan(const Communicator& communicator, const CheckpointLabel& label, const CheckpointDraft& draft) {
-  std::vector<Row> mine;
+  std::vector<SavedItem> mine;
   parallel::agree(communicator, [&] {
     for (const CheckpointDraft::Item& item : draft.items) {
       const Bytes bytes = item.bytes();
       mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
     }
   });
-  Header header{label, communicator.all_gather_items<Row>(mine)};
+  Header header{label, communicator.all_gather_items<SavedItem>(mine)};
   std::sort(header.rows.begin(), header.rows.end(),
-            [](const Row& a, const Row& b) { return a.number < b.number; });
-  std::vector<Row> common{
+            [](const SavedItem& a, const SavedItem& b) { return a.number < b.number; });
+  std::vector<SavedItem> common{
       {-1, static_cast<std::int64_t>(draft.common.size()), parallel::digest_of(draft.common)}};
   communicator.broadcast_items(common);
   header.rows.insert(header.rows.begin(), common.front());
   return header;
 }
 
-Bytes read_checked(std::ifstream& stream, const std::string& path, const Row& row, std::int64_t offset) {
+Bytes read_checked(std::ifstream& stream, const std::string& path, const SavedItem& row,
+                   std::int64_t offset) {
   Bytes bytes(static_cast<std::size_t>(row.bytes));
   read_at(stream, path, offset, bytes);
   if (parallel::digest_of(bytes) != row.digest)
@@ -153,8 +156,9 @@ void write_checkpoint(const Communicator& communicator, const std::string& path,
       file.write(offsets.front(), draft.common);
     }
     for (const CheckpointDraft::Item& item : draft.items) {
-      const auto row = std::lower_bound(header.rows.begin() + 1, header.rows.end(), item.number,
-                                        [](const Row& a, std::int64_t number) { return a.number < number; });
+      const auto row =
+          std::lower_bound(header.rows.begin() + 1, header.rows.end(), item.number,
+                           [](const SavedItem& a, std::int64_t number) { return a.number < number; });
       file.write(offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
     }
   };

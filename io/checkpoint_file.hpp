@@ -5,8 +5,8 @@
 /// and for the common bytes and each item its number, bytes and digest; then their bytes, without gaps.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/digest.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/storage/digest.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -44,10 +44,11 @@ struct CheckpointContent {
     parallel::Bytes bytes;
   };
   parallel::Bytes common;   ///< on every rank
-  std::vector<Item> items;  ///< of this rank: ascending numbers, dealt out by their bytes
+  std::vector<Item> items;  ///< of this rank: ascending numbers, distributed by their bytes
 };
 
-/// Writes the file whole or not at all (parallel/shared_file.hpp). Collective; throws CollectiveError.
+/// Writes the file whole or not at all (parallel/storage/shared_file.hpp). Collective; throws
+/// CollectiveError.
 void write_checkpoint(const parallel::Communicator& communicator, const std::string& path,
                       const CheckpointLabel& label, const CheckpointDraft& draft);
 

@@ -1,5 +1,7 @@
-#include "io/file_formats.hpp"
+#include "aeroloom/io/file_formats.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "io/cgns/cgns_writer.hpp"
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/medit/medit_writer.hpp"
@@ -8,9 +10,7 @@
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>
 #include <filesystem>

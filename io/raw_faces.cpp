@@ -1,8 +1,8 @@
 #include "io/raw_faces.hpp"
 
-#include "mesh/piece_faces.hpp"
+#include "aeroloom/mesh/piece_faces.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/rendezvous.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ using mesh::LocalIndex;
 constexpr std::int32_t none = mesh::no_region;  // or patch
 
 /// What comes to a face: a side of a cell (region and part), or a face of the file (patch and order).
-struct Comer {
+struct FaceCandidate {
   FaceKey<GlobalIndex> key, corners;
   GlobalIndex order;           ///< of a face of the file
   std::int32_t region, piece;  ///< of a cell
@@ -33,8 +33,8 @@ struct Comer {
   bool is_cell() const { return region != none; }
   auto place() const { return std::tuple(region, patch, order, corners); }
   static constexpr auto fields() {
-    return std::tuple(&Comer::key, &Comer::corners, &Comer::order, &Comer::region, &Comer::piece,
-                      &Comer::patch);
+    return std::tuple(&FaceCandidate::key, &FaceCandidate::corners, &FaceCandidate::order,
+                      &FaceCandidate::region, &FaceCandidate::piece, &FaceCandidate::patch);
   }
 };
 
@@ -58,7 +58,7 @@ public:
   template <class Sink>
   void for_each_face(const Sink&) const {}
 
-  Comer comer(const FaceUser& user) const {
+  FaceCandidate candidate(const FaceUser& user) const {
     LocalIndex cell = user.item;
     std::size_t s = 0;
     while (cell >= static_cast<LocalIndex>(_share.regions[s].size()))
@@ -67,12 +67,12 @@ public:
         mesh::corners_at(faces_of(cell_shapes[s])[static_cast<std::size_t>(user.side)],
                          _share.cells[s].data() + static_cast<std::size_t>(cell) *
                                                       static_cast<std::size_t>(corners_of(cell_shapes[s])));
-    Comer comer{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.pieces[s][cell], none};
+    FaceCandidate candidate{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.pieces[s][cell], none};
     for (std::size_t k = 0; k < 4; ++k) {
-      if (corners[k] >= 0) comer.corners[k] = _share.numbers[corners[k]];
+      if (corners[k] >= 0) candidate.corners[k] = _share.numbers[corners[k]];
     }
-    comer.key = mesh::face_key(comer.corners);
-    return comer;
+    candidate.key = mesh::face_key(candidate.corners);
+    return candidate;
   }
 
 private:
@@ -81,21 +81,22 @@ private:
 
 /// Sides of cells that are not matched inside one region here, or that a cell of another share may have, and
 /// all faces of the file.
-std::vector<Comer> comers_of(const parallel::Communicator& communicator, const NumberedShare& share) {
-  std::vector<Comer> comers;
+std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communicator,
+                                         const NumberedShare& share) {
+  std::vector<FaceCandidate> candidates;
   const ShareFaces faces(share);
-  std::vector<Comer> met;
-  const auto may_be_elsewhere = [&](const FaceKey<LocalIndex>& key) {
+  std::vector<FaceCandidate> met;
+  const auto may_be_on_another_rank = [&](const FaceKey<LocalIndex>& key) {
     return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || share.shared[v] != 0; });
   };
   mesh::match_faces(share.numbers.size(), faces,
                     [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
                       met.clear();
-                      for (const FaceUser& user : users) met.push_back(faces.comer(user));
+                      for (const FaceUser& user : users) met.push_back(faces.candidate(user));
                       const bool settled = met.size() == 2 && met[0].region == met[1].region &&
                                            mesh::opposite_direction(met[0].corners, met[1].corners) &&
-                                           !may_be_elsewhere(key);
-                      if (!settled) comers.insert(comers.end(), met.begin(), met.end());
+                                           !may_be_on_another_rank(key);
+                      if (!settled) candidates.insert(candidates.end(), met.begin(), met.end());
                     });
   GlobalIndex count = 0;
   for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
@@ -104,62 +105,63 @@ std::vector<Comer> comers_of(const parallel::Communicator& communicator, const N
     const auto s = static_cast<std::size_t>(shape);
     for (std::size_t f = 0; f < share.patches[s].size(); ++f) {
       const GlobalIndex* v = share.faces[s].data() + f * static_cast<std::size_t>(corners_of(shape));
-      Comer comer{{},      {v[0], v[1], v[2], shape == FaceShape::triangle ? -1 : v[3]},
-                  order++, none,
-                  none,    share.patches[s][f]};
-      comer.key = mesh::face_key(comer.corners);
-      comers.push_back(comer);
+      FaceCandidate candidate{{},      {v[0], v[1], v[2], shape == FaceShape::triangle ? -1 : v[3]},
+                              order++, none,
+                              none,    share.patches[s][f]};
+      candidate.key = mesh::face_key(candidate.corners);
+      candidates.push_back(candidate);
     }
   }
-  return comers;
+  return candidates;
 }
 
 /// A boundary face and the regions on its sides, before it has a patch.
-struct Found {
+struct BoundaryFace {
   FaceKey<GlobalIndex> corners;
   GlobalIndex order;
-  std::int32_t piece, patch, region, behind;
+  std::int32_t piece, patch, region, other_region;
 };
 
 /// The first place where cells do not fit together.
-struct Misfit {
+struct UnmatchedFace {
   FaceKey<GlobalIndex> key{-1, -1, -1, -1};
   std::int64_t cells = 0;
 
-  static constexpr auto fields() { return std::tuple(&Misfit::key, &Misfit::cells); }
+  static constexpr auto fields() { return std::tuple(&UnmatchedFace::key, &UnmatchedFace::cells); }
 };
 
-/// What comes together on this rank.
-class Meeting {
+/// Candidates grouped by face on this rank, and matched.
+class FaceMatch {
 public:
-  explicit Meeting(const std::vector<Comer>& met) {
-    mesh::for_each_key(met, &Comer::key, [&](std::span<const Comer> group) { settle(group); });
+  explicit FaceMatch(const std::vector<FaceCandidate>& met) {
+    mesh::for_each_key(met, &FaceCandidate::key,
+                       [&](std::span<const FaceCandidate> group) { match_group(group); });
   }
 
-  std::vector<Found> found;
-  std::vector<Misfit> misfits;
+  std::vector<BoundaryFace> found;
+  std::vector<UnmatchedFace> unmatched;
   GlobalIndex left_out = 0;
 
 private:
   /// Faces of the file come first (their region is -1), then cells by region.
-  void settle(std::span<const Comer> group) {
+  void match_group(std::span<const FaceCandidate> group) {
     std::size_t faces = 0;
     while (faces < group.size() && !group[faces].is_cell()) ++faces;
     const auto cells = group.subspan(faces);
     if (cells.size() > 2 ||
         (cells.size() == 2 && !mesh::opposite_direction(cells[0].corners, cells[1].corners))) {
-      misfits.push_back({group[0].key, static_cast<std::int64_t>(cells.size())});
+      unmatched.push_back({group[0].key, static_cast<std::int64_t>(cells.size())});
       return;
     }
     const bool bounds = cells.size() == 1 || (cells.size() == 2 && cells[0].region != cells[1].region);
     left_out += static_cast<GlobalIndex>(bounds && faces > 0 ? faces - 1 : faces);
     if (!bounds) return;
-    Found& face = found.emplace_back();
+    BoundaryFace& face = found.emplace_back();
     face.corners = cells[0].corners;
     face.piece = cells[0].piece;
     face.region = cells[0].region;
-    face.behind = cells.size() == 2 ? cells[1].region : none;
-    const Comer* given = faces > 0 ? &group[0] : nullptr;
+    face.other_region = cells.size() == 2 ? cells[1].region : none;
+    const FaceCandidate* given = faces > 0 ? &group[0] : nullptr;
     for (std::size_t f = 1; f < faces; ++f) {
       if (group[f].order < given->order) given = &group[f];
     }
@@ -176,15 +178,15 @@ private:
   }
 };
 
-void require_fit(const parallel::Communicator& communicator, const std::vector<Misfit>& mine,
+void require_fit(const parallel::Communicator& communicator, const std::vector<UnmatchedFace>& mine,
                  const std::string& path) {
   const GlobalIndex count = communicator.sum(static_cast<std::int64_t>(mine.size()));
   if (count == 0) return;
-  const auto less = [](const Misfit& a, const Misfit& b) { return a.key < b.key; };
-  std::vector<Misfit> first;
+  const auto less = [](const UnmatchedFace& a, const UnmatchedFace& b) { return a.key < b.key; };
+  std::vector<UnmatchedFace> first;
   if (!mine.empty()) first.push_back(*std::min_element(mine.begin(), mine.end(), less));
-  const auto all = communicator.all_gather_items(std::span<const Misfit>(first));
-  const Misfit& worst = *std::min_element(all.begin(), all.end(), less);
+  const auto all = communicator.all_gather_items(std::span<const UnmatchedFace>(first));
+  const UnmatchedFace& worst = *std::min_element(all.begin(), all.end(), less);
   throw parallel::CollectiveError(
       parallel::FailureKind::input,
       fmt::format("'{}': {} at the face of points {}, {} and {} (counted from 0 in the order of their ids, "
@@ -201,11 +203,11 @@ void require_fit(const parallel::Communicator& communicator, const std::vector<M
 class PatchTable {
 public:
   PatchTable(const parallel::Communicator& communicator, std::vector<mesh::Patch> patches,
-             const std::vector<std::string>& regions, const std::vector<Found>& found)
+             const std::vector<std::string>& regions, const std::vector<BoundaryFace>& found)
       : _patches(std::move(patches)) {
     std::vector<Use> uses;
     uses.reserve(found.size());
-    for (const Found& face : found) uses.push_back(use_of(face));
+    for (const BoundaryFace& face : found) uses.push_back(use_of(face));
     std::sort(uses.begin(), uses.end());
     uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
     uses = communicator.all_gather_items(std::span<const Use>(uses));
@@ -220,36 +222,36 @@ public:
     for (const Use& use : uses) add(use, regions);
   }
 
-  std::int32_t patch_of(const Found& face) const { return _targets.at(use_of(face)); }
+  std::int32_t patch_of(const BoundaryFace& face) const { return _targets.at(use_of(face)); }
   std::vector<mesh::Patch> take() { return std::move(_patches); }
 
 private:
   /// Patch and regions; regions count for faces without a patch, `behind` as 0 for others between regions.
   using Use = std::array<std::int32_t, 3>;
 
-  static Use use_of(const Found& face) {
-    if (face.patch == none) return {none, face.region, face.behind};
-    return {face.patch, none, face.behind == none ? none : 0};
+  static Use use_of(const BoundaryFace& face) {
+    if (face.patch == none) return {none, face.region, face.other_region};
+    return {face.patch, none, face.other_region == none ? none : 0};
   }
 
   void add(const Use& use, const std::vector<std::string>& regions) {
     if (_targets.count(use)) return;
-    const auto [patch, region, behind] = use;
+    const auto [patch, region, other_region] = use;
     if (patch != none && !_targets.count({patch, none, none})) {
       _patches[patch].type = mesh::PatchType::interior;
       _targets[use] = patch;
       return;
     }
-    std::string name = patch != none    ? _patches[patch].name + "_interior"
-                       : behind == none ? "boundary_of_" + regions[region]
-                                        : regions[region] + "_to_" + regions[behind];
+    std::string name = patch != none          ? _patches[patch].name + "_interior"
+                       : other_region == none ? "boundary_of_" + regions[region]
+                                              : regions[region] + "_to_" + regions[other_region];
     const auto taken = [&] {
       return std::any_of(_patches.begin(), _patches.end(),
                          [&](const mesh::Patch& p) { return p.name == name; });
     };
     while (taken()) name += "_";
     _targets[use] = static_cast<std::int32_t>(_patches.size());
-    _patches.push_back({name, behind == none ? mesh::PatchType::wall : mesh::PatchType::interior});
+    _patches.push_back({name, other_region == none ? mesh::PatchType::wall : mesh::PatchType::interior});
   }
 
   std::vector<mesh::Patch> _patches;
@@ -296,18 +298,18 @@ void name_faces(const std::vector<ModelFace>& faces, mesh::DistributedMesh& name
 MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
                             std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
                             const std::string& path) {
-  Meeting meeting(
-      mesh::meet_by_key(communicator, comers_of(communicator, share), &Comer::key, &Comer::place));
-  require_fit(communicator, meeting.misfits, path);
-  PatchTable table(communicator, std::move(patches), regions, meeting.found);
+  FaceMatch match(mesh::meet_by_key(communicator, candidates_of(communicator, share), &FaceCandidate::key,
+                                    &FaceCandidate::place));
+  require_fit(communicator, match.unmatched, path);
+  PatchTable table(communicator, std::move(patches), regions, match.found);
   std::vector<ModelFace> of_found;
-  of_found.reserve(meeting.found.size());
-  for (const Found& face : meeting.found)
-    of_found.push_back({table.patch_of(face), face.region, face.behind});
+  of_found.reserve(match.found.size());
+  for (const BoundaryFace& face : match.found)
+    of_found.push_back({table.patch_of(face), face.region, face.other_region});
   const std::vector<ModelFace> faces = all_faces(communicator, of_found);
   MatchedFaces matched;
   for (std::size_t i = 0; i < of_found.size(); ++i) {
-    const Found& face = meeting.found[i];
+    const BoundaryFace& face = match.found[i];
     matched.unnamed += face.patch == none ? 1 : 0;
     const auto& c = face.corners;
     const auto id =
@@ -326,7 +328,7 @@ MatchedFaces match_boundary(const parallel::Communicator& communicator, const Nu
   matched.names.regions = regions;
   name_faces(faces, matched.names);
   matched.unnamed = communicator.sum(matched.unnamed);
-  matched.left_out = communicator.sum(meeting.left_out);
+  matched.left_out = communicator.sum(match.left_out);
   return matched;
 }
 

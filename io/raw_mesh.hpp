@@ -2,7 +2,7 @@
 /// there.
 #pragma once
 
-#include "io/file_mesh.hpp"
+#include "aeroloom/io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "io/staged_files.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <filesystem>
 #include <system_error>

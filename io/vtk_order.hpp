@@ -1,7 +1,7 @@
 /// VTK's order of corners.
 #pragma once
 
-#include "io/file_mesh.hpp"
+#include "aeroloom/io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

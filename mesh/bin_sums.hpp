@@ -1,7 +1,7 @@
 /// Sums of counts over all ranks.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <vector>

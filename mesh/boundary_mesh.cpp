@@ -1,7 +1,7 @@
 #include "mesh/boundary_mesh.hpp"
 
 #include "geometry/runs.hpp"
-#include "mesh/tokens.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -39,7 +39,7 @@ public:
       skin.vertex_dimension.push_back(_volume.vertex_dimension[v]);
       skin.vertex_entity.push_back(_volume.vertex_entity[v]);
       skin.shared_vertices.push_back(static_cast<LocalIndex>(i));
-      skin.shared_tokens.push_back(running_token(_names[v]));
+      skin.shared_keys.push_back(running_key(_names[v]));
       _local[v] = -1;
     }
     return skin;

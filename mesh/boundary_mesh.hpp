@@ -1,8 +1,8 @@
 /// The boundary of a tetrahedral mesh as a surface mesh of its own.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <cstdint>
 

@@ -1,9 +1,9 @@
 #include "mesh/build_pieces.hpp"
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 #include "mesh/id_table.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 #include "mesh/shared_vertices.hpp"
-#include "mesh/tokens.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -94,7 +94,7 @@ Piece build_piece(PieceId id, const PieceItems& items, const std::vector<GlobalI
   add_faces(std::get<1>(items.faces), piece.quads, piece.quad_face, piece.quad_patch);
   piece.shared_vertices.resize(known.size());
   std::iota(piece.shared_vertices.begin(), piece.shared_vertices.end(), 0);
-  for (const GlobalIndex number : known) piece.shared_tokens.push_back(running_token(number));
+  for (const GlobalIndex number : known) piece.shared_keys.push_back(running_key(number));
   return piece;
 }
 
@@ -112,13 +112,13 @@ void fetch_vertices(const VertexTables& tables, const std::vector<std::vector<Gl
     }
   };
   {
-    const PointTable::Found found = tables.points.fetch(keys);
+    const PointTable::Fetched found = tables.points.fetch(keys);
     for_each_vertex([&](Piece& piece, std::size_t at) {
       piece.coordinates.insert(piece.coordinates.end(), found.values[at].begin(), found.values[at].end());
     });
   }
   if (tables.classes == nullptr) return;
-  const VertexClassTable::Found found = tables.classes->fetch(keys);
+  const VertexClassTable::Fetched found = tables.classes->fetch(keys);
   for_each_vertex([&](Piece& piece, std::size_t at) {
     piece.vertex_dimension.push_back(static_cast<std::int8_t>(found.values[at].dimension));
     piece.vertex_entity.push_back(found.values[at].entity);
@@ -149,12 +149,12 @@ void order_vertices(Piece& piece, std::vector<GlobalIndex>& numbers, std::vector
   for (auto* corners : {&piece.cells, &piece.pyramids, &piece.prisms, &piece.boundary, &piece.quads}) {
     for (LocalIndex& v : *corners) v = place[v];
   }
-  std::vector<std::pair<LocalIndex, SharedToken>> shared;
+  std::vector<std::pair<LocalIndex, SharedVertexKey>> shared;
   for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-    shared.emplace_back(place[piece.shared_vertices[s]], piece.shared_tokens[s]);
+    shared.emplace_back(place[piece.shared_vertices[s]], piece.shared_keys[s]);
   std::sort(shared.begin(), shared.end());
   for (std::size_t s = 0; s < shared.size(); ++s)
-    std::tie(piece.shared_vertices[s], piece.shared_tokens[s]) = shared[s];
+    std::tie(piece.shared_vertices[s], piece.shared_keys[s]) = shared[s];
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// Cells and boundary faces, spread over ranks anyhow, become the pieces of a mesh.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "mesh/distributed_table.hpp"
 
 #include <array>
@@ -78,8 +78,8 @@ struct VertexTables {
 };
 
 /// Sends the items to the ranks of their pieces and puts these together: cells by region, faces by patch,
-/// each in their order; vertices ascend by number, tokens are the numbers that `items` came with. `names` is
-/// the mesh without pieces. Collective; the same for any number of ranks.
+/// each in their order; vertices ascend by number, shared-vertex keys are the numbers that `items` came with.
+/// `names` is the mesh without pieces. Collective; the same for any number of ranks.
 NumberedMesh build_pieces(const parallel::Communicator& communicator, PieceItems items,
                           const VertexTables& vertices, Ownership ownership, DistributedMesh names);
 

@@ -1,8 +1,8 @@
-#include "mesh/cell_measures.hpp"
+#include "aeroloom/mesh/cell_measures.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
 #include "geometry/angle.hpp"
 #include "geometry/predicates.hpp"
-#include "mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>

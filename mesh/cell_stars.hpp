@@ -1,7 +1,7 @@
 /// The tetrahedra of a piece around its vertices, for what looks at each face or edge once.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <algorithm>
 #include <array>

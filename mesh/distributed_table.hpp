@@ -1,9 +1,9 @@
 /// Values by key, spread over the ranks by ranges of keys.
 #pragma once
 
-#include "mesh/delivery.hpp"
-#include "mesh/piece.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/mesh/piece.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -35,24 +35,25 @@ GlobalIndex lowest_of_all(const parallel::Communicator& communicator, GlobalInde
 template <parallel::Flat Value>
 class DistributedTable {
 public:
-  struct Row {
+  struct KeyedValue {
     GlobalIndex key = 0;
     Value value{};
 
-    static constexpr auto fields() { return std::tuple(&Row::key, &Row::value); }
+    static constexpr auto fields() { return std::tuple(&KeyedValue::key, &KeyedValue::value); }
   };
 
   /// Takes rows of any rank to those of their keys. A key may come several times; the first in the order of
   /// ranks stays, and `clash` becomes the lowest key whose values differ in a bit (-1: none). Collective.
-  DistributedTable(const parallel::Communicator& communicator, KeyRanges ranges, std::vector<Row> rows);
+  DistributedTable(const parallel::Communicator& communicator, KeyRanges ranges,
+                   std::vector<KeyedValue> rows);
 
   /// The values of ascending keys, each once; `missing` is the lowest key, asked for anywhere, that there is
   /// not (-1: none): the values are then worth nothing. Collective.
-  struct Found {
+  struct Fetched {
     std::vector<Value> values;
     GlobalIndex missing = -1;
   };
-  Found fetch(const std::vector<GlobalIndex>& keys) const;
+  Fetched fetch(const std::vector<GlobalIndex>& keys) const;
 
   /// Numbers the rows that anyone names among `used`, in the order of their keys, and drops the others;
   /// their numbers become their keys. Returns the numbers of `used` and of `others` (both as in fetch; -1
@@ -64,8 +65,8 @@ public:
   Numbers number(const std::vector<GlobalIndex>& used, const std::vector<GlobalIndex>& others);
 
   GlobalIndex clash() const { return _clash; }
-  GlobalIndex count() const { return _count; }            ///< of all ranks
-  const std::vector<Row>& mine() const { return _rows; }  ///< ascending key
+  GlobalIndex count() const { return _count; }                   ///< of all ranks
+  const std::vector<KeyedValue>& mine() const { return _rows; }  ///< ascending key
 
 private:
   struct Question {
@@ -93,18 +94,20 @@ private:
 
   parallel::Communicator _communicator;
   KeyRanges _ranges;
-  std::vector<Row> _rows;
+  std::vector<KeyedValue> _rows;
   GlobalIndex _clash = -1, _count = 0;
 };
 
 template <parallel::Flat Value>
 DistributedTable<Value>::DistributedTable(const parallel::Communicator& communicator, KeyRanges ranges,
-                                          std::vector<Row> rows)
+                                          std::vector<KeyedValue> rows)
     : _communicator(communicator), _ranges(std::move(ranges)) {
-  _rows = deliver(communicator, std::move(rows), [&](const Row& row) { return _ranges.rank_of(row.key); });
-  std::stable_sort(_rows.begin(), _rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
+  _rows =
+      deliver(communicator, std::move(rows), [&](const KeyedValue& row) { return _ranges.rank_of(row.key); });
+  std::stable_sort(_rows.begin(), _rows.end(),
+                   [](const KeyedValue& a, const KeyedValue& b) { return a.key < b.key; });
   std::size_t kept = 0;
-  for (const Row& row : _rows) {
+  for (const KeyedValue& row : _rows) {
     if (kept > 0 && _rows[kept - 1].key == row.key) {
       const bool equal = parallel::same_bits(_rows[kept - 1].value, row.value);
       if (!equal && _clash < 0) _clash = row.key;
@@ -129,8 +132,9 @@ std::vector<typename DistributedTable<Value>::Question> DistributedTable<Value>:
 
 template <parallel::Flat Value>
 std::int64_t DistributedTable<Value>::position(GlobalIndex key) const {
-  const auto found = std::lower_bound(_rows.begin(), _rows.end(), key,
-                                      [](const Row& row, GlobalIndex wanted) { return row.key < wanted; });
+  const auto found =
+      std::lower_bound(_rows.begin(), _rows.end(), key,
+                       [](const KeyedValue& row, GlobalIndex wanted) { return row.key < wanted; });
   return found != _rows.end() && found->key == key ? found - _rows.begin() : -1;
 }
 
@@ -145,9 +149,9 @@ std::vector<What> DistributedTable<Value>::reply(std::vector<Answer<What>> answe
 }
 
 template <parallel::Flat Value>
-typename DistributedTable<Value>::Found DistributedTable<Value>::fetch(
+typename DistributedTable<Value>::Fetched DistributedTable<Value>::fetch(
     const std::vector<GlobalIndex>& keys) const {
-  Found found;
+  Fetched found;
   std::vector<Answer<Value>> answers;
   for (const Question& question : ask(keys)) {
     const std::int64_t at = position(question.key);

@@ -2,7 +2,7 @@
 /// histograms come. What both summaries of quality rest on. Internal to mesh/.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <cmath>

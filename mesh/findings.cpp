@@ -1,6 +1,6 @@
 #include "mesh/findings.hpp"
 
-#include "mesh/piece_faces.hpp"
+#include "aeroloom/mesh/piece_faces.hpp"
 
 #include <algorithm>
 #include <span>
@@ -64,7 +64,7 @@ geometry::Vec3 mean_point(const Piece& piece, std::span<const LocalIndex> vertic
 
 /// What a sentence says of an offender: a vertex, cell or boundary face, its number among those of its shape,
 /// and the place of the vertex itself, or the mean of the corners of the cell, face or edge.
-struct Place {
+struct OffenderPlace {
   enum class Noun : std::int32_t { vertex, triangle, tetrahedron, pyramid, prism, boundary_triangle, quad };
   std::int32_t violation;
   Noun noun;
@@ -72,41 +72,45 @@ struct Place {
   geometry::Vec3 point;
 
   static constexpr auto fields() {
-    return std::tuple(&Place::violation, &Place::noun, &Place::number, &Place::point);
+    return std::tuple(&OffenderPlace::violation, &OffenderPlace::noun, &OffenderPlace::number,
+                      &OffenderPlace::point);
   }
 };
 
-const char* word_of(Place::Noun noun) {
+const char* word_of(OffenderPlace::Noun noun) {
   static constexpr const char* words[] = {"vertex", "triangle",          "tetrahedron",           "pyramid",
                                           "prism",  "boundary triangle", "boundary quadrilateral"};
   return words[static_cast<std::size_t>(noun)];
 }
 
-Place place_of_cell(const Piece& piece, LocalIndex number) {
+OffenderPlace place_of_cell(const Piece& piece, LocalIndex number) {
   if (piece.kind == CellKind::triangle)
-    return {0, Place::Noun::triangle, number, mean_point(piece, corners_of_boundary(piece, number))};
+    return {0, OffenderPlace::Noun::triangle, number, mean_point(piece, corners_of_boundary(piece, number))};
   const CellOfPiece cell = cell_of(piece, number);
-  const auto noun =
-      static_cast<Place::Noun>(static_cast<int>(Place::Noun::tetrahedron) + static_cast<int>(cell.shape));
+  const auto noun = static_cast<OffenderPlace::Noun>(static_cast<int>(OffenderPlace::Noun::tetrahedron) +
+                                                     static_cast<int>(cell.shape));
   const auto corners = static_cast<std::size_t>(corners_of(cell.shape));
   return {0, noun, cell.index, mean_point(piece, {vertices_of(piece, cell), corners})};
 }
 
-Place place_of_face(const Piece& piece, LocalIndex face) {
+OffenderPlace place_of_face(const Piece& piece, LocalIndex face) {
   const geometry::Vec3 middle = mean_point(piece, corners_of_boundary(piece, face));
-  if (face >= piece.boundary_count()) return {0, Place::Noun::quad, face - piece.boundary_count(), middle};
-  return {0, piece.kind == CellKind::triangle ? Place::Noun::triangle : Place::Noun::boundary_triangle, face,
-          middle};
+  if (face >= piece.boundary_count())
+    return {0, OffenderPlace::Noun::quad, face - piece.boundary_count(), middle};
+  return {0,
+          piece.kind == CellKind::triangle ? OffenderPlace::Noun::triangle
+                                           : OffenderPlace::Noun::boundary_triangle,
+          face, middle};
 }
 
-Place place_of(const Piece& piece, const Offender& offender) {
+OffenderPlace place_of(const Piece& piece, const Offender& offender) {
   const auto index = static_cast<LocalIndex>(offender.item);
-  if (offender.entity == Entity::vertex) return {0, Place::Noun::vertex, index, piece.point(index)};
+  if (offender.entity == Entity::vertex) return {0, OffenderPlace::Noun::vertex, index, piece.point(index)};
   if (offender.entity == Entity::cell) return place_of_cell(piece, index);
   if (offender.entity == Entity::boundary_face) return place_of_face(piece, index);
   std::array<LocalIndex, 4> corners;
   std::size_t count = 0;
-  Place place;
+  OffenderPlace place;
   if (offender.entity == Entity::cell_face) {
     const SideOfCell side = cell_at_side(piece, static_cast<std::size_t>(offender.item));
     place = place_of_cell(piece, side.cell);
@@ -157,7 +161,7 @@ Findings::Table Findings::over_all_ranks(const parallel::Communicator& communica
 std::vector<std::string> Findings::sentences(const parallel::Communicator& communicator,
                                              const DistributedMesh& mesh) const {
   const Table table = over_all_ranks(communicator);
-  std::vector<Place> mine;
+  std::vector<OffenderPlace> mine;
   for (std::size_t v = 0; v < violation_count; ++v) {
     const auto holder = std::find_if(mesh.pieces.begin(), mesh.pieces.end(),
                                      [&](const Piece& piece) { return piece.id == table[v].first.piece; });
@@ -168,11 +172,11 @@ std::vector<std::string> Findings::sentences(const parallel::Communicator& commu
   const bool here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
                                 [](const Piece& piece) { return !piece.has_tetrahedra_alone(); });
   const bool is_mixed = communicator.maximum(std::int64_t{here}) > 0;
-  std::vector<Place> places = communicator.all_gather_items(std::span<const Place>(mine));
+  std::vector<OffenderPlace> places = communicator.all_gather_items(std::span<const OffenderPlace>(mine));
   std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.violation < b.violation; });
+            [](const OffenderPlace& a, const OffenderPlace& b) { return a.violation < b.violation; });
   std::vector<std::string> result;
-  for (const Place& place : places) {
+  for (const OffenderPlace& place : places) {
     const auto& [count, first] = table[static_cast<std::size_t>(place.violation)];
     result.push_back(fmt::format("{}: {}, the first being {} {} of piece {} at ({:.9g}, {:.9g}, {:.9g})",
                                  rule_in_words(static_cast<std::size_t>(place.violation), is_mixed), count,

@@ -1,7 +1,7 @@
 /// What a validity check found: how often each rule is broken, and where first.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 
 #include <array>
 #include <cstdint>

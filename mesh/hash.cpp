@@ -1,5 +1,5 @@
-#include "mesh/delivery.hpp"
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "mesh/mixing.hpp"
 
 #include <bit>

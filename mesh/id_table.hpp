@@ -1,7 +1,7 @@
 /// Distinct numbers and their places among them.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -5,8 +5,8 @@
 /// others, on interfaces, travel: each goes to the rank its global vertex numbers point to.
 #pragma once
 
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "mesh/cell_stars.hpp"
-#include "mesh/distributed_mesh.hpp"
 #include "mesh/findings.hpp"
 #include "mesh/pair_table.hpp"
 #include "mesh/rendezvous.hpp"

@@ -1,5 +1,5 @@
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/collective_error.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
-#include "mesh/mixed_quality.hpp"
+#include "aeroloom/mesh/mixed_quality.hpp"
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 #include "mesh/distribution.hpp"
 #include "mesh/neighbour_volumes.hpp"
 

@@ -1,7 +1,7 @@
 /// Bits: places compared by them, which rank a key is met on, and the steps of the mesh hash.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <bit>
 #include <cstdint>

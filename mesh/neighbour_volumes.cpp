@@ -1,6 +1,6 @@
 #include "mesh/neighbour_volumes.hpp"
 
-#include "mesh/cell_measures.hpp"
+#include "aeroloom/mesh/cell_measures.hpp"
 
 #include <algorithm>
 #include <array>

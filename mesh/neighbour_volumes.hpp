@@ -1,7 +1,7 @@
 /// Volumes of cells and of their neighbours.
 #pragma once
 
-#include "mesh/face_links.hpp"
+#include "aeroloom/mesh/face_links.hpp"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
-#include "mesh/delivery.hpp"
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "mesh/mixing.hpp"
 #include "mesh/shared_vertices.hpp"
 
@@ -60,7 +60,7 @@ void require_agreement(const parallel::Communicator& communicator, const Distrib
       parallel::FailureKind::bug,
       fmt::format(
           "shared vertices whose pieces disagree: {}. The first: vertex {} of piece {} at ({:.17g}, {:.17g}, "
-          "{:.17g}) and vertex {} of piece {} at ({:.17g}, {:.17g}, {:.17g}) have the same token",
+          "{:.17g}) and vertex {} of piece {} at ({:.17g}, {:.17g}, {:.17g}) have the same shared-vertex key",
           count, a.vertex, a.piece, a.coordinates[0], a.coordinates[1], a.coordinates[2], b.vertex, b.piece,
           b.coordinates[0], b.coordinates[1], b.coordinates[2]));
 }

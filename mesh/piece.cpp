@@ -1,4 +1,4 @@
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -83,8 +83,7 @@ void require_consistent_arrays(const Piece& piece) {
       4 * piece.quad_face.size() == piece.quads.size() && 4 * piece.quad_patch.size() == piece.quads.size(),
       piece, "not one face and patch per boundary quadrilateral");
   require_region_runs(piece);
-  require(piece.shared_tokens.size() == piece.shared_vertices.size(), piece,
-          "not one token per shared vertex");
+  require(piece.shared_keys.size() == piece.shared_vertices.size(), piece, "not one key per shared vertex");
   require(std::adjacent_find(piece.shared_vertices.begin(), piece.shared_vertices.end(),
                              std::greater_equal<>()) == piece.shared_vertices.end(),
           piece, "shared vertices are not ascending");
@@ -100,7 +99,7 @@ std::int64_t bytes_at_rest(const Piece& piece) {
   return static_cast<std::int64_t>(sizeof(Piece)) + bytes(piece.coordinates) + bytes(piece.cells) +
          bytes(piece.vertex_dimension) + bytes(piece.vertex_entity) + bytes(piece.boundary) +
          bytes(piece.triangle_face) + bytes(piece.triangle_patch) + bytes(piece.shared_vertices) +
-         bytes(piece.shared_tokens) + bytes(piece.pyramids) + bytes(piece.prisms) + bytes(piece.quads) +
+         bytes(piece.shared_keys) + bytes(piece.pyramids) + bytes(piece.prisms) + bytes(piece.quads) +
          bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs);
 }
 

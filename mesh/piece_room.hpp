@@ -1,7 +1,7 @@
 /// Memory of pieces.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 namespace aeroloom::mesh {
 
@@ -12,7 +12,7 @@ inline void shrink_to_fit(Piece& piece) {
   piece.vertex_dimension.shrink_to_fit();
   piece.vertex_entity.shrink_to_fit();
   piece.shared_vertices.shrink_to_fit();
-  piece.shared_tokens.shrink_to_fit();
+  piece.shared_keys.shrink_to_fit();
 }
 
 }  // namespace aeroloom::mesh

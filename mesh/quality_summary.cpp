@@ -1,6 +1,6 @@
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/mesh/quality.hpp"
 #include "mesh/distribution.hpp"
-#include "mesh/quality.hpp"
 #include "mesh/tet_measures.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 /// Rendezvous by key: what several ranks know of one thing comes together on one of them.
 #pragma once
 
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "geometry/runs.hpp"
-#include "mesh/delivery.hpp"
 #include "mesh/mixing.hpp"
-#include "parallel/communicator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,8 @@
 
 namespace aeroloom::mesh {
 
-/// A key is a whole number, or an array of keys: numbers of vertices, tokens, bits of coordinates.
+/// A key is a whole number, or an array of keys: numbers of vertices, shared-vertex keys, bits of
+/// coordinates.
 template <std::integral Word>
 constexpr std::uint64_t mix_key(std::uint64_t state, Word key) {
   return mix_in(state, static_cast<std::uint64_t>(key));

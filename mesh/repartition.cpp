@@ -1,8 +1,8 @@
-#include "mesh/repartition.hpp"
+#include "aeroloom/mesh/repartition.hpp"
 
+#include "aeroloom/mesh/piece_faces.hpp"
 #include "mesh/build_pieces.hpp"
 #include "mesh/hilbert.hpp"
-#include "mesh/piece_faces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -275,8 +275,8 @@ NumberedMesh repartition(const parallel::Communicator& communicator, const Distr
     }
   }
   const KeyRanges ranges = even_ranges(communicator.size(), numbering.vertex_count);
-  std::vector<PointTable::Row> points;
-  std::vector<VertexClassTable::Row> classes;
+  std::vector<PointTable::KeyedValue> points;
+  std::vector<VertexClassTable::KeyedValue> classes;
   bool is_classified = true;
   for_each_owned(mesh, numbering, [&](GlobalIndex number, const Piece& piece, LocalIndex v) {
     const geometry::Vec3 p = piece.point(v);

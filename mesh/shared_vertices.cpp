@@ -1,7 +1,7 @@
 #include "mesh/shared_vertices.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/rendezvous.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -24,10 +24,10 @@ struct KeyedCopy {
   static constexpr auto fields() { return std::tuple(&KeyedCopy::key, &KeyedCopy::piece, &KeyedCopy::copy); }
 };
 
-std::vector<KeyedVertices> keyed_by_tokens(const DistributedMesh& mesh) {
+std::vector<KeyedVertices> keyed_by_vertex_keys(const DistributedMesh& mesh) {
   std::vector<KeyedVertices> pieces;
   for (const Piece& piece : mesh.pieces)
-    pieces.push_back({piece.id, piece.shared_vertices, piece.shared_tokens});
+    pieces.push_back({piece.id, piece.shared_vertices, piece.shared_keys});
   return pieces;
 }
 
@@ -53,7 +53,7 @@ struct SharedVertices::Link {
 };
 
 SharedVertices::SharedVertices(const parallel::Communicator& communicator, const DistributedMesh& mesh)
-    : SharedVertices(communicator, keyed_by_tokens(mesh)) {}
+    : SharedVertices(communicator, keyed_by_vertex_keys(mesh)) {}
 
 SharedVertices::SharedVertices(const parallel::Communicator& communicator,
                                std::span<const KeyedVertices> pieces)
@@ -152,12 +152,12 @@ std::int64_t SharedVertices::drop_unshared(DistributedMesh& mesh) {
       if (!is_shared(copy)) continue;
       const std::size_t from = copy - begin, to = kept - first_kept;
       piece.shared_vertices[to] = piece.shared_vertices[from];
-      piece.shared_tokens[to] = piece.shared_tokens[from];
+      piece.shared_keys[to] = piece.shared_keys[from];
       _vertices[kept] = _vertices[copy];
       _kinds[kept++] = _kinds[copy];
     }
     piece.shared_vertices.resize(kept - first_kept);
-    piece.shared_tokens.resize(kept - first_kept);
+    piece.shared_keys.resize(kept - first_kept);
     _first[p] = first_kept;
   }
   _first.back() = kept;

@@ -2,9 +2,9 @@
 /// and its scatterer (FEniCS/dolfinx, common/IndexMap.h and common/Scatterer.h).
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/neighbour_exchange.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/neighbour_exchange.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct KeyedVertices {
 /// Who knows what is found once. It holds until pieces change, or lists, or ranks; coordinates may.
 class SharedVertices {
 public:
-  /// From the tokens of the mesh, whose arrays fit together. Collective.
+  /// From the shared-vertex keys of the mesh, whose arrays fit together. Collective.
   SharedVertices(const parallel::Communicator& communicator, const DistributedMesh& mesh);
   /// From other keys; pieces in any order, each on one rank. Collective. Both throw CollectiveError when a
   /// piece has a key twice.

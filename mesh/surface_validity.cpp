@@ -1,6 +1,6 @@
+#include "aeroloom/mesh/validity.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/matching.hpp"
-#include "mesh/validity.hpp"
 #include "mesh/validity_checks.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 /// The faces of a set of tetrahedra: those between two of them, and those on its boundary.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <array>
 #include <cstdint>

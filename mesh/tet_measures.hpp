@@ -1,7 +1,7 @@
 /// The shape measures of many tetrahedra at a time.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 namespace aeroloom::mesh {
 

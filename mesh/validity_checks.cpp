@@ -1,9 +1,9 @@
 #include "mesh/validity_checks.hpp"
 
-#include "mesh/cell_measures.hpp"
+#include "aeroloom/mesh/cell_measures.hpp"
+#include "aeroloom/mesh/piece_faces.hpp"
 #include "mesh/matching.hpp"
 #include "mesh/mixing.hpp"
-#include "mesh/piece_faces.hpp"
 #include "mesh/rendezvous.hpp"
 
 #include <algorithm>
@@ -91,13 +91,13 @@ void for_each_run(const DistributedMesh& mesh, const Piece& piece, Visit&& visit
 /// The centre of the box around the finite points of each region's boundary: sums taken about it lose least.
 std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
                                      const DistributedMesh& mesh) {
-  struct Part {
+  struct RegionBox {
     RegionId region;
     geometry::Box box;
 
-    static constexpr auto fields() { return std::tuple(&Part::region, &Part::box); }
+    static constexpr auto fields() { return std::tuple(&RegionBox::region, &RegionBox::box); }
   };
-  std::vector<Part> mine;
+  std::vector<RegionBox> mine;
   for (const Piece& piece : mesh.pieces) {
     std::map<RegionId, geometry::Box> boxes;
     for_each_run(mesh, piece, [&](RegionId region, LocalIndex first, LocalIndex last, int) {
@@ -111,7 +111,7 @@ std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
     for (const auto& [region, box] : boxes) mine.push_back({region, box});
   }
   std::vector<geometry::Box> boxes(mesh.region_count());
-  for (const Part& part : communicator.all_gather_items(std::span<const Part>(mine))) {
+  for (const RegionBox& part : communicator.all_gather_items(std::span<const RegionBox>(mine))) {
     if (part.box.empty()) continue;
     boxes[part.region].add(part.box.low);
     boxes[part.region].add(part.box.high);

@@ -1,7 +1,7 @@
 /// The checks that volume and surface meshes have in common. All report to Findings.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "mesh/findings.hpp"
 
 #include <string>

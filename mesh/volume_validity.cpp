@@ -1,8 +1,8 @@
+#include "aeroloom/mesh/cell_measures.hpp"
+#include "aeroloom/mesh/piece_faces.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "geometry/predicates.hpp"
-#include "mesh/cell_measures.hpp"
 #include "mesh/matching.hpp"
-#include "mesh/piece_faces.hpp"
-#include "mesh/validity.hpp"
 #include "mesh/validity_checks.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "partition/background_surface.hpp"
+#include "aeroloom/partition/background_surface.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 /// drawn to one scale can be measured.
 #pragma once
 
-#include "geometry/vec.hpp"
+#include "aeroloom/geometry/vec.hpp"
 #include "picture/canvas.hpp"
 
 namespace aeroloom::picture {

@@ -1,4 +1,4 @@
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 #include "picture/drawing.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// A mesh on a canvas: what this rank holds of it. None of this is collective.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "picture/camera.hpp"
 #include "picture/canvas.hpp"
 #include "picture/folds.hpp"

@@ -1,7 +1,7 @@
 #include "picture/folds.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/rendezvous.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
 /// A side of an edge: which triangle has it, and what others may know of that.
-struct Side {
+struct TriangleSide {
   std::array<GlobalIndex, 2> ends;  // ascending
   mesh::PieceId piece;
   std::int32_t item;  // 3 * triangle + edge
@@ -27,13 +27,13 @@ struct Side {
   std::int32_t shown;
 
   static constexpr auto fields() {
-    return std::tuple(&Side::ends, &Side::piece, &Side::item, &Side::normal, &Side::face, &Side::patch,
-                      &Side::place, &Side::shown);
+    return std::tuple(&TriangleSide::ends, &TriangleSide::piece, &TriangleSide::item, &TriangleSide::normal,
+                      &TriangleSide::face, &TriangleSide::patch, &TriangleSide::place, &TriangleSide::shown);
   }
 };
 
 /// Tells the sides of one edge apart.
-std::tuple<mesh::PieceId, std::int32_t> turn_of(const Side& side) {
+std::tuple<mesh::PieceId, std::int32_t> turn_of(const TriangleSide& side) {
   return {side.piece, side.item};
 }
 
@@ -45,11 +45,11 @@ struct Answer {
   static constexpr auto fields() { return std::tuple(&Answer::place, &Answer::item, &Answer::fold); }
 };
 
-std::vector<Side> sides_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                           const Shown& shown, std::size_t place) {
+std::vector<TriangleSide> sides_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                                   const Shown& shown, std::size_t place) {
   const mesh::Piece& piece = surface.pieces[place];
   const std::vector<GlobalIndex>& numbers = numbering.vertices[place];
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   sides.reserve(3 * static_cast<std::size_t>(piece.cell_count()));
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* v = piece.cell(t);
@@ -64,10 +64,10 @@ std::vector<Side> sides_of(const mesh::DistributedMesh& surface, const mesh::Num
   return sides;
 }
 
-const Side& side_of(const Side& side) {
+const TriangleSide& side_of(const TriangleSide& side) {
   return side;
 }
-const Side& side_of(const mesh::Guest<Side>& guest) {
+const TriangleSide& side_of(const mesh::Guest<TriangleSide>& guest) {
   return guest.item;
 }
 
@@ -76,7 +76,7 @@ template <class Member, class Tell>
 void tell_each(std::span<const Member> run, const Tell& tell) {
   if (run.size() < 2) return;
   for (std::size_t i = 0; i < run.size(); ++i) {
-    const Side& next = side_of(run[(i + 1) % run.size()]);
+    const TriangleSide& next = side_of(run[(i + 1) % run.size()]);
     tell(run[i], Fold{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
   }
 }
@@ -91,32 +91,32 @@ double turn(Vec3 normal, Vec3 edge, const Fold& beyond) {
 Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                  const mesh::Numbering& numbering, const Shown& shown) {
   Folds folds(surface.pieces.size());
-  std::vector<Side> travelling;
+  std::vector<TriangleSide> travelling;
   const auto match_within = [&](std::size_t p) {
     const mesh::Piece& piece = surface.pieces[p];
     folds[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
-    std::vector<Side> sides = sides_of(surface, numbering, shown, p);
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    std::vector<TriangleSide> sides = sides_of(surface, numbering, shown, p);
+    std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
       return a.ends != b.ends ? a.ends < b.ends : turn_of(a) < turn_of(b);
     });
-    mesh::for_each_key(sides, &Side::ends, [&](std::span<const Side> run) {
+    mesh::for_each_key(sides, &TriangleSide::ends, [&](std::span<const TriangleSide> run) {
       const std::int32_t item = run.front().item;
       const LocalIndex* v = piece.cell(item / 3);
       if (run.size() == 1 && shared[v[item % 3]] && shared[v[(item % 3 + 1) % 3]]) {
         travelling.push_back(run.front());
       } else {
-        tell_each(run, [&](const Side& side, const Fold& fold) { folds[p][side.item] = fold; });
+        tell_each(run, [&](const TriangleSide& side, const Fold& fold) { folds[p][side.item] = fold; });
       }
     });
   };
   parallel::agree(communicator, [&] {
     for (std::size_t p = 0; p < surface.pieces.size(); ++p) match_within(p);
   });
-  const mesh::Rendezvous meeting(communicator, travelling, &Side::ends, turn_of);
+  const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, turn_of);
   const auto answers = meeting.answer<Answer>([](const auto& run, const auto& reply) {
-    tell_each(run, [&](const mesh::Guest<Side>& guest, const Fold& fold) {
+    tell_each(run, [&](const mesh::Guest<TriangleSide>& guest, const Fold& fold) {
       reply(guest, {guest.item.place, guest.item.item, fold});
     });
   });

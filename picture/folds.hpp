@@ -1,9 +1,9 @@
 /// What lies beyond the edges of the triangles of a surface mesh.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "picture/scene.hpp"
 
 #include <cstdint>

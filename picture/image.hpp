@@ -1,7 +1,7 @@
 /// From the canvases of all ranks to one picture in a file's bytes.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "picture/canvas.hpp"
 
 #include <cstddef>

@@ -1,9 +1,9 @@
 /// Bits of lines on a surface, and the lines that they make.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <array>
 #include <tuple>

@@ -1,7 +1,7 @@
 #include "picture/places.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/angle.hpp"
-#include "parallel/collective_error.hpp"
 #include "picture/line_items.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "picture/scene.hpp"
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 /// What a picture is about: the body in the flow, or the walls around it.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,17 +1,18 @@
 #include "pipeline/check.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "pipeline/change_json.hpp"
+#include "aeroloom/case/option_keys.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "domain/place_text.hpp"
 #include "pipeline/forecast.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/option_keys.hpp"
-#include "pipeline/place_text.hpp"
-#include "pipeline/report/parts_json.hpp"
 #include "pipeline/shown_changes.hpp"
-#include "pipeline/size_domain.hpp"
-#include "pipeline/task_table.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/change_json.hpp"
+#include "report/findings_json.hpp"
+#include "report/parts_json.hpp"
+#include "report/task_table.hpp"
+#include "report/text_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -34,23 +35,24 @@ constexpr int pieces_per_rank = 4;
 /// How many ranks a run is worth, by what the clock has of geometry and sizing. Collective.
 study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicator,
                                         const parallel::StageClock& clock,
-                                        const sizing::PredictedCounts& counts, const Case& input) {
-  const std::string tasks = task_table(communicator, clock);
+                                        const sizing::PredictedCounts& counts, const cases::Case& input) {
+  const std::string tasks = report::task_table(communicator, clock);
   const Json measured{{"status", "ok"},
                       {"ranks", communicator.size()},
-                      {"stages", stages_json(clock.summarise(communicator))}};
+                      {"stages", report::stages_json(clock.summarise(communicator))}};
   if (!communicator.is_root()) return {};
   return predicted_ranks(study::costs_of(measured, tasks), counts, input);
 }
 
 /// The clock has the stage `geometry`.
-Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model, const Case& input,
-                      parallel::StageClock& clock) {
+Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
+                      const cases::Case& input, parallel::StageClock& clock) {
   Forecast forecast;
   const double begin = parallel::cpu_seconds();
   clock.begin("sizing");
-  const SizedDomain sized = size_domain(communicator, model, input.sizing, Simplification::of(input), clock,
-                                        sizing::FieldFor::forecast);
+  const domain::SizedDomain sized =
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock,
+                          sizing::FieldFor::forecast);
   parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
   forecast.joined = sized.joined.changes;
@@ -70,15 +72,15 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   return forecast;
 }
 
-std::string describe_reading(const Case& input, const cad::Diagnosis& found) {
+std::string describe_reading(const cases::Case& input, const cad::Diagnosis& found) {
   const geometry::Vec3 size = found.bounds.size();
   return fmt::format(
       "read: {}, {}, unit {}\n"
       "      box {} to {}, {:.6g} x {:.6g} x {:.6g}\n"
       "      solids {}, shells {}, faces {}, edges {}\n",
       input.domain.file.empty() ? "the built-in aircraft" : input.domain.file, found.format,
-      found.unit_name.empty() ? "not declared" : found.unit_name, place(found.bounds.low),
-      place(found.bounds.high), size.x, size.y, size.z, found.counts.solids, found.counts.shells,
+      found.unit_name.empty() ? "not declared" : found.unit_name, domain::place(found.bounds.low),
+      domain::place(found.bounds.high), size.x, size.y, size.z, found.counts.solids, found.counts.shells,
       found.counts.faces, found.counts.edges);
 }
 
@@ -94,7 +96,7 @@ std::string describe_findings(const CheckRecord& record) {
   const cad::Model& model = record.diagnosis.domain->model;
   for (const FaceContact& contact : record.contacts) {
     text += fmt::format("      faces '{}' and '{}' meet near {}\n", model.face(contact.first).name,
-                        model.face(contact.second).name, place(contact.where));
+                        model.face(contact.second).name, domain::place(contact.where));
   }
   return text;
 }
@@ -132,13 +134,13 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
 
 std::string describe_forecast(const Forecast& forecast, int ranks) {
   std::string text;
-  for (const JudgedEdge& edge : forecast.edges)
-    if (edge.fate != EdgeFate::kept) text += "      " + edge.what + "\n";
+  for (const domain::JudgedEdge& edge : forecast.edges)
+    if (edge.fate != domain::EdgeFate::kept) text += "      " + edge.what + "\n";
   for (const std::string& line : shown_changes(forecast.joined, "check.json: forecast.joined_faces"))
     text += "a run joins: " + line + "\n";
   const std::string features = forecast.features ? describe(*forecast.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
-  const std::string share = forecast.features ? describe_share(*forecast.features) : std::string();
+  const std::string share = forecast.features ? domain::describe_share(*forecast.features) : std::string();
   if (!share.empty()) text += "features: " + share + "\n";
   const std::string bounded = describe(forecast.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
@@ -165,9 +167,9 @@ bool is_meshable(const CheckRecord& record) {
   return record.diagnosis.domain.has_value() && record.forecast.walls.coincident.empty();
 }
 
-Json read_json(const Case& input, const cad::Diagnosis& found) {
+Json read_json(const cases::Case& input, const cad::Diagnosis& found) {
   Json json = {{"file", input.domain.file}, {"format", found.format}, {"unit", found.unit_name}};
-  json["bounds"] = {to_json(found.bounds.low), to_json(found.bounds.high)};
+  json["bounds"] = {report::to_json(found.bounds.low), report::to_json(found.bounds.high)};
   json["solids"] = found.counts.solids;
   json["shells"] = found.counts.shells;
   json["faces"] = found.counts.faces;
@@ -181,7 +183,7 @@ Json read_json(const Case& input, const cad::Diagnosis& found) {
 Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& types) {
   Json json = {{"kind", domain.report.kind == cad::DomainKind::fluid ? "fluid" : "body"},
                {"reason", domain.report.reason},
-               {"changes", to_json(domain.report.changes)}};
+               {"changes", report::to_json(domain.report.changes)}};
   json["regions"] = Json::array();
   for (cad::RegionId r = 0; r < domain.model.region_count(); ++r) {
     json["regions"].push_back(domain.model.region_name(r));
@@ -197,7 +199,7 @@ Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& 
   json["faces"] = Json::array();
   for (cad::FaceId f = 0; f < domain.model.face_count(); ++f) {
     const cad::Face& face = domain.model.face(f);
-    Json row = face_row(face.name, domain.model.face_place(f));
+    Json row = report::face_row(face.name, domain.model.face_place(f));
     row["patch"] = domain.model.patches()[static_cast<std::size_t>(face.patch)];
     json["faces"].push_back(std::move(row));
   }
@@ -214,23 +216,23 @@ Json forecast_json(const Forecast& forecast) {
           {"scaling", study::to_json(forecast.worthwhile, {})},
           {"piece_triangles", forecast.piece_triangles},
           {"piece_tets", forecast.piece_tets},
-          {"features", forecast.features ? to_json(*forecast.features) : Json()},
-          {"bounded_by_minimum", to_json(forecast.bounded)},
-          {"trailing_edges", to_json(forecast.edges)},
-          {"walls", to_json(forecast.walls)},
-          {"joined_faces", to_json(forecast.joined)}};
+          {"features", forecast.features ? report::to_json(*forecast.features) : Json()},
+          {"bounded_by_minimum", report::to_json(forecast.bounded)},
+          {"trailing_edges", report::to_json(forecast.edges)},
+          {"walls", report::to_json(forecast.walls)},
+          {"joined_faces", report::to_json(forecast.joined)}};
 }
 
-Json record_json(const Case& input, const CheckRecord& record) {
+Json record_json(const cases::Case& input, const CheckRecord& record) {
   Json json = {{"schema_version", 1}, {"meshable", is_meshable(record)}};
   json["read"] = read_json(input, record.diagnosis);
-  json["findings"] = to_json(record.diagnosis.findings);
+  json["findings"] = report::to_json(record.diagnosis.findings);
   json["contact_count"] = record.contact_count;
   json["contacts"] = Json::array();
   for (const FaceContact& contact : record.contacts) {
     const cad::Model& model = record.diagnosis.domain->model;
     json["contacts"].push_back({{"faces", {model.face(contact.first).name, model.face(contact.second).name}},
-                                {"where", to_json(contact.where)}});
+                                {"where", report::to_json(contact.where)}});
   }
   if (!record.diagnosis.domain) {
     json["failure"] = record.diagnosis.failure;
@@ -241,12 +243,12 @@ Json record_json(const Case& input, const CheckRecord& record) {
   return json;
 }
 
-void write_record(const Case& input, const CheckRecord& record) {
-  write_text(input.output.directory + "/check.json",
-             record_json(input, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+void write_record(const cases::Case& input, const CheckRecord& record) {
+  report::write_text(input.output.directory + "/check.json",
+                     record_json(input, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-void print_record(const Case& input, const CheckRecord& record, int ranks) {
+void print_record(const cases::Case& input, const CheckRecord& record, int ranks) {
   const cad::Diagnosis& found = record.diagnosis;
   std::string text = describe_reading(input, found) + describe_findings(record);
   if (found.domain) {
@@ -260,22 +262,22 @@ void print_record(const Case& input, const CheckRecord& record, int ranks) {
 
 }  // namespace
 
-ExitCode check_case(const parallel::Communicator& communicator, const Case& input) {
+report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input) {
   CheckRecord record;
   parallel::StageClock clock;
   clock.begin("geometry");
   parallel::Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    record.diagnosis = diagnose_contained(input.domain, clock, input.geometry_sabotage);
-    record.diagnosis.failure = with_keys(std::move(record.diagnosis.failure));
+    record.diagnosis = domain::diagnose_sandboxed(input.domain, clock);
+    record.diagnosis.failure = cases::with_keys(std::move(record.diagnosis.failure));
     if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (!meshable) clock.end();
   if (meshable) {
-    TypedPatches patches =
-        apply_patch_rules(share_model(communicator, std::move(bytes), clock), input.patches);
+    cases::TypedPatches patches =
+        cases::apply_patch_rules(domain::share_model(communicator, std::move(bytes), clock), input.patches);
     clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;
@@ -301,7 +303,7 @@ ExitCode check_case(const parallel::Communicator& communicator, const Case& inpu
       parallel::log_warning(fmt::format("check.json is not written: {}", error.what()));
     }
   });
-  return meshable && record.forecast.walls.coincident.empty() ? ExitCode::ok : ExitCode::cad;
+  return meshable && record.forecast.walls.coincident.empty() ? report::ExitCode::ok : report::ExitCode::cad;
 }
 
 }  // namespace aeroloom::pipeline

@@ -1,15 +1,15 @@
 /// The command check: what a run would meet, before it meshes anything.
 #pragma once
 
-#include "cad/repair/diagnosis.hpp"
-#include "parallel/communicator.hpp"
-#include "pipeline/bounded_faces.hpp"
-#include "pipeline/case.hpp"
-#include "pipeline/exit_code.hpp"
-#include "pipeline/trailing_edges.hpp"
-#include "pipeline/unresolved_features.hpp"
-#include "pipeline/wall_findings.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/cad/repair/diagnosis.hpp"
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/domain/bounded_faces.hpp"
+#include "aeroloom/domain/trailing_edges.hpp"
+#include "aeroloom/domain/unresolved_features.hpp"
+#include "aeroloom/domain/wall_findings.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/report/exit_code.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "study/prediction_files.hpp"
 
 #include <cstdint>
@@ -29,11 +29,11 @@ struct FaceContact {
 /// What a run would cost, from the prediction and the constants in docs/usage.md.
 struct Forecast {
   sizing::SizingOptions sizes;
-  std::optional<FeatureReport> features;
-  WallFindings walls;               ///< what was found of walls close to each other
-  std::vector<NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
-  cad::Changes joined;              ///< narrow faces that would vanish in their neighbours
-  TrailingEdgeReport edges;         ///< what would become of blunt trailing edges
+  std::optional<domain::FeatureReport> features;
+  domain::WallFindings walls;               ///< what was found of walls close to each other
+  std::vector<domain::NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
+  cad::Changes joined;                      ///< narrow faces that would vanish in their neighbours
+  domain::TrailingEdgeReport edges;         ///< what would become of blunt trailing edges
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together
@@ -56,6 +56,6 @@ std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t
 /// Returns ok when a volume can be meshed, cad when not. Collective; throws CollectiveError when the file
 /// cannot be read or check.json cannot be written, std::invalid_argument for a patch of the case that matches
 /// no face.
-ExitCode check_case(const parallel::Communicator& communicator, const Case& input);
+report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

@@ -1,7 +1,7 @@
 #include "pipeline/checkpoints.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -27,13 +27,14 @@ const char* name_of(SavedStage stage) {
 enum About : std::uint8_t { about_version, about_build, about_input, about_digest, about_keys, about_texts };
 
 /// The case with only what matters up to a stage; all else is as by default.
-Case relevant_part(const Case& input, SavedStage stage) {
-  Case part;
+cases::Case relevant_part(const cases::Case& input, SavedStage stage) {
+  cases::Case part;
   part.domain = input.domain;
   if (!part.domain.file.empty()) part.domain.file = std::filesystem::path(input.domain.file).filename();
   if (stage >= SavedStage::sizing) {
     part.patches = input.patches;
-    for (PatchRule& rule : part.patches) rule.type.reset();  // what they are to a solver is for the output
+    for (cases::PatchRule& rule : part.patches)
+      rule.type.reset();  // what they are to a solver is for the output
     part.narrow_faces = input.narrow_faces;
     part.sizing = input.sizing;
   } else {
@@ -94,15 +95,15 @@ std::string difference(const std::string& then, const std::string& now) {
 
 }  // namespace
 
-Checkpoints::Checkpoints(const parallel::Communicator& communicator, const Case& input,
+Checkpoints::Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
                          const RunIdentity& identity)
     : _communicator(communicator),
       _input(input),
       _identity(identity),
       _folder(input.output.directory + "/checkpoint"),
-      _writes(input.output.checkpoints != CheckpointUse::none),
-      _resumes(input.output.checkpoints == CheckpointUse::resume) {
-  if (_resumes && identity.is_known) refuse_foreign();
+      _writes(input.output.checkpoints != cases::CheckpointUse::none),
+      _resumes(input.output.checkpoints == cases::CheckpointUse::resume) {
+  if (_resumes && identity.is_known) refuse_imported();
 }
 
 std::string Checkpoints::path_of(SavedStage stage) const {
@@ -116,7 +117,7 @@ io::CheckpointLabel Checkpoints::label_of(SavedStage stage) const {
   label.about[about_build] = _identity.build.text();
   label.about[about_input] = _identity.input;
   label.about[about_digest] = _identity.digest.text();
-  label.about[about_keys] = resolved_yaml(relevant_part(_input, stage));
+  label.about[about_keys] = cases::resolved_yaml(relevant_part(_input, stage));
   parallel::Digester digester;
   digester.text(name_of(stage));
   for (const std::string& text : label.about) digester.text(text);
@@ -146,7 +147,7 @@ bool Checkpoints::is_of_this_case(SavedStage stage) const {
   }
 }
 
-void Checkpoints::refuse_foreign() const {
+void Checkpoints::refuse_imported() const {
   for (std::size_t s = 0; s < saved_stages; ++s) {
     const auto stage = static_cast<SavedStage>(s);
     std::optional<io::CheckpointLabel> found;

@@ -5,10 +5,10 @@
 /// whatever lies there, the mesh is that of the case.
 #pragma once
 
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/storage/task_store.hpp"
 #include "io/checkpoint_file.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/task_store.hpp"
-#include "pipeline/case.hpp"
 #include "pipeline/run_identity.hpp"
 
 #include <array>
@@ -27,7 +27,8 @@ class Checkpoints {
 public:
   /// Where a run is to go on, refuses checkpoints of another geometry or program: throws
   /// std::invalid_argument. Collective.
-  Checkpoints(const parallel::Communicator& communicator, const Case& input, const RunIdentity& identity);
+  Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
+              const RunIdentity& identity);
 
   /// What the stage has made in an earlier run, if that can be had; says why where it is there and cannot.
   /// Collective.
@@ -43,14 +44,14 @@ private:
   io::CheckpointLabel label_of(SavedStage stage) const;
   std::optional<io::CheckpointLabel> read_label(SavedStage stage) const;
   bool is_of_this_case(SavedStage stage) const;
-  void refuse_foreign() const;
+  void refuse_imported() const;
   void remove_needless(SavedStage kept);
   void remove_left_over(SavedStage found);
   void remove_volume_of(SavedStage kept);
   bool attempt(const std::function<void()>& work);
 
   const parallel::Communicator& _communicator;
-  const Case& _input;
+  const cases::Case& _input;
   RunIdentity _identity;
   std::string _folder;
   bool _writes = false, _resumes = false;

@@ -1,11 +1,11 @@
 #include "pipeline/command_line.hpp"
 
-#include "parallel/progress.hpp"
+#include "parallel/observation/progress.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/help_formatter.hpp"
 #include "pipeline/commands/usage_error.hpp"
-#include "pipeline/library_versions.hpp"
+#include "report/library_versions.hpp"
 
 #include <memory>
 #include <vector>
@@ -27,7 +27,8 @@ void add_loudness(CLI::App& app, Loudness& loudness) {
 
 void describe_program(CLI::App& program) {
   program.set_help_flag("-h,--help", "print this help and exit");
-  program.set_version_flag("--version", version_text, "print the versions of the program and its libraries");
+  program.set_version_flag("--version", report::version_text,
+                           "print the versions of the program and its libraries");
   program.require_subcommand(1);
   program.formatter(std::make_shared<HelpFormatter>());  // commands have it from here
   add_help_footer(program,
@@ -38,8 +39,9 @@ void describe_program(CLI::App& program) {
                    {"aeroloom quality out/mesh.pvtu", "how good it is"},
                    {"aeroloom convert out/mesh.pvtu mesh.cgns", "a mesh in the format of a solver"},
                    {"aeroloom run --help", "the options of a command, with more examples"}},
-                  {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::surface, ExitCode::volume,
-                   ExitCode::quality_gate, ExitCode::files, ExitCode::resources, ExitCode::bug});
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
+                   report::ExitCode::surface, report::ExitCode::volume, report::ExitCode::quality_gate,
+                   report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
 }
 
 }  // namespace
@@ -63,14 +65,14 @@ int run_command_line(const parallel::Communicator& communicator, int argc, char*
   } catch (const CLI::Success& asked) {
     return communicator.is_root() ? program.exit(asked) : 0;
   } catch (const CLI::ParseError& error) {
-    return fail(communicator, ExitCode::usage, explain_usage_error(program, error));
+    return fail(communicator, report::ExitCode::usage, explain_usage_error(program, error));
   }
   if (loudness.verbose && loudness.quiet)
-    return fail(communicator, ExitCode::usage, "--verbose and --quiet exclude each other");
+    return fail(communicator, report::ExitCode::usage, "--verbose and --quiet exclude each other");
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run(communicator, loudness);
   }
-  return static_cast<int>(ExitCode::bug);
+  return static_cast<int>(report::ExitCode::bug);
 }
 
 }  // namespace aeroloom::pipeline

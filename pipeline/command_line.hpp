@@ -1,7 +1,7 @@
 /// The command line: what the user types, and how the program ends.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 namespace aeroloom::pipeline {
 

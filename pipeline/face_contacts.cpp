@@ -1,6 +1,6 @@
+#include "aeroloom/sizing/model_sources.hpp"
+#include "aeroloom/sizing/ray_tree.hpp"
 #include "pipeline/check.hpp"
-#include "sizing/model_sources.hpp"
-#include "sizing/ray_tree.hpp"
 #include "surface/triangle_contact.hpp"
 
 #include <set>

@@ -1,8 +1,8 @@
 #include "pipeline/finished_surface.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "mesh/boundary_mesh.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
 #include "pipeline/finished_volume.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ using parallel::Communicator;
 namespace {
 
 /// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
-std::vector<PatchRow> table_of_patches(const Communicator& communicator, const cad::Model& model,
-                                       const mesh::DistributedMesh& surface,
-                                       const std::vector<mesh::PatchType>& types) {
+std::vector<report::PatchRow> table_of_patches(const Communicator& communicator, const cad::Model& model,
+                                               const mesh::DistributedMesh& surface,
+                                               const std::vector<mesh::PatchType>& types) {
   struct PieceRow {
     mesh::PieceId piece;
     cad::FaceId face;
@@ -40,12 +40,12 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const c
   }
   std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
   std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
-  std::vector<PatchRow> patches;
+  std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < model.patches().size(); ++p)
     patches.push_back({.name = model.patches()[p], .type = types.at(p)});
   std::vector<char> counted(model.face_count(), 0);
   for (const PieceRow& row : rows) {
-    PatchRow& patch = patches[model.face(row.face).patch];
+    report::PatchRow& patch = patches[model.face(row.face).patch];
     patch.inner = patch.inner || model.face(row.face).back != cad::no_entity;
     patch.area += row.area;
     patch.triangles += row.triangles;
@@ -58,7 +58,7 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator, const c
 }  // namespace
 
 void inspect_surface(const Communicator& communicator, const cad::Model& model, const std::string& what,
-                     const NumberedMesh& surface, RunRecord& record) {
+                     const NumberedMesh& surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
@@ -67,7 +67,7 @@ void inspect_surface(const Communicator& communicator, const cad::Model& model, 
 
 void adopt_boundary(const Communicator& communicator, const cad::Model& model,
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, RunRecord& record) {
+                    FinishedSurface& surface, report::RunRecord& record) {
   surface.mesh = mesh::boundary_mesh(communicator, volume, numbering);
   surface.numbering = mesh::number_mesh(communicator, surface.mesh);
   inspect_surface(communicator, model, "the improved surface mesh", surface, record);

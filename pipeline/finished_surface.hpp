@@ -1,11 +1,11 @@
 /// A finished surface: its numbers, its sizes, checks and figures.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "pipeline/run.hpp"
-#include "sizing/size_field.hpp"
 
 #include <string>
 
@@ -25,11 +25,11 @@ struct FinishedSurface : NumberedMesh {
 /// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
 /// require_valid().
 void inspect_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                     const std::string& what, const NumberedMesh& surface, RunRecord& record);
+                     const std::string& what, const NumberedMesh& surface, report::RunRecord& record);
 
 /// The surface follows a volume whose boundary was improved. Collective.
 void adopt_boundary(const parallel::Communicator& communicator, const cad::Model& model,
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, RunRecord& record);
+                    FinishedSurface& surface, report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

@@ -1,9 +1,9 @@
 #include "pipeline/finished_volume.hpp"
 
-#include "improve/pinned.hpp"
-#include "mesh/mixed_quality.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
+#include "aeroloom/attribution/pinned.hpp"
+#include "aeroloom/mesh/mixed_quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "pipeline/stage_log.hpp"
 
 #include <algorithm>
@@ -20,9 +20,10 @@ using parallel::Communicator;
 namespace {
 
 /// Tetrahedra by region, with the volumes that the check has found.
-std::vector<RegionRow> table_of_regions(const Communicator& communicator, const mesh::DistributedMesh& volume,
-                                        const std::vector<double>& volumes) {
-  std::vector<RegionRow> regions;
+std::vector<report::RegionRow> table_of_regions(const Communicator& communicator,
+                                                const mesh::DistributedMesh& volume,
+                                                const std::vector<double>& volumes) {
+  std::vector<report::RegionRow> regions;
   for (std::size_t r = 0; r < volume.regions.size(); ++r) {
     std::int64_t count = 0;
     for (const mesh::Piece& piece : volume.pieces) {
@@ -34,10 +35,11 @@ std::vector<RegionRow> table_of_regions(const Communicator& communicator, const 
 }
 
 /// Tells the elements that the CAD forces from those that improvement could not mend.
-void list_pinned(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
-                 const mesh::Numbering& numbering, const mesh::CellsBeyond& suspects, RunRecord& record) {
-  record.pinned = improve::find_pinned(communicator, volume, numbering, input.improve.target_angle, suspects,
-                                       input.improve.boundary_may_change);
+void list_pinned(const Communicator& communicator, const cases::Case& input,
+                 const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                 const mesh::CellsBeyond& suspects, report::RunRecord& record) {
+  record.pinned = attribution::find_pinned(communicator, volume, numbering, input.improve.target_angle,
+                                           suspects, input.improve.boundary_may_change);
   log_pinned(record);
 }
 
@@ -57,18 +59,19 @@ void require_valid(const std::string& what, const mesh::ValidityReport& report) 
   throw std::runtime_error(text);
 }
 
-void improve_volume(const Communicator& communicator, const Case& input, const improve::MeshSource& source,
-                    mesh::DistributedMesh& volume, RunRecord& record, parallel::TaskStore* tasks) {
+void improve_volume(const Communicator& communicator, const cases::Case& input,
+                    const improve::MeshSource& source, mesh::DistributedMesh& volume,
+                    report::RunRecord& record, parallel::TaskStore* tasks) {
   if (!input.improve.enabled) return;
   improve::ImproveOptions options = input.improve;
-  options.percentiles = percentile_targets(input.gate);
+  options.percentiles = cases::percentile_targets(input.gate);
   record.improve = improve::improve_mesh(communicator, volume, options, record.clock, source, tasks);
   log_improve(record);
 }
 
-void inspect_volume(const Communicator& communicator, const Case& input, const mesh::DistributedMesh& volume,
-                    const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                    RunRecord& record) {
+void inspect_volume(const Communicator& communicator, const cases::Case& input,
+                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                    const mesh::DistributedMesh* surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
   const mesh::ValidityReport validity = mesh::check_volume_mesh(communicator, volume, numbering, surface);
   require_valid("the volume mesh", validity);
@@ -76,32 +79,32 @@ void inspect_volume(const Communicator& communicator, const Case& input, const m
   record.counts = mesh::count_mesh(communicator, volume, numbering);
   record.regions_filled = table_of_regions(communicator, volume, validity.region_volumes);
   mesh::CellsBeyond suspects;
-  if (input.improve.enabled) suspects.limits = improve::suspect_angles(input.improve.target_angle);
+  if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
   record.quality = mesh::summarise_quality(communicator, volume, numbering, &suspects);
   if (input.gate.asks_for_cells()) record.cells = measure_cells(communicator, volume, numbering);
   if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, suspects, record);
   record.hash = mesh::hash_mesh(communicator, volume, numbering);
 }
 
-std::vector<PatchRow> table_of_patches(const Communicator& communicator,
-                                       const mesh::DistributedMesh& volume) {
-  struct Row {
+std::vector<report::PatchRow> table_of_patches(const Communicator& communicator,
+                                               const mesh::DistributedMesh& volume) {
+  struct PatchArea {
     mesh::PieceId piece;
     std::int32_t patch;
     double area;
     std::int64_t triangles;
 
     static constexpr auto fields() {
-      return std::tuple(&Row::piece, &Row::patch, &Row::area, &Row::triangles);
+      return std::tuple(&PatchArea::piece, &PatchArea::patch, &PatchArea::area, &PatchArea::triangles);
     }
   };
-  std::vector<Row> mine;
+  std::vector<PatchArea> mine;
   for (const mesh::Piece& piece : volume.pieces) {
-    std::vector<Row> rows(volume.patches.size());
+    std::vector<PatchArea> rows(volume.patches.size());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const mesh::LocalIndex* v = piece.boundary_triangle(t);
       const geometry::Vec3 a = piece.point(v[0]);
-      Row& row = rows.at(piece.triangle_patch[t]);
+      PatchArea& row = rows.at(piece.triangle_patch[t]);
       row.area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
       ++row.triangles;
     }
@@ -110,23 +113,23 @@ std::vector<PatchRow> table_of_patches(const Communicator& communicator,
         mine.push_back({piece.id, static_cast<std::int32_t>(p), rows[p].area, rows[p].triangles});
     }
   }
-  std::vector<Row> rows = communicator.all_gather_items<Row>(mine);
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+  std::vector<PatchArea> rows = communicator.all_gather_items<PatchArea>(mine);
+  std::sort(rows.begin(), rows.end(), [](const PatchArea& a, const PatchArea& b) {
     return std::tie(a.piece, a.patch) < std::tie(b.piece, b.patch);
   });
-  std::vector<PatchRow> patches;
+  std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < volume.patches.size(); ++p) {
     const auto type = p < volume.patch_types.size() ? volume.patch_types[p] : mesh::PatchType::wall;
     patches.push_back({.name = volume.patches[p], .type = type, .inner = type == mesh::PatchType::interior});
   }
-  for (const Row& row : rows) {
+  for (const PatchArea& row : rows) {
     patches[row.patch].area += row.area;
     patches[row.patch].triangles += row.triangles;
   }
   return patches;
 }
 
-void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions) {
+void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions) {
   for (cad::RegionId r = 0; r < model.region_count(); ++r)
     regions.at(static_cast<std::size_t>(r)).cad_volume = model.region_volume(r);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
@@ -137,7 +140,8 @@ void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions) {
 namespace {
 
 /// What is said of a region that does not have the volume of the CAD's.
-std::string describe_missed_volume(const RegionRow& region, double most, const RunRecord& record) {
+std::string describe_missed_volume(const report::RegionRow& region, double most,
+                                   const report::RunRecord& record) {
   return fmt::format(
       "region '{}' has a volume of {:.6g}, in the CAD {:.6g}, {:.3g} of it apart, not {:g} at most; remedy: "
       "smaller sizes (sizing.minimum {:.3g} and sizing.surface_maximum {:.3g} were used)",
@@ -147,17 +151,18 @@ std::string describe_missed_volume(const RegionRow& region, double most, const R
 
 /// Whether a region is so few of the smallest elements wide that these explain what it misses: the square of
 /// their share of its breadth, as chords of arcs do.
-bool is_coarse(const RegionRow& region, double deviation, const RunRecord& record) {
+bool is_coarse(const report::RegionRow& region, double deviation, const report::RunRecord& record) {
   const double chord = record.sizes.minimum / std::cbrt(region.cad_volume);
   return deviation <= chord * chord;
 }
 
 /// The region that misses the volume of the CAD's most, among those that are coarse or among the others; a
 /// far field may be coarse.
-const RegionRow* most_missed(const QualityGate& gate, const RunRecord& record, bool coarse) {
-  const RegionRow* worst = nullptr;
+const report::RegionRow* most_missed(const cases::QualityGate& gate, const report::RunRecord& record,
+                                     bool coarse) {
+  const report::RegionRow* worst = nullptr;
   double most = gate.area_deviation;
-  for (const RegionRow& region : record.regions_filled) {
+  for (const report::RegionRow& region : record.regions_filled) {
     if (region.in_far_field || region.cad_volume <= 0) continue;
     const double deviation = std::abs(region.volume / region.cad_volume - 1);
     if (deviation > most && is_coarse(region, deviation, record) == coarse) most = deviation, worst = &region;
@@ -165,17 +170,17 @@ const RegionRow* most_missed(const QualityGate& gate, const RunRecord& record, b
   return worst;
 }
 
-std::string missed_volume(const QualityGate& gate, const RunRecord& record) {
-  const RegionRow* worst = most_missed(gate, record, false);
+std::string missed_volume(const cases::QualityGate& gate, const report::RunRecord& record) {
+  const report::RegionRow* worst = most_missed(gate, record, false);
   if (worst == nullptr) return {};
   return "improve.gate.area_deviation: " + describe_missed_volume(*worst, gate.area_deviation, record);
 }
 
 /// What is said where the walls do not have the area of the CAD; empty where they have, or there is none.
-std::string missed_area(const QualityGate& gate, const RunRecord& record) {
+std::string missed_area(const cases::QualityGate& gate, const report::RunRecord& record) {
   double area = 0, cad = 0, most = 0;
-  const PatchRow* worst = nullptr;
-  for (const PatchRow& patch : record.patches) {
+  const report::PatchRow* worst = nullptr;
+  for (const report::PatchRow& patch : record.patches) {
     if (patch.type != mesh::PatchType::wall || patch.cad_area <= 0) continue;
     area += patch.area;
     cad += patch.cad_area;
@@ -196,21 +201,21 @@ std::string missed_area(const QualityGate& gate, const RunRecord& record) {
 
 }  // namespace
 
-std::string coarse_region(const QualityGate& gate, const RunRecord& record) {
-  const RegionRow* region = most_missed(gate, record, true);
+std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record) {
+  const report::RegionRow* region = most_missed(gate, record, true);
   if (region == nullptr) return {};
   return describe_missed_volume(*region, gate.area_deviation, record) +
          "; it is a few of the smallest elements wide";
 }
 
-void require_quality(const QualityGate& gate, const RunRecord& record) {
+void require_quality(const cases::QualityGate& gate, const report::RunRecord& record) {
   std::string missed =
-      missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
+      cases::missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
   if (const std::string area = missed_area(gate, record); !area.empty())
     missed += (missed.empty() ? "" : "\n") + area;
   if (const std::string volume = missed_volume(gate, record); !volume.empty())
     missed += (missed.empty() ? "" : "\n") + volume;
-  if (!missed.empty()) throw StageFailure("quality gate", ExitCode::quality_gate, missed);
+  if (!missed.empty()) throw report::StageFailure("quality gate", report::ExitCode::quality_gate, missed);
 }
 
 }  // namespace aeroloom::pipeline

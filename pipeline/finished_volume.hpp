@@ -1,9 +1,9 @@
 /// What is done with a volume mesh once it is there: improvement, checks, figures.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "parallel/communicator.hpp"
-#include "pipeline/case.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "pipeline/run.hpp"
 
 #include <string>
@@ -16,28 +16,28 @@ namespace aeroloom::pipeline {
 void require_valid(const std::string& what, const mesh::ValidityReport& report);
 
 /// Improves the mesh as the case asks for; `tasks` as in improve::improve_mesh. Collective.
-void improve_volume(const parallel::Communicator& communicator, const Case& input,
-                    const improve::MeshSource& source, mesh::DistributedMesh& volume, RunRecord& record,
-                    parallel::TaskStore* tasks = nullptr);
+void improve_volume(const parallel::Communicator& communicator, const cases::Case& input,
+                    const improve::MeshSource& source, mesh::DistributedMesh& volume,
+                    report::RunRecord& record, parallel::TaskStore* tasks = nullptr);
 
 /// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
 /// on record; `surface` may be null. Collective. Throws as require_valid().
-void inspect_volume(const parallel::Communicator& communicator, const Case& input,
+void inspect_volume(const parallel::Communicator& communicator, const cases::Case& input,
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    const mesh::DistributedMesh* surface, RunRecord& record);
+                    const mesh::DistributedMesh* surface, report::RunRecord& record);
 
 /// What the regions of the model hold, for comparison.
-void add_cad_volumes(const cad::Model& model, std::vector<RegionRow>& regions);
+void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);
 
 /// Triangles and areas of the patches of a mesh from a file; there is no CAD to compare them with.
 /// Collective.
-std::vector<PatchRow> table_of_patches(const parallel::Communicator& communicator,
-                                       const mesh::DistributedMesh& volume);
+std::vector<report::PatchRow> table_of_patches(const parallel::Communicator& communicator,
+                                               const mesh::DistributedMesh& volume);
 
 /// What is to be warned of: a region that misses the volume of the CAD's by more than the gate allows, but is
 /// so few of the smallest elements wide that these explain it. Empty where there is none.
-std::string coarse_region(const QualityGate& gate, const RunRecord& record);
+std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record);
 /// Throws StageFailure when the finished mesh misses the limits.
-void require_quality(const QualityGate& gate, const RunRecord& record);
+void require_quality(const cases::QualityGate& gate, const report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

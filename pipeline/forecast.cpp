@@ -1,7 +1,7 @@
 #include "pipeline/forecast.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/memory_limit.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/observation/memory_limit.hpp"
 #include "partition/piece_size.hpp"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ study::TaskGroup equal_tasks(const char* kind, double seconds, double elements, 
 }  // namespace
 
 study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::PredictedCounts& counts,
-                                       const Case& input) {
+                                       const cases::Case& input) {
   const double held = measured.stages.empty() ? 0 : measured.stages.back().own_bytes;
   measured.ranks = 1;
   study::StageCosts surface{.name = "surface", .own_bytes = held};
@@ -95,7 +95,7 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks) {
   return base_bytes * ranks + bytes_per_tetrahedron * counts.tetrahedra;
 }
 
-void require_memory(const parallel::Communicator& communicator, const SizedDomain& sized,
+void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
                     std::int64_t bytes_of_node) {
   const auto limit = static_cast<double>(communicator.minimum(bytes_of_node));
   if (limit <= 0) return;

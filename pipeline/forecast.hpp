@@ -1,10 +1,10 @@
 /// What a run will cost, from predicted counts and constants that runs have shown (docs/usage.md).
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "pipeline/case.hpp"
-#include "pipeline/size_domain.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "study/prediction_files.hpp"
 
 #include <cstdint>
@@ -20,11 +20,11 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks);
 /// equal pieces of predicted cost that exchange nothing. Throws std::runtime_error where there is no record
 /// of those.
 study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::PredictedCounts& counts,
-                                       const Case& input);
+                                       const cases::Case& input);
 
 /// Ends a run that is predicted to take more than `bytes_of_node` on its fullest node, and says what would
 /// fit: CollectiveError (resources). Nothing where the limit is 0. Collective.
-void require_memory(const parallel::Communicator& communicator, const SizedDomain& sized,
+void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
                     std::int64_t bytes_of_node);
 
 }  // namespace aeroloom::pipeline

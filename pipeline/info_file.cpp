@@ -1,11 +1,11 @@
 #include "pipeline/info_file.hpp"
 
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/read_mesh.hpp"
-#include "parallel/collective_error.hpp"
-#include "pipeline/case.hpp"
 #include "pipeline/info_text.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/text_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -81,9 +81,9 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
     Json json = {{"schema_version", info_schema_version}, {"file", request.file}};
     json["bytes"] = ignored ? Json() : Json(bytes);
     json.update(facts);
-    print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    report::print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
-    print_text(
+    report::print_text(
         fmt::format("'{}'{}: {}", request.file, ignored ? "" : fmt::format(", {} bytes", bytes), text));
   }
 }
@@ -98,7 +98,7 @@ void show_mesh(const Communicator& communicator, const InfoRequest& request) {
 
 void show_case(const Communicator& communicator, const InfoRequest& request) {
   parallel::agree(communicator, [&] {
-    const std::string resolved = resolved_yaml(read_case(request.file, {}));
+    const std::string resolved = cases::resolved_yaml(cases::read_case(request.file, {}));
     show(communicator, request, {{"kind", "case"}, {"configuration", resolved}},
          "a case; with every value spelled out:\n" + resolved + "\n");
   });
@@ -107,7 +107,7 @@ void show_case(const Communicator& communicator, const InfoRequest& request) {
 void show_cad(const Communicator& communicator, const InfoRequest& request) {
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    const cad::CadFacts facts = look_contained(request.file);
+    const cad::CadFacts facts = domain::look_sandboxed(request.file);
     show(communicator, request, info_json(facts), info_text(facts));
   });
 }

@@ -1,7 +1,7 @@
 /// What a file is: a mesh, CAD, or a case.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #include "pipeline/info_text.hpp"
 
+#include "domain/place_text.hpp"
 #include "io/read_mesh.hpp"
-#include "pipeline/change_json.hpp"
-#include "pipeline/place_text.hpp"
+#include "report/change_json.hpp"
 
 #include <algorithm>
 
@@ -19,8 +19,8 @@ constexpr std::size_t shown_names = 20;
 
 std::string box_text(const geometry::Box& box) {
   const geometry::Vec3 size = box.size();
-  return fmt::format("{} to {}, {:.6g} x {:.6g} x {:.6g}", place(box.low), place(box.high), size.x, size.y,
-                     size.z);
+  return fmt::format("{} to {}, {:.6g} x {:.6g} x {:.6g}", domain::place(box.low), domain::place(box.high),
+                     size.x, size.y, size.z);
 }
 
 geometry::Box scaled(const geometry::Box& box, double factor) {
@@ -50,7 +50,7 @@ std::string names_text(const char* what, const std::vector<cad::NamedFaces>& lis
 Json faces_json(const std::vector<cad::FaceFacts>& faces) {
   Json json = Json::array();
   for (const cad::FaceFacts& face : faces) {
-    Json row = face_row(face.name, face.place);
+    Json row = report::face_row(face.name, face.place);
     for (const auto& [key, value] :
          {std::pair("part", face.part), {"layer", face.layer}, {"colour", face.colour}}) {
       if (!value.empty()) row[key] = value;
@@ -68,7 +68,7 @@ std::string faces_text(const std::vector<cad::FaceFacts>& faces) {
   for (std::size_t i = 0; i < shown; ++i) {
     const cad::FacePlace& at = faces[i].place;
     text += fmt::format("{:<{}}  {:>10.4g}  {:<32}  {} to {}\n", faces[i].name, width, at.area,
-                        place(at.centre), place(at.box.low), place(at.box.high));
+                        domain::place(at.centre), domain::place(at.box.low), domain::place(at.box.high));
   }
   if (faces.size() > shown) text += fmt::format("and {} more: --json has all\n", faces.size() - shown);
   return text;
@@ -86,7 +86,7 @@ Json info_json(const io::Assembled& file, const MeshFacts& facts) {
                {"tetrahedra", mesh.cell_count(io::CellShape::tetrahedron)},
                {"pyramids", mesh.cell_count(io::CellShape::pyramid)},
                {"prisms", mesh.cell_count(io::CellShape::prism)},
-               {"bounds", to_json(facts.bounds)}};
+               {"bounds", report::to_json(facts.bounds)}};
   json["regions"] = Json::array();
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& cells = mesh.region_cells[r];
@@ -128,21 +128,22 @@ std::string info_text(const io::Assembled& file, const MeshFacts& facts) {
 
 Json info_json(const cad::CadFacts& facts) {
   const bool declared = !facts.unit_name.empty();
-  return {{"kind", "cad"},
-          {"format", facts.format},
-          {"unit", declared ? Json(facts.unit_name) : Json()},
-          {"unit_in_metres", declared ? Json(facts.unit_in_metres) : Json()},
-          {"bounds", to_json(facts.bounds)},
-          {"bounds_in_metres", declared ? to_json(scaled(facts.bounds, facts.unit_in_metres)) : Json()},
-          {"solids", facts.solids},
-          {"shells", facts.shells},
-          {"faces", facts.faces},
-          {"edges", facts.edges},
-          {"parts", names_json(facts.parts)},
-          {"face_names", names_json(facts.face_names)},
-          {"layers", names_json(facts.layers)},
-          {"colours", names_json(facts.colours)},
-          {"face_table", faces_json(facts.face_table)}};
+  return {
+      {"kind", "cad"},
+      {"format", facts.format},
+      {"unit", declared ? Json(facts.unit_name) : Json()},
+      {"unit_in_metres", declared ? Json(facts.unit_in_metres) : Json()},
+      {"bounds", report::to_json(facts.bounds)},
+      {"bounds_in_metres", declared ? report::to_json(scaled(facts.bounds, facts.unit_in_metres)) : Json()},
+      {"solids", facts.solids},
+      {"shells", facts.shells},
+      {"faces", facts.faces},
+      {"edges", facts.edges},
+      {"parts", names_json(facts.parts)},
+      {"face_names", names_json(facts.face_names)},
+      {"layers", names_json(facts.layers)},
+      {"colours", names_json(facts.colours)},
+      {"face_table", faces_json(facts.face_table)}};
 }
 
 std::string info_text(const cad::CadFacts& facts) {

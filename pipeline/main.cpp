@@ -1,11 +1,11 @@
 /// The program aeroloom.
-#include "parallel/communicator.hpp"
-#include "parallel/environment.hpp"
-#include "parallel/termination.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/report/exit_code.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
+#include "parallel/communication/environment.hpp"
+#include "parallel/communication/termination.hpp"
 #include "pipeline/command_line.hpp"
-#include "pipeline/exit_code.hpp"
-#include "pipeline/load_domain.hpp"
-#include "volume/volume_mesher.hpp"
 
 #include <csignal>
 #include <cstdio>
@@ -25,7 +25,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   volume::register_volume_tasks();
-  pipeline::register_geometry_tasks();
+  domain::register_geometry_tasks();
   // A file that may not grow further is an error where it is written.
   std::signal(SIGXFSZ, SIG_IGN);
   parallel::hold_termination_signals();
@@ -34,6 +34,6 @@ int main(int argc, char** argv) {
   } catch (const std::system_error& error) {
     // The system has no process or no memory for us: nothing has been started.
     std::fprintf(stderr, "error: %s\n", error.what());
-    return static_cast<int>(pipeline::ExitCode::resources);
+    return static_cast<int>(report::ExitCode::resources);
   }
 }

@@ -1,6 +1,6 @@
 #include "pipeline/output_lock.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <array>
 #include <cerrno>

@@ -1,8 +1,8 @@
 /// One run at a time in a folder.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/file_descriptor.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/storage/file_descriptor.hpp"
 
 #include <string>
 

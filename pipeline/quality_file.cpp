@@ -1,11 +1,11 @@
 #include "pipeline/quality_file.hpp"
 
+#include "aeroloom/mesh/mixed_quality.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/read_mesh.hpp"
-#include "mesh/mixed_quality.hpp"
-#include "parallel/collective_error.hpp"
-#include "pipeline/mixed_quality_json.hpp"
-#include "pipeline/mixed_quality_text.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/mixed_quality_json.hpp"
+#include "report/mixed_quality_text.hpp"
+#include "report/text_file.hpp"
 
 #include <cstdio>
 
@@ -72,7 +72,7 @@ Json report_json(const std::string& path, const io::Assembled& file, const mesh:
             {"stray_faces", defects.stray_faces},
             {"repeated_faces", defects.repeated_faces},
             {"open_faces", defects.open_faces}}},
-          {"quality", to_json(quality)},
+          {"quality", report::to_json(quality)},
           {"gate", {{"passed", missed.empty()}, {"missed", missed}}}};
 }
 
@@ -84,21 +84,21 @@ std::string dump(const Json& json) {
 }  // namespace
 
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
-                         const QualityGate& gate) {
+                         const cases::QualityGate& gate) {
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
   const mesh::DistributedMesh& pieces = *file.mesh.pieces;
   const mesh::Numbering& numbering = *file.mesh.numbering;
   const mesh::MixedQuality quality = mesh::measure_quality(communicator, pieces, numbering,
                                                            mesh::link_faces(communicator, pieces, numbering));
-  std::string missed = missed_limits(gate, quality);
+  std::string missed = cases::missed_limits(gate, quality);
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     const std::string json = dump(report_json(request.file, file, quality, missed));
-    if (!request.json_file.empty()) write_text(request.json_file, json);
+    if (!request.json_file.empty()) report::write_text(request.json_file, json);
     if (request.print_json) {
       fmt::print("{}", json);
     } else {
-      fmt::print("'{}': {}\n{}", request.file, io::describe(file), quality_text(file.mesh, quality));
+      fmt::print("'{}': {}\n{}", request.file, io::describe(file), report::quality_text(file.mesh, quality));
     }
     std::fflush(stdout);
   });

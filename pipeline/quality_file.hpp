@@ -1,8 +1,8 @@
 /// The quality of a mesh from a file.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "pipeline/quality_gate.hpp"
+#include "aeroloom/case/quality_gate.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <string>
 
@@ -18,6 +18,6 @@ struct QualityRequest {
 /// where asked for. Returns the limits of the gate that the mesh misses, the same on every rank; empty: none.
 /// Collective. Throws CollectiveError.
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
-                         const QualityGate& gate);
+                         const cases::QualityGate& gate);
 
 }  // namespace aeroloom::pipeline

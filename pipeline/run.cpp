@@ -1,20 +1,20 @@
 #include "pipeline/run.hpp"
 
-#include "io/vtk/vtk_writer.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/io/vtk/vtk_writer.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/pictures.hpp"
 #include "pipeline/run_identity.hpp"
-#include "pipeline/size_domain.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
 #include "pipeline/stage_products.hpp"
 #include "pipeline/write_outputs.hpp"
+#include "report/pictures.hpp"
 
 #include <optional>
 #include <type_traits>
@@ -46,36 +46,37 @@ using volume::Decomposition;
 /// one, else made and kept; later stages cannot tell which.
 class CaseRun {
 public:
-  CaseRun(const Communicator& communicator, const Case& input, RunRecord& record)
+  CaseRun(const Communicator& communicator, const cases::Case& input, report::RunRecord& record)
       : _communicator(communicator), _input(input), _record(record) {}
 
   void run() {
-    const cad::Model domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
-    SizedDomain sized = stage("sizing", ExitCode::cad, [&] {
-      SizedDomain found = find_or_build_sizes(domain);
-      require_walls_apart(found);
+    const cad::Model domain = stage("geometry", report::ExitCode::cad, [&] { return load_geometry(); });
+    domain::SizedDomain sized = stage("sizing", report::ExitCode::cad, [&] {
+      domain::SizedDomain found = find_or_build_sizes(domain);
+      domain::require_walls_apart(found);
       require_memory(_communicator, found, _input.memory_limit);
       return found;
     });
     FinishedSurface surface =
-        stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
-    const PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
+        stage("surface", report::ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
+    const report::PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
     mesh::DistributedMesh volume =
-        with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
-                                 [&] { return find_or_build_volume(sized, surface); });
+        report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
+                                         [&] { return find_or_build_volume(sized, surface); });
     const mesh::Numbering numbering =
-        stage("inspect", ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
+        stage("inspect", report::ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
     volume.patch_types = _record.patch_types;
-    stage("output", ExitCode::files, [&] {
+    stage("output", report::ExitCode::files, [&] {
       write(volume, numbering, surface);
-      if (_input.output.pictures) _record.pictures = pictures_or_warning(_communicator, &volume, pictured);
+      if (_input.output.pictures)
+        _record.pictures = report::pictures_or_warning(_communicator, &volume, pictured);
     });
     require_quality(_input.gate, _record);
   }
 
 private:
   template <class Work>
-  std::invoke_result_t<Work> stage(const std::string& name, ExitCode code, Work work) {
+  std::invoke_result_t<Work> stage(const std::string& name, report::ExitCode code, Work work) {
     return run_stage(_record, name, code, work);
   }
 
@@ -98,7 +99,7 @@ private:
       parallel::log_info(fmt::format("geometry: '{}', {} bytes, hash {}", _input.domain.file, _identity.bytes,
                                      _record.input_hash));
     }
-    TypedPatches patches = apply_patch_rules(find_or_load_domain(), _input.patches);
+    cases::TypedPatches patches = cases::apply_patch_rules(find_or_load_domain(), _input.patches);
     _record.patch_types = std::move(patches.types);
     if (_communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
@@ -116,8 +117,7 @@ private:
       if (_communicator.is_root()) _record.domain = std::move(domain->report);
       return std::move(domain->model);
     }
-    cad::Model model =
-        load_domain(_communicator, _input.domain, _record.clock, _record.domain, _input.geometry_sabotage);
+    cad::Model model = domain::load_domain(_communicator, _input.domain, _record.clock, _record.domain);
     require_same_file(_communicator, _identity, _input);
     _checkpoints->keep(SavedStage::geometry, [&] {
       return _communicator.is_root() ? pack_domain_product({model, _record.domain}) : io::CheckpointDraft();
@@ -137,25 +137,26 @@ private:
 
   // --- sizes, and the model they are for
 
-  SizedDomain find_or_build_sizes(const cad::Model& domain) {
+  domain::SizedDomain find_or_build_sizes(const cad::Model& domain) {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::sizing, "sizing")) {
-      SizedDomain sized = unpack_sizes(_communicator, std::move(*found), domain);
+      domain::SizedDomain sized = unpack_sizes(_communicator, std::move(*found), domain);
       note_sizes(sized);
       return sized;
     }
-    SizedDomain sized = build_sizes(domain, Simplification::of(_input));
+    domain::SizedDomain sized = build_sizes(domain, domain::Simplification::of(_input));
     _checkpoints->keep(SavedStage::sizing,
                        [&] { return _communicator.is_root() ? pack_sizes(sized) : io::CheckpointDraft(); });
     return sized;
   }
 
-  SizedDomain build_sizes(const cad::Model& domain, const Simplification& simplification) {
-    SizedDomain sized = size_domain(_communicator, domain, _input.sizing, simplification, _record.clock);
+  domain::SizedDomain build_sizes(const cad::Model& domain, const domain::Simplification& simplification) {
+    domain::SizedDomain sized =
+        domain::size_domain(_communicator, domain, _input.sizing, simplification, _record.clock);
     note_sizes(sized);
     return sized;
   }
 
-  void note_sizes(const SizedDomain& sized) {
+  void note_sizes(const domain::SizedDomain& sized) {
     _record.sizes = sized.sizes;
     _record.size_field_leaves = sized.field.leaf_count();
     _record.face_names.clear();
@@ -173,13 +174,14 @@ private:
 
   // --- surface
 
-  FinishedSurface find_or_build_surface(const cad::Model& domain, SizedDomain& sized) {
+  FinishedSurface find_or_build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::surface, "surface")) {
       const cad::Changes joined_before = sized.joined.changes;
-      const bool closed_before = has_closed(sized.edges);
+      const bool closed_before = domain::has_closed(sized.edges);
       if (std::optional<surface::SurfaceMesh> known =
               unpack_surface(_communicator, std::move(*found), domain, sized)) {
-        if (sized.joined.changes.size() != joined_before.size() || has_closed(sized.edges) != closed_before)
+        if (sized.joined.changes.size() != joined_before.size() ||
+            domain::has_closed(sized.edges) != closed_before)
           note_sizes(sized);
         _record.clock.add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
         return finish_surface(sized.model, std::move(*known));
@@ -188,10 +190,10 @@ private:
       parallel::log_info("checkpoint: that surface is of other sizes: done anew");
     }
     const std::size_t joined_before = sized.joined.groups.size();
-    const bool closed_before = has_closed(sized.edges);
+    const bool closed_before = domain::has_closed(sized.edges);
     surface::SurfaceMesh made = build_surface_or_advise(domain, sized);
     const bool sizes_are_other =
-        sized.joined.groups.size() != joined_before || has_closed(sized.edges) != closed_before;
+        sized.joined.groups.size() != joined_before || domain::has_closed(sized.edges) != closed_before;
     FinishedSurface finished = finish_surface(sized.model, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
       return pack_surface(_communicator,
@@ -211,15 +213,15 @@ private:
     return finished;
   }
 
-  surface::SurfaceMesh build_surface(const SizedDomain& sized) {
+  surface::SurfaceMesh build_surface(const domain::SizedDomain& sized) {
     return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface, _record.clock,
                                  _checkpoints->tasks(SavedStage::surface));
   }
 
   /// The surface of the sized domain. Where joined faces or closed edges cannot be meshed, that of the model
   /// as it was, and `sized` becomes its.
-  surface::SurfaceMesh build_surface(const cad::Model& domain, SizedDomain& sized) {
-    if (sized.joined.groups.empty() && !has_closed(sized.edges)) return build_surface(sized);
+  surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
+    if (sized.joined.groups.empty() && !domain::has_closed(sized.edges)) return build_surface(sized);
     try {
       return build_surface(sized);
     } catch (const parallel::CollectiveError& error) {
@@ -228,12 +230,12 @@ private:
     } catch (const surface::SurfaceError& error) {
       log_surface_again(error.what());
     }
-    sized = build_sizes(domain, {NarrowFaces::keep, cad::TrailingEdges::keep});
+    sized = build_sizes(domain, {cases::NarrowFaces::keep, cad::TrailingEdges::keep});
     return build_surface(sized);
   }
 
   /// As above; what fails near trailing edges that were closed may not fail where they stay.
-  surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, SizedDomain& sized) {
+  surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, domain::SizedDomain& sized) {
     const bool sharpened = _input.domain.trailing_edges.treatment == cad::TrailingEdges::sharpen;
     const auto advised = [&](const std::string& text) {
       return text +
@@ -254,31 +256,33 @@ private:
   // --- volume
 
   /// Improved, where the case asks for that.
-  mesh::DistributedMesh find_or_build_volume(const SizedDomain& sized, const FinishedSurface& surface) {
+  mesh::DistributedMesh find_or_build_volume(const domain::SizedDomain& sized,
+                                             const FinishedSurface& surface) {
     std::optional<io::CheckpointContent> improved, filled;
-    stage("decompose", ExitCode::volume, [&] {
+    stage("decompose", report::ExitCode::volume, [&] {
       if (_input.improve.enabled) improved = find(SavedStage::improve, "improve");
       if (!improved) filled = find(SavedStage::volume, "volume");
     });
     if (improved) {
-      stage("volume", ExitCode::volume, [] {});
+      stage("volume", report::ExitCode::volume, [] {});
       _record.resumed.insert(_record.resumed.end() - 1, "volume");
-      return stage("improve", ExitCode::volume, [&] {
+      return stage("improve", report::ExitCode::volume, [&] {
         mesh::DistributedMesh volume = adopt(std::move(*improved));
         log_improve(_record);
         return volume;
       });
     }
     mesh::DistributedMesh volume =
-        filled ? stage("volume", ExitCode::volume, [&] { return adopt(std::move(*filled)); })
+        filled ? stage("volume", report::ExitCode::volume, [&] { return adopt(std::move(*filled)); })
                : build_volume(surface);
-    stage("improve", ExitCode::volume, [&] { improve(sized.model, surface, volume); });
+    stage("improve", report::ExitCode::volume, [&] { improve(sized.model, surface, volume); });
     return volume;
   }
 
   mesh::DistributedMesh build_volume(const FinishedSurface& surface) {
-    Decomposition decomposition = stage("decompose", ExitCode::volume, [&] { return decompose(surface); });
-    return stage("volume", ExitCode::volume, [&] {
+    Decomposition decomposition =
+        stage("decompose", report::ExitCode::volume, [&] { return decompose(surface); });
+    return stage("volume", report::ExitCode::volume, [&] {
       mesh::DistributedMesh volume = fill(surface, std::move(decomposition));
       log_volume(_record);
       keep_volume(SavedStage::volume, volume);
@@ -343,7 +347,7 @@ private:
     inspect_volume(_communicator, _input, volume, numbering, &surface.mesh, _record);
     add_cad_volumes(model, _record.regions_filled);
     const parallel::ScopedCpu check(_record.clock, parallel::ScopedCpu::As::check);
-    _record.conformity = measure_conformity(_communicator, volume, surface.field);
+    _record.conformity = attribution::measure_conformity(_communicator, volume, surface.field);
     return numbering;
   }
 
@@ -376,15 +380,15 @@ private:
   }
 
   const Communicator& _communicator;
-  const Case& _input;
-  RunRecord& _record;
+  const cases::Case& _input;
+  report::RunRecord& _record;
   RunIdentity _identity;
   std::optional<Checkpoints> _checkpoints;  // from the first stage on
 };
 
 }  // namespace
 
-void run_case(const Communicator& communicator, const Case& input, RunRecord& record) {
+void run_case(const Communicator& communicator, const cases::Case& input, report::RunRecord& record) {
   CaseRun(communicator, input, record).run();
 }
 

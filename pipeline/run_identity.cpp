@@ -1,7 +1,7 @@
 #include "pipeline/run_identity.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "pipeline/library_versions.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "report/library_versions.hpp"
 
 #include <array>
 #include <filesystem>
@@ -32,10 +32,10 @@ bool is_readable(const std::string& path) {
 
 }  // namespace
 
-RunIdentity identify_run(const parallel::Communicator& communicator, const Case& input) {
+RunIdentity identify_run(const parallel::Communicator& communicator, const cases::Case& input) {
   RunIdentity identity;
-  identity.version = "aeroloom " + program_version();
-  for (const auto& [library, version] : library_versions())
+  identity.version = "aeroloom " + report::program_version();
+  for (const auto& [library, version] : report::library_versions())
     identity.version.append(", ").append(library).append(" ").append(version);
   std::vector<parallel::Digest> digests(2);
   std::vector<std::uint8_t> known{1};
@@ -54,10 +54,10 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const Case&
   identity.is_known = known[0] != 0;
   identity.build = digests[0];
   if (input.domain.file.empty()) {
-    Case dimensions;
+    cases::Case dimensions;
     dimensions.domain.transport = input.domain.transport;
     identity.input = "built-in aircraft";
-    identity.digest = parallel::Digester().text(resolved_yaml(dimensions)).result();
+    identity.digest = parallel::Digester().text(cases::resolved_yaml(dimensions)).result();
   } else {
     identity.input = std::filesystem::path(input.domain.file).filename().string();
     identity.digest = digests[1];
@@ -66,7 +66,7 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const Case&
 }
 
 void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
-                       const Case& input) {
+                       const cases::Case& input) {
   parallel::agree(communicator, [&] {
     if (!communicator.is_root() || input.domain.file.empty() || !identity.is_known) return;
     if (is_readable(input.domain.file) && digest_of_file(input.domain.file) == identity.digest) return;

@@ -1,9 +1,9 @@
 /// What the result of a run depends on besides its configuration: the program and the geometry.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/digest.hpp"
-#include "pipeline/case.hpp"
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/storage/digest.hpp"
 
 #include <cstdint>
 #include <string>
@@ -20,11 +20,11 @@ struct RunIdentity {
 };
 
 /// Rank 0 reads the files. That a geometry file cannot be read is for the reader to tell. Collective.
-RunIdentity identify_run(const parallel::Communicator& communicator, const Case& input);
+RunIdentity identify_run(const parallel::Communicator& communicator, const cases::Case& input);
 
 /// After the geometry was read: throws CollectiveError (files) where the file is no longer the one that was
 /// identified. Collective.
 void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
-                       const Case& input);
+                       const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

@@ -27,14 +27,14 @@ std::string current_stage() {
   return stage_under_way().name;
 }
 
-ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage) {
+report::ExitCode code_of(const parallel::CollectiveError& error, report::ExitCode of_stage) {
   switch (error.kind()) {
     case parallel::FailureKind::files:
-      return ExitCode::files;
+      return report::ExitCode::files;
     case parallel::FailureKind::resources:
-      return ExitCode::resources;
+      return report::ExitCode::resources;
     case parallel::FailureKind::bug:
-      return ExitCode::bug;
+      return report::ExitCode::bug;
     case parallel::FailureKind::input:
       break;
   }

@@ -1,10 +1,10 @@
 /// Stages of a run: their clocks, and how what goes wrong in them ends the program.
 #pragma once
 
-#include "parallel/collective_error.hpp"
-#include "parallel/contained.hpp"
-#include "parallel/memory_limit.hpp"
-#include "pipeline/exit_code.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "aeroloom/report/exit_code.hpp"
+#include "parallel/observation/memory_limit.hpp"
 #include "pipeline/run.hpp"
 
 #include <new>
@@ -13,7 +13,7 @@
 namespace aeroloom::pipeline {
 
 /// The exit code of a failure: that of the stage, unless its kind demands another.
-ExitCode code_of(const parallel::CollectiveError& error, ExitCode of_stage);
+report::ExitCode code_of(const parallel::CollectiveError& error, report::ExitCode of_stage);
 
 /// Runs `work` as stage `name`: opens and closes its clock, and turns what it throws into a StageFailure with
 /// `code`, or the code that the kind of failure demands. What is thrown here has been agreed on by all ranks
@@ -23,7 +23,7 @@ void set_current_stage(const std::string& name);
 std::string current_stage();
 
 template <class Work>
-auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work work) {
+auto run_stage(report::RunRecord& record, const std::string& name, report::ExitCode code, Work work) {
   struct Clock {
     parallel::StageClock& clock;
     ~Clock() { clock.end(); }
@@ -34,18 +34,18 @@ auto run_stage(RunRecord& record, const std::string& name, ExitCode code, Work w
   try {
     return work();
   } catch (const parallel::CollectiveError& error) {
-    throw StageFailure(name, code_of(error, code), error.what());
+    throw report::StageFailure(name, code_of(error, code), error.what());
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();
-    throw StageFailure(name, ExitCode::resources, parallel::out_of_memory_text());
-  } catch (const parallel::ContainedInterrupted& error) {
-    throw StageFailure(name, ExitCode::resources, error.what());
+    throw report::StageFailure(name, report::ExitCode::resources, parallel::out_of_memory_text());
+  } catch (const parallel::SandboxInterrupted& error) {
+    throw report::StageFailure(name, report::ExitCode::resources, error.what());
   } catch (const std::invalid_argument& error) {
-    throw StageFailure(name, ExitCode::usage, error.what());
+    throw report::StageFailure(name, report::ExitCode::usage, error.what());
   } catch (const std::logic_error& error) {
-    throw StageFailure(name, ExitCode::bug, error.what());
+    throw report::StageFailure(name, report::ExitCode::bug, error.what());
   } catch (const std::exception& error) {
-    throw StageFailure(name, code, error.what());
+    throw report::StageFailure(name, code, error.what());
   }
 }
 

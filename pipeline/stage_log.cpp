@@ -1,7 +1,7 @@
 #include "pipeline/stage_log.hpp"
 
-#include "parallel/log.hpp"
-#include "pipeline/option_keys.hpp"
+#include "aeroloom/case/option_keys.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "pipeline/shown_changes.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace aeroloom::pipeline {
 
 using parallel::log_info;
 
-void log_geometry(const cad::Model& model, const RunRecord& record) {
+void log_geometry(const cad::Model& model, const report::RunRecord& record) {
   const geometry::Vec3 size = model.body_bounds().size();
   log_info(fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",
                        record.regions, record.faces, record.edges, size.x, size.y, size.z,
@@ -21,9 +21,9 @@ void log_geometry(const cad::Model& model, const RunRecord& record) {
   for (const cad::Change& change : record.domain.changes) log_info("geometry: " + cad::describe(change));
 }
 
-void log_sizing(const RunRecord& record) {
-  for (const JudgedEdge& edge : record.trailing_edges)
-    if (edge.fate != EdgeFate::kept) log_info("sizing: " + edge.what);
+void log_sizing(const report::RunRecord& record) {
+  for (const domain::JudgedEdge& edge : record.trailing_edges)
+    if (edge.fate != domain::EdgeFate::kept) log_info("sizing: " + edge.what);
   for (const std::string& line : shown_changes(record.joined_faces, "report.json: sizing.joined_faces"))
     log_info("sizing: " + line);
   log_info(
@@ -31,22 +31,23 @@ void log_sizing(const RunRecord& record) {
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
                   record.sizes.growth, record.size_field_leaves));
   if (record.features) {
-    if (const std::string text = describe_share(*record.features); !text.empty()) log_info("sizing: " + text);
+    if (const std::string text = domain::describe_share(*record.features); !text.empty())
+      log_info("sizing: " + text);
   }
   const std::string bounds = describe(record.bounded_faces, record.sizes);
-  if (!bounds.empty() && !is_much_of_body(record.bounded_faces)) log_info("sizing: " + bounds);
+  if (!bounds.empty() && !domain::is_much_of_body(record.bounded_faces)) log_info("sizing: " + bounds);
 }
 
-void warn_of_sizes(const RunRecord& record) {
+void warn_of_sizes(const report::RunRecord& record) {
   if (const std::string text = describe(record.walls.unseen); !text.empty())
     parallel::log_warning("sizing: " + text);
   if (const std::string text = record.features ? describe(*record.features) : std::string(); !text.empty())
     parallel::log_warning("sizing: " + text);
-  if (is_much_of_body(record.bounded_faces))
+  if (domain::is_much_of_body(record.bounded_faces))
     parallel::log_warning("sizing: " + describe(record.bounded_faces, record.sizes));
 }
 
-void warn_of_units(const RunRecord& record, const OutputOptions& output) {
+void warn_of_units(const report::RunRecord& record, const cases::OutputOptions& output) {
   const auto& formats = output.formats;
   if (std::find(formats.begin(), formats.end(), io::FileFormat::openfoam) == formats.end()) return;
   if (record.unit.empty() || record.unit_in_metres == 1) return;
@@ -59,7 +60,7 @@ void warn_of_units(const RunRecord& record, const OutputOptions& output) {
 
 namespace {
 
-void log_closed_tips(const RunRecord& record) {
+void log_closed_tips(const report::RunRecord& record) {
   const std::vector<surface::ClosedTip>& tips = record.surface.closed_tips;
   if (tips.empty()) return;
   const auto farthest = std::max_element(
@@ -74,7 +75,7 @@ void log_closed_tips(const RunRecord& record) {
 
 }  // namespace
 
-void log_surface(const RunRecord& record) {
+void log_surface(const report::RunRecord& record) {
   log_info(
       fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
                   "average",
@@ -84,7 +85,7 @@ void log_surface(const RunRecord& record) {
 }
 
 /// Triangles below ten degrees: how many the CAD forces, and where the others are.
-void log_needles(const RunRecord& record) {
+void log_needles(const report::RunRecord& record) {
   constexpr int shown = 5;
   std::int64_t forced = 0, forced_groups = 0, others = 0;
   double least = surface::needle_degrees;
@@ -118,10 +119,10 @@ void log_needles(const RunRecord& record) {
 
 void log_surface_again(const std::string& reason) {
   log_info(fmt::format("surface: with joined faces and closed trailing edges: {}; again without",
-                       with_keys(reason)));
+                       cases::with_keys(reason)));
 }
 
-void log_decompose(const RunRecord& record) {
+void log_decompose(const report::RunRecord& record) {
   const volume::DecompositionReport& report = record.decomposition;
   log_info(fmt::format(
       "decompose: {} zone(s) for {} of {} lattice points, about {} tetrahedra from a table; heaviest "
@@ -129,7 +130,7 @@ void log_decompose(const RunRecord& record) {
       report.zones, report.shell_points, report.lattice_points, report.core_tetrahedra, report.imbalance));
 }
 
-void warn_of_count(const RunRecord& record) {
+void warn_of_count(const report::RunRecord& record) {
   constexpr double telling = 1.5;
   const double expected = record.decomposition.expected_tetrahedra, forecast = record.forecast.tetrahedra;
   if (expected < telling * forecast) return;
@@ -143,7 +144,7 @@ void warn_of_count(const RunRecord& record) {
           : ": faces have more triangles than sizes ask for"));
 }
 
-void log_volume(const RunRecord& record) {
+void log_volume(const report::RunRecord& record) {
   const volume::VolumeReport& report = record.volume;
   log_info(fmt::format(
       "volume: {} tetrahedra; zones knew {:.2f} times the points there are; {} round(s), {} retries, "
@@ -151,16 +152,16 @@ void log_volume(const RunRecord& record) {
       report.tetrahedra, report.overlap, report.rounds, report.retries.size(), report.disagreements.size()));
 }
 
-void log_improve(const RunRecord& record) {
+void log_improve(const report::RunRecord& record) {
   const improve::ImproveReport& report = record.improve;
   log_info(fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
                        report.min_angle_before, report.min_angle_after, report.bad_before, report.bad_after));
 }
 
-void log_pinned(const RunRecord& record) {
-  const improve::PinnedReport& report = record.pinned;
+void log_pinned(const report::RunRecord& record) {
+  const attribution::PinnedReport& report = record.pinned;
   if (report.tetrahedra + report.others == 0) return;
-  const auto part = [](const improve::MissedTarget& kind) {
+  const auto part = [](const attribution::MissedTarget& kind) {
     if (kind.tetrahedra == 0) return std::string("0");
     return fmt::format("{} (from {:.3g} degrees)", kind.tetrahedra, kind.smallest_angle);
   };

@@ -1,7 +1,7 @@
 #include "pipeline/stage_products.hpp"
 
-#include "cad/model/joined_faces.hpp"
-#include "pipeline/domain_bytes.hpp"
+#include "cad/model/topology/joined_faces.hpp"
+#include "domain/domain_bytes.hpp"
 
 #include <tuple>
 #include <utility>
@@ -34,12 +34,12 @@ mesh::DistributedMesh make_mesh(mesh::MeshFacts facts, std::vector<CheckpointCon
 struct SizesRecord {
   sizing::SizingOptions sizes;
   Bytes field;
-  JoinedFaces joined;
+  domain::JoinedFaces joined;
   sizing::PredictedCounts counts;
-  std::optional<FeatureReport> features;
-  std::vector<NamedBound> bounded;
-  TrailingEdgeReport edges;
-  WallFindings walls;
+  std::optional<domain::FeatureReport> features;
+  std::vector<domain::NamedBound> bounded;
+  domain::TrailingEdgeReport edges;
+  domain::WallFindings walls;
 
   static constexpr auto fields() {
     return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
@@ -76,45 +76,45 @@ struct VolumeRecord {
 };
 
 /// What a surface depends on.
-parallel::Digest digest_of(const SizedDomain& sized) {
+parallel::Digest digest_of(const domain::SizedDomain& sized) {
   const parallel::Digest field = sized.field.digest();
   parallel::Digester digester;
   digester.value(field.low).value(field.high);
   for (const std::vector<cad::FaceId>& group : sized.joined.groups)
     digester.items(std::span<const cad::FaceId>(group));
-  for (const JudgedEdge& edge : sized.edges)
-    if (edge.fate == EdgeFate::closed) digester.value(edge.face);
+  for (const domain::JudgedEdge& edge : sized.edges)
+    if (edge.fate == domain::EdgeFate::closed) digester.value(edge.face);
   return digester.result();
 }
 
 }  // namespace
 
 CheckpointDraft pack_domain_product(const cad::Domain& domain) {
-  return {pack_domain(domain), {}};
+  return {domain::pack_domain(domain), {}};
 }
 
 cad::Domain unpack_domain_product(CheckpointContent content) {
-  return unpack_domain(content.common);
+  return domain::unpack_domain(content.common);
 }
 
-CheckpointDraft pack_sizes(const SizedDomain& sized) {
+CheckpointDraft pack_sizes(const domain::SizedDomain& sized) {
   return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features,
                               sized.bounded, sized.edges, sized.walls}),
           {}};
 }
 
-SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointContent content,
-                         const cad::Model& domain) {
+domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointContent content,
+                                 const cad::Model& domain) {
   auto record = from_wire<SizesRecord>(content.common);
-  SizedDomain sized{close_again(domain, record.edges),
-                    record.sizes,
-                    sizing::SizeField::unpack(communicator, record.field),
-                    std::move(record.joined),
-                    record.counts,
-                    std::move(record.features),
-                    std::move(record.bounded),
-                    std::move(record.edges),
-                    std::move(record.walls)};
+  domain::SizedDomain sized{domain::close_again(domain, record.edges),
+                            record.sizes,
+                            sizing::SizeField::unpack(communicator, record.field),
+                            std::move(record.joined),
+                            record.counts,
+                            std::move(record.features),
+                            std::move(record.bounded),
+                            std::move(record.edges),
+                            std::move(record.walls)};
   if (!sized.joined.groups.empty()) sized.model = cad::join_faces(sized.model, sized.joined.groups);
   return sized;
 }
@@ -131,7 +131,7 @@ CheckpointDraft pack_surface(const parallel::Communicator& communicator, const S
 
 std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
                                                    CheckpointContent content, const cad::Model& domain,
-                                                   SizedDomain& sized) {
+                                                   domain::SizedDomain& sized) {
   auto record = from_wire<SurfaceRecord>(content.common);
   if (!record.sizes.empty()) sized = unpack_sizes(communicator, {std::move(record.sizes), {}}, domain);
   if (record.sized != digest_of(sized)) return std::nullopt;

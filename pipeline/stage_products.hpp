@@ -3,14 +3,14 @@
 /// are checked before).
 #pragma once
 
-#include "cad/domain/domain.hpp"
-#include "improve/improve_report.hpp"
+#include "aeroloom/cad/domain/domain.hpp"
+#include "aeroloom/domain/size_domain.hpp"
+#include "aeroloom/improve/improve_report.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
+#include "aeroloom/volume/volume_report.hpp"
 #include "io/checkpoint_file.hpp"
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "pipeline/size_domain.hpp"
-#include "surface/surface_mesher.hpp"
-#include "volume/volume_report.hpp"
 
 #include <optional>
 
@@ -20,16 +20,16 @@ io::CheckpointDraft pack_domain_product(const cad::Domain& domain);
 cad::Domain unpack_domain_product(io::CheckpointContent content);
 
 /// The model is that of the domain with its faces joined: it is made again.
-io::CheckpointDraft pack_sizes(const SizedDomain& sized);
-SizedDomain unpack_sizes(const parallel::Communicator& communicator, io::CheckpointContent content,
-                         const cad::Model& domain);
+io::CheckpointDraft pack_sizes(const domain::SizedDomain& sized);
+domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, io::CheckpointContent content,
+                                 const cad::Model& domain);
 
 /// What a surface was made of, and its sizes.
 struct SurfaceProduct {
   const mesh::DistributedMesh& mesh;
   const sizing::SizeField& field;  ///< left out where it is the one of the sized domain
   const surface::SurfaceReport& report;
-  const SizedDomain& sized;
+  const domain::SizedDomain& sized;
   bool sizes_are_other;  ///< than those of the stage before: they come along
 };
 io::CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product);
@@ -37,7 +37,7 @@ io::CheckpointDraft pack_surface(const parallel::Communicator& communicator, con
 /// sizes or of other joined faces.
 std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
                                                    io::CheckpointContent content, const cad::Model& domain,
-                                                   SizedDomain& sized);
+                                                   domain::SizedDomain& sized);
 
 /// A volume with what its stages tell.
 struct VolumeProduct {

@@ -1,10 +1,10 @@
 #include "pipeline/write_outputs.hpp"
 
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/staged_files.hpp"
 #include "mesh/boundary_mesh.hpp"
-#include "parallel/log.hpp"
-#include "parallel/timers.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -14,22 +14,22 @@
 
 namespace aeroloom::pipeline {
 
-bool wants(const OutputOptions& output, io::FileFormat format) {
+bool wants(const cases::OutputOptions& output, io::FileFormat format) {
   return std::find(output.formats.begin(), output.formats.end(), format) != output.formats.end();
 }
 
-bool wants_vtk(const OutputOptions& output) {
+bool wants_vtk(const cases::OutputOptions& output) {
   return wants(output, io::FileFormat::vtu);
 }
 
-std::string path_of(const OutputOptions& output, io::FileFormat format) {
+std::string path_of(const cases::OutputOptions& output, io::FileFormat format) {
   const auto name = std::find_if(io::format_names.begin(), io::format_names.end(),
                                  [&](const io::FormatName& known) { return known.format == format; });
   const std::string folder = format == io::FileFormat::openfoam ? "/openfoam" : "";
   return fmt::format("{}{}/mesh{}", output.directory, folder, name->extension);
 }
 
-EarlierFiles::EarlierFiles(const OutputOptions& output) {
+EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
   namespace fs = std::filesystem;
   std::vector<fs::path> places{output.directory + "/surface.pvtp", output.directory + "/interfaces.pvtp"};
   for (const io::FormatName& known : io::format_names) places.emplace_back(path_of(output, known.format));
@@ -61,7 +61,7 @@ std::vector<std::string> EarlierFiles::left(const std::string& hash) const {
 namespace {
 
 void write_volume(const parallel::Communicator& communicator, const io::FileMesh& mesh, io::FileFormat format,
-                  const OutputOptions& output, const std::string& path) {
+                  const cases::OutputOptions& output, const std::string& path) {
   const double begin = parallel::wall_seconds();
   io::write_mesh(communicator, mesh, format, path,
                  {static_cast<std::int32_t>(output.parts), output.compression});
@@ -90,10 +90,10 @@ void write_surfaces(const parallel::Communicator& communicator, const SurfaceVie
 
 void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
                    const mesh::Numbering& numbering, const SurfaceView* surface,
-                   const OutputOptions& output) {
+                   const cases::OutputOptions& output) {
   const io::FileMesh mesh = io::file_mesh_of(communicator, volume, numbering);
   io::write_together(communicator, output.directory, "mesh", [&](const std::string& staging) {
-    OutputOptions staged = output;
+    cases::OutputOptions staged = output;
     staged.directory = staging;
     for (const io::FileFormat format : output.formats) {
       if (format != io::FileFormat::openfoam)

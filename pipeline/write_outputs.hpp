@@ -1,9 +1,9 @@
 /// The files that a run leaves.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "pipeline/case.hpp"
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <filesystem>
 #include <set>
@@ -24,12 +24,13 @@ struct SurfaceView {
 /// and where a surface is given: surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies
 /// between regions where there is any. All appear together, or none does. Collective; throws CollectiveError.
 void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
-                   const mesh::Numbering& numbering, const SurfaceView* surface, const OutputOptions& output);
+                   const mesh::Numbering& numbering, const SurfaceView* surface,
+                   const cases::OutputOptions& output);
 
 /// Files of meshes as runs name them, of any format, that are in the output directory now. Rank 0 calls it.
 class EarlierFiles {
 public:
-  explicit EarlierFiles(const OutputOptions& output);
+  explicit EarlierFiles(const cases::OutputOptions& output);
   /// Those that are still as they were, and not of a mesh with this hash as far as the report beside them
   /// tells: not of this run.
   std::vector<std::string> left(const std::string& hash = {}) const;
@@ -40,9 +41,9 @@ private:
   std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> _files;
 };
 
-bool wants(const OutputOptions& output, io::FileFormat format);
-bool wants_vtk(const OutputOptions& output);
+bool wants(const cases::OutputOptions& output, io::FileFormat format);
+bool wants_vtk(const cases::OutputOptions& output);
 /// Where the mesh is in this format.
-std::string path_of(const OutputOptions& output, io::FileFormat format);
+std::string path_of(const cases::OutputOptions& output, io::FileFormat format);
 
 }  // namespace aeroloom::pipeline

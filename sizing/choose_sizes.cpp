@@ -1,6 +1,6 @@
-#include "sizing/choose_sizes.hpp"
+#include "aeroloom/sizing/choose_sizes.hpp"
 
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 /// to agree on.
 #pragma once
 
-#include "cad/model/face_corners.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 namespace aeroloom::sizing {
 

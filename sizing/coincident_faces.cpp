@@ -1,7 +1,7 @@
 // Faces of the body that lie on one another: what no size can part.
-#include "parallel/collective_error.hpp"
-#include "sizing/facet_parameters.hpp"
-#include "sizing/model_sampler.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/sizing/facet_parameters.hpp"
+#include "aeroloom/sizing/model_sampler.hpp"
 #include "sizing/segment_tree.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ constexpr double least_wedge = 1e-3;
 constexpr double least_cosine = 0.9;          // between normals, to either side
 constexpr double least_overlap = 1e-3;        // of two facets, over the area of the smaller one
 constexpr std::size_t places_looked_at = 16;  // of two faces, those of the largest overlaps
-// Nodes of the tree that the search may visit: in all, dealt by facets, and for each face.
+// Nodes of the tree that the search may visit: in all, shared out by facets, and for each face.
 constexpr double most_tree_nodes = 1e8;
 constexpr std::int64_t few_tree_nodes = 1000;
 
@@ -170,18 +170,18 @@ private:
       triangles += triangles_per_area * area / (apart * apart);
     }
   };
-  struct Found {
+  struct PairFindings {
     Nearness walls, gap;  ///< on either side, up to nearest_walls; where that is meshed, up to nearest_in_gap
   };
 
   /// What lies on the other face, from what is found where their facets overlap most.
-  Found measure(FaceId other, std::vector<FacetPair>& pairs) {
+  PairFindings measure(FaceId other, std::vector<FacetPair>& pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const FacetPair& a, const FacetPair& b) { return a.overlap.area > b.overlap.area; });
     const cad::Facets of_other = sampling_facets(_model, other, false);
     const SegmentTree common = common_edges(other);
     const CoincidentFaces none{_face, other, 0, {}, 0};
-    Found found{{none}, {none}};
+    PairFindings found{{none}, {none}};
     double all = 0, looked_at = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       all += pairs[i].overlap.area;

@@ -1,6 +1,6 @@
 // Sharp corners of faces: what lies between two edges that meet at a small angle is as narrow as a strip.
+#include "aeroloom/sizing/model_sources.hpp"
 #include "sizing/closed_corners.hpp"
-#include "sizing/model_sources.hpp"
 
 #include <algorithm>
 #include <limits>

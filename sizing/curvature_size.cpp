@@ -1,4 +1,4 @@
-#include "sizing/curvature_size.hpp"
+#include "aeroloom/sizing/curvature_size.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What sizes ask of the faces of a model, told by their facets alone, before anything is sampled for them.
-#include "parallel/collective_error.hpp"
-#include "parallel/memory_limit.hpp"
-#include "sizing/model_sampler.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/sizing/model_sampler.hpp"
+#include "parallel/observation/memory_limit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sizing/face_samples.hpp"
+#include "aeroloom/sizing/face_samples.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// How many elements a flat facet has room for.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
-#include "sizing/feature_share.hpp"
+#include "aeroloom/sizing/feature_share.hpp"
 
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "sizing/field_builder.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/communication/deliver.hpp"
 #include "geometry/sort_by_key.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/deliver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +84,7 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   const ScopedCpu own(_clock, ScopedCpu::As::task);
   sources = thin_sources(_root, sources);
   _cells = SplitCubes(_communicator, divide_root(sources));
-  _sources = deal_out(_cells.pages(), std::move(sources));
+  _sources = send_to_pages(_cells.pages(), std::move(sources));
   split_at_sources();
   if (_previous != nullptr) split_as_before();
   _cells.balance();
@@ -129,7 +129,7 @@ Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {
   return {_communicator, {keys, levels}, cells_per_page};
 }
 
-std::vector<SizeSource> FieldBuilder::deal_out(const Pages& pages, std::vector<SizeSource> own) const {
+std::vector<SizeSource> FieldBuilder::send_to_pages(const Pages& pages, std::vector<SizeSource> own) const {
   const auto owner = [&](const SizeSource& source) { return pages.owner(pages.find(cell_of(source).key)); };
   return thin_sources(_root, parallel::deliver(_communicator, std::move(own), owner));
 }

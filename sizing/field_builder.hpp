@@ -1,11 +1,11 @@
 /// Builds size fields: octree, sizes at its nodes, hanging nodes.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/sizing/size_field.hpp"
+#include "aeroloom/sizing/sources.hpp"
 #include "sizing/seed_tree.hpp"
-#include "sizing/size_field.hpp"
-#include "sizing/sources.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -69,7 +69,7 @@ private:
   /// The root in pages, by these sources, or by the leaves of the field it starts from.
   Pages divide_root(std::span<const SizeSource> own) const;
   /// Gives sources to the ranks in whose pages their cells begin; of those of one cell the smallest is kept.
-  std::vector<SizeSource> deal_out(const Pages& pages, std::vector<SizeSource> own) const;
+  std::vector<SizeSource> send_to_pages(const Pages& pages, std::vector<SizeSource> own) const;
   void split_at_sources();
   /// As the field that it starts from is.
   void split_as_before();

@@ -1,5 +1,5 @@
 // How a point finds its leaf.
-#include "sizing/octree.hpp"
+#include "aeroloom/sizing/octree.hpp"
 
 #include <algorithm>
 

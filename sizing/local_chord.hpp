@@ -1,7 +1,7 @@
 /// How long a lifting body is behind its leading edge: the local chord, seen from its trailing edge.
 #pragma once
 
-#include "sizing/triangle_tree.hpp"
+#include "aeroloom/sizing/triangle_tree.hpp"
 
 #include <array>
 #include <vector>

@@ -1,8 +1,8 @@
 // Gaps between the faces of a model: what ModelSampler looks for once, before any sizes.
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "parallel/progress.hpp"
-#include "sizing/model_sampler.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/sizing/model_sampler.hpp"
+#include "parallel/observation/progress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr double most_rays = 2e6;
 constexpr std::int64_t most_close_rays = 600'000;
 // Nodes of trees that all searches may visit: rays of all faces, and those that look closer.
 constexpr std::int64_t most_nodes = 300'000'000, most_close_nodes = 100'000'000;
-// How often what some faces leave of that is dealt to those that need more, and the least part of it that is
+// How often what some faces leave of that is given to those that need more, and the least part of it that is
 // worth it.
 constexpr int most_deals = 4, most_close_deals = 8;
 constexpr double least_deal = 0.02;

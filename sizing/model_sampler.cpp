@@ -1,9 +1,9 @@
-#include "sizing/model_sampler.hpp"
+#include "aeroloom/sizing/model_sampler.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/progress.hpp"
-#include "parallel/schedule.hpp"
-#include "sizing/curvature_size.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/sizing/curvature_size.hpp"
+#include "parallel/communication/schedule.hpp"
+#include "parallel/observation/progress.hpp"
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "sizing/model_sources.hpp"
+#include "aeroloom/sizing/model_sources.hpp"
 
-#include "sizing/curvature_size.hpp"
+#include "aeroloom/sizing/curvature_size.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "sizing/narrow_faces.hpp"
 
-#include "cad/model/face_width.hpp"
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "cad/model/evaluation/face_width.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 /// Faces narrower than elements are meant to be, and which of their neighbours can take them in.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 
 #include <tuple>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "sizing/octree.hpp"
+#include "aeroloom/sizing/octree.hpp"
 
 #include <algorithm>
 

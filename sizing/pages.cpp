@@ -1,4 +1,4 @@
-#include "sizing/pages.hpp"
+#include "aeroloom/sizing/pages.hpp"
 
 #include "geometry/sort_by_key.hpp"
 
@@ -63,10 +63,10 @@ Pages::Pages(const parallel::Communicator& communicator, CellSpans own, std::int
     _keys.push_back(page.cube.key), _levels.push_back(page.cube.level);
     weights.push_back(page.cells + 1);  // what is empty is work, too
   }
-  deal_out(weights, communicator.size());
+  assign_to_ranks(weights, communicator.size());
 }
 
-void Pages::deal_out(std::span<const std::int64_t> weights, int ranks) {
+void Pages::assign_to_ranks(std::span<const std::int64_t> weights, int ranks) {
   const std::int64_t total = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
   _firsts.clear();
   std::int64_t before = 0;

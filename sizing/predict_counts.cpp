@@ -1,6 +1,6 @@
-#include "sizing/curvature_size.hpp"
+#include "aeroloom/sizing/curvature_size.hpp"
+#include "aeroloom/sizing/model_sampler.hpp"
 #include "sizing/facet_integral.hpp"
-#include "sizing/model_sampler.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "sizing/proximity.hpp"
+#include "aeroloom/sizing/proximity.hpp"
 
-#include "parallel/progress.hpp"
+#include "parallel/observation/progress.hpp"
 #include "sizing/segment_tree.hpp"
 
 #include <algorithm>

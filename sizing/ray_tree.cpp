@@ -1,4 +1,4 @@
-#include "sizing/ray_tree.hpp"
+#include "aeroloom/sizing/ray_tree.hpp"
 
 #include <limits>
 #include <map>

@@ -1,6 +1,6 @@
 // Fields of sizes that ask for more elements than anyone would build a field for to be told so.
+#include "aeroloom/sizing/model_sampler.hpp"
 #include "sizing/field_builder.hpp"
-#include "sizing/model_sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

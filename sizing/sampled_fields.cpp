@@ -1,6 +1,6 @@
 // Fields of what a sampler finds, as fine as asked for and coarser.
+#include "aeroloom/sizing/model_sampler.hpp"
 #include "sizing/field_builder.hpp"
-#include "sizing/model_sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

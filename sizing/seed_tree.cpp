@@ -1,7 +1,7 @@
 #include "sizing/seed_tree.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/sort_by_key.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <bit>

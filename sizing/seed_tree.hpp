@@ -1,9 +1,9 @@
 /// Cubes that ask for sizes, searched for what counts at a point.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/node_array.hpp"
-#include "sizing/morton.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/communication/node_array.hpp"
+#include "aeroloom/sizing/morton.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 /// Segments in a tree of boxes: how far away the nearest one is.
 #pragma once
 
-#include "geometry/box_tree.hpp"
-#include "geometry/vec.hpp"
+#include "aeroloom/geometry/box_tree.hpp"
+#include "aeroloom/geometry/vec.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "sizing/size_field.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 #include "sizing/field_builder.hpp"
 

@@ -1,4 +1,4 @@
-#include "sizing/sources.hpp"
+#include "aeroloom/sizing/sources.hpp"
 
 #include "geometry/runs.hpp"
 #include "geometry/sort_by_key.hpp"

@@ -1,7 +1,7 @@
 // Which cells of an octree are split.
+#include "aeroloom/parallel/communication/deliver.hpp"
+#include "aeroloom/sizing/octree.hpp"
 #include "geometry/sort_by_key.hpp"
-#include "parallel/deliver.hpp"
-#include "sizing/octree.hpp"
 
 #include <algorithm>
 #include <utility>

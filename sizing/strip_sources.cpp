@@ -1,8 +1,8 @@
 // Narrow faces: where two edges of a face come closer than its elements are large.
-#include "cad/model/edge_foot.hpp"
+#include "aeroloom/sizing/curvature_size.hpp"
+#include "aeroloom/sizing/model_sources.hpp"
+#include "cad/model/evaluation/edge_foot.hpp"
 #include "sizing/closed_corners.hpp"
-#include "sizing/curvature_size.hpp"
-#include "sizing/model_sources.hpp"
 #include "sizing/segment_tree.hpp"
 
 #include <algorithm>

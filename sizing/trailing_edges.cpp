@@ -1,6 +1,6 @@
-#include "sizing/trailing_edges.hpp"
+#include "aeroloom/sizing/trailing_edges.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "sizing/local_chord.hpp"
 #include "sizing/narrow_faces.hpp"
 
@@ -101,7 +101,7 @@ std::vector<TrailingEdge> find_trailing_edges(const ModelSampler& sampler, doubl
   const cad::Model& model = sampler.model();
   std::vector<FaceId> mine;
   parallel::agree(communicator, [&] {
-    // Dealt out as areas are measured, which widths of faces take.
+    // Distributed as areas are measured, which widths of faces take.
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       const cad::BluntEdgeFinding found = cad::examine_blunt_edge(model, f, 0);
       if (found.kind == Kind::closable && found.edge.narrowest < width) mine.push_back(f);

@@ -1,4 +1,4 @@
-#include "sizing/triangle_tree.hpp"
+#include "aeroloom/sizing/triangle_tree.hpp"
 
 #include "geometry/predicates.hpp"
 

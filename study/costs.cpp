@@ -1,6 +1,6 @@
 #include "study/costs.hpp"
 
-#include "study/dealing.hpp"
+#include "study/task_schedule.hpp"
 #include "study/text_files.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr std::string_view head =
 constexpr std::size_t columns = 10;
 
 /// Of a line of tasks.csv.
-struct Row {
+struct TaskLine {
   std::string stage, kind;
   int round = 0;
   TaskCost task;
@@ -38,7 +38,7 @@ double number_of(std::string_view word) {
   return value;
 }
 
-Row row_of(std::string_view line) {
+TaskLine row_of(std::string_view line) {
   std::array<std::string_view, columns> words;
   std::size_t count = 0;
   for (std::size_t at = 0; at <= line.size(); ++count) {
@@ -47,7 +47,7 @@ Row row_of(std::string_view line) {
     at = end + 1;
   }
   if (count != columns) throw std::runtime_error(fmt::format("{} columns where {} were", count, columns));
-  Row row{std::string(words[1]), std::string(words[2]), static_cast<int>(number_of(words[8])), {}};
+  TaskLine row{std::string(words[1]), std::string(words[2]), static_cast<int>(number_of(words[8])), {}};
   row.task = {static_cast<std::int64_t>(number_of(words[3])),
               number_of(words[4]),
               number_of(words[5]),
@@ -58,8 +58,8 @@ Row row_of(std::string_view line) {
   return row;
 }
 
-std::vector<Row> rows_of(std::string_view text) {
-  std::vector<Row> rows;
+std::vector<TaskLine> rows_of(std::string_view text) {
+  std::vector<TaskLine> rows;
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -80,9 +80,9 @@ std::vector<Row> rows_of(std::string_view text) {
 }
 
 /// One after another as they wait for each other.
-std::vector<TaskGroup> group_tasks(const std::vector<Row>& rows, const std::string& stage) {
+std::vector<TaskGroup> group_tasks(const std::vector<TaskLine>& rows, const std::string& stage) {
   std::map<std::tuple<int, int, std::string>, TaskGroup> groups;
-  for (const Row& row : rows) {
+  for (const TaskLine& row : rows) {
     if (row.stage != stage) continue;
     TaskGroup& group = groups[{row.round, order_of_kind(row.kind), row.kind}];
     group.kind = row.kind;
@@ -123,7 +123,7 @@ StageExchanges exchanges_of(const Json& stage) {
   return exchanges;
 }
 
-StageCosts stage_costs(const Json& stage, int ranks, const std::vector<Row>& rows) {
+StageCosts stage_costs(const Json& stage, int ranks, const std::vector<TaskLine>& rows) {
   const auto at = [&](const char* key) { return stage.at(key).get<double>(); };
   StageCosts costs;
   costs.name = stage.at("name").get<std::string>();
@@ -155,7 +155,7 @@ RunCosts costs_of(const Json& report, std::string_view tasks) {
         fmt::format("the run took '{}' from a checkpoint, whose cost is not on record. Remedy: a run from "
                     "the beginning",
                     report["resumed"].front().get<std::string>()));
-  const std::vector<Row> rows = rows_of(tasks);
+  const std::vector<TaskLine> rows = rows_of(tasks);
   try {
     RunCosts costs;
     costs.ranks = report.at("ranks").get<int>();

@@ -1,7 +1,7 @@
 /// What one run has cost, by stages and by tasks: what a replay on other numbers of ranks goes by.
 #pragma once
 
-#include "parallel/message_counts.hpp"
+#include "aeroloom/parallel/communication/message_counts.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,9 +16,9 @@ namespace aeroloom::study {
 /// CPU seconds, bytes; loads in the unit of the kind.
 struct TaskCost {
   std::int64_t number = 0;
-  double predicted = 0;    ///< the load it was dealt out by
+  double predicted = 0;    ///< the load it was scheduled by
   double seconds = 0;      ///< children included
-  double burden = 0;       ///< what it counts for when further tasks of its round are dealt out
+  double burden = 0;       ///< what it counts for when further tasks of its round are scheduled
   double bytes = 0;        ///< of what it made
   double child_bytes = 0;  ///< of the child it ran in
 };

@@ -1,9 +1,9 @@
 #include "study/page.hpp"
 
-#include "report/html_table.hpp"
-#include "report/html_text.hpp"
-#include "report/line_chart.hpp"
-#include "report/style.hpp"
+#include "page/html_table.hpp"
+#include "page/html_text.hpp"
+#include "page/line_chart.hpp"
+#include "page/style.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace aeroloom::study {
 
 namespace {
 
-using namespace report;
+using namespace page;
 
 /// A row's judged time is CPU's.
 bool is_by_cpu(const Json& row) {
@@ -251,7 +251,7 @@ std::string run_table(const Json& study) {
     table.add({name(find(run, "/name")), badge(kind, escaped(state)), count(find(run, "/exit_code")),
                count(find(run, "/attempts")), seconds(find(run, "/wall_seconds")),
                "<code>" + escaped(text(find(run, "/hash")).substr(0, 12)) + "</code>",
-               name(find(run, "/host")), passage(find(run, "/said"), 400)});
+               name(find(run, "/host")), long_text(find(run, "/said"), 400)});
   }
   return table.html();
 }
@@ -323,7 +323,7 @@ std::string study_page(const std::string& json) {
       section("stages", "Seconds per stage", stage_table(study)) + section("runs", "Runs", run_table(study)) +
       section("machine", "Machine and versions", machine_facts(study)) +
       section("case", "Case",
-              "<pre class=\"configuration\">" + passage(find(study, "/subject")) + "</pre>\n");
+              "<pre class=\"configuration\">" + long_text(find(study, "/subject")) + "</pre>\n");
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "

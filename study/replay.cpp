@@ -1,6 +1,6 @@
 #include "study/replay.hpp"
 
-#include "study/dealing.hpp"
+#include "study/task_schedule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +19,14 @@ public:
   explicit RankLoads(int ranks) : _loads(static_cast<std::size_t>(ranks), 0) {}
 
   /// Each with all of a group's tasks. Where there are batches ranks wait after each one.
-  void add(const TaskGroup& group, const Dealt& dealt) {
+  void add(const TaskGroup& group, const TaskSchedule& schedule) {
     int batches = 1;
-    for (const int batch : dealt.batches) batches = std::max(batches, batch + 1);
+    for (const int batch : schedule.batches) batches = std::max(batches, batch + 1);
     for (int batch = 0; batch < batches; ++batch) {
       std::vector<double> round(_loads.size(), 0);
       for (std::size_t t = 0; t < group.tasks.size(); ++t) {
-        if (!dealt.batches.empty() && dealt.batches[t] != batch) continue;
-        round[static_cast<std::size_t>(dealt.owners[t])] += group.tasks[t].seconds;
+        if (!schedule.batches.empty() && schedule.batches[t] != batch) continue;
+        round[static_cast<std::size_t>(schedule.owners[t])] += group.tasks[t].seconds;
         _largest = std::max(_largest, group.tasks[t].seconds);
         _work += group.tasks[t].seconds;
       }
@@ -40,12 +40,12 @@ public:
   }
 
   /// By the bytes of pieces, where they are.
-  void add_by_pieces(double seconds, const Dealer& dealer) {
+  void add_by_pieces(double seconds, const Scheduler& scheduler) {
     double bytes = 0;
-    for (const auto& [number, piece] : dealer.pieces()) bytes += piece.bytes;
+    for (const auto& [number, piece] : scheduler.pieces()) bytes += piece.bytes;
     if (bytes <= 0) return add_evenly(seconds);
     std::vector<double> round(_loads.size(), 0);
-    for (const auto& [number, piece] : dealer.pieces()) {
+    for (const auto& [number, piece] : scheduler.pieces()) {
       const double share = seconds * piece.bytes / bytes;
       round[static_cast<std::size_t>(piece.owner)] += share;
       _largest = std::max(_largest, share);
@@ -71,10 +71,10 @@ private:
 };
 
 /// Bytes of pieces on the rank with most, over the mean.
-double spread_of_bytes(const Dealer& dealer, int ranks) {
+double spread_of_bytes(const Scheduler& scheduler, int ranks) {
   std::vector<double> of_ranks(static_cast<std::size_t>(ranks), 0);
   double all = 0;
-  for (const auto& [number, piece] : dealer.pieces()) {
+  for (const auto& [number, piece] : scheduler.pieces()) {
     of_ranks[static_cast<std::size_t>(piece.owner)] += piece.bytes;
     all += piece.bytes;
   }
@@ -106,15 +106,15 @@ double bytes_on(const RunCosts& costs, const StageCosts& stage, int ranks, doubl
 }
 
 StagePrediction replay(const StageCosts& stage, const RunCosts& costs, int ranks, const Network& network,
-                       Dealer& dealer) {
+                       Scheduler& scheduler) {
   RankLoads loads(ranks);
   int round = -1;
   for (const TaskGroup& group : stage.groups) {
-    loads.add(group, dealer.deal(group, group.round == round));
+    loads.add(group, scheduler.schedule(group, group.round == round));
     round = group.round;
   }
-  const bool by_pieces = goes_by_pieces(stage.name) && !dealer.pieces().empty();
-  by_pieces ? loads.add_by_pieces(stage.divisible, dealer) : loads.add_evenly(stage.divisible);
+  const bool by_pieces = goes_by_pieces(stage.name) && !scheduler.pieces().empty();
+  by_pieces ? loads.add_by_pieces(stage.divisible, scheduler) : loads.add_evenly(stage.divisible);
   const double share = loads.work() / ranks, at_least = std::max(share, loads.largest());
   const double others = (ranks - 1.0) / ranks;
   StagePrediction result;
@@ -128,7 +128,7 @@ StagePrediction replay(const StageCosts& stage, const RunCosts& costs, int ranks
   losses.waiting = std::max(0.0, loads.in_rounds() - loads.busiest());
   losses.communication = exchange_seconds(stage.exchanges, costs.ranks, ranks, network);
   result.seconds = stage.serial + stage.repeated + loads.in_rounds() + losses.communication;
-  result.bytes = bytes_on(costs, stage, ranks, by_pieces ? spread_of_bytes(dealer, ranks) : 1);
+  result.bytes = bytes_on(costs, stage, ranks, by_pieces ? spread_of_bytes(scheduler, ranks) : 1);
   return result;
 }
 
@@ -171,10 +171,10 @@ Prediction predict(const RunCosts& costs, int ranks, const Network& network) {
   Prediction prediction;
   prediction.ranks = ranks;
   prediction.one_rank_seconds = one_rank_seconds(costs);
-  Dealer dealer(ranks);
+  Scheduler scheduler(ranks);
   for (const StageCosts& stage : costs.stages) {
     const StagePrediction& made =
-        prediction.stages.emplace_back(replay(stage, costs, ranks, network, dealer));
+        prediction.stages.emplace_back(replay(stage, costs, ranks, network, scheduler));
     prediction.seconds += made.seconds;
     prediction.busy_seconds += made.busy_seconds;
     prediction.losses += made.losses;

@@ -17,7 +17,7 @@ struct Losses {
   double serial = 0;         ///< one rank works, the others wait
   double repeated = 0;       ///< every rank does the same
   double granularity = 0;    ///< the largest task takes longer than a rank's share
-  double imbalance = 0;      ///< tasks are dealt out by predicted loads, and do not add up to equal shares
+  double imbalance = 0;      ///< tasks are scheduled by predicted loads, and do not add up to equal shares
   double communication = 0;  ///< exchanges
   double waiting = 0;        ///< ranks wait for each other between rounds and batches
 

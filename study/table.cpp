@@ -17,9 +17,9 @@ double seconds_of(const RunResult& run, bool by_cpu) {
 }
 
 /// All of one series on one number of ranks.
-Row make_row(const StudyRecord& record, std::vector<const RunResult*> runs, const Machine& machine) {
+SeriesRow make_row(const StudyRecord& record, std::vector<const RunResult*> runs, const Machine& machine) {
   const RunSpec& spec = runs.front()->spec;
-  Row row;
+  SeriesRow row;
   row.series = spec.series;
   row.ranks = spec.ranks;
   row.nodes = nodes_for(spec.ranks, record.options.ranks_per_node);
@@ -41,20 +41,20 @@ Row make_row(const StudyRecord& record, std::vector<const RunResult*> runs, cons
 }
 
 /// The clock against the clock, CPU against CPU.
-double times_as_fast(const Row& row, const Row& reference) {
+double times_as_fast(const SeriesRow& row, const SeriesRow& reference) {
   const double seconds = row.seconds();
   const double reference_seconds = row.by_cpu ? reference.median.busy : reference.median.wall;
   return seconds > 0 ? reference_seconds / seconds : 0;
 }
 
-void compare(std::vector<Row>& rows) {
+void compare(std::vector<SeriesRow>& rows) {
   const auto first_of = [&](Series series) {
     return std::find_if(rows.begin(), rows.end(),
-                        [&](const Row& row) { return row.series == series && row.ended > 0; });
+                        [&](const SeriesRow& row) { return row.series == series && row.ended > 0; });
   };
   const auto serial = first_of(Series::serial), strong = first_of(Series::strong),
              weak = first_of(Series::weak);
-  for (Row& row : rows) {
+  for (SeriesRow& row : rows) {
     if (row.ended == 0) continue;
     if (row.series == Series::strong) {
       if (serial != rows.end()) row.speedup = times_as_fast(row, *serial);
@@ -70,7 +70,7 @@ void compare(std::vector<Row>& rows) {
   }
 }
 
-Json row_json(const Row& row) {
+Json row_json(const SeriesRow& row) {
   Json json{{"series", name_of(row.series)},
             {"ranks", row.ranks},
             {"nodes", row.nodes},
@@ -131,19 +131,19 @@ Json run_json(const RunResult& run) {
 
 }  // namespace
 
-std::vector<Row> make_rows(const StudyRecord& record, const std::vector<RunResult>& runs,
-                           const Machine& machine) {
+std::vector<SeriesRow> make_rows(const StudyRecord& record, const std::vector<RunResult>& runs,
+                                 const Machine& machine) {
   std::map<std::pair<Series, int>, std::vector<const RunResult*>> groups;
   for (const RunResult& run : runs) groups[{run.spec.series, run.spec.ranks}].push_back(&run);
-  std::vector<Row> rows;
+  std::vector<SeriesRow> rows;
   rows.reserve(groups.size());
   for (auto& [key, group] : groups) rows.push_back(make_row(record, std::move(group), machine));
   compare(rows);
   return rows;
 }
 
-Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs, const std::vector<Row>& rows,
-                const Machine& machine) {
+Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs,
+                const std::vector<SeriesRow>& rows, const Machine& machine) {
   Json json{{"schema_version", json_version},
             {"case", record.options.case_file},
             {"overrides", record.options.overrides},
@@ -151,7 +151,7 @@ Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs, c
             {"ranks_per_node", record.options.ranks_per_node},
             {"machine", machine.json()}};
   Json& table = json["rows"] = Json::array();
-  for (const Row& row : rows) table.push_back(row_json(row));
+  for (const SeriesRow& row : rows) table.push_back(row_json(row));
   Json& list = json["runs"] = Json::array();
   for (const RunResult& run : runs) list.push_back(run_json(run));
   json["subject"] = record.subject;
@@ -192,12 +192,12 @@ std::string study_csv(const std::vector<RunResult>& runs) {
   return text;
 }
 
-std::string study_text(const std::vector<Row>& rows) {
+std::string study_text(const std::vector<SeriesRow>& rows) {
   std::string text = fmt::format("{:<7} {:>6} {:>6} {:>9} {:>9} {:>10} {:>9} {:>9} {:>12} {:>11}\n", "series",
                                  "ranks", "runs", "seconds", "speed-up", "efficiency", "imbalance",
                                  "MiB/rank", "tetrahedra", "per s, core");
   bool any_by_cpu = false;
-  for (const Row& row : rows) {
+  for (const SeriesRow& row : rows) {
     text += fmt::format("{:<7} {:>6} {:>6} ", name_of(row.series), row.ranks,
                         fmt::format("{}/{}", row.ended, row.planned));
     if (row.ended == 0) {

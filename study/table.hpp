@@ -10,7 +10,7 @@
 namespace aeroloom::study {
 
 /// All runs of one series on one number of ranks.
-struct Row {
+struct SeriesRow {
   Series series = Series::strong;
   int ranks = 1, nodes = 1;
   int planned = 0, ended = 0, failed = 0;
@@ -26,15 +26,15 @@ struct Row {
 };
 
 /// In the order serial, strong, weak, and by ranks.
-std::vector<Row> make_rows(const StudyRecord& record, const std::vector<RunResult>& runs,
-                           const Machine& machine);
+std::vector<SeriesRow> make_rows(const StudyRecord& record, const std::vector<RunResult>& runs,
+                                 const Machine& machine);
 
 /// What is beside the page: keys are stable within a schema_version.
-Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs, const std::vector<Row>& rows,
-                const Machine& machine);
+Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs,
+                const std::vector<SeriesRow>& rows, const Machine& machine);
 /// A line for each run, with a head.
 std::string study_csv(const std::vector<RunResult>& runs);
 /// The rows for a terminal.
-std::string study_text(const std::vector<Row>& rows);
+std::string study_text(const std::vector<SeriesRow>& rows);
 
 }  // namespace aeroloom::study

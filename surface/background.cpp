@@ -1,11 +1,11 @@
 #include "surface/background.hpp"
 
+#include "aeroloom/surface/surface_error.hpp"
 #include "geometry/angle.hpp"
 #include "surface/boundary_thinning.hpp"
 #include "surface/parameters.hpp"
 #include "surface/support_mesher.hpp"
 #include "surface/support_topology.hpp"
-#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -100,9 +100,9 @@ void carry_over(const std::vector<std::int32_t>& former, std::vector<std::int32_
 /// Builds the support step by step.
 class SupportBuilder {
 public:
-  SupportBuilder(const Model& model, const PieceSeed& seed, const Background& background,
+  SupportBuilder(const Model& model, const Subface& subface, const Background& background,
                  std::vector<std::int32_t>& part)
-      : _model(model), _seed(seed), _loops(background.loops), _part(part) {
+      : _model(model), _seed(subface), _loops(background.loops), _part(part) {
     const FaceMesh& mesh = background.mesh;
     const CornerParameters parameters(model, mesh);
     _support.face = mesh.face;
@@ -192,28 +192,28 @@ private:
   }
 
   const Model& _model;
-  const PieceSeed& _seed;
+  const Subface& _seed;
   const CoarseLoops& _loops;
   std::vector<std::int32_t>& _part;
   Support _support;
 };
 
-/// The seed without the vertices on loops that the background does without. `on_loops` receives the vertices
-/// that stay.
-PieceSeed thin_out(const Model& model, const PieceSeed& seed, const CoarseLoops& loops,
-                   std::vector<std::int32_t>& on_loops) {
-  std::vector<char> keep(seed.vertices.points.size(), 0);
+/// The subface without the vertices on loops that the background does without. `on_loops` receives the
+/// vertices that stay.
+Subface thin_out(const Model& model, const Subface& subface, const CoarseLoops& loops,
+                 std::vector<std::int32_t>& on_loops) {
+  std::vector<char> keep(subface.vertices.points.size(), 0);
   for (const CoarseSegment& segment : loops.segments) keep[segment.from] = keep[segment.to] = 1;
-  PieceSeed thin{seed.support, {}, seed.load};
+  Subface thin{subface.support, {}, subface.load};
   drop_boundary_vertices(model, keep, thin.support);
   std::vector<std::int32_t> number(keep.size(), -1);
   for (std::size_t v = 0; v < keep.size(); ++v) {
     if (!keep[v]) continue;
     number[v] = static_cast<std::int32_t>(on_loops.size());
     on_loops.push_back(static_cast<std::int32_t>(v));
-    thin.vertices.points.push_back(seed.vertices.points[v]);
-    thin.vertices.uv.push_back(seed.vertices.uv[v]);
-    thin.vertices.tokens.push_back(seed.vertices.tokens[v]);
+    thin.vertices.points.push_back(subface.vertices.points[v]);
+    thin.vertices.uv.push_back(subface.vertices.uv[v]);
+    thin.vertices.vertex_keys.push_back(subface.vertices.vertex_keys[v]);
   }
   for (std::int32_t& v : thin.support.mesh_vertex) v = v < 0 ? -1 : number[v];
   return thin;
@@ -221,12 +221,12 @@ PieceSeed thin_out(const Model& model, const PieceSeed& seed, const CoarseLoops&
 
 }  // namespace
 
-std::optional<Background> mesh_background(const Model& model, const PieceSeed& seed,
+std::optional<Background> mesh_background(const Model& model, const Subface& subface,
                                           const sizing::SizeField& coarse, double factor,
                                           const SurfaceOptions& options) {
   Background background;
-  background.loops = coarsen_loops(seed, coarse, largest_turn);
-  PieceSeed thin = thin_out(model, seed, background.loops, background.on_loops);
+  background.loops = coarsen_loops(subface, coarse, largest_turn);
+  Subface thin = thin_out(model, subface, background.loops, background.on_loops);
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .largest_turn = largest_turn,
                                .least_part = std::min(1.0, fine_edges / factor),
@@ -241,9 +241,9 @@ std::optional<Background> mesh_background(const Model& model, const PieceSeed& s
   return background;
 }
 
-Support support_of(const Model& model, const PieceSeed& seed, const Background& background,
+Support support_of(const Model& model, const Subface& subface, const Background& background,
                    std::vector<std::int32_t>& part) {
-  SupportBuilder builder(model, seed, background, part);
+  SupportBuilder builder(model, subface, background, part);
   builder.insert_loop_vertices();
   builder.follow_surface();
   return builder.finish();

@@ -1,7 +1,7 @@
 /// Taking vertices off the boundary of a support.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 #include "surface/support.hpp"
 
 #include <vector>

@@ -1,12 +1,12 @@
 #include "surface/chart.hpp"
 
+#include "aeroloom/surface/surface_error.hpp"
 #include "geometry/angle.hpp"
 #include "surface/conformal_map.hpp"
 #include "surface/cut_curves.hpp"
 #include "surface/plane_cut.hpp"
 #include "surface/support_flips.hpp"
 #include "surface/support_topology.hpp"
-#include "surface/surface_error.hpp"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 /// Phys. 234, 2013, doi:10.1016/j.jcp.2012.09.012).
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "geometry/plane_grid.hpp"
-#include "sizing/size_field.hpp"
 #include "surface/support.hpp"
 
 #include <vector>

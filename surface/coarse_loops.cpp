@@ -14,8 +14,8 @@ double angle_between(Vec3 a, Vec3 b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-/// The loops as closed sequences of vertices of the seed, in the order of the loop edges. The same vertex may
-/// occur several times where the border touches itself.
+/// The loops as closed sequences of vertices of the subface, in the order of the loop edges. The same vertex
+/// may occur several times where the border touches itself.
 std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
   std::vector<std::int32_t> next(support.points.size(), -1);
   for (const auto& [from, to] : support.loop_edges) next[from] = to;
@@ -36,9 +36,12 @@ std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
 /// One loop, turned so that it begins at its sharpest corner.
 class LoopCoarsener {
 public:
-  LoopCoarsener(const PieceSeed& seed, const sizing::SizeField& coarse, double largest_turn,
+  LoopCoarsener(const Subface& subface, const sizing::SizeField& coarse, double largest_turn,
                 std::vector<std::int32_t> loop)
-      : _points(seed.vertices.points), _coarse(coarse), _largest_turn(largest_turn), _loop(std::move(loop)) {
+      : _points(subface.vertices.points),
+        _coarse(coarse),
+        _largest_turn(largest_turn),
+        _loop(std::move(loop)) {
     const std::size_t count = _loop.size();
     std::size_t sharpest = 0;
     for (std::size_t i = 1; i < count; ++i) {
@@ -130,11 +133,11 @@ const CoarseSegment* CoarseLoops::find(std::int32_t from, std::int32_t to) const
   return nullptr;
 }
 
-CoarseLoops coarsen_loops(const PieceSeed& seed, const sizing::SizeField& coarse, double largest_turn) {
+CoarseLoops coarsen_loops(const Subface& subface, const sizing::SizeField& coarse, double largest_turn) {
   CoarseLoops result;
   std::set<std::array<std::int32_t, 2>> joined;
-  for (auto& loop : trace_loops(seed.support)) {
-    const LoopCoarsener coarsener(seed, coarse, largest_turn, std::move(loop));
+  for (auto& loop : trace_loops(subface.support)) {
+    const LoopCoarsener coarsener(subface, coarse, largest_turn, std::move(loop));
     std::vector<std::size_t> kept = coarsener.choose();
     for (std::size_t i = 1; i < kept.size(); ++i) {
       // A second segment between the same vertices is divided where it can be.

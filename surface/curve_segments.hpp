@@ -1,7 +1,7 @@
 /// How many segments each CAD edge gets.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 #include <tuple>
 #include <vector>

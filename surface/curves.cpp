@@ -1,8 +1,8 @@
 #include "surface/curves.hpp"
 
-#include "cad/model/face_corners.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/schedule.hpp"
+#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/schedule.hpp"
 #include "sizing/closed_corners.hpp"
 #include "surface/curve_metric.hpp"
 #include "surface/curve_segments.hpp"
@@ -177,15 +177,15 @@ EdgeId CurveMesh::edge_of(const Model& model, CurveVertex v) const {
          1;
 }
 
-mesh::SharedToken CurveMesh::token(const Model& model, CurveVertex v) const {
-  if (v < model.vertex_count()) return mesh::vertex_token(v);
+mesh::SharedVertexKey CurveMesh::vertex_key(const Model& model, CurveVertex v) const {
+  if (v < model.vertex_count()) return mesh::cad_vertex_key(v);
   const EdgeId edge = edge_of(model, v);
-  return mesh::curve_token(edge, v - first_interior[edge]);
+  return mesh::curve_vertex_key(edge, v - first_interior[edge]);
 }
 
-CurveVertex CurveMesh::vertex_of(mesh::SharedToken token) const {
-  const EdgeId edge = mesh::edge_of_token(token);
-  const CurveVertex index = mesh::index_of_token(token);
+CurveVertex CurveMesh::vertex_of(mesh::SharedVertexKey vertex_key) const {
+  const EdgeId edge = mesh::edge_of_vertex_key(vertex_key);
+  const CurveVertex index = mesh::index_of_vertex_key(vertex_key);
   return edge == cad::no_entity ? index : first_interior[edge] + index;
 }
 

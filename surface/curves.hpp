@@ -1,11 +1,11 @@
 /// CAD curves discretised once, under the size field.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "mesh/tokens.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/sizing/size_field.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 #include "surface/sharp_corners.hpp"
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct CurveMesh {
   cad::EdgeId edge_of(const cad::Model& model, CurveVertex v) const;
   /// The name of a vertex, and back: ascending like the vertices, and the same as long as its own edge keeps
   /// its vertices.
-  mesh::SharedToken token(const cad::Model& model, CurveVertex v) const;
-  CurveVertex vertex_of(mesh::SharedToken token) const;
+  mesh::SharedVertexKey vertex_key(const cad::Model& model, CurveVertex v) const;
+  CurveVertex vertex_of(mesh::SharedVertexKey vertex_key) const;
 };
 
 /// Whether an edge constrains the surface mesh (is neither degenerate nor a seam).

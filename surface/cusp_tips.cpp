@@ -27,11 +27,11 @@ std::vector<CurveVertex> near_half(const Model& model, const CurveMesh& curves, 
 }
 
 /// The points of a half edge from the CAD vertex on.
-struct Side {
+struct CuspSide {
   std::vector<CurveVertex> vertices;
   std::vector<Vec3> points;
 
-  Side(const Model& model, const CurveMesh& curves, cad::EdgeEnd end)
+  CuspSide(const Model& model, const CurveMesh& curves, cad::EdgeEnd end)
       : vertices(near_half(model, curves, end)) {
     for (const CurveVertex v : vertices) points.push_back(curves.points[v]);
   }
@@ -48,7 +48,7 @@ struct Side {
 
 Tip measure_tip(const Model& model, const CurveMesh& curves, double widest, const SharpCorner& corner) {
   Tip tip{corner.face, corner.vertex, {}};
-  const Side a(model, curves, corner.ends[0]), b(model, curves, corner.ends[1]);
+  const CuspSide a(model, curves, corner.ends[0]), b(model, curves, corner.ends[1]);
   for (std::size_t i = 1; i + 1 < std::min(a.points.size(), b.points.size()); ++i) {
     const double segment = std::min(a.shorter_segment(i), b.shorter_segment(i));
     const double gap = std::max(a.distance_from(b.points[i], i), b.distance_from(a.points[i], i));
@@ -111,7 +111,7 @@ public:
   bool contains(CurveVertex v) const { return _root.contains(v); }
   Vec3 point(CurveVertex v) const { return _point.at(root(v)); }
   cad::VertexId tip_of(CurveVertex v) const { return _tip_of.at(root(v)); }
-  mesh::SharedToken token(CurveVertex v) const { return _curves.token(_model, root(v)); }
+  mesh::SharedVertexKey vertex_key(CurveVertex v) const { return _curves.vertex_key(_model, root(v)); }
 
 private:
   /// Planes through one CAD vertex agree where they have an axis in common.
@@ -163,7 +163,7 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
   std::size_t s = 0;
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
     const bool shared = s < piece.shared_vertices.size() && piece.shared_vertices[s] == v;
-    const mesh::SharedToken token = shared ? piece.shared_tokens[s++] : 0;
+    const mesh::SharedVertexKey vertex_key = shared ? piece.shared_keys[s++] : 0;
     if (!used[v]) continue;
     number[v] = result.vertex_count();
     const bool moves = on_curve[v] >= 0 && closed.contains(on_curve[v]);
@@ -173,7 +173,7 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
     result.vertex_entity.push_back(moves ? closed.tip_of(on_curve[v]) : piece.vertex_entity[v]);
     if (!shared) continue;
     result.shared_vertices.push_back(number[v]);
-    result.shared_tokens.push_back(moves ? closed.token(on_curve[v]) : token);
+    result.shared_keys.push_back(moves ? closed.vertex_key(on_curve[v]) : vertex_key);
   }
   for (const auto& triangle : kept) {
     for (const LocalIndex v : triangle) result.cells.push_back(number[v]);

@@ -7,12 +7,12 @@
 /// one, half-way, the triangles between them vanish, and the faces on either side meet.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/surface/surface_report.hpp"
 #include "surface/curves.hpp"
-#include "surface/surface_report.hpp"
 
 #include <vector>
 

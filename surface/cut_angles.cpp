@@ -11,7 +11,7 @@ namespace aeroloom::surface {
 namespace {
 
 using geometry::Vec3;
-using mesh::SharedToken;
+using mesh::SharedVertexKey;
 
 /// The corner of a piece at one of its border points.
 struct Corner {
@@ -47,34 +47,37 @@ double interior_angle(Vec3 normal, Vec3 leaving, Vec3 back) {
 
 FeatureEdges::FeatureEdges(const Support& support, const FaceVertices& vertices) {
   for (const auto& [a, b] : support.loop_edges) {
-    const SharedToken first = vertices.tokens[support.mesh_vertex[a]];
-    const SharedToken second = vertices.tokens[support.mesh_vertex[b]];
+    const SharedVertexKey first = vertices.vertex_keys[support.mesh_vertex[a]];
+    const SharedVertexKey second = vertices.vertex_keys[support.mesh_vertex[b]];
     _edges.insert({std::min(first, second), std::max(first, second)});
   }
 }
 
-bool FeatureEdges::contains(SharedToken a, SharedToken b) const {
+bool FeatureEdges::contains(SharedVertexKey a, SharedVertexKey b) const {
   return _edges.contains({std::min(a, b), std::max(a, b)});
 }
 
-std::vector<CutAngle> measure_cut_angles(const std::vector<PieceSeed>& seeds, const FeatureEdges& features) {
-  struct Found {
-    SharedToken vertex;
+std::vector<CutAngle> measure_cut_angles(const std::vector<Subface>& subfaces, const FeatureEdges& features) {
+  struct VertexAngle {
+    SharedVertexKey vertex;
     CutAngle angle;
   };
-  std::vector<Found> found;
-  std::map<SharedToken, int> corners_at;
-  for (const PieceSeed& seed : seeds) {
-    const Support& support = seed.support;
+  std::vector<VertexAngle> found;
+  std::map<SharedVertexKey, int> corners_at;
+  for (const Subface& subface : subfaces) {
+    const Support& support = subface.support;
     const std::vector<Corner> corners = corners_of(support);
     const std::vector<Vec3> normals = normals_of(support);
-    const auto token = [&](std::int32_t p) { return seed.vertices.tokens[support.mesh_vertex[p]]; };
+    const auto vertex_key = [&](std::int32_t p) {
+      return subface.vertices.vertex_keys[support.mesh_vertex[p]];
+    };
     for (std::int32_t p = 0; p < static_cast<std::int32_t>(corners.size()); ++p) {
       const auto [before, after] = corners[p];
       if (before < 0 || after < 0) continue;
-      const SharedToken here = token(p);
+      const SharedVertexKey here = vertex_key(p);
       ++corners_at[here];
-      const bool forced = features.contains(here, token(before)) && features.contains(here, token(after));
+      const bool forced =
+          features.contains(here, vertex_key(before)) && features.contains(here, vertex_key(after));
       if (forced) continue;
       const Vec3 at = support.points[p];
       found.push_back(
@@ -84,8 +87,8 @@ std::vector<CutAngle> measure_cut_angles(const std::vector<PieceSeed>& seeds, co
     }
   }
   std::vector<CutAngle> angles;
-  for (const Found& one : found) {
-    if (!mesh::is_cut_token(one.vertex) || corners_at[one.vertex] > 2) angles.push_back(one.angle);
+  for (const VertexAngle& one : found) {
+    if (!mesh::is_cut_vertex_key(one.vertex) || corners_at[one.vertex] > 2) angles.push_back(one.angle);
   }
   return angles;
 }

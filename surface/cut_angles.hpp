@@ -1,8 +1,8 @@
 /// The angles at which pieces meet, measured between the edges of the fine mesh.
 #pragma once
 
-#include "surface/piece_seed.hpp"
-#include "surface/surface_report.hpp"
+#include "aeroloom/surface/surface_report.hpp"
+#include "surface/subface.hpp"
 
 #include <array>
 #include <set>
@@ -14,14 +14,14 @@ namespace aeroloom::surface {
 class FeatureEdges {
 public:
   FeatureEdges(const Support& support, const FaceVertices& vertices);
-  bool contains(mesh::SharedToken a, mesh::SharedToken b) const;
+  bool contains(mesh::SharedVertexKey a, mesh::SharedVertexKey b) const;
 
 private:
-  std::set<std::array<mesh::SharedToken, 2>> _edges;
+  std::set<std::array<mesh::SharedVertexKey, 2>> _edges;
 };
 
 /// Angles of the pieces of one face at the ends of cuts: where a cut meets a feature curve, and where three
 /// cuts or more meet. Angles between two feature curves are not listed.
-std::vector<CutAngle> measure_cut_angles(const std::vector<PieceSeed>& seeds, const FeatureEdges& features);
+std::vector<CutAngle> measure_cut_angles(const std::vector<Subface>& subfaces, const FeatureEdges& features);
 
 }  // namespace aeroloom::surface

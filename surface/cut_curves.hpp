@@ -1,7 +1,7 @@
 /// The cuts between charts and between pieces: discretised once, for both sides.
 #pragma once
 
-#include "sizing/size_field.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "surface/support.hpp"
 
 #include <array>

@@ -53,13 +53,13 @@ bool FaceRemesher::straighten_vertex(std::int32_t vertex, const std::vector<std:
                                      double smallest_angle) {
   gather_borders(vertex, part);
   if (_borders.empty()) return false;
-  const Place before_move = place_of(vertex);
+  const VertexPlace before_move = place_of(vertex);
   const std::vector<std::int32_t> ends = _borders;
   Vec3 sum;
   for (const std::int32_t end : ends) sum += _mesh.points[end];
   const Vec3 offset = sum / static_cast<double>(ends.size()) - before_move.point;
   const Vec3 move = 0.7 * (offset - dot(offset, _normals[vertex]) * _normals[vertex]);
-  Place place;
+  VertexPlace place;
   if (!project(before_move.point + move, vertex, norm(move) + 0.5 * _sizes[vertex], place)) return true;
   TriangleShapes before, after;
   for (const std::int32_t t : _fan) {

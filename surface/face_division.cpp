@@ -1,6 +1,6 @@
 #include "surface/face_division.hpp"
 
-#include "mesh/tokens.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 #include "partition/partition_clusters.hpp"
 #include "partition/repair_parts.hpp"
 #include "partition/simplify_dual_graph.hpp"
@@ -23,7 +23,7 @@ using geometry::Vec3;
 
 /// Background triangles in a part of a division, about.
 constexpr double triangles_per_part = 64;
-/// So often the background gets twice as fine where its loops cross; a seed that is still no good stays
+/// So often the background gets twice as fine where its loops cross; a subface that is still no good stays
 /// whole.
 constexpr int most_halvings = 4;
 /// No cluster is heavier than this fraction of a part, so that parts can be balanced.
@@ -31,7 +31,7 @@ constexpr double largest_cluster = 0.15;
 /// A face of more pieces is cut twice.
 constexpr double most_pieces_at_once = 24;
 
-/// The pieces that a seed is cut into at once: a part of a face (group > 0) is not cut again.
+/// The pieces that a subface is cut into at once: a part of a face (group > 0) is not cut again.
 double count_parts(double load, std::int32_t group, const SurfaceOptions& options) {
   const double pieces = std::max(1.0, std::round(load / static_cast<double>(options.piece_triangles)));
   return group == 0 && pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
@@ -52,10 +52,11 @@ partition::BackgroundSurface weigh(const FaceMesh& mesh, const sizing::SizeField
   return surface;
 }
 
-/// A part of a divided support as a seed; its vertices are those of the whole that it has.
-PieceSeed seed_of_part(Support part, const FaceVertices& known, const std::vector<mesh::SharedToken>& tokens,
-                       const sizing::SizeField& field) {
-  PieceSeed seed;
+/// A part of a divided support as a subface; its vertices are those of the whole that it has.
+Subface subface_of_part(Support part, const FaceVertices& known,
+                        const std::vector<mesh::SharedVertexKey>& vertex_keys,
+                        const sizing::SizeField& field) {
+  Subface subface;
   std::vector<std::int32_t> used;
   for (const std::int32_t v : part.mesh_vertex) {
     if (v >= 0) used.push_back(v);
@@ -63,53 +64,54 @@ PieceSeed seed_of_part(Support part, const FaceVertices& known, const std::vecto
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   for (const std::int32_t v : used) {
-    seed.vertices.points.push_back(known.points[v]);
-    seed.vertices.uv.push_back(known.uv[v]);
-    seed.vertices.tokens.push_back(tokens[v]);
+    subface.vertices.points.push_back(known.points[v]);
+    subface.vertices.uv.push_back(known.uv[v]);
+    subface.vertices.vertex_keys.push_back(vertex_keys[v]);
   }
   for (std::int32_t& v : part.mesh_vertex) {
     if (v >= 0) v = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
   }
-  seed.support = std::move(part);
-  seed.load = predict_triangles(seed.support, field);
-  return seed;
+  subface.support = std::move(part);
+  subface.load = predict_triangles(subface.support, field);
+  return subface;
 }
 
 /// The parts of a background beside each other, the cuts between them discretised once.
 struct CutFace {
-  std::vector<Support> supports;          ///< of the parts
-  FaceVertices vertices;                  ///< those of the seed, then those on cuts
-  std::vector<mesh::SharedToken> tokens;  ///< per vertex
-  FeatureEdges features;                  ///< fine edges that are no cuts
+  std::vector<Support> supports;                   ///< of the parts
+  FaceVertices vertices;                           ///< those of the subface, then those on cuts
+  std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per vertex
+  FeatureEdges features;                           ///< fine edges that are no cuts
 };
 
-CutFace discretise_cuts(const cad::Model& model, const PieceSeed& seed, const Background& background,
+CutFace discretise_cuts(const cad::Model& model, const Subface& subface, const Background& background,
                         std::vector<partition::PartIndex> part, std::int32_t group,
                         const sizing::SizeField& field) {
-  Support whole = support_of(model, seed, background, part);
-  CutFace cut{{}, seed.vertices, {}, FeatureEdges(whole, seed.vertices)};
+  Support whole = support_of(model, subface, background, part);
+  CutFace cut{{}, subface.vertices, {}, FeatureEdges(whole, subface.vertices)};
   JoinedVertices joined = joined_vertices(whole);
   cut.supports = discretise_cuts(model, field, {std::move(whole), std::move(part)}, cut.vertices, joined);
-  cut.tokens = cut.vertices.tokens;
-  for (std::size_t v = cut.tokens.size(); v < cut.vertices.points.size(); ++v)
-    cut.tokens.push_back(mesh::cut_token(seed.support.face, group, static_cast<std::int32_t>(v)));
+  cut.vertex_keys = cut.vertices.vertex_keys;
+  for (std::size_t v = cut.vertex_keys.size(); v < cut.vertices.points.size(); ++v)
+    cut.vertex_keys.push_back(
+        mesh::cut_vertex_key(subface.support.face, group, static_cast<std::int32_t>(v)));
   return cut;
 }
 
-SeedPieces make_pieces(CutFace cut, const sizing::SizeField& field) {
-  SeedPieces pieces;
+SubfaceParts make_pieces(CutFace cut, const sizing::SizeField& field) {
+  SubfaceParts pieces;
   for (Support& support : cut.supports) {
     flip_to_delaunay(support);
-    pieces.seeds.push_back(seed_of_part(std::move(support), cut.vertices, cut.tokens, field));
+    pieces.subfaces.push_back(subface_of_part(std::move(support), cut.vertices, cut.vertex_keys, field));
   }
-  pieces.angles = measure_cut_angles(pieces.seeds, cut.features);
+  pieces.angles = measure_cut_angles(pieces.subfaces, cut.features);
   return pieces;
 }
 
-/// What divide_seed() is asked for.
+/// What divide_subface() is asked for.
 struct DivisionRequest {
   const cad::Model& model;
-  const PieceSeed& seed;
+  const Subface& subface;
   std::int32_t group;
   partition::PartIndex parts;
   const SurfaceOptions& options;
@@ -117,20 +119,20 @@ struct DivisionRequest {
 
 /// The method of Chen, Zhao, Zheng et al., a verb each. Nothing where there is no background mesh as coarse
 /// as 2^power fine sizes.
-std::optional<SeedPieces> divide(const DivisionRequest& wanted, int power, CoarseSizes& sizes) {
-  const auto& [model, seed, group, parts, options] = wanted;
+std::optional<SubfaceParts> divide(const DivisionRequest& wanted, int power, CoarseSizes& sizes) {
+  const auto& [model, subface, group, parts, options] = wanted;
   const sizing::SizeField& fine = sizes.fine();
   const DivisionSteps& steps = options.division;
   const auto angle_for = [&](bool step) { return step ? options.cut_angle : 0; };
 
   std::optional<Background> background =
-      mesh_background(model, seed, sizes.field(power), std::ldexp(1.0, power), options);
+      mesh_background(model, subface, sizes.field(power), std::ldexp(1.0, power), options);
   if (!background) return std::nullopt;
   const partition::BackgroundSurface surface = weigh(background->mesh, fine);
 
   std::vector<partition::PartIndex> part;
   if (options.divider) {
-    part = options.divider(seed.support.face, surface);
+    part = options.divider(subface.support.face, surface);
   } else {
     const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
     const partition::VertexFans fans = partition::gather_fans(surface);
@@ -142,7 +144,7 @@ std::optional<SeedPieces> divide(const DivisionRequest& wanted, int power, Coars
 
   if (angle_for(steps.straightening) > 0)
     straighten_cuts(model, fine, part, options.cut_angle, background->mesh);
-  CutFace cut = discretise_cuts(model, seed, *background, std::move(part), group, fine);
+  CutFace cut = discretise_cuts(model, subface, *background, std::move(part), group, fine);
 
   return make_pieces(std::move(cut), fine);
 }
@@ -168,17 +170,17 @@ bool is_heavy(double load, const SurfaceOptions& options) {
          load >= 1.5 * static_cast<double>(options.piece_triangles);
 }
 
-SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
-                       const SurfaceOptions& options) {
-  const double parts = count_parts(seed.load, group, options);
-  const double factor = std::sqrt(seed.load / parts / triangles_per_part);
+SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,
+                            const SurfaceOptions& options) {
+  const double parts = count_parts(subface.load, group, options);
+  const double factor = std::sqrt(subface.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
-  const DivisionRequest wanted{model, seed, group, static_cast<partition::PartIndex>(parts), options};
+  const DivisionRequest wanted{model, subface, group, static_cast<partition::PartIndex>(parts), options};
   for (int at = power; at >= std::max(0, power - most_halvings); --at) {
-    if (std::optional<SeedPieces> pieces = divide(wanted, at, sizes)) return std::move(*pieces);
+    if (std::optional<SubfaceParts> pieces = divide(wanted, at, sizes)) return std::move(*pieces);
   }
-  SeedPieces whole;
-  whole.seeds.push_back(std::move(seed));
+  SubfaceParts whole;
+  whole.subfaces.push_back(std::move(subface));
   return whole;
 }
 

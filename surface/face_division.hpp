@@ -2,14 +2,14 @@
 /// after Chen, Zhao, Zheng et al. (22nd International Meshing Roundtable, 2013,
 /// doi:10.1007/978-3-319-02335-9_31).
 ///
-/// A seed that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
+/// A subface that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
 /// twice: into about the square root of the number of pieces first, then each of these, by any rank. So no
 /// rank has more to do with a single face than a small part of it.
 #pragma once
 
-#include "surface/piece_seed.hpp"
-#include "surface/surface_options.hpp"
-#include "surface/surface_report.hpp"
+#include "aeroloom/surface/surface_options.hpp"
+#include "aeroloom/surface/surface_report.hpp"
+#include "surface/subface.hpp"
 
 #include <deque>
 #include <vector>
@@ -28,25 +28,25 @@ private:
   std::deque<sizing::SizeField> _fields;  // references to those made stay good
 };
 
-/// What it costs to divide a seed of so many triangles and facets (group 0: a face), in triangles to mesh.
+/// What it costs to divide a subface of so many triangles and facets (group 0: a face), in triangles to mesh.
 /// About; no result depends on it.
 double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options);
 
-struct SeedPieces {
-  std::vector<PieceSeed> seeds;
+struct SubfaceParts {
+  std::vector<Subface> subfaces;
   std::vector<CutAngle> angles;  ///< where cuts end: on loops and where they meet
 };
 
-/// Whether a seed of this load is to be divided.
+/// Whether a subface of this load is to be divided.
 bool is_heavy(double load, const SurfaceOptions& options);
 
-/// Divides a heavy seed, or any by options.divider. Cuts are straightened, discretised once under the field,
-/// and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other divisions
-/// of the same face: 0 for a face, which may be cut into large parts, others for its parts, which are cut
-/// into pieces. Where no background mesh can be had, the seed stays whole. A function of the arguments
-/// alone. Not collective. Throws SurfaceError, cad::CadError, or
-/// std::runtime_error where METIS fails or there are more cuts than can be named.
-SeedPieces divide_seed(const cad::Model& model, PieceSeed seed, std::int32_t group, CoarseSizes& sizes,
-                       const SurfaceOptions& options);
+/// Divides a heavy subface, or any by options.divider. Cuts are straightened, discretised once under the
+/// field, and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other
+/// divisions of the same face: 0 for a face, which may be cut into large parts, others for its parts, which
+/// are cut into pieces. Where no background mesh can be had, the subface stays whole. A function of the
+/// arguments alone. Not collective. Throws SurfaceError, cad::CadError, or std::runtime_error where METIS
+/// fails or there are more cuts than can be named.
+SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,
+                            const SurfaceOptions& options);
 
 }  // namespace aeroloom::surface

@@ -15,7 +15,7 @@ double FaceRemesher::smallest_sine(std::int32_t a, std::int32_t b, std::int32_t 
 
 /// Flips where the smaller angle of the two triangles gets larger and nothing else worse.
 bool FaceRemesher::flip_if_better(geometry::LinkedEdge edge) {
-  const geometry::LinkedEdge other = _links.mate(edge);
+  const geometry::LinkedEdge other = _links.twin(edge);
   if (other == geometry::no_linked_edge) return false;
   const std::int32_t a = _links.apex(edge), b = _links.origin(edge), c = _links.target(edge),
                      d = _links.apex(other);
@@ -42,11 +42,11 @@ void FaceRemesher::flip_edges() {
     if (!is_live(start)) continue;
     for (int i = 0; i < 3; ++i) {
       const geometry::LinkedEdge edge = geometry::linked_edge(start, i);
-      if (_links.mate(edge) > edge && is_edge_active(edge)) _stack.push_back(edge);
+      if (_links.twin(edge) > edge && is_edge_active(edge)) _stack.push_back(edge);
       while (!_stack.empty()) {
         const geometry::LinkedEdge next = _stack.back();
         _stack.pop_back();
-        const geometry::LinkedEdge other = _links.mate(next);
+        const geometry::LinkedEdge other = _links.twin(next);
         if (!flip_if_better(next)) continue;
         const std::int32_t t = geometry::triangle_of(next), u = geometry::triangle_of(other);
         _stack.insert(_stack.end(), {geometry::linked_edge(t, 0), geometry::linked_edge(t, 2),

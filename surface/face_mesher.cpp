@@ -1,6 +1,6 @@
 #include "surface/face_mesher.hpp"
 
-#include "cad/model/face_width.hpp"
+#include "cad/model/evaluation/face_width.hpp"
 #include "surface/support_mesher.hpp"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace {
 
 using geometry::Vec3;
 
-/// CAD vertices, edges and the face itself, told apart by the names of vertices.
-void classify_border_vertex(cad::FaceId face, mesh::SharedToken token, mesh::Piece& piece) {
-  const cad::EdgeId edge = mesh::edge_of_token(token);
-  const bool on_cut = mesh::is_cut_token(token), on_edge = edge != cad::no_entity;
+/// CAD vertices, edges and the face itself, distinguished by the names of vertices.
+void classify_border_vertex(cad::FaceId face, mesh::SharedVertexKey vertex_key, mesh::Piece& piece) {
+  const cad::EdgeId edge = mesh::edge_of_vertex_key(vertex_key);
+  const bool on_cut = mesh::is_cut_vertex_key(vertex_key), on_edge = edge != cad::no_entity;
   piece.vertex_dimension.push_back(on_cut ? 2 : on_edge ? 1 : 0);
-  piece.vertex_entity.push_back(on_cut ? face : on_edge ? edge : static_cast<std::int32_t>(token));
+  piece.vertex_entity.push_back(on_cut ? face : on_edge ? edge : static_cast<std::int32_t>(vertex_key));
 }
 
 mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, const FaceMesh& mesh) {
@@ -26,10 +26,10 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   for (const Vec3& p : mesh.points) piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
   for (const auto& t : mesh.triangles) piece.cells.insert(piece.cells.end(), t.begin(), t.end());
   for (std::int32_t v = 0; v < vertices.border_count(); ++v) {
-    classify_border_vertex(mesh.face, vertices.tokens[v], piece);
+    classify_border_vertex(mesh.face, vertices.vertex_keys[v], piece);
     piece.shared_vertices.push_back(v);
   }
-  piece.shared_tokens = vertices.tokens;
+  piece.shared_keys = vertices.vertex_keys;
   piece.vertex_dimension.resize(mesh.points.size(), 2);
   piece.vertex_entity.resize(mesh.points.size(), mesh.face);
   piece.triangle_face.assign(mesh.triangles.size(), mesh.face);
@@ -49,20 +49,21 @@ cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const Surf
   return model.facets(face, deflection, options.support_angle * std::numbers::pi / 180);
 }
 
-PieceSeed seed_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                       const sizing::SizeField& field, const SurfaceOptions& options) {
-  PieceSeed seed;
-  seed.support =
-      build_support(model, face, curves, support_facets(model, face, options), field, seed.vertices);
-  seed.load = predict_triangles(seed.support, field);
-  return seed;
+Subface subface_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                        const sizing::SizeField& field, const SurfaceOptions& options) {
+  Subface subface;
+  subface.support =
+      build_support(model, face, curves, support_facets(model, face, options), field, subface.vertices);
+  subface.load = predict_triangles(subface.support, field);
+  return subface;
 }
 
-mesh::Piece mesh_piece(const cad::Model& model, const PieceSeed& seed, const sizing::SizeField& field,
+mesh::Piece mesh_piece(const cad::Model& model, const Subface& subface, const sizing::SizeField& field,
                        const SurfaceOptions& options) {
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .remeshing = {.sweeps = options.smoothing_sweeps}};
-  return piece_of(model, seed.vertices, mesh_support(model, field, seed.support, seed.vertices, meshing));
+  return piece_of(model, subface.vertices,
+                  mesh_support(model, field, subface.support, subface.vertices, meshing));
 }
 
 }  // namespace aeroloom::surface

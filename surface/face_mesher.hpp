@@ -1,11 +1,11 @@
 /// A CAD face as a piece: its support, and what meshing a piece makes of it.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
+#include "aeroloom/surface/surface_error.hpp"
+#include "aeroloom/surface/surface_options.hpp"
 #include "surface/curves.hpp"
-#include "surface/piece_seed.hpp"
-#include "surface/surface_error.hpp"
-#include "surface/surface_options.hpp"
+#include "surface/subface.hpp"
 
 namespace aeroloom::surface {
 
@@ -14,12 +14,12 @@ namespace aeroloom::surface {
 cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options);
 
 /// A whole face as one piece. Throws SurfaceError or cad::CadError.
-PieceSeed seed_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                       const sizing::SizeField& field, const SurfaceOptions& options);
+Subface subface_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                        const sizing::SizeField& field, const SurfaceOptions& options);
 
-/// The triangle piece of a seed, id 0. A function of the arguments alone: the same bits alone or in a run
+/// The triangle piece of a subface, id 0. A function of the arguments alone: the same bits alone or in a run
 /// with others. Not collective. Throws FaceConflict, SurfaceError or cad::CadError.
-mesh::Piece mesh_piece(const cad::Model& model, const PieceSeed& seed, const sizing::SizeField& field,
+mesh::Piece mesh_piece(const cad::Model& model, const Subface& subface, const sizing::SizeField& field,
                        const SurfaceOptions& options);
 
 }  // namespace aeroloom::surface

@@ -61,18 +61,18 @@ Vec3 FaceRemesher::fan_normal(std::int32_t vertex) {
   return normalized(sum);
 }
 
-FaceRemesher::Place FaceRemesher::place_of(std::int32_t vertex) const {
+FaceRemesher::VertexPlace FaceRemesher::place_of(std::int32_t vertex) const {
   return {_mesh.points[vertex], _normals[vertex], _mesh.uv[vertex], _sizes[vertex]};
 }
 
-void FaceRemesher::put(std::int32_t vertex, const Place& place) {
+void FaceRemesher::put(std::int32_t vertex, const VertexPlace& place) {
   _mesh.points[vertex] = place.point;
   _mesh.uv[vertex] = place.uv;
   _normals[vertex] = place.normal;
   _sizes[vertex] = place.size;
 }
 
-bool FaceRemesher::project(Vec3 point, std::int32_t guess, double reach, Place& place) const {
+bool FaceRemesher::project(Vec3 point, std::int32_t guess, double reach, VertexPlace& place) const {
   const auto found = _model.project(_mesh.face, point, _mesh.uv[guess]);
   if (!found.converged || distance(found.point, point) > reach) return false;
   place.point = found.point;
@@ -83,7 +83,7 @@ bool FaceRemesher::project(Vec3 point, std::int32_t guess, double reach, Place& 
   return true;
 }
 
-TriangleShapes FaceRemesher::shape(const std::array<Place, 3>& corners) const {
+TriangleShapes FaceRemesher::shape(const std::array<VertexPlace, 3>& corners) const {
   const Vec3 u = corners[1].point - corners[0].point, v = corners[2].point - corners[0].point, w = v - u;
   const Vec3 area = cross(u, v), normal = corners[0].normal + corners[1].normal + corners[2].normal;
   const double area2 = dot(area, area), squares = dot(u, u) + dot(v, v) + dot(w, w);
@@ -103,9 +103,9 @@ TriangleShapes FaceRemesher::shape(std::int32_t triangle) const {
 }
 
 TriangleShapes FaceRemesher::shape_with(std::int32_t triangle, std::int32_t vertex,
-                                        const Place& moved) const {
+                                        const VertexPlace& moved) const {
   const auto& v = _links.triangles[triangle].vertices;
-  std::array<Place, 3> corners;
+  std::array<VertexPlace, 3> corners;
   for (int i = 0; i < 3; ++i) corners[i] = v[i] == vertex ? moved : place_of(v[i]);
   return shape(corners);
 }

@@ -46,7 +46,7 @@ public:
 
 private:
   /// A vertex as it is or could be.
-  struct Place {
+  struct VertexPlace {
     geometry::Vec3 point, normal;
     geometry::Vec2 uv;
     double size = 0;
@@ -60,16 +60,16 @@ private:
 
   void measure_vertices();
   geometry::Vec3 fan_normal(std::int32_t vertex);
-  Place place_of(std::int32_t vertex) const;
-  void put(std::int32_t vertex, const Place& place);
+  VertexPlace place_of(std::int32_t vertex) const;
+  void put(std::int32_t vertex, const VertexPlace& place);
   /// The nearest place on the CAD surface; false when that is further off than `reach`.
-  bool project(geometry::Vec3 point, std::int32_t guess, double reach, Place& place) const;
+  bool project(geometry::Vec3 point, std::int32_t guess, double reach, VertexPlace& place) const;
 
-  TriangleShapes shape(const std::array<Place, 3>& corners) const;
+  TriangleShapes shape(const std::array<VertexPlace, 3>& corners) const;
   TriangleShapes shape(std::int32_t triangle) const;
   TriangleShapes shape(std::int32_t a, std::int32_t b, std::int32_t c) const;
   /// The triangle with its corner at `vertex` moved.
-  TriangleShapes shape_with(std::int32_t triangle, std::int32_t vertex, const Place& moved) const;
+  TriangleShapes shape_with(std::int32_t triangle, std::int32_t vertex, const VertexPlace& moved) const;
 
   bool is_free(std::int32_t vertex) const { return _movable[vertex] != 0; }
   bool is_live(std::int32_t triangle) const { return _links.triangles[triangle].vertices[0] >= 0; }
@@ -84,11 +84,11 @@ private:
 
   bool is_contraction_wanted(geometry::LinkedEdge edge) const;
   bool contract(geometry::LinkedEdge edge);
-  bool try_contraction(geometry::LinkedEdge edge, const Place& place);
+  bool try_contraction(geometry::LinkedEdge edge, const VertexPlace& place);
   bool keeps_topology(geometry::LinkedEdge edge);
   std::size_t bound_vertices() const;
   void divide(geometry::LinkedEdge edge);
-  void plan_star(geometry::LinkedEdge edge, const Place& middle, TriangleShapes& before,
+  void plan_star(geometry::LinkedEdge edge, const VertexPlace& middle, TriangleShapes& before,
                  TriangleShapes& after);
   bool flip_if_better(geometry::LinkedEdge edge);
   double smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const;

@@ -28,7 +28,7 @@ void FaceRemesher::contract_short_edges() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
     for (int i = 0; i < 3 && is_live(t); ++i) {
       const geometry::LinkedEdge edge = geometry::linked_edge(t, i);
-      if (_links.mate(edge) != geometry::no_linked_edge && is_edge_active(edge) &&
+      if (_links.twin(edge) != geometry::no_linked_edge && is_edge_active(edge) &&
           is_contraction_wanted(edge))
         contract(edge);
     }
@@ -37,10 +37,10 @@ void FaceRemesher::contract_short_edges() {
 
 /// Tries the middle, then either end.
 bool FaceRemesher::contract(geometry::LinkedEdge edge) {
-  const geometry::LinkedEdge other = _links.mate(edge);
+  const geometry::LinkedEdge other = _links.twin(edge);
   const std::int32_t a = _links.origin(edge), b = _links.target(edge);
   if (is_free(a) && is_free(b)) {
-    Place middle;
+    VertexPlace middle;
     const double length = edge_length(edge);
     if (project(0.5 * (_mesh.points[a] + _mesh.points[b]), b, 0.5 * length, middle) &&
         try_contraction(edge, middle)) {
@@ -52,9 +52,9 @@ bool FaceRemesher::contract(geometry::LinkedEdge edge) {
 }
 
 /// Contracts the edge's origin into its target, both coming to lie at `place`, if that is acceptable.
-bool FaceRemesher::try_contraction(geometry::LinkedEdge edge, const Place& place) {
+bool FaceRemesher::try_contraction(geometry::LinkedEdge edge, const VertexPlace& place) {
   const std::int32_t gone = _links.origin(edge), kept = _links.target(edge);
-  const std::int32_t t = geometry::triangle_of(edge), u = geometry::triangle_of(_links.mate(edge));
+  const std::int32_t t = geometry::triangle_of(edge), u = geometry::triangle_of(_links.twin(edge));
   if (!keeps_topology(edge)) return false;
   _links.gather_fan(kept, _other_fan);
   TriangleShapes before, after;
@@ -84,7 +84,7 @@ bool FaceRemesher::try_contraction(geometry::LinkedEdge edge, const Place& place
 /// origin's fan in `_fan`.
 bool FaceRemesher::keeps_topology(geometry::LinkedEdge edge) {
   const std::int32_t gone = _links.origin(edge), kept = _links.target(edge);
-  const std::int32_t c = _links.apex(edge), d = _links.apex(_links.mate(edge));
+  const std::int32_t c = _links.apex(edge), d = _links.apex(_links.twin(edge));
   if (!_links.gather_fan(gone, _fan) || _fan.size() < 3 || c == d) return false;
   const geometry::LinkedEdge beyond =
       _links.triangles[geometry::triangle_of(edge)].links[geometry::next_corner(geometry::corner_of(edge))];
@@ -117,7 +117,7 @@ void FaceRemesher::divide_long_edges() {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
     for (int i = 0; i < 3 && is_live(t); ++i) {
       const geometry::LinkedEdge edge = geometry::linked_edge(t, i);
-      if (_links.mate(edge) == geometry::no_linked_edge || !is_edge_active(edge)) continue;
+      if (_links.twin(edge) == geometry::no_linked_edge || !is_edge_active(edge)) continue;
       if (_mesh.points.size() >= _most_vertices) return;
       if (edge_length(edge) > longest_edge * edge_size(edge)) divide(edge);
     }
@@ -129,10 +129,10 @@ void FaceRemesher::divide_long_edges() {
 /// they may lie on different sides of a seam.
 void FaceRemesher::divide(geometry::LinkedEdge edge) {
   const std::int32_t b = _links.origin(edge), c = _links.target(edge);
-  Place middle;
+  VertexPlace middle;
   if (!project(0.5 * (_mesh.points[b] + _mesh.points[c]), b, 0.5 * edge_length(edge), middle)) return;
   TriangleShapes before = shape(geometry::triangle_of(edge)), after;
-  before.add(shape(geometry::triangle_of(_links.mate(edge))));
+  before.add(shape(geometry::triangle_of(_links.twin(edge))));
   plan_star(edge, middle, before, after);
   if (!is_acceptable(before, after)) return;
   const std::int32_t vertex = _links.divide(edge);
@@ -150,16 +150,16 @@ void FaceRemesher::divide(geometry::LinkedEdge edge) {
 
 /// Starts from the four triangles of the divided edge and takes in those beyond as long as that makes better
 /// ones.
-void FaceRemesher::plan_star(geometry::LinkedEdge edge, const Place& middle, TriangleShapes& before,
+void FaceRemesher::plan_star(geometry::LinkedEdge edge, const VertexPlace& middle, TriangleShapes& before,
                              TriangleShapes& after) {
   _replaced.clear();
   _star.clear();
-  for (const geometry::LinkedEdge side : {edge, _links.mate(edge)}) {
+  for (const geometry::LinkedEdge side : {edge, _links.twin(edge)}) {
     const std::int32_t t = geometry::triangle_of(side);
     for (const int i : {geometry::next_corner(geometry::corner_of(side)),
                         geometry::previous_corner(geometry::corner_of(side))}) {
       const geometry::LinkedEdge e = geometry::linked_edge(t, i);
-      _star.push_back({_links.origin(e), _links.target(e), _links.mate(e)});
+      _star.push_back({_links.origin(e), _links.target(e), _links.twin(e)});
     }
   }
   const auto triangle = [&](std::int32_t a, std::int32_t b) {

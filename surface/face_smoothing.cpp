@@ -34,7 +34,7 @@ void FaceRemesher::smooth_vertex(std::int32_t vertex) {
   const Vec3 move = offset - dot(offset, _normals[vertex]) * _normals[vertex];
   const double length = norm(move);
   if (!(length > smallest_move * _sizes[vertex])) return;
-  Place place;
+  VertexPlace place;
   if (!project(here + move, vertex, std::max(length, 0.25 * _sizes[vertex]), place)) return;
   TriangleShapes before, after;
   for (const std::int32_t t : _fan) {

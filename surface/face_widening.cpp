@@ -57,14 +57,14 @@ bool FaceRemesher::widen_vertex(std::int32_t vertex) {
   }
   bool moved = false;
   for (const double step : steps) {
-    const Place start = place_of(vertex);
+    const VertexPlace start = place_of(vertex);
     const Vec3 away = std::abs(start.normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 first = normalized(cross(start.normal, away)), second = cross(start.normal, first);
-    Place chosen = start;
+    VertexPlace chosen = start;
     for (int i = 0; i < directions; ++i) {
       const double angle = 2 * std::numbers::pi * i / directions;
       const Vec3 direction = std::cos(angle) * first + std::sin(angle) * second;
-      Place place;
+      VertexPlace place;
       put(vertex, start);
       if (!project(start.point + step * shortest * direction, vertex, step * shortest, place)) continue;
       TriangleShapes after;

@@ -1,8 +1,8 @@
 #include "surface/intersection.hpp"
 
-#include "geometry/box_tree.hpp"
+#include "aeroloom/geometry/box_tree.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/runs.hpp"
-#include "parallel/collective_error.hpp"
 #include "surface/triangle_contact.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ std::vector<VertexName> name_vertices(const mesh::Piece& piece) {
   std::vector<VertexName> names(piece.vertex_count());
   for (std::size_t v = 0; v < names.size(); ++v) names[v] = {piece.id, v};
   for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-    names[piece.shared_vertices[s]] = {-1, piece.shared_tokens[s]};
+    names[piece.shared_vertices[s]] = {-1, piece.shared_keys[s]};
   }
   return names;
 }
@@ -132,35 +132,35 @@ std::vector<BatchPair> find_batch_pairs(const std::vector<Batch>& table, paralle
 }
 
 /// A batch of this rank that another one tests with one of its own.
-struct Wish {
+struct Claim {
   parallel::Rank rank;
   std::int32_t mine, theirs;
 
-  friend auto operator<=>(const Wish&, const Wish&) = default;
+  friend auto operator<=>(const Claim&, const Claim&) = default;
 };
 
 /// What others test, ascending.
-std::vector<Wish> find_wishes(const std::vector<Batch>& table, const std::vector<BatchPair>& pairs,
-                              parallel::Rank self) {
-  std::vector<Wish> wishes;
+std::vector<Claim> find_claims(const std::vector<Batch>& table, const std::vector<BatchPair>& pairs,
+                               parallel::Rank self) {
+  std::vector<Claim> claims;
   for (const BatchPair pair : pairs) {
     const parallel::Rank rank = tester(table, pair);
     if (rank == self) continue;
     const bool lower_is_mine = table[pair.lower].rank == self;
-    wishes.push_back(
+    claims.push_back(
         {rank, lower_is_mine ? pair.lower : pair.upper, lower_is_mine ? pair.upper : pair.lower});
   }
-  std::sort(wishes.begin(), wishes.end());
-  return wishes;
+  std::sort(claims.begin(), claims.end());
+  return claims;
 }
 
-/// Those of a batch that reach into one of the batches of its wishes: no others can meet their triangles.
-std::vector<SentTriangle> within_reach(const Triangles& triangles, std::span<const Wish> wishes,
+/// Those of a batch that reach into one of the batches of its claims: no others can meet their triangles.
+std::vector<SentTriangle> within_reach(const Triangles& triangles, std::span<const Claim> claims,
                                        const std::vector<Batch>& table) {
   std::vector<SentTriangle> reaching;
   for (const BatchTriangle& t : triangles) {
-    const auto reaches = [&](const Wish& wish) { return t.box.overlaps(table[wish.theirs].box); };
-    if (std::any_of(wishes.begin(), wishes.end(), reaches)) reaching.push_back({t.corners, t.cell});
+    const auto reaches = [&](const Claim& claim) { return t.box.overlaps(table[claim.theirs].box); };
+    if (std::any_of(claims.begin(), claims.end(), reaches)) reaching.push_back({t.corners, t.cell});
   }
   return reaching;
 }
@@ -176,16 +176,16 @@ std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& co
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(table.size()); ++i) {
     if (table[i].rank == communicator.rank()) at_hand[i] = std::move(contents[mine++]);
   }
-  const std::vector<Wish> wishes = find_wishes(table, pairs, communicator.rank());
+  const std::vector<Claim> claims = find_claims(table, pairs, communicator.rank());
   std::map<parallel::Rank, parallel::Packer> packers;
   geometry::for_each_run(
-      std::span<const Wish>(wishes),
-      [](const Wish& a, const Wish& b) { return a.rank == b.rank && a.mine == b.mine; },
+      std::span<const Claim>(claims),
+      [](const Claim& a, const Claim& b) { return a.rank == b.rank && a.mine == b.mine; },
       [&](std::size_t first, std::size_t last) {
-        const std::int32_t batch = wishes[first].mine;
-        const std::span<const Wish> of_batch(wishes.data() + first, last - first);
+        const std::int32_t batch = claims[first].mine;
+        const std::span<const Claim> of_batch(claims.data() + first, last - first);
         const std::vector<SentTriangle> reaching = within_reach(at_hand[batch], of_batch, table);
-        parallel::pack(packers[wishes[first].rank], std::tie(batch, reaching));
+        parallel::pack(packers[claims[first].rank], std::tie(batch, reaching));
       });
   std::vector<parallel::Parcel> parcels;
   for (auto& [rank, packer] : packers) parcels.push_back({rank, packer.take()});

@@ -1,9 +1,9 @@
 /// Self-intersection of a distributed surface, by exact predicates.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 
 #include <tuple>
 #include <vector>
@@ -26,7 +26,8 @@ struct TriangleHit {
 };
 
 /// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.
-/// Vertices are the same when their tokens are (across pieces) or their indices (within one). Collective.
+/// Vertices are the same when their shared-vertex keys are (across pieces) or their indices (within one).
+/// Collective.
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
                                             const mesh::DistributedMesh& surface,
                                             parallel::StageClock& clock);

@@ -34,11 +34,11 @@ double quantile(std::vector<Weighted>& items, double share) {
 }
 
 /// Singular values of the map of one triangle; the smaller is negative where it turns over.
-struct Stretch {
+struct SingularValues {
   double large, small;
 };
 
-Stretch triangle_stretch(Vec3 ab, Vec3 ac, Vec2 plane_ab, Vec2 plane_ac) {
+SingularValues triangle_stretch(Vec3 ab, Vec3 ac, Vec2 plane_ab, Vec2 plane_ac) {
   const double length = norm(ab);
   const double x = dot(ab, ac) / length, y = norm(cross(ab, ac)) / length;
   // Columns of the Jacobian in the triangle's frame.
@@ -68,11 +68,11 @@ public:
     const double extent = std::max(high.x - low.x, high.y - low.y);
     if (!(extent > 0) || !std::isfinite(extent)) return true;
     const double cell = std::max(2 * length / count, extent / 1000);
-    struct Entry {
+    struct GridEdge {
       std::int32_t column, row, edge;
-      auto operator<=>(const Entry&) const = default;
+      auto operator<=>(const GridEdge&) const = default;
     };
-    std::vector<Entry> entries;
+    std::vector<GridEdge> entries;
     for (std::size_t e = 0; e < _edges.size(); ++e) {
       const Vec2 a = _map[_edges[e][0]], b = _map[_edges[e][1]];
       const auto from = [&](double v, double o) { return static_cast<std::int32_t>((v - o) / cell); };
@@ -88,7 +88,7 @@ public:
       return a.column == b.column && a.row == b.row;
     };
     geometry::for_each_run(
-        std::span<const Entry>(entries), same_cell, [&](std::size_t begin, std::size_t end) {
+        std::span<const GridEdge>(entries), same_cell, [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end && !crossing; ++i) {
             for (std::size_t j = i + 1; j < end && !crossing; ++j)
               crossing = cross_each_other(_edges[entries[i].edge], _edges[entries[j].edge]);
@@ -173,7 +173,7 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
       continue;
     }
     if (!(area > 0)) continue;
-    const Stretch stretch =
+    const SingularValues stretch =
         triangle_stretch(support.points[b] - support.points[a], support.points[c] - support.points[a],
                          map[b] - map[a], map[c] - map[a]);
     stretches.push_back({stretch.small > 0 ? stretch.large / stretch.small : 1e300, area});

@@ -74,7 +74,7 @@ private:
   CurveVertex curve_vertex(const Piece& piece, LocalIndex v) const {
     if (piece.vertex_dimension[v] > 1) return -1;
     const auto at = std::lower_bound(piece.shared_vertices.begin(), piece.shared_vertices.end(), v);
-    return _curves.vertex_of(piece.shared_tokens[at - piece.shared_vertices.begin()]);
+    return _curves.vertex_of(piece.shared_keys[at - piece.shared_vertices.begin()]);
   }
   std::span<const EdgeId> edges_at(CurveVertex v, EdgeId& own) const {
     if (v < _model.vertex_count())

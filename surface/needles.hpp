@@ -1,10 +1,10 @@
 /// Needles: triangles of the surface with an angle below ten degrees, and whether the CAD forces them.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/surface/surface_report.hpp"
 #include "surface/curves.hpp"
-#include "surface/surface_report.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "surface/open_facets.hpp"
 
+#include "aeroloom/surface/surface_error.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ using geometry::Vec3;
 
 /// A facet node moves to a curve vertex within this part of the distance to the next node or vertex.
 constexpr double reuse_part = 1e-4;
-/// Two passages along a seam have a node in common where their parameters agree to this part of the distance
+/// Two coedges along a seam have a node in common where their parameters agree to this part of the distance
 /// to the next.
 constexpr double same_parameter_part = 1e-7;
 /// Points closer than this part of the face's extent are one, unless both are mesh vertices.
@@ -31,13 +31,13 @@ using Joining = geometry::DisjointSets<std::int32_t>;
 /// Two triangles with the same corners in opposite order enclose nothing: they are left where a narrow part
 /// collapsed.
 void drop_opposite_pairs(Support& support) {
-  struct Row {
+  struct SortedTriangle {
     std::array<std::int32_t, 3> sorted;
     bool odd;  // order of the corners
     std::size_t triangle;
-    auto operator<=>(const Row&) const = default;
+    auto operator<=>(const SortedTriangle&) const = default;
   };
-  std::vector<Row> rows;
+  std::vector<SortedTriangle> rows;
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
     auto [a, b, c] = support.triangles[t];
     bool odd = false;
@@ -83,16 +83,16 @@ public:
     std::sort(_rows.begin(), _rows.end());
   }
   geometry::HalfEdge find(std::int32_t from, std::int32_t to) const {
-    const Row key{{from, to}, -1};
+    const SortedTriangle key{{from, to}, -1};
     const auto row = std::lower_bound(_rows.begin(), _rows.end(), key);
     return row != _rows.end() && row->first == key.first ? row->second : -1;
   }
   geometry::HalfEdge twin(geometry::HalfEdge h) const { return _twins[h]; }
 
 private:
-  using Row = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
+  using SortedTriangle = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
   std::vector<geometry::HalfEdge> _twins;
-  std::vector<Row> _rows;
+  std::vector<SortedTriangle> _rows;
 };
 
 OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& facets)
@@ -156,7 +156,7 @@ void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
   divide(std::move(divisions));
 }
 
-OpenFacets::Line* OpenFacets::other_passage(const Line& line) {
+OpenFacets::Line* OpenFacets::other_coedge(const Line& line) {
   for (Line& other : _lines) {
     if (&other != &line && other.use.edge == line.use.edge) return &other;
   }
@@ -168,7 +168,7 @@ void OpenFacets::match_seams() {
   std::vector<EdgePoint> divisions;
   for (Line& line : _lines) {
     if (line.constraining || _model.edge(line.use.edge).degenerate) continue;
-    const Line* other = other_passage(line);
+    const Line* other = other_coedge(line);
     if (other == nullptr) continue;
     std::vector<Wanted> wanted;
     for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i) {
@@ -278,9 +278,9 @@ void OpenFacets::collect_vertices(const CurveMesh& curves, FaceVertices& vertice
   std::sort(found.begin(), found.end());
   vertices = {};
   for (const auto& [vertex, point] : found) {
-    const mesh::SharedToken token = curves.token(_model, vertex);
-    if (!vertices.tokens.empty() && vertices.tokens.back() == token) continue;
-    vertices.tokens.push_back(token);
+    const mesh::SharedVertexKey vertex_key = curves.vertex_key(_model, vertex);
+    if (!vertices.vertex_keys.empty() && vertices.vertex_keys.back() == vertex_key) continue;
+    vertices.vertex_keys.push_back(vertex_key);
     vertices.points.push_back(curves.points[vertex]);
     vertices.uv.push_back(_uv[point]);
   }
@@ -296,7 +296,7 @@ Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
   for (const Line& line : _lines) {
     for (const Node& node : line.nodes) {
       if (node.vertex < 0) continue;
-      const std::int32_t index = vertices.find(curves.token(_model, node.vertex));
+      const std::int32_t index = vertices.find(curves.vertex_key(_model, node.vertex));
       joined.mesh_vertex[roots[node.point]] = index;
       joined.points[roots[node.point]] = vertices.points[index];
     }

@@ -1,4 +1,4 @@
-/// Facets of a face on their way to a support: open along seams, with the nodes of each passage along an
+/// Facets of a face on their way to a support: open along seams, with the nodes of each coedge along an
 /// edge.
 #pragma once
 
@@ -18,13 +18,13 @@ public:
   /// there, the others divide a side of a triangle. Throws SurfaceError where a line is no side of the
   /// triangles.
   void insert_curve_vertices(const CurveMesh& curves);
-  /// Gives both passages along each seam nodes at the same parameters.
+  /// Gives both coedges along each seam nodes at the same parameters.
   void match_seams();
   /// Connects the points as they lie on the surface, whatever the facets were before curve vertices came in,
   /// and adds points where the surface turns more than a facet should; not where elements of these sizes are
   /// far too large to turn as much.
   void fit_to_surface(const sizing::SizeField& field);
-  /// Joins what is one point: both passages of a seam, the nodes of a degenerate edge, the ends of lines at a
+  /// Joins what is one point: both coedges of a seam, the nodes of a degenerate edge, the ends of lines at a
   /// CAD vertex, and points at no distance from each other. Triangles that collapse vanish.
   Support close(const CurveMesh& curves, FaceVertices& vertices);
 
@@ -54,7 +54,7 @@ private:
   /// Where the triangulator mixed up the two sides of a seam at a CAD vertex, lines get the end nodes that
   /// lie where the edge's parameter curve ends.
   void settle_line_ends();
-  Line* other_passage(const Line& line);
+  Line* other_coedge(const Line& line);
   std::vector<std::int32_t> join_points() const;
   /// 1 where the loops run counter-clockwise in the parameter plane, else -1.
   int parameter_orientation() const;

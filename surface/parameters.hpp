@@ -1,7 +1,7 @@
 /// Parameters of one point of a face that stand for it in different places of the parameter plane.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 #include <cmath>
 

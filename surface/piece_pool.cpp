@@ -1,11 +1,11 @@
 #include "surface/piece_pool.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/progress.hpp"
-#include "parallel/schedule.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/surface/surface_error.hpp"
+#include "parallel/communication/schedule.hpp"
+#include "parallel/observation/progress.hpp"
 #include "surface/face_mesher.hpp"
 #include "surface/support_mesher.hpp"
-#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,9 +61,9 @@ bool PiecePool::is_unchanged(const CurveMesh& curves, const SizeField& field, Fa
                              const Meshed& meshed) const {
   if (edge_vertices(curves, face) != meshed.edge_vertices) return false;
   const mesh::Piece& piece = meshed.piece;
-  for (std::size_t i = 0; i < piece.shared_tokens.size(); ++i) {
-    if (mesh::is_cut_token(piece.shared_tokens[i])) continue;
-    const CurveVertex v = curves.vertex_of(piece.shared_tokens[i]);
+  for (std::size_t i = 0; i < piece.shared_keys.size(); ++i) {
+    if (mesh::is_cut_vertex_key(piece.shared_keys[i])) continue;
+    const CurveVertex v = curves.vertex_of(piece.shared_keys[i]);
     if (!(curves.points[v] == piece.point(piece.shared_vertices[i]))) return false;
   }
   return sizes_at_vertices(field, piece) == meshed.vertex_sizes;
@@ -109,11 +109,11 @@ double PiecePool::seconds_per_triangle() const {
   return load > 0 && seconds > 0 ? of_curve * seconds / load : usual;
 }
 
-/// The faces as seeds, spread over the ranks. What one takes, most of it in the CAD library, cannot be told
-/// before: it is measured, and who has had more gets fewer pieces.
-PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, const CurveMesh& curves,
-                                            const SizeField& field) {
-  Seeds seeds;
+/// The faces as subfaces, spread over the ranks. What one takes, most of it in the CAD library, cannot be
+/// told before: it is measured, and who has had more gets fewer pieces.
+PiecePool::Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const CurveMesh& curves,
+                                                   const SizeField& field) {
+  Subfaces subfaces;
   _costs.clear();
   const double of_triangle = seconds_per_triangle();
   parallel::agree(_communicator, [&] {
@@ -127,7 +127,7 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
       const double begin = parallel::cpu_seconds();
       const Key key{faces[task], 0, 0};
-      seeds.emplace(key, seed_of_face(_model, faces[task], curves, field, _options));
+      subfaces.emplace(key, subface_of_face(_model, faces[task], curves, field, _options));
       const double seconds = parallel::cpu_seconds() - begin;
       _costs[key] = seconds / of_triangle;
       _clock.note_task({.kind = "face",
@@ -137,30 +137,30 @@ PiecePool::Seeds PiecePool::make_face_seeds(const std::vector<FaceId>& faces, co
                         .burden = _costs[key]});
     }
   });
-  return seeds;
+  return subfaces;
 }
 
-/// One row per seed, on every rank, by key.
-std::vector<PiecePool::Row> PiecePool::tabulate(const Seeds& seeds) const {
-  std::vector<Row> rows;
-  for (const auto& [key, seed] : seeds) {
+/// One row per subface, on every rank, by key.
+std::vector<PiecePool::SubfaceRow> PiecePool::tabulate(const Subfaces& subfaces) const {
+  std::vector<SubfaceRow> rows;
+  for (const auto& [key, subface] : subfaces) {
     const auto cost = _costs.find(key);
-    rows.push_back({key, seed.load, static_cast<double>(seed.support.triangles.size()),
+    rows.push_back({key, subface.load, static_cast<double>(subface.support.triangles.size()),
                     cost == _costs.end() ? 0 : cost->second, _communicator.rank()});
   }
-  rows = _communicator.all_gather_items<Row>(rows);
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
+  rows = _communicator.all_gather_items<SubfaceRow>(rows);
+  std::sort(rows.begin(), rows.end(), [](const SubfaceRow& a, const SubfaceRow& b) { return a.key < b.key; });
   return rows;
 }
 
-/// Sends seeds to their owners, by row.
-PiecePool::Seeds PiecePool::deal_out(Seeds seeds, const std::vector<Row>& rows,
-                                     const std::vector<parallel::Rank>& owners) const {
-  Seeds here;
+/// Sends subfaces to their owners, by row.
+PiecePool::Subfaces PiecePool::send_to_owners(Subfaces subfaces, const std::vector<SubfaceRow>& rows,
+                                              const std::vector<parallel::Rank>& owners) const {
+  Subfaces here;
   std::map<parallel::Rank, parallel::Packer> leaving;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto at = seeds.find(rows[i].key);
-    if (at == seeds.end()) continue;
+    const auto at = subfaces.find(rows[i].key);
+    if (at == subfaces.end()) continue;
     if (owners[i] == _communicator.rank()) {
       here.emplace(rows[i].key, std::move(at->second));
       continue;
@@ -172,12 +172,12 @@ PiecePool::Seeds PiecePool::deal_out(Seeds seeds, const std::vector<Row>& rows,
   for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
   for (const parallel::Parcel& parcel : _communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) here.insert(parallel::unpack<std::pair<Key, PieceSeed>>(unpacker));
+    while (!unpacker.at_end()) here.insert(parallel::unpack<std::pair<Key, Subface>>(unpacker));
   }
   return here;
 }
 
-bool PiecePool::is_to_divide(const Row& row, int level) const {
+bool PiecePool::is_to_divide(const SubfaceRow& row, int level) const {
   if (_whole[row.key[0]]) return false;
   return _options.divider ? level == 1 : is_heavy(row.load, _options);
 }
@@ -189,16 +189,17 @@ void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
   }
 }
 
-/// Deals out the seeds and divides those that are too heavy; the parts stay where they were made.
-PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& rows, int level,
-                                         CoarseSizes& sizes) {
-  if (std::none_of(rows.begin(), rows.end(), [&](const Row& row) { return is_to_divide(row, level); })) {
-    return seeds;
+/// Schedules the subfaces and divides those that are too heavy; the parts stay where they were made.
+PiecePool::Subfaces PiecePool::divide_heavy(Subfaces subfaces, const std::vector<SubfaceRow>& rows, int level,
+                                            CoarseSizes& sizes) {
+  if (std::none_of(rows.begin(), rows.end(),
+                   [&](const SubfaceRow& row) { return is_to_divide(row, level); })) {
+    return subfaces;
   }
   const auto group_of = [&](const Key& key) { return level == 1 ? 0 : key[1] + 1; };
   std::vector<double> loads;
   loads.reserve(rows.size());
-  for (const Row& row : rows) {
+  for (const SubfaceRow& row : rows) {
     const bool divided = is_to_divide(row, level);
     loads.push_back(divided ? division_cost(row.load, row.facets, group_of(row.key), _options) : 0);
   }
@@ -208,23 +209,23 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& ro
     // What is not divided stays with whoever has it.
     if (!is_to_divide(rows[i], level)) owners[i] = rows[i].at;
   }
-  seeds = deal_out(std::move(seeds), rows, owners);
-  Seeds divided;
+  subfaces = send_to_owners(std::move(subfaces), rows, owners);
+  Subfaces divided;
   parallel::agree(_communicator, [&] {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    for (auto& [key, seed] : seeds) {
-      if (!is_to_divide({key, seed.load, 0, 0, 0}, level)) {
-        divided.emplace(key, std::move(seed));
+    for (auto& [key, subface] : subfaces) {
+      if (!is_to_divide({key, subface.load, 0, 0, 0}, level)) {
+        divided.emplace(key, std::move(subface));
         continue;
       }
       const double begin = parallel::cpu_seconds();
-      const double load = division_cost(seed.load, static_cast<double>(seed.support.triangles.size()),
+      const double load = division_cost(subface.load, static_cast<double>(subface.support.triangles.size()),
                                         group_of(key), _options);
-      SeedPieces pieces = divide_seed(_model, std::move(seed), group_of(key), sizes, _options);
-      for (std::size_t i = 0; i < pieces.seeds.size(); ++i) {
+      SubfaceParts pieces = divide_subface(_model, std::move(subface), group_of(key), sizes, _options);
+      for (std::size_t i = 0; i < pieces.subfaces.size(); ++i) {
         Key part = key;
         part[level] = static_cast<std::int32_t>(i);
-        divided.emplace(part, std::move(pieces.seeds[i]));
+        divided.emplace(part, std::move(pieces.subfaces[i]));
       }
       _clock.note_task({.kind = level == 1 ? "divided face" : "divided part",
                         .number = key[0],
@@ -238,11 +239,12 @@ PiecePool::Seeds PiecePool::divide_heavy(Seeds seeds, const std::vector<Row>& ro
   return divided;
 }
 
-double PiecePool::predict(const Seeds& seeds, const SizeField& field) const {
+double PiecePool::predict(const Subfaces& subfaces, const SizeField& field) const {
   // Whole numbers: their sum does not depend on who has which.
   std::int64_t triangles = 0;
   const ScopedCpu cpu(_clock, ScopedCpu::As::task);
-  for (const auto& [key, seed] : seeds) triangles += std::llround(integrate_triangles(seed.support, field));
+  for (const auto& [key, subface] : subfaces)
+    triangles += std::llround(integrate_triangles(subface.support, field));
   for (const auto& [key, meshed] : _meshed) triangles += meshed.piece.cell_count();
   return static_cast<double>(_communicator.sum(triangles));
 }
@@ -251,43 +253,49 @@ double PiecePool::most_triangles() const {
   return std::max(few_triangles, _options.most_growth * _first);
 }
 
-/// From the seeds of faces to those of pieces.
-PiecePool::Seeds PiecePool::divide(Seeds seeds, const SizeField& field) {
+/// From the subfaces of faces to those of pieces.
+PiecePool::Subfaces PiecePool::divide(Subfaces subfaces, const SizeField& field) {
   CoarseSizes sizes(field);
   for (const int level : {1, 2}) {
-    const std::vector<Row> rows = tabulate(seeds);
-    for (const Row& row : rows) _burdens[row.at] += level == 1 ? row.cost : 0;
-    seeds = divide_heavy(std::move(seeds), rows, level, sizes);
+    const std::vector<SubfaceRow> rows = tabulate(subfaces);
+    for (const SubfaceRow& row : rows) _burdens[row.at] += level == 1 ? row.cost : 0;
+    subfaces = divide_heavy(std::move(subfaces), rows, level, sizes);
   }
-  return seeds;
+  return subfaces;
 }
 
-/// Depends on the seed and the field; model and options are the context of the store.
-mesh::Piece PiecePool::mesh_or_find(const PieceSeed& seed, const SizeField& field,
+/// Depends on the subface and the field; model and options are the context of the store.
+mesh::Piece PiecePool::mesh_or_find(const Subface& subface, const SizeField& field,
                                     const parallel::Digest& of_field) const {
-  if (_tasks == nullptr) return mesh_piece(_model, seed, field, _options);
-  const parallel::Digest key =
-      parallel::Digester().value(of_field.low).value(of_field.high).bytes(parallel::to_wire(seed)).result();
+  if (_tasks == nullptr) return mesh_piece(_model, subface, field, _options);
+  const parallel::Digest key = parallel::Digester()
+                                   .value(of_field.low)
+                                   .value(of_field.high)
+                                   .bytes(parallel::to_wire(subface))
+                                   .result();
   if (const std::optional<parallel::Bytes> known = _tasks->find(key))
     return parallel::from_wire<mesh::Piece>(*known);
-  mesh::Piece piece = mesh_piece(_model, seed, field, _options);
+  mesh::Piece piece = mesh_piece(_model, subface, field, _options);
   _tasks->keep(key, parallel::to_wire(piece));
   return piece;
 }
 
-void PiecePool::mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places,
-                           const CurveMesh& curves, const SizeField& field, Conflicts& conflicts) {
+void PiecePool::mesh_subfaces(const Subfaces& subfaces, const std::map<Key, std::int32_t>& places,
+                              const CurveMesh& curves, const SizeField& field, Conflicts& conflicts) {
   const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
-  parallel::Progress progress("surface", static_cast<std::int64_t>(seeds.size()), "triangles");
-  for (const auto& [key, seed] : seeds) {
+  parallel::Progress progress("surface", static_cast<std::int64_t>(subfaces.size()), "triangles");
+  for (const auto& [key, subface] : subfaces) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
     try {
-      Meshed meshed{
-          mesh_or_find(seed, field, of_field), {}, edge_vertices(curves, key[0]), seed.load, places.at(key)};
+      Meshed meshed{mesh_or_find(subface, field, of_field),
+                    {},
+                    edge_vertices(curves, key[0]),
+                    subface.load,
+                    places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       _clock.note_task({"surface piece", key[0],
-                        load_of_piece(seed.load, static_cast<double>(seed.support.triangles.size())),
+                        load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
                         parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
@@ -316,24 +324,24 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   std::erase_if(_angles, [&](const auto& entry) {
     return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
   });
-  Seeds seeds = make_face_seeds(faces, curves, field);
+  Subfaces subfaces = make_whole_subfaces(faces, curves, field);
   Conflicts conflicts;
-  conflicts.predicted = predict(seeds, field);
+  conflicts.predicted = predict(subfaces, field);
   if (!_started) _first = conflicts.predicted;
   _started = true;
   if (conflicts.predicted > most_triangles()) return conflicts;
   _burdens.assign(static_cast<std::size_t>(_communicator.size()), 0);
-  seeds = divide(std::move(seeds), field);
-  const std::vector<Row> rows = tabulate(seeds);
+  subfaces = divide(std::move(subfaces), field);
+  const std::vector<SubfaceRow> rows = tabulate(subfaces);
   for (const FaceId face : faces) _parts[face] = 0;
   std::vector<double> loads;
   std::map<Key, std::int32_t> places;
-  for (const Row& row : rows) {
+  for (const SubfaceRow& row : rows) {
     places[row.key] = _parts[row.key[0]]++;
     loads.push_back(load_of_piece(row.load, row.facets));
   }
-  seeds = deal_out(std::move(seeds), rows, parallel::assign_largest_first(loads, _burdens));
-  parallel::agree(_communicator, [&] { mesh_seeds(seeds, places, curves, field, conflicts); });
+  subfaces = send_to_owners(std::move(subfaces), rows, parallel::assign_largest_first(loads, _burdens));
+  parallel::agree(_communicator, [&] { mesh_subfaces(subfaces, places, curves, field, conflicts); });
   return conflicts;
 }
 

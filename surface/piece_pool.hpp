@@ -1,13 +1,13 @@
-/// The surface pieces of a rank through the rounds of a run: made from faces, dealt out, meshed, and kept as
+/// The surface pieces of a rank through the rounds of a run: made from faces, scheduled, meshed, and kept as
 /// long as nothing around them changes.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/task_store.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/storage/task_store.hpp"
+#include "aeroloom/surface/surface_options.hpp"
+#include "aeroloom/surface/surface_report.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_division.hpp"
-#include "surface/surface_options.hpp"
-#include "surface/surface_report.hpp"
 
 #include <array>
 #include <map>
@@ -55,7 +55,7 @@ private:
   /// A piece is named by its face, its place among the parts that the face was cut into, and its place among
   /// those that such a part was cut into.
   using Key = std::array<std::int32_t, 3>;
-  using Seeds = std::map<Key, PieceSeed>;
+  using Subfaces = std::map<Key, Subface>;
   struct Meshed {
     mesh::Piece piece;
     std::vector<double> vertex_sizes;         // to see whether it has to be made again
@@ -63,7 +63,7 @@ private:
     double load;
     std::int32_t place;  // among the pieces of its face
   };
-  struct Row {
+  struct SubfaceRow {
     Key key;
     double load;    // predicted triangles
     double facets;  // of the support
@@ -71,7 +71,8 @@ private:
     parallel::Rank at;
 
     static constexpr auto fields() {
-      return std::tuple(&Row::key, &Row::load, &Row::facets, &Row::cost, &Row::at);
+      return std::tuple(&SubfaceRow::key, &SubfaceRow::load, &SubfaceRow::facets, &SubfaceRow::cost,
+                        &SubfaceRow::at);
     }
   };
 
@@ -79,21 +80,23 @@ private:
                     const Meshed& meshed) const;
   std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, cad::FaceId face) const;
   std::vector<cad::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
-  /// Triangles of the whole surface: of faces that are kept, and of these seeds.
-  double predict(const Seeds& seeds, const sizing::SizeField& field) const;
-  Seeds divide(Seeds seeds, const sizing::SizeField& field);
+  /// Triangles of the whole surface: of faces that are kept, and of these subfaces.
+  double predict(const Subfaces& subfaces, const sizing::SizeField& field) const;
+  Subfaces divide(Subfaces subfaces, const sizing::SizeField& field);
   /// What a triangle takes to mesh on this machine, from what curves took. Collective.
   double seconds_per_triangle() const;
-  Seeds make_face_seeds(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
-                        const sizing::SizeField& field);
-  Seeds divide_heavy(Seeds seeds, const std::vector<Row>& rows, int level, CoarseSizes& sizes);
-  bool is_to_divide(const Row& row, int level) const;
-  std::vector<Row> tabulate(const Seeds& seeds) const;
-  Seeds deal_out(Seeds seeds, const std::vector<Row>& rows, const std::vector<parallel::Rank>& owners) const;
-  mesh::Piece mesh_or_find(const PieceSeed& seed, const sizing::SizeField& field,
+  Subfaces make_whole_subfaces(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
+                               const sizing::SizeField& field);
+  Subfaces divide_heavy(Subfaces subfaces, const std::vector<SubfaceRow>& rows, int level,
+                        CoarseSizes& sizes);
+  bool is_to_divide(const SubfaceRow& row, int level) const;
+  std::vector<SubfaceRow> tabulate(const Subfaces& subfaces) const;
+  Subfaces send_to_owners(Subfaces subfaces, const std::vector<SubfaceRow>& rows,
+                          const std::vector<parallel::Rank>& owners) const;
+  mesh::Piece mesh_or_find(const Subface& subface, const sizing::SizeField& field,
                            const parallel::Digest& of_field) const;
-  void mesh_seeds(const Seeds& seeds, const std::map<Key, std::int32_t>& places, const CurveMesh& curves,
-                  const sizing::SizeField& field, Conflicts& conflicts);
+  void mesh_subfaces(const Subfaces& subfaces, const std::map<Key, std::int32_t>& places,
+                     const CurveMesh& curves, const sizing::SizeField& field, Conflicts& conflicts);
 
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
@@ -105,7 +108,7 @@ private:
   std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
   std::vector<char> _whole;          // per face: 1 where it must not be divided
   std::vector<double> _burdens;      // per rank: what it has done in this round, in triangles to mesh, about
-  std::map<Key, double> _costs;      // of the seeds of faces made here in this round, in triangles to mesh
+  std::map<Key, double> _costs;      // of the subfaces of faces made here in this round, in triangles to mesh
   std::map<Key, Meshed> _meshed;     // on this rank
   std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };

@@ -2,8 +2,8 @@
 /// long edges.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "surface/sharp_corners.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "sizing/closed_corners.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 /// How curves begin at sharp corners of CAD faces.
 #pragma once
 
-#include "cad/model/face_corners.hpp"
-#include "cad/model/model.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 #include <array>
 #include <span>

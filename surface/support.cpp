@@ -1,9 +1,9 @@
 #include "surface/support.hpp"
 
+#include "aeroloom/surface/surface_error.hpp"
 #include "surface/open_facets.hpp"
 #include "surface/support_flips.hpp"
 #include "surface/support_topology.hpp"
-#include "surface/surface_error.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ using VertexPair = std::array<std::int32_t, 2>;
 std::vector<VertexPair> expected_loop_edges(const cad::Model& model, cad::FaceId face,
                                             const CurveMesh& curves, const FaceVertices& vertices) {
   std::vector<VertexPair> edges;
-  const auto number = [&](CurveVertex v) { return vertices.find(curves.token(model, v)); };
+  const auto number = [&](CurveVertex v) { return vertices.find(curves.vertex_key(model, v)); };
   for (const auto& loop : model.face(face).loops) {
     for (const auto& use : loop) {
       const auto chain = curves.chain(model, use.edge);

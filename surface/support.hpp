@@ -1,8 +1,8 @@
 /// The support of a surface piece: a triangulation that carries charts and leads back to the CAD surface.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "geometry/vec.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/geometry/vec.hpp"
 #include "surface/curves.hpp"
 
 #include <algorithm>
@@ -37,16 +37,17 @@ struct Support {
 /// names and stay, then those on the cuts between its charts.
 struct FaceVertices {
   std::vector<geometry::Vec3> points;
-  std::vector<geometry::Vec2> uv;         ///< one valid parameter pair on the face for each
-  std::vector<mesh::SharedToken> tokens;  ///< of the vertices on borders, ascending
+  std::vector<geometry::Vec2> uv;                  ///< one valid parameter pair on the face for each
+  std::vector<mesh::SharedVertexKey> vertex_keys;  ///< of the vertices on borders, ascending
 
   static constexpr auto fields() {
-    return std::tuple(&FaceVertices::points, &FaceVertices::uv, &FaceVertices::tokens);
+    return std::tuple(&FaceVertices::points, &FaceVertices::uv, &FaceVertices::vertex_keys);
   }
-  std::int32_t border_count() const { return static_cast<std::int32_t>(tokens.size()); }
+  std::int32_t border_count() const { return static_cast<std::int32_t>(vertex_keys.size()); }
   /// The vertex on the border of that name, which must be known.
-  std::int32_t find(mesh::SharedToken token) const {
-    return static_cast<std::int32_t>(std::lower_bound(tokens.begin(), tokens.end(), token) - tokens.begin());
+  std::int32_t find(mesh::SharedVertexKey vertex_key) const {
+    return static_cast<std::int32_t>(std::lower_bound(vertex_keys.begin(), vertex_keys.end(), vertex_key) -
+                                     vertex_keys.begin());
   }
 };
 

@@ -24,8 +24,8 @@ struct ChartBoundary {
 };
 
 /// Per boundary point, the one to use in its place. Where loops touch in a vertex, the chart has a point for
-/// each passage; those that the map puts on one spot are one vertex of the front.
-std::vector<std::int32_t> join_passages(const ChartBoundary& boundary) {
+/// each coedge; those that the map puts on one spot are one vertex of the front.
+std::vector<std::int32_t> join_coedges(const ChartBoundary& boundary) {
   constexpr double one_spot = 1e-6;  // of the shortest edge there
   const auto& points = boundary.input.points;
   const auto count = static_cast<std::int32_t>(points.size());
@@ -80,7 +80,7 @@ ChartBoundary boundary_of(const Chart& chart) {
     const std::int32_t first = point_of(from);
     boundary.input.edges.push_back({first, point_of(to)});
   }
-  use_joined_points(join_passages(boundary), boundary);
+  use_joined_points(join_coedges(boundary), boundary);
   return boundary;
 }
 

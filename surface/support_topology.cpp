@@ -123,10 +123,10 @@ std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
   component.assign(label.size(), -1);
   std::int32_t count = 0;
   std::vector<std::int32_t> stack;
-  for (std::size_t seed = 0; seed < label.size(); ++seed) {
-    if (component[seed] >= 0) continue;
-    component[seed] = count;
-    stack.push_back(static_cast<std::int32_t>(seed));
+  for (std::size_t subface = 0; subface < label.size(); ++subface) {
+    if (component[subface] >= 0) continue;
+    component[subface] = count;
+    stack.push_back(static_cast<std::int32_t>(subface));
     while (!stack.empty()) {
       const std::int32_t t = stack.back();
       stack.pop_back();

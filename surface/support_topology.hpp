@@ -1,7 +1,7 @@
 /// Connectivity of a support: its half-edges (geometry/half_edges.hpp), boundary loops, parts.
 #pragma once
 
-#include "geometry/half_edges.hpp"
+#include "aeroloom/geometry/half_edges.hpp"
 #include "surface/support.hpp"
 
 #include <array>

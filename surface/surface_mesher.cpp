@@ -1,14 +1,14 @@
-#include "surface/surface_mesher.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/surface/surface_error.hpp"
 #include "sizing/closed_corners.hpp"
 #include "surface/curves.hpp"
 #include "surface/cusp_tips.hpp"
 #include "surface/intersection.hpp"
 #include "surface/needle_remedies.hpp"
 #include "surface/piece_pool.hpp"
-#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "surface/tip_topology.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "mesh/tokens.hpp"
-#include "parallel/collective_error.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -19,8 +19,8 @@ using mesh::Piece;
 std::vector<CurveVertex> curve_vertices(const CurveMesh& curves, const Piece& piece) {
   std::vector<CurveVertex> result(piece.vertex_count(), -1);
   for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-    if (!mesh::is_cut_token(piece.shared_tokens[s]))
-      result[piece.shared_vertices[s]] = curves.vertex_of(piece.shared_tokens[s]);
+    if (!mesh::is_cut_vertex_key(piece.shared_keys[s]))
+      result[piece.shared_vertices[s]] = curves.vertex_of(piece.shared_keys[s]);
   }
   return result;
 }

@@ -1,8 +1,8 @@
 /// Which tips of faces can be closed, by what the triangles around them are. Seen by this folder only.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "surface/curves.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 /// The smallest angle of a triangle, cheaply.
 #pragma once
 
-#include "geometry/vec.hpp"
+#include "aeroloom/geometry/vec.hpp"
 
 #include <algorithm>
 

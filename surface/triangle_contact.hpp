@@ -1,7 +1,7 @@
 /// The exact decision whether two triangles of a surface meet where they must not.
 #pragma once
 
-#include "geometry/vec.hpp"
+#include "aeroloom/geometry/vec.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace aeroloom::surface {
 
-/// The name of a vertex over all pieces: its token with piece -1, or its index in its piece.
+/// The name of a vertex over all pieces: its shared-vertex key with piece -1, or its index in its piece.
 struct VertexName {
   std::int64_t piece = -1;
   std::uint64_t id = 0;

@@ -10,6 +10,8 @@ import tempfile
 
 # What each stage may include, besides itself.
 STAGE = {"geometry", "cad", "forest", "front", "parallel", "mesh", "cavities", "sizing", "partition"}
+# What what is made of stages may include.
+STAGES = STAGE | {"attribution", "surface", "volume", "improve", "io"}
 # What each folder may include, besides itself.
 ALLOWED = {
     "parallel": set(),
@@ -21,15 +23,19 @@ ALLOWED = {
     "cavities": {"geometry", "parallel", "mesh"},
     "sizing": {"geometry", "parallel", "cad"},
     "partition": {"geometry", "parallel", "mesh"},
+    "attribution": {"geometry", "parallel", "mesh", "sizing"},
     "surface": STAGE,
     "volume": STAGE,
     "improve": STAGE,
     "io": {"geometry", "parallel", "mesh"},
     "picture": {"geometry", "parallel", "mesh"},
-    "foreign": {"geometry", "parallel", "mesh", "partition", "io"},
-    "report": set(),
-    "study": {"parallel", "report"},
-    "pipeline": STAGE | {"surface", "volume", "improve", "io", "picture", "foreign", "report", "study"},
+    "imported": {"geometry", "parallel", "mesh", "partition", "io"},
+    "page": set(),
+    "study": {"parallel", "page"},
+    "case": STAGES,
+    "domain": STAGES | {"case"},
+    "report": STAGES | {"case", "domain", "page", "picture", "study"},
+    "pipeline": STAGES | {"case", "domain", "report", "page", "picture", "study", "imported"},
 }
 
 # Third-party headers: pattern, folders that may include them, how many files may.
@@ -40,7 +46,7 @@ ROOMS = [
     (re.compile(r"tetgen\.h$"), {"volume"}, 1),
     (re.compile(r"vtk[A-Z]\w*\.h$|hdf5\.h$"), {"io", "tests"}, None),
     (re.compile(r"png\.h$"), {"picture", "tests"}, None),
-    (re.compile(r"yaml-cpp/"), {"pipeline"}, None),
+    (re.compile(r"yaml-cpp/"), {"case"}, None),
     (re.compile(r"CGAL/"), {"geometry"}, None),
 ]
 OPENCASCADE = re.compile(
@@ -52,9 +58,13 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 CONCEPT_FREE = {"utils", "util", "common", "core", "misc", "helpers"}
 
 
+PUBLIC = "include/aeroloom"
+
+
 def sources(root):
+    """The sources of each folder, with its headers for host programs."""
     for folder in [*ALLOWED, "tests", "benchmarks"]:
-        for path in sorted((root / folder).rglob("*")):
+        for path in sorted([*(root / folder).rglob("*"), *(root / PUBLIC / folder).rglob("*")]):
             if path.suffix in {".cpp", ".hpp"}:
                 yield folder, path
 
@@ -72,6 +82,9 @@ def violations(root):
             if not match:
                 continue
             header = match.group(1)
+            if str(name).startswith(PUBLIC) and line.count('"') and not header.startswith("aeroloom/"):
+                found.append(f"{where}: a header for host programs must not include {header}")
+            header = header.removeprefix("aeroloom/")
             target = header.split("/")[0]
             if folder in ALLOWED and target in ALLOWED and target != folder and target not in ALLOWED[folder]:
                 found.append(f"{where}: {folder}/ must not include {header}")
@@ -107,6 +120,8 @@ def self_test():
         "volume/forest.cpp": "#include <p8est_ghost.h>\n",
         "mesh/sc.cpp": "#include <sc.h>\n",
         "io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
+        "include/aeroloom/mesh/inner.hpp": '#include "mesh/inner.hpp"\n',
+        "include/aeroloom/mesh/up.hpp": '#include "aeroloom/surface/front.hpp"\n',
     }
     clean = {"mesh/down.cpp": '#include "geometry/vec.hpp"\n', "cad/model/occ.cpp": "#include <gp_Pnt.hxx>\n"}
     with tempfile.TemporaryDirectory() as name:

@@ -12,7 +12,7 @@ namespace {
 
 /// What travels of a face.
 struct WireFace {
-  std::array<mesh::SharedToken, 3> vertices;
+  std::array<mesh::SharedVertexKey, 3> vertices;
   ZoneIndex zone;
   mesh::RegionId region;
   std::int32_t index;  ///< in its rank's list, times two, plus its turn
@@ -63,12 +63,13 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
 
 std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {
   struct Use {
-    mesh::SharedToken vertex;
+    mesh::SharedVertexKey vertex;
     std::int32_t face;
   };
   std::vector<Use> uses;
   for (std::size_t f = 0; f < unmatched.size(); ++f) {
-    for (const mesh::SharedToken v : unmatched[f].vertices) uses.push_back({v, static_cast<std::int32_t>(f)});
+    for (const mesh::SharedVertexKey v : unmatched[f].vertices)
+      uses.push_back({v, static_cast<std::int32_t>(f)});
   }
   std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
     return a.vertex != b.vertex ? a.vertex < b.vertex : a.face < b.face;

@@ -1,8 +1,8 @@
 /// Whether zones fit together, and where they do not; what is done about it is in zone_ladder.hpp.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/zone_piece.hpp"
 
 #include <span>

@@ -65,9 +65,7 @@ bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
   return tree.any_block_in(
       GridBox::of(tree.cube(b)).dilated(reach),
       [&](BlockIndex n) { return is_far_finer(tree.level(n), tree.level(b)) && source.table.is_met(n); },
-      [&](BlockIndex first, BlockIndex last, const GridCube&) {
-        return last - first == 1 && !tree.is_known(first);
-      });
+      [&](BlockIndex first, BlockIndex last, const GridCube&) { return !source.table.any_met(first, last); });
 }
 
 /// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.

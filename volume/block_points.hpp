@@ -1,9 +1,9 @@
 /// The interior points: a graded body-centred lattice, block by block.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "volume/lattice_tree.hpp"
 #include "volume/near_surface.hpp"
 #include "volume/surface_share.hpp"
@@ -40,8 +40,8 @@ inline int slot_at(int x, int y, int z) {
   return slots[x + 2 * y + 4 * z];
 }
 
-/// Which block and slot a point of the lattice has, by a running number: its token behind those of the
-/// surface.
+/// Which block and slot a point of the lattice has, by a running number: its shared-vertex key behind those
+/// of the surface.
 inline std::int64_t lattice_number(const LatticeTree& tree, BlockIndex block, int slot) {
   return tree.number(block) * slots_per_block + slot;
 }

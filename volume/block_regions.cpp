@@ -1,7 +1,7 @@
 #include "volume/block_regions.hpp"
 
+#include "aeroloom/mesh/delivery.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "mesh/delivery.hpp"
 #include "volume/empty_balls.hpp"
 #include "volume/within_blocks.hpp"
 
@@ -285,17 +285,17 @@ private:
 
 }  // namespace
 
-BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                                const LatticeTree& tree, const SurfaceTable& table,
-                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
-                                const SurfaceReach& reach, parallel::StageClock& clock) {
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
+                                const SurfaceAround& around, parallel::StageClock& clock) {
+  const LatticeTree& tree = lattice.tree;
+  const SurfaceTable& table = lattice.table;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   BlockSets sets(tree, table);
   sets.join_those_of_all_ranks(communicator);
   const std::vector<Contact> contacts = sets.take_contacts(communicator);
-  Look look(frame, tree, table, surface, reach);
+  Look look(lattice.frame, tree, table, around.surface, around.reach);
   const std::vector<Witness> witnesses =
-      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, triangles, look),
+      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, around.triangles, look),
                           [&](const Witness& witness) { return tree.owner(witness.set); }));
   BlockRegions found{std::vector<RegionId>(tree.last() - tree.first(), mesh::no_region),
                      lowest_of(communicator, find_contradiction(witnesses))};

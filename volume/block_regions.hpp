@@ -1,10 +1,11 @@
 /// Which region the blocks lie in that the surface does not meet.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/lattice_tree.hpp"
 #include "volume/near_surface.hpp"
+#include "volume/neighbourhood.hpp"
 #include "volume/surface_share.hpp"
 
 #include <optional>
@@ -28,6 +29,13 @@ struct Contradiction {
   }
 };
 
+/// The surface within reach of this rank's blocks.
+struct SurfaceAround {
+  std::span<const SurfaceTriangle> triangles;
+  const NearSurface& surface;  ///< of these triangles
+  const SurfaceReach& reach;
+};
+
 struct BlockRegions {
   /// Of this rank's blocks: mesh::no_region outside of all, and also where the surface meets it: there each
   /// point is asked for itself.
@@ -38,9 +46,7 @@ struct BlockRegions {
 /// Blocks that share a face are of one region; all places where such a set touches a block that the surface
 /// meets are looked at, each by the rank that has that block. What is found does not depend on who has which.
 /// Collective.
-BlockRegions find_block_regions(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                                const LatticeTree& tree, const SurfaceTable& table,
-                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface,
-                                const SurfaceReach& reach, parallel::StageClock& clock);
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
+                                const SurfaceAround& around, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

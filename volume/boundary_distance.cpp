@@ -90,20 +90,20 @@ BoundaryDistance::Nearest BoundaryDistance::nearest(Vec3 p, std::int32_t guess) 
     }
   };
   if (guess >= 0) look_at(_slot[guess]);
-  struct Entry {
+  struct QueuedNode {
     std::int32_t node;
     double squared;
   };
-  Entry stack[geometry::BoxTree::most_levels];
+  QueuedNode stack[geometry::BoxTree::most_levels];
   int depth = 0;
   stack[depth++] = {0, squared_distance(p, nodes[0].box)};
   while (depth > 0) {
-    const Entry entry = stack[--depth];
+    const QueuedNode entry = stack[--depth];
     if (entry.squared >= best_squared) continue;
     const Node& node = nodes[entry.node];
     if (!node.is_leaf()) {
-      Entry near{entry.node + 1, squared_distance(p, nodes[entry.node + 1].box)};
-      Entry far{node.right, squared_distance(p, nodes[node.right].box)};
+      QueuedNode near{entry.node + 1, squared_distance(p, nodes[entry.node + 1].box)};
+      QueuedNode far{node.right, squared_distance(p, nodes[node.right].box)};
       if (far.squared < near.squared) std::swap(near, far);
       if (far.squared < best_squared) stack[depth++] = far;
       if (near.squared < best_squared) stack[depth++] = near;

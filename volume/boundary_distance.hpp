@@ -1,9 +1,9 @@
 /// Distance to a triangulated boundary.
 #pragma once
 
-#include "geometry/box_tree.hpp"
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
+#include "aeroloom/geometry/box_tree.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <array>
 #include <cstdint>

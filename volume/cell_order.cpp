@@ -1,6 +1,6 @@
 #include "volume/cell_order.hpp"
 
-#include "sizing/morton.hpp"
+#include "aeroloom/sizing/morton.hpp"
 
 #include <algorithm>
 
@@ -17,11 +17,11 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> points,
   for (const Vec3& p : points) box.add(p);
   const Vec3 size = box.size();
   const double scale = static_cast<double>(mask) / std::max({size.x, size.y, size.z});
-  struct Place {
+  struct CellKey {
     std::uint64_t key;
     std::uint32_t cell;
   };
-  std::vector<Place> order(cells.size()), sorted(cells.size());
+  std::vector<CellKey> order(cells.size()), sorted(cells.size());
   std::array<std::array<std::uint32_t, mask + 2>, passes> first{};
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto& c = cells[i];
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> points,
   }
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t k = 0; k < mask; ++k) first[pass][k + 1] += first[pass][k];
-    for (const Place& place : order) sorted[first[pass][place.key >> (pass * bits) & mask]++] = place;
+    for (const CellKey& place : order) sorted[first[pass][place.key >> (pass * bits) & mask]++] = place;
     order.swap(sorted);
   }
   std::vector<std::uint32_t> result(cells.size());

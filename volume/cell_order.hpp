@@ -1,8 +1,8 @@
 /// An order of tetrahedra in which neighbours are near each other in memory.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <array>
 #include <cstdint>

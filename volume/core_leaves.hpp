@@ -13,7 +13,7 @@
 /// missing leaves the core.
 #pragma once
 
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/block_points.hpp"
 #include "volume/ghost_blocks.hpp"
 #include "volume/leaf_surroundings.hpp"

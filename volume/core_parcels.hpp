@@ -1,9 +1,9 @@
 /// Cells of the core on their way to the pieces they belong to, and what their points are called there.
 #pragma once
 
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "geometry/sort_by_key.hpp"
-#include "mesh/delivery.hpp"
-#include "parallel/timers.hpp"
 #include "volume/core_pieces.hpp"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ public:
     piece.vertex_dimension.push_back(3);
     piece.vertex_entity.push_back(region);
   }
-  mesh::SharedToken token(std::int64_t number) const { return _source.finder.token_of(number); }
+  mesh::SharedVertexKey vertex_key(std::int64_t number) const { return _source.finder.vertex_key_of(number); }
 
 private:
   using Wanted = std::pair<parallel::Rank, std::int64_t>;

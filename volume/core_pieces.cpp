@@ -105,7 +105,7 @@ Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const Numb
     naming.add_vertex(number, region, piece);
     if (is_shared) {
       piece.shared_vertices.push_back(v);
-      piece.shared_tokens.push_back(naming.token(number));
+      piece.shared_keys.push_back(naming.vertex_key(number));
     }
     return v;
   });
@@ -203,20 +203,20 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
   }
   const std::vector<std::uint8_t> shared = find_open_vertices(std::move(faces), piece.vertex_count());
   std::vector<LocalIndex> vertices;
-  std::vector<mesh::SharedToken> tokens;
+  std::vector<mesh::SharedVertexKey> vertex_keys;
   std::size_t known = 0;
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
     const bool was = known < piece.shared_vertices.size() && piece.shared_vertices[known] == v;
     if (was || shared[v]) {
       vertices.push_back(v);
-      tokens.push_back(was ? piece.shared_tokens[known]
-                           : naming.token(v >= first_added ? added[v - first_added]
-                                                           : side.lattice[v - side.first_lattice]));
+      vertex_keys.push_back(was ? piece.shared_keys[known]
+                                : naming.vertex_key(v >= first_added ? added[v - first_added]
+                                                                     : side.lattice[v - side.first_lattice]));
     }
     known += was;
   }
   piece.shared_vertices = std::move(vertices);
-  piece.shared_tokens = std::move(tokens);
+  piece.shared_keys = std::move(vertex_keys);
   mesh::shrink_to_fit(piece);
 }
 
@@ -234,7 +234,7 @@ std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
   return {&result.pieces[place], &result.core_sides[place]};
 }
 
-/// Makes and deals out.
+/// Makes and schedules.
 class CoreMaker {
 public:
   CoreMaker(const parallel::Communicator& communicator, const CoreSource& source,
@@ -286,15 +286,15 @@ private:
   }
 
   std::vector<parallel::Rank> ranks_of_zones() const {
-    struct Row {
+    struct ZoneRank {
       ZoneIndex zone;
       parallel::Rank rank;
-      static constexpr auto fields() { return std::tuple(&Row::zone, &Row::rank); }
+      static constexpr auto fields() { return std::tuple(&ZoneRank::zone, &ZoneRank::rank); }
     };
-    std::vector<Row> rows;
+    std::vector<ZoneRank> rows;
     for (const auto& [zone, result] : _results) rows.push_back({zone, _communicator.rank()});
     std::vector<parallel::Rank> ranks(_source.zones.count(), -1);
-    for (const Row& row : _communicator.all_gather_items<Row>(rows)) ranks[row.zone] = row.rank;
+    for (const ZoneRank& row : _communicator.all_gather_items<ZoneRank>(rows)) ranks[row.zone] = row.rank;
     return ranks;
   }
 

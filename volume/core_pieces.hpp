@@ -3,7 +3,7 @@
 /// the curve of equal weight.
 #pragma once
 
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/core_border.hpp"
 #include "volume/zone_piece.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace aeroloom::volume {
 
-/// What the core's cells are made and dealt out by.
+/// What the core's cells are made and scheduled by.
 struct CoreSource {
   const LatticeSource& lattice;
   const CoreLeaves& core;

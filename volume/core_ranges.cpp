@@ -67,18 +67,18 @@ void CoreRanges::find_inner() {
 }
 
 void CoreRanges::find_ranks(const parallel::Communicator& communicator) {
-  struct Row {
+  struct RangeRank {
     std::int32_t range;
     parallel::Rank rank;
-    static constexpr auto fields() { return std::tuple(&Row::range, &Row::rank); }
+    static constexpr auto fields() { return std::tuple(&RangeRank::range, &RangeRank::rank); }
   };
-  std::vector<Row> rows;
+  std::vector<RangeRank> rows;
   for (std::size_t i = 0; i < _core.ghosts().own_count(); ++i) {
     if (_range[i] >= 0 && (rows.empty() || rows.back().range != _range[i]))
       rows.push_back({_range[i], communicator.rank()});
   }
   _ranks.assign(_count, communicator.size());
-  for (const Row& row : communicator.all_gather_items<Row>(rows))
+  for (const RangeRank& row : communicator.all_gather_items<RangeRank>(rows))
     _ranks[row.range] = std::min(_ranks[row.range], row.rank);
 }
 

@@ -1,7 +1,7 @@
 /// Ranges of the curve that the inside of the core is divided into: a piece of the mesh each.
 #pragma once
 
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/core_border.hpp"
 
 #include <cstdint>

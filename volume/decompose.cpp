@@ -1,4 +1,4 @@
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "partition/piece_size.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
@@ -53,9 +53,9 @@ void share_surface(const parallel::Communicator& communicator, const VolumeInput
     const ScopedCpu task(clock, ScopedCpu::As::task);
     data.table = tabulate_surface(*data.frame, *data.tree, data.triangles);
   }
-  learn_what_touches(communicator, *data.frame, *data.tree, data.table, data.triangles, clock);
+  learn_what_touches(communicator, data.known(), data.triangles, clock);
   data.changes.assign(data.tree->block_count(), {});
-  learn_what_is_far_finer(communicator, data.source(input), *data.tree, data.table, clock);
+  learn_what_is_far_finer(communicator, data.known(), data.source(input), clock);
   data.changes.assign(data.tree->block_count(), {});
   if (communicator.size() > 1) {
     const ScopedCpu task(clock, ScopedCpu::As::task);
@@ -108,7 +108,7 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
   }
   const double widest =
       input.options.halo * std::pow(wider, std::min<int>(input.options.retries, std::size(ladder)));
-  learn_what_is_cut(communicator, *data.frame, *data.tree, data.table, *cuts, widest, clock);
+  learn_what_is_cut(communicator, data.known(), *cuts, widest, clock);
   data.changes.assign(data.tree->block_count(), {});
   data.shell.points.first = data.shell.borders.first = data.tree->first();
   data.core->follow(*data.tree);
@@ -186,8 +186,8 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
   data->squares = std::make_unique<CoreSquares>(*data->frame);
   data->report.blocks = data->tree->total();
   share_surface(communicator, input, *data, clock);
-  BlockRegions regions = find_block_regions(communicator, *data->frame, *data->tree, data->table,
-                                            data->triangles, *data->surface, data->reach, clock);
+  BlockRegions regions =
+      find_block_regions(communicator, data->known(), {data->triangles, *data->surface, data->reach}, clock);
   if (regions.contradiction)
     refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);

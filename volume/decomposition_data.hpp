@@ -1,12 +1,12 @@
 /// What is inside of a Decomposition. Used by the two halves of the stage's driver.
 #pragma once
 
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "volume/block_points.hpp"
 #include "volume/block_regions.hpp"
 #include "volume/core_border.hpp"
 #include "volume/halo.hpp"
 #include "volume/near_surface.hpp"
-#include "volume/volume_mesher.hpp"
 #include "volume/zone_plan.hpp"
 #include "volume/zone_supply.hpp"
 
@@ -36,6 +36,7 @@ struct Decomposition::Data {
   ShellShare shell;
   ZonePlan plan;  ///< of all zones
 
+  KnownLattice known() { return {*frame, *tree, table}; }
   ZoneFinder finder(const VolumeInput& input) const {
     return {*frame, *tree, *zones, input.numbering.vertex_count};
   }

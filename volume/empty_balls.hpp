@@ -1,8 +1,8 @@
 /// Balls that no triangle reaches into: all of one lies in one region.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <array>
 #include <cstddef>

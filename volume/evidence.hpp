@@ -1,11 +1,11 @@
 /// What is known of zones that could not be filled, and the message the user gets.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/volume/volume_failure.hpp"
+#include "aeroloom/volume/volume_report.hpp"
 #include "volume/block_regions.hpp"
 #include "volume/surface_check.hpp"
-#include "volume/volume_failure.hpp"
-#include "volume/volume_report.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <string>

@@ -1,7 +1,8 @@
-#include "parallel/collective_error.hpp"
-#include "parallel/crash_note.hpp"
-#include "parallel/log.hpp"
-#include "parallel/progress.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "parallel/observation/progress.hpp"
+#include "parallel/sandbox/crash_note.hpp"
 #include "volume/core_pieces.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/filling_limits.hpp"
@@ -88,7 +89,7 @@ private:
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
     const parallel::CrashNote note(fmt::format("stage volume, zone {}", content.zone));
-    ZoneFilling filling = fill_zone(content.problem, sabotage_of(content.zone), _input.tasks, seconds);
+    ZoneFilling filling = fill_zone(content.problem, fault_of(content.zone), _input.tasks, seconds);
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);
     parallel::log_verbose(fmt::format(
@@ -126,10 +127,9 @@ private:
         predicted, _input.options.largest_zone));
   }
 
-  parallel::Sabotage sabotage_of(ZoneIndex zone) const {
-    const std::int64_t struck = _input.options.sabotaged_zone;
-    const bool strikes = struck < 0 || (zone == struck && !_ladder.is_merged(zone));
-    return strikes ? _input.options.sabotage : parallel::Sabotage::none;
+  parallel::Fault fault_of(ZoneIndex zone) const {
+    const bool is_faulty = _fault.number < 0 || (zone == _fault.number && !_ladder.is_merged(zone));
+    return is_faulty ? _fault.fault : parallel::Fault::none;
   }
 
   // --- the mesh
@@ -175,9 +175,10 @@ private:
   FillingBudget _budget;
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
-  std::map<ZoneIndex, double> _work;         // that zones were dealt out by
-  std::vector<ZoneFailure> _failures;        // of this rank in this round
-  std::vector<LeavingLeaf> _leaving;         // as well
+  parallel::FaultRequest _fault = parallel::requested_fault("zone");
+  std::map<ZoneIndex, double> _work;   // that zones were scheduled by
+  std::vector<ZoneFailure> _failures;  // of this rank in this round
+  std::vector<LeavingLeaf> _leaving;   // as well
   Evidence _evidence;
 };
 

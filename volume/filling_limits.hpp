@@ -1,7 +1,7 @@
 /// What is tried with zones that cannot be filled, and how often zones may be filled again.
 #pragma once
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

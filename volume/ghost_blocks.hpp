@@ -1,7 +1,7 @@
 /// The blocks of other ranks that touch this rank's, and what their owners know of them.
 #pragma once
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 #include "volume/lattice_tree.hpp"
 
 #include <algorithm>

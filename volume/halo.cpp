@@ -59,10 +59,10 @@ void ZonesAround::move_to(BlockIndex b) {
     if (leaf.box.overlaps(around)) _places.push_back({leaf.zone, leaf.box});
   }
   std::stable_sort(_places.begin(), _places.end(),
-                   [](const Place& a, const Place& b) { return a.zone < b.zone; });
+                   [](const ZoneBox& a, const ZoneBox& b) { return a.zone < b.zone; });
   _boxes.clear();
   _near.clear();
-  for (const Place& place : _places) _boxes.push_back(place.box);
+  for (const ZoneBox& place : _places) _boxes.push_back(place.box);
   for (std::size_t first = 0, last; first < _places.size(); first = last) {
     const ZoneIndex zone = _places[first].zone;
     for (last = first + 1; last < _places.size() && _places[last].zone == zone;) ++last;

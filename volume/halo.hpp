@@ -49,7 +49,7 @@ public:
   std::span<const NearZone> zones() const { return _near; }
 
 private:
-  struct Place {
+  struct ZoneBox {
     ZoneIndex zone;
     GridBox box;
   };
@@ -61,7 +61,7 @@ private:
   const Zones& _zones;
   std::span<const double> _widths;
   double _widest;
-  std::vector<Place> _places;
+  std::vector<ZoneBox> _places;
   std::vector<GridBox> _boxes;
   std::vector<NearZone> _near;
 };

@@ -2,9 +2,9 @@
 /// map.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "sizing/morton.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/sizing/morton.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "volume/lattice_tree.hpp"
 
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "forest/forest.hpp"
-#include "mesh/delivery.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <cmath>
 #include <limits>
@@ -98,20 +98,21 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   {
     forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box), clock);
     if (communicator.size() > 1)
-      forest = forest::deal_out(communicator, forest, weigh(communicator, forest, triangle_keys), clock);
+      forest = forest::partition_by_weight(communicator, forest, weigh(communicator, forest, triangle_keys),
+                                           clock);
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     mine = blocks_of(forest.local());
   }
   constexpr std::uint64_t end = 1ULL << 3 * finest_level;
-  struct Row {
+  struct BlockStart {
     BlockNumber count;
     std::uint64_t key;
-    static constexpr auto fields() { return std::tuple(&Row::count, &Row::key); }
+    static constexpr auto fields() { return std::tuple(&BlockStart::count, &BlockStart::key); }
   };
   const std::array row{
-      Row{static_cast<BlockNumber>(mine.size()), mine.empty() ? end : key_of(mine.front().word)}};
+      BlockStart{static_cast<BlockNumber>(mine.size()), mine.empty() ? end : key_of(mine.front().word)}};
   _firsts.push_back(0);
-  for (const Row& of_rank : communicator.all_gather_items<Row>(row)) {
+  for (const BlockStart& of_rank : communicator.all_gather_items<BlockStart>(row)) {
     _firsts.push_back(_firsts.back() + of_rank.count);
     _keys.push_back(of_rank.key);
   }

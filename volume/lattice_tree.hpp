@@ -1,10 +1,10 @@
 /// The octree of the lattice, and its blocks: the unit of which zones and halos are made.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
-#include "sizing/octree.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/sizing/octree.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "volume/lattice_frame.hpp"
 
 #include <algorithm>

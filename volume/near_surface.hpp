@@ -1,8 +1,8 @@
 /// The part of the surface near some points: how far it is, and which region it bounds there.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
 #include "volume/boundary_distance.hpp"
 #include "volume/surface_share.hpp"
 

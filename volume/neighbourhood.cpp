@@ -1,6 +1,6 @@
 #include "volume/neighbourhood.hpp"
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 #include "volume/halo.hpp"
 #include "volume/near_boxes.hpp"
 
@@ -20,30 +20,33 @@ namespace {
 template <class AddAnswers>
 void learn(const Communicator& communicator, LatticeTree& tree, SurfaceTable& table,
            std::vector<Question> questions, const AddAnswers& add_answers) {
-  struct Row {
+  struct TouchedBlock {
     KnownBlock block;
     float longest_edge;
     parallel::Rank to;
-    static constexpr auto fields() { return std::tuple(&Row::block, &Row::longest_edge, &Row::to); }
+    static constexpr auto fields() {
+      return std::tuple(&TouchedBlock::block, &TouchedBlock::longest_edge, &TouchedBlock::to);
+    }
   };
-  std::vector<Row> rows;
+  std::vector<TouchedBlock> rows;
   const std::vector<Question> asked = take_questions(communicator, std::move(questions));
   for_each_asker(asked, [&](std::span<const Question> of_rank) {
     add_answers(of_rank, [&](BlockIndex b) {
       rows.push_back({tree.known(b), table.longest_edge[b], of_rank.front().from});
     });
   });
-  rows = mesh::deliver(communicator, std::move(rows), [](const Row& row) { return row.to; });
+  rows = mesh::deliver(communicator, std::move(rows), [](const TouchedBlock& row) { return row.to; });
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
     if (tree.is_known(b)) rows.push_back({tree.known(b), table.longest_edge[b], 0});
   }
   const BlockIndex first = tree.first(), last = tree.last();
   std::vector<KnownBlock> blocks;
   blocks.reserve(rows.size());
-  for (const Row& row : rows) blocks.push_back(row.block);
+  for (const TouchedBlock& row : rows) blocks.push_back(row.block);
   tree.learn(std::move(blocks));
   table.longest_edge.assign(tree.block_count(), 0);
-  for (const Row& row : rows) table.longest_edge[tree.index(row.block.number)] = row.longest_edge;
+  for (const TouchedBlock& row : rows) table.longest_edge[tree.index(row.block.number)] = row.longest_edge;
+  table.count_met();
   const auto move = [&](auto& values) {
     auto moved = std::decay_t<decltype(values)>(tree.block_count());
     std::copy(values.begin() + first, values.begin() + last, moved.begin() + tree.first());
@@ -90,9 +93,11 @@ std::vector<Question> take_questions(const Communicator& communicator, std::vect
   return mesh::deliver(communicator, std::move(questions), [](const Question& q) { return q.to; });
 }
 
-void learn_what_touches(const Communicator& communicator, const LatticeFrame& frame, LatticeTree& tree,
-                        SurfaceTable& table, std::span<const SurfaceTriangle> triangles,
-                        parallel::StageClock& clock) {
+void learn_what_touches(const Communicator& communicator, const KnownLattice& lattice,
+                        std::span<const SurfaceTriangle> triangles, parallel::StageClock& clock) {
+  const LatticeFrame& frame = lattice.frame;
+  LatticeTree& tree = lattice.tree;
+  SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return;
   const ScopedCpu task(clock, ScopedCpu::As::task);
   std::vector<Question> questions;
@@ -121,8 +126,10 @@ void learn_what_touches(const Communicator& communicator, const LatticeFrame& fr
         });
 }
 
-void learn_what_is_far_finer(const Communicator& communicator, const LatticeSource& source, LatticeTree& tree,
-                             SurfaceTable& table, parallel::StageClock& clock) {
+void learn_what_is_far_finer(const Communicator& communicator, const KnownLattice& lattice,
+                             const LatticeSource& source, parallel::StageClock& clock) {
+  LatticeTree& tree = lattice.tree;
+  SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return;
   const ScopedCpu task(clock, ScopedCpu::As::task);
   std::vector<Question> questions;
@@ -143,14 +150,17 @@ void learn_what_is_far_finer(const Communicator& communicator, const LatticeSour
                   return true;
                 },
                 [&](BlockIndex first, BlockIndex last, const GridCube&) {
-                  return last <= tree.first() || first >= tree.last();
+                  return last <= tree.first() || first >= tree.last() || !table.any_met(first, last);
                 });
           }
         });
 }
 
-void learn_what_is_cut(const Communicator& communicator, const LatticeFrame& frame, LatticeTree& tree,
-                       SurfaceTable& table, const ZoneCuts& cuts, double width, parallel::StageClock& clock) {
+void learn_what_is_cut(const Communicator& communicator, const KnownLattice& lattice, const ZoneCuts& cuts,
+                       double width, parallel::StageClock& clock) {
+  const LatticeFrame& frame = lattice.frame;
+  LatticeTree& tree = lattice.tree;
+  SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return;
   const ScopedCpu task(clock, ScopedCpu::As::task);
   std::vector<Question> questions;

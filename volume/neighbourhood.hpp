@@ -1,9 +1,9 @@
 /// What ranks learn of the blocks of others.
 #pragma once
 
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "geometry/runs.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
 #include "volume/block_points.hpp"
 #include "volume/zone_cuts.hpp"
 
@@ -38,18 +38,23 @@ void for_each_asker(std::span<const Question> questions, const Visit& visit) {
       [&](std::size_t first, std::size_t last) { visit(questions.subspan(first, last - first)); });
 }
 
+/// What a rank knows of the lattice, and learns more of.
+struct KnownLattice {
+  const LatticeFrame& frame;
+  LatticeTree& tree;
+  SurfaceTable& table;
+};
+
 // What tree and table learn. Indices of blocks change. All are collective.
 
 /// All blocks that touch this rank's, or hold corners of its triangles.
-void learn_what_touches(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                        LatticeTree& tree, SurfaceTable& table, std::span<const SurfaceTriangle> triangles,
-                        parallel::StageClock& clock);
+void learn_what_touches(const parallel::Communicator& communicator, const KnownLattice& lattice,
+                        std::span<const SurfaceTriangle> triangles, parallel::StageClock& clock);
 /// Where there are far finer blocks on the surface (see look_of_block), one of them.
-void learn_what_is_far_finer(const parallel::Communicator& communicator, const LatticeSource& source,
-                             LatticeTree& tree, SurfaceTable& table, parallel::StageClock& clock);
+void learn_what_is_far_finer(const parallel::Communicator& communicator, const KnownLattice& lattice,
+                             const LatticeSource& source, parallel::StageClock& clock);
 /// Those across the borders of zones that halos of a width are told by (ZonesAround).
-void learn_what_is_cut(const parallel::Communicator& communicator, const LatticeFrame& frame,
-                       LatticeTree& tree, SurfaceTable& table, const ZoneCuts& cuts, double width,
-                       parallel::StageClock& clock);
+void learn_what_is_cut(const parallel::Communicator& communicator, const KnownLattice& lattice,
+                       const ZoneCuts& cuts, double width, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume

@@ -1,8 +1,8 @@
 /// Which of a zone's tetrahedra are its own, and which region they lie in.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "mesh/piece.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/piece.hpp"
 #include "volume/tetgen_run.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "volume/surface_share.hpp"
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 #include "volume/boundary_distance.hpp"
 #include "volume/near_boxes.hpp"
 #include "volume/neighbourhood.hpp"
@@ -119,6 +119,12 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
   return send(communicator, std::move(outgoing), {});
 }
 
+void SurfaceTable::count_met() {
+  met_before.assign(longest_edge.size() + 1, 0);
+  for (std::size_t b = 0; b < longest_edge.size(); ++b)
+    met_before[b + 1] = met_before[b] + (longest_edge[b] > 0 ? 1 : 0);
+}
+
 SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
                               std::span<const SurfaceTriangle> triangles) {
   SurfaceTable table;
@@ -141,6 +147,7 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
       if (b != middle) add(b);
     });
   }
+  table.count_met();
   return table;
 }
 

@@ -2,9 +2,9 @@
 /// share.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/lattice_tree.hpp"
 
 #include <array>
@@ -43,6 +43,12 @@ struct SurfaceTable {
   std::vector<float> nearest;           ///< how far one of them is from its centre, at most
 
   bool is_met(BlockIndex b) const { return longest_edge[b] > 0; }
+  /// Whether one of the blocks from `first` to before `last` is.
+  bool any_met(BlockIndex first, BlockIndex last) const { return met_before[first] < met_before[last]; }
+  /// Once all longest edges are known.
+  void count_met();
+
+  std::vector<BlockIndex> met_before;  ///< per block, and one beyond: how many before it are met
 };
 
 /// The triangles that meet this rank's blocks, by number. Collective.

@@ -1,7 +1,7 @@
-/// TetGen behind our types. It may throw, abort, hang or exhaust memory: call it in a contained run only.
+/// TetGen behind our types. It may throw, abort, hang or exhaust memory: call it in a sandboxed run only.
 #pragma once
 
-#include "mesh/piece.hpp"
+#include "aeroloom/mesh/piece.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 /// Where space is cut into zones of equal load.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "volume/block_points.hpp"
 #include "volume/core_border.hpp"
 #include "volume/lattice_tree.hpp"

@@ -1,8 +1,8 @@
 #include "volume/zone_fill.hpp"
 
-#include "parallel/contained.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "volume/cell_order.hpp"
-#include "volume/volume_mesher.hpp"
 #include "volume/zones.hpp"
 
 #include <algorithm>
@@ -75,8 +75,8 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
 
 /// Runs in the child.
 Bytes fill_task(std::span<const std::byte> input) {
-  const auto [sabotage, problem] = parallel::from_wire<std::tuple<parallel::Sabotage, ZoneProblem>>(input);
-  parallel::commit_sabotage(sabotage);
+  const auto [fault, problem] = parallel::from_wire<std::tuple<parallel::Fault, ZoneProblem>>(input);
+  parallel::inject_fault(fault);
   const UnitFrame frame(problem.points);
   std::vector<Vec3> points = problem.points, added;
   OwnedCells owned;
@@ -106,8 +106,8 @@ void unpack_filling(std::span<const std::byte> bytes, ZoneFilling& filling) {
   filling.filled = true;
 }
 
-std::string describe(const parallel::ContainedResult& result) {
-  using Status = parallel::ContainedStatus;
+std::string describe(const parallel::SandboxResult& result) {
+  using Status = parallel::SandboxStatus;
   switch (result.status) {
     case Status::aborted:
       return "the mesher crashed: " + result.message;
@@ -127,10 +127,10 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
                                    tetrahedra_per_triangle * static_cast<double>(problem.triangles.size()));
 }
 
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, parallel::TaskStore* tasks,
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Fault fault, parallel::TaskStore* tasks,
                       double base_cpu_seconds) {
-  if (sabotage != parallel::Sabotage::none) tasks = nullptr;
-  const Bytes packed = parallel::to_wire(std::tie(sabotage, problem));
+  if (fault != parallel::Fault::none) tasks = nullptr;
+  const Bytes packed = parallel::to_wire(std::tie(fault, problem));
   ZoneFilling filling;
   parallel::Digest key;
   if (tasks != nullptr) {
@@ -141,13 +141,13 @@ ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, p
     }
   }
   const std::int64_t predicted = predict_tetrahedra(problem);
-  const parallel::ContainedLimits limits{
+  const parallel::SandboxLimits limits{
       base_cpu_seconds + cpu_seconds_per_tetrahedron * static_cast<double>(predicted),
       base_bytes + bytes_per_tetrahedron * predicted};
-  const auto result = parallel::run_contained(task_name, packed, limits);
+  const auto result = parallel::run_sandboxed(task_name, packed, limits);
   filling.cpu_seconds = result.cpu_seconds;
   filling.child_peak_bytes = result.peak_resident_bytes;
-  if (result.status != parallel::ContainedStatus::ok) {
+  if (result.status != parallel::SandboxStatus::ok) {
     filling.failure = describe(result);
     return filling;
   }
@@ -157,7 +157,7 @@ ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage, p
 }
 
 void register_volume_tasks() {
-  parallel::register_contained_task(task_name, fill_task);
+  parallel::register_sandbox_task(task_name, fill_task);
 }
 
 }  // namespace aeroloom::volume

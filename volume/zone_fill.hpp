@@ -1,9 +1,10 @@
-/// One try at filling a zone, in a contained child.
+/// One try at filling a zone, in a sandboxed child.
 #pragma once
 
-#include "parallel/task_store.hpp"
+#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "aeroloom/parallel/storage/task_store.hpp"
+#include "aeroloom/volume/volume_options.hpp"
 #include "volume/owned_cells.hpp"
-#include "volume/volume_options.hpp"
 
 #include <cstdint>
 #include <string>
@@ -27,8 +28,7 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem);
 /// Runs TetGen in a child under limits that follow from the predicted count, the CPU seconds on top of
 /// `base_cpu_seconds`. Nothing the child does harms the
 /// caller. What is found in `tasks` is not filled again, what is filled is kept there.
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Sabotage sabotage,
-                      parallel::TaskStore* tasks = nullptr,
+ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Fault fault, parallel::TaskStore* tasks = nullptr,
                       double base_cpu_seconds = VolumeOptions().base_cpu_seconds);
 
 }  // namespace aeroloom::volume

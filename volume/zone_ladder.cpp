@@ -1,7 +1,7 @@
 #include "volume/zone_ladder.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "volume/filling_limits.hpp"
 #include "volume/halo.hpp"
 

@@ -1,6 +1,6 @@
 #include "volume/zone_piece.hpp"
 
-#include "mesh/tokens.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 
 #include <algorithm>
 
@@ -58,11 +58,11 @@ public:
       std::array<LocalIndex, 3> v;
       for (int k = 0; k < 3; ++k) v[k] = _filling.owned.cells[crossing.cell][corner[k]];
       const auto order = [&](int i, int j) {
-        if (token(v[j]) < token(v[i])) std::swap(v[i], v[j]), face.odd ^= 1;
+        if (vertex_key(v[j]) < vertex_key(v[i])) std::swap(v[i], v[j]), face.odd ^= 1;
       };
       order(0, 1), order(1, 2), order(0, 1);
       for (int k = 0; k < 3; ++k) {
-        face.vertices[k] = token(v[k]);
+        face.vertices[k] = vertex_key(v[k]);
         face.leaves[k] = leaf(v[k]);
       }
       result.push_back(face);
@@ -76,7 +76,7 @@ private:
     for (std::size_t v = _content.problem.surface_points(); v < given(); ++v) {
       if (number[v] < 0) continue;
       if (side.lattice.empty()) side.first_lattice = number[v];
-      side.lattice.push_back(static_cast<std::int64_t>(_content.tokens[v]) - _content.surface_vertices);
+      side.lattice.push_back(static_cast<std::int64_t>(_content.vertex_keys[v]) - _content.surface_vertices);
     }
     for (const Crossing& border : _filling.owned.borders) {
       if (_filling.owned.regions[border.cell] != region) continue;
@@ -87,10 +87,9 @@ private:
   }
 
   std::size_t given() const { return _content.problem.points.size(); }
-  mesh::SharedToken token(LocalIndex v) const {
-    if (static_cast<std::size_t>(v) < given()) return _content.tokens[v];
-    return mesh::added_token(_content.zone,
-                             static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
+  mesh::SharedVertexKey vertex_key(LocalIndex v) const {
+    if (static_cast<std::size_t>(v) < given()) return _content.vertex_keys[v];
+    return mesh::added_key(_content.zone, static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
   }
   LeafNumber leaf(LocalIndex v) const {
     return static_cast<std::size_t>(v) < given() ? _content.leaves[v] : -1;
@@ -137,7 +136,7 @@ private:
       piece.vertex_entity.push_back(on_surface ? _content.entity[v] : region);
       if (v >= given() || !_shared[v]) continue;
       piece.shared_vertices.push_back(number[v]);
-      piece.shared_tokens.push_back(_content.tokens[v]);
+      piece.shared_keys.push_back(_content.vertex_keys[v]);
     }
   }
 
@@ -167,24 +166,24 @@ mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
                                     const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
                                     ZoneIndex zones) {
-  struct Row {
+  struct PieceRegion {
     std::int32_t place;  ///< a zone, or a range of the core behind them
     RegionId region;
-    static constexpr auto fields() { return std::tuple(&Row::place, &Row::region); }
-    auto operator<=>(const Row&) const = default;
+    static constexpr auto fields() { return std::tuple(&PieceRegion::place, &PieceRegion::region); }
+    auto operator<=>(const PieceRegion&) const = default;
   };
-  std::vector<Row> rows;
+  std::vector<PieceRegion> rows;
   for (const auto& [zone, result] : results) {
     for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
   }
   for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
-  rows = communicator.all_gather_items<Row>(rows);
+  rows = communicator.all_gather_items<PieceRegion>(rows);
   std::sort(rows.begin(), rows.end());
   mesh::DistributedMesh mesh;
   mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
   const auto add = [&](std::int32_t place, Piece& piece) {
     piece.id = static_cast<mesh::PieceId>(
-        std::lower_bound(rows.begin(), rows.end(), Row{place, piece.region}) - rows.begin());
+        std::lower_bound(rows.begin(), rows.end(), PieceRegion{place, piece.region}) - rows.begin());
     mesh.pieces.push_back(std::move(piece));
   };
   for (auto& [zone, result] : results) {

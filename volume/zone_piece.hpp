@@ -1,7 +1,7 @@
 /// From a filled zone to pieces of the mesh, and the faces by which zones must fit together.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "volume/zone_fill.hpp"
 #include "volume/zone_supply.hpp"
 
@@ -15,8 +15,8 @@ namespace aeroloom::volume {
 
 /// A face of a zone's cell behind which another zone's cell must be.
 struct ZoneFace {
-  std::array<mesh::SharedToken, 3> vertices;  ///< ascending
-  std::array<LeafNumber, 3> leaves;           ///< of each vertex; -1 of one that TetGen added
+  std::array<mesh::SharedVertexKey, 3> vertices;  ///< ascending
+  std::array<LeafNumber, 3> leaves;               ///< of each vertex; -1 of one that TetGen added
   ZoneIndex zone;
   mesh::RegionId region;
   std::int32_t odd;  ///< 1 where its turn, seen from outside of the cell, is that of the descending vertices

@@ -1,6 +1,6 @@
 #include "volume/zone_plan.hpp"
 
-#include "parallel/schedule.hpp"
+#include "parallel/communication/schedule.hpp"
 #include "volume/halo.hpp"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ struct Turn {
   std::size_t batch = 0;
 };
 
-std::vector<Turn> deal_out(const std::vector<ZoneLoad>& loads, int ranks, std::size_t zones) {
+std::vector<Turn> schedule_zones(const std::vector<ZoneLoad>& loads, int ranks, std::size_t zones) {
   std::vector<double> work;
   work.reserve(loads.size());
   for (const ZoneLoad& load : loads) work.push_back(load.work());
@@ -148,7 +148,7 @@ ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore&
   }
   ZonePlan plan;
   plan.loads = add_up(communicator, mine, zones, widths.size());
-  const std::vector<Turn> turns = deal_out(plan.loads, communicator.size(), widths.size());
+  const std::vector<Turn> turns = schedule_zones(plan.loads, communicator.size(), widths.size());
   std::size_t batches = 0;
   for (const ZoneLoad& load : plan.loads) batches = std::max(batches, turns[load.zone].batch + 1);
   plan.batches.resize(batches);

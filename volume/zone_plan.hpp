@@ -1,8 +1,8 @@
 /// Who fills which zone, and with what.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <span>

@@ -1,6 +1,6 @@
 #include "volume/zone_supply.hpp"
 
-#include "mesh/delivery.hpp"
+#include "aeroloom/mesh/delivery.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -145,13 +145,13 @@ public:
                               [](const Corner& a, const Corner& b) { return a.number == b.number; }),
                   corners.end());
     for (const Corner& corner : corners) {
-      add_point(mesh::running_token(corner.number), corner.point, corner.leaf, corner.owner);
+      add_point(mesh::running_key(corner.number), corner.point, corner.leaf, corner.owner);
       _content.dimension.push_back(corner.dimension);
       _content.entity.push_back(corner.entity);
     }
     for (const TriangleOfZone& t : triangles) add_triangle(t.triangle, corners);
     for (const PointOfZone& p : points) {
-      add_point(_finder.token_of(p.number), p.point, leaf_number_of_lattice(p.number), p.owner);
+      add_point(_finder.vertex_key_of(p.number), p.point, leaf_number_of_lattice(p.number), p.owner);
       _content.problem.regions.push_back(p.region);
     }
     for (const BorderOfZone& t : borders) add_border(t);
@@ -168,8 +168,8 @@ private:
     ZoneIndex owner;
   };
 
-  void add_point(mesh::SharedToken token, Vec3 p, LeafNumber leaf, ZoneIndex owner) {
-    _content.tokens.push_back(token);
+  void add_point(mesh::SharedVertexKey vertex_key, Vec3 p, LeafNumber leaf, ZoneIndex owner) {
+    _content.vertex_keys.push_back(vertex_key);
     _content.leaves.push_back(leaf);
     _content.problem.points.push_back(p);
     _content.problem.owners.push_back(owner == _content.zone  ? Owner::mine
@@ -179,16 +179,16 @@ private:
 
   /// Where all of its points are known.
   void add_border(const BorderOfZone& t) {
-    const std::vector<mesh::SharedToken>& tokens = _content.tokens;
+    const std::vector<mesh::SharedVertexKey>& vertex_keys = _content.vertex_keys;
     LocalTriangle local;
     bool is_own = false;
     int known = 0;
     for (int k = 0; k < 3; ++k) {
-      const mesh::SharedToken token = _finder.token_of(t.points[k]);
-      const auto at = std::lower_bound(tokens.begin(), tokens.end(), token);
-      if (at == tokens.end() || *at != token) continue;
+      const mesh::SharedVertexKey vertex_key = _finder.vertex_key_of(t.points[k]);
+      const auto at = std::lower_bound(vertex_keys.begin(), vertex_keys.end(), vertex_key);
+      if (at == vertex_keys.end() || *at != vertex_key) continue;
       ++known;
-      local[k] = static_cast<mesh::LocalIndex>(at - tokens.begin());
+      local[k] = static_cast<mesh::LocalIndex>(at - vertex_keys.begin());
       is_own = is_own || _content.problem.owners[local[k]] == Owner::mine;
     }
     if (known < 3 && is_own) throw std::logic_error("a zone does not know a point of the core's border");

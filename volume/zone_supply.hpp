@@ -1,10 +1,10 @@
 /// From the blocks that ranks have to the problems that zones are.
 #pragma once
 
-#include "mesh/piece.hpp"
-#include "mesh/tokens.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/mesh/piece.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 #include "volume/block_points.hpp"
 #include "volume/core_border.hpp"
 #include "volume/owned_cells.hpp"
@@ -21,8 +21,8 @@ namespace aeroloom::volume {
 struct ZoneContent {
   ZoneIndex zone = no_zone;
   ZoneProblem problem;
-  std::vector<mesh::SharedToken>
-      tokens;  ///< per point, ascending: number in the surface, then lattice points
+  std::vector<mesh::SharedVertexKey>
+      vertex_keys;  ///< per point, ascending: number in the surface, then lattice points
   mesh::GlobalIndex surface_vertices = 0;  ///< before the first lattice point
   std::vector<LeafNumber> leaves;          ///< per point: that it belongs to
   std::vector<std::int8_t> dimension;      ///< per surface point
@@ -46,8 +46,8 @@ public:
   ZoneIndex zone_of(const Leaf& leaf) const { return _zones.of(leaf.block, leaf.child); }
   const Zones& zones() const { return _zones; }
   mesh::GlobalIndex surface_vertices() const { return _surface_vertices; }
-  mesh::SharedToken token_of(std::int64_t lattice_number) const {
-    return mesh::running_token(_surface_vertices + lattice_number);
+  mesh::SharedVertexKey vertex_key_of(std::int64_t lattice_number) const {
+    return mesh::running_key(_surface_vertices + lattice_number);
   }
 
 private:

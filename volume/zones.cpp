@@ -60,16 +60,16 @@ void Zones::merge(ZoneIndex from, ZoneIndex to) {
 
 std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator,
                                       std::vector<std::int64_t> mine) {
-  struct Row {
+  struct ZoneValue {
     ZoneIndex zone;
     std::int64_t value;
-    static constexpr auto fields() { return std::tuple(&Row::zone, &Row::value); }
+    static constexpr auto fields() { return std::tuple(&ZoneValue::zone, &ZoneValue::value); }
   };
-  std::vector<Row> rows;
+  std::vector<ZoneValue> rows;
   for (std::size_t z = 0; z < mine.size(); ++z) {
     if (mine[z] != 0) rows.push_back({static_cast<ZoneIndex>(z), std::exchange(mine[z], 0)});
   }
-  for (const Row& row : communicator.all_gather_items<Row>(rows)) mine[row.zone] += row.value;
+  for (const ZoneValue& row : communicator.all_gather_items<ZoneValue>(rows)) mine[row.zone] += row.value;
   return mine;
 }
 

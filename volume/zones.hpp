@@ -1,4 +1,4 @@
-/// Zones: the sets of blocks that tetrahedra are dealt out by.
+/// Zones: the sets of blocks that tetrahedra are scheduled by.
 #pragma once
 
 #include "volume/lattice_tree.hpp"

@@ -1,7 +1,7 @@
 /// Analytic shapes for tests and benchmarks: small models with known areas, volumes and curvatures.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

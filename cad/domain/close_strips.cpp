@@ -1,6 +1,6 @@
 #include "cad/domain/close_strips.hpp"
 
-#include "cad/model/closed_edges.hpp"
+#include "cad/model/topology/closed_edges.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "cad/domain/domain.hpp"
+#include "aeroloom/cad/domain/domain.hpp"
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
@@ -105,7 +105,7 @@ void require_representable(const Box& box) {
 }
 
 /// Triangulates every face coarsely, where nobody did: what the CAD library cannot triangulate is found here,
-/// where a crash is contained.
+/// where a crash is sandboxed.
 void try_facets(const Model& model) {
   for (FaceId f = 0; f < model.face_count(); ++f) model.facets(f, 0.01 * model.bounds().diagonal(), 0.6);
 }

@@ -1,7 +1,7 @@
 #include "cad/domain/sharpen.hpp"
 
+#include "aeroloom/cad/model/topology/blunt_edges.hpp"
 #include "cad/domain/close_strips.hpp"
-#include "cad/model/blunt_edges.hpp"
 #include "cad/model/patches.hpp"
 #include "cad/model/step_trace.hpp"
 
@@ -46,7 +46,7 @@ void require_matches(const Model& model, const std::vector<std::string>& pattern
     if (any) continue;
     throw CadError(fmt::format(
         "geometry.sharpen_faces: no face and no patch of this model is called '{}'. Remedy: `aeroloom check` "
-        "lists the patches; * stands for any letters",
+        "lists the patches; * stands for any characters",
         pattern));
   }
 }

@@ -1,8 +1,8 @@
-#include "cad/model/closed_edges.hpp"
 #include "cad/model/model_data.hpp"
-#include "cad/model/model_topology.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/model/topology/closed_edges.hpp"
+#include "cad/model/topology/model_topology.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 /// What is behind a Model: shapes of the CAD library and cached evaluators. Seen by this folder only.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/evaluation/surface_evaluator.hpp"
 #include "cad/model/named_shape.hpp"
-#include "cad/model/surface_evaluator.hpp"
 
 #include <array>
 #include <cmath>
@@ -50,7 +50,7 @@ inline constexpr double area_precision = 1e-3;
 /// Area and centre to `area_precision`, the box as above.
 FacePlace place_of(const TopoDS_Face& face);
 
-/// The parameter curve of one passage along an edge.
+/// The parameter curve of one coedge along an edge.
 struct UseCurve {
   EdgeUse use;
   Geom2dAdaptor_Curve curve;

@@ -2,7 +2,7 @@
 /// only.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 #include <string>
 #include <utility>

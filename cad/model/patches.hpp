@@ -1,14 +1,14 @@
 /// Patches of a model by name.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 #include <string>
 #include <vector>
 
 namespace aeroloom::cad {
 
-/// Whether a name is like a pattern, in which * stands for any letters and ? for one.
+/// Whether a name is like a pattern, in which * stands for any characters and ? for one.
 bool matches_pattern(const std::string& name, const std::string& pattern);
 
 /// The model with other patches: one name for each face, patches in the order of the faces that bring them.

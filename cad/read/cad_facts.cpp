@@ -1,4 +1,4 @@
-#include "cad/read/cad_facts.hpp"
+#include "aeroloom/cad/read/cad_facts.hpp"
 
 #include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"

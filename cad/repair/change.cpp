@@ -1,4 +1,4 @@
-#include "cad/repair/change.hpp"
+#include "aeroloom/cad/repair/change.hpp"
 
 #include <fmt/format.h>
 

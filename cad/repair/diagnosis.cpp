@@ -1,4 +1,4 @@
-#include "cad/repair/diagnosis.hpp"
+#include "aeroloom/cad/repair/diagnosis.hpp"
 
 #include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"

@@ -21,7 +21,7 @@ struct EdgePart {
 Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
                                   const Handle(Geom2d_Curve) & image, bool against, double tolerance);
 
-/// Gives the edge an image on a face, for its passage forward or reversed; where the face sees it already it
+/// Gives the edge an image on a face, for its coedge forward or reversed; where the face sees it already it
 /// becomes a seam.
 void add_image(const TopoDS_Edge& edge, const Handle(Geom2d_Curve) & image, const TopoDS_Face& face,
                bool forward, double tolerance);

@@ -1,7 +1,7 @@
 /// Edges cut into pieces, some of which take the place of others. Seen by this folder only.
 #pragma once
 
-#include "geometry/vec.hpp"
+#include "aeroloom/geometry/vec.hpp"
 
 #include <BRep_Tool.hxx>
 #include <TopoDS_Edge.hxx>

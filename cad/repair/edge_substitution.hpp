@@ -21,7 +21,7 @@ struct Substitution {
   TopTools_IndexedMapOfShape removed_faces;
 };
 
-/// The shape with the substitution made. A passage to and fro along one new edge vanishes, and so does a
+/// The shape with the substitution made. A coedge to and fro along one new edge vanishes, and so does a
 /// loop of nothing inside a face. Labels follow. Throws CadError where a face or a shell would vanish that is
 /// not to be removed, or a closed shell would open.
 TopoDS_Shape substitute(const TopoDS_Shape& shape, const Substitution& substitution, FaceLabels& labels);

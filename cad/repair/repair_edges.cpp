@@ -1,7 +1,7 @@
 #include "cad/repair/repair_edges.hpp"
 
 #include "cad/model/model_data.hpp"
-#include "cad/model/model_topology.hpp"
+#include "cad/model/topology/model_topology.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "cad/repair/sewing.hpp"
 
 #include "cad/model/model_data.hpp"
-#include "cad/model/model_topology.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/model/topology/model_topology.hpp"
 #include "cad/repair/caps.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"

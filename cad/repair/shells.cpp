@@ -84,7 +84,7 @@ bool is_closed(const TopoDS_Shell& shell) {
   for (int i = 1; i <= users.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
     const bool inside_a_face = edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED;
-    // A face is listed once per passage, so a seam counts twice.
+    // A face is listed once per coedge, so a seam counts twice.
     if (!BRep_Tool::Degenerated(edge) && !inside_a_face && users(i).Extent() < 2) return false;
   }
   return !users.IsEmpty();

@@ -7,12 +7,11 @@
 #include <exception>
 #include <string>
 
-#include <aeroloom/cad/domain/domain.hpp>
+#include <aeroloom/domain/load_domain.hpp>
 #include <aeroloom/improve/improver.hpp>
 #include <aeroloom/mesh/distributed_mesh.hpp>
-#include <aeroloom/parallel/collective_error.hpp>
-#include <aeroloom/parallel/contained.hpp>
-#include <aeroloom/parallel/host.hpp>
+#include <aeroloom/parallel/communication/host.hpp>
+#include <aeroloom/parallel/sandbox/sandbox.hpp>
 #include <aeroloom/sizing/size_field.hpp>
 #include <aeroloom/surface/surface_mesher.hpp>
 #include <aeroloom/volume/volume_mesher.hpp>
@@ -21,18 +20,14 @@ namespace {
 
 using namespace aeroloom;
 
-/// The domain around the aircraft: one rank reads and heals, all build the same model from the same bytes.
+/// The domain around the aircraft: one rank reads and heals, all build the same model.
 cad::Model load(const parallel::Communicator& ranks, const std::string& file) {
-  parallel::Bytes bytes;
-  parallel::agree(ranks, [&] {
-    if (!ranks.is_root()) return;
-    cad::DomainOptions options;
-    options.file = file;
-    if (file.empty()) options.transport.emplace();
-    bytes = cad::prepare_domain(options).model.serialise();
-  });
-  ranks.broadcast(bytes);
-  return cad::Model::from_bytes(bytes);
+  cad::DomainOptions options;
+  options.file = file;
+  if (file.empty()) options.transport.emplace();
+  parallel::StageClock clock;
+  cad::DomainReport report;
+  return domain::load_domain(ranks, options, clock, report);
 }
 
 /// From CAD to improved tetrahedra, stage by stage.
@@ -91,9 +86,11 @@ void solve(MPI_Comm solver_ranks, const std::string& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Before MPI, so that a crash in the mesher of a piece stays there; without it everything works but that.
+  // Before MPI, so that a crash in the CAD library or in the mesher of a piece stays there; without it
+  // everything works but that.
+  domain::register_geometry_tasks();
   volume::register_volume_tasks();
-  const parallel::ContainedServer server;
+  const parallel::SandboxServer server;
 
   MPI_Init(&argc, &argv);
   int rank = 0;

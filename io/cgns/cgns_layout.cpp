@@ -147,9 +147,9 @@ public:
     return path;
   }
   /// An array that ranks fill; its offset in the file.
-  std::int64_t reserve(const std::string& parent, const std::string& name, ItemType type, const char* letters,
-                       std::int64_t count) {
-    const std::string path = add(parent, name, "DataArray_t", letters);
+  std::int64_t reserve(const std::string& parent, const std::string& name, ItemType type,
+                       const char* type_code, std::int64_t count) {
+    const std::string path = add(parent, name, "DataArray_t", type_code);
     return _file.reserve(path + "/ data", type, count);
   }
 

@@ -130,18 +130,18 @@ std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator
     for (const Block& block : part.faces) grow(boxes, 0, part, block);
     for (const Block& block : part.cells) grow(boxes, mesh.patches.size(), part, block);
   }
-  struct Found {
+  struct EntityBox {
     std::int64_t entity;
     MshBox box;
 
-    static constexpr auto fields() { return std::tuple(&Found::entity, &Found::box); }
+    static constexpr auto fields() { return std::tuple(&EntityBox::entity, &EntityBox::box); }
   };
-  std::vector<Found> found;
+  std::vector<EntityBox> found;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (boxes[i].least[0] <= boxes[i].largest[0]) found.push_back({static_cast<std::int64_t>(i), boxes[i]});
   }
-  const auto merge = [&](const std::vector<Found>& items) {
-    for (const Found& item : items) {
+  const auto merge = [&](const std::vector<EntityBox>& items) {
+    for (const EntityBox& item : items) {
       MshBox& box = boxes[static_cast<std::size_t>(item.entity)];
       for (std::size_t k = 0; k < 3; ++k) {
         box.least[k] = std::min(box.least[k], item.box.least[k]);
@@ -150,15 +150,15 @@ std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator
     }
   };
   // Each entity meets on one rank, so that nobody gathers a box of every rank.
-  const std::vector<Found> met =
-      mesh::meet_by_key(communicator, std::move(found), &Found::entity, &Found::entity);
+  const std::vector<EntityBox> met =
+      mesh::meet_by_key(communicator, std::move(found), &EntityBox::entity, &EntityBox::entity);
   merge(met);
   found.clear();
-  mesh::for_each_key(met, &Found::entity, [&](std::span<const Found> group) {
+  mesh::for_each_key(met, &EntityBox::entity, [&](std::span<const EntityBox> group) {
     const std::int64_t entity = group.front().entity;
     found.push_back({entity, boxes[static_cast<std::size_t>(entity)]});
   });
-  merge(communicator.all_gather_items(std::span<const Found>(found)));
+  merge(communicator.all_gather_items(std::span<const EntityBox>(found)));
   return boxes;
 }
 

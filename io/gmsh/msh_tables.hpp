@@ -1,7 +1,7 @@
 /// What an MSH file says about itself: groups, entities, and where its blocks of nodes and elements stand.
 #pragma once
 
-#include "io/file_mesh.hpp"
+#include "aeroloom/io/file_mesh.hpp"
 #include "io/gmsh/msh_scanner.hpp"
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "io/hdf5/memory_image.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 #include "io/hdf5/input_file.hpp"
 
-#include "io/hdf5/contained_reading.hpp"
-#include "parallel/contained.hpp"
-#include "parallel/crash_note.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "io/hdf5/sandboxed_reading.hpp"
+#include "parallel/sandbox/crash_note.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -20,24 +20,24 @@ namespace {
 constexpr std::int64_t rows_at_a_time = std::int64_t{1} << 21;
 
 /// Runs one operation in a child; its bytes.
-parallel::Bytes read_contained(const ReadingRequest& request) {
+parallel::Bytes read_sandboxed(const ReadingRequest& request) {
   const std::string& path = request.path;
-  parallel::ContainedLimits limits;
+  parallel::SandboxLimits limits;
   limits.cpu_seconds = 120;
   limits.address_space_bytes = std::int64_t{2} << 30;
   const parallel::CrashNote note(fmt::format("reading '{}'", path));
-  parallel::ContainedResult result =
-      parallel::run_contained(reading_task(), parallel::to_wire(request), limits);
+  parallel::SandboxResult result =
+      parallel::run_sandboxed(reading_task(), parallel::to_wire(request), limits);
   switch (result.status) {
-    case parallel::ContainedStatus::ok:
+    case parallel::SandboxStatus::ok:
       return std::move(result.output);
-    case parallel::ContainedStatus::threw:
+    case parallel::SandboxStatus::threw:
       throw std::runtime_error(path + ": " + result.message);
-    case parallel::ContainedStatus::out_of_memory:
+    case parallel::SandboxStatus::out_of_memory:
       throw std::runtime_error(path +
                                ": the HDF5 library ran out of memory on it; the file is damaged, or has "
                                "chunks above a GiB (h5repack)");
-    case parallel::ContainedStatus::out_of_time:
+    case parallel::SandboxStatus::out_of_time:
       throw std::runtime_error(path + ": the HDF5 library came to no end with it; the file is damaged");
     default:
       throw std::runtime_error(
@@ -51,7 +51,7 @@ std::vector<T> read_rows(const std::string& path, Operation operation, const std
   std::vector<T> items;
   for (std::int64_t done = 0; done < count; done += rows_at_a_time) {
     const RowRange range{array, begin + done, std::min(rows_at_a_time, count - done)};
-    const parallel::Bytes bytes = read_contained({operation, path, parallel::to_wire(range)});
+    const parallel::Bytes bytes = read_sandboxed({operation, path, parallel::to_wire(range)});
     const std::vector<T> portion = parallel::from_bytes<T>(bytes);
     items.insert(items.end(), portion.begin(), portion.end());
   }
@@ -71,7 +71,7 @@ InputFile::InputFile(std::string path) : _path(std::move(path)) {
 }
 
 Survey InputFile::survey(const SurveyRequest& request) const {
-  return parallel::from_wire<Survey>(read_contained({Operation::survey, _path, parallel::to_wire(request)}));
+  return parallel::from_wire<Survey>(read_sandboxed({Operation::survey, _path, parallel::to_wire(request)}));
 }
 
 std::vector<std::int64_t> InputFile::integers(const std::string& array, std::int64_t begin,
@@ -85,7 +85,7 @@ std::vector<double> InputFile::reals(const std::string& array, std::int64_t begi
 
 std::vector<std::string> InputFile::texts(const std::string& array) const {
   return parallel::from_wire<std::vector<std::string>>(
-      read_contained({Operation::texts, _path, parallel::to_wire(array)}));
+      read_sandboxed({Operation::texts, _path, parallel::to_wire(array)}));
 }
 
 }  // namespace aeroloom::io::hdf5

@@ -1,7 +1,7 @@
 /// Reading HDF5 files of any origin.
 ///
-/// The library may crash, loop or ask for absurd memory on a damaged file, so it reads in contained children
-/// (parallel/contained.hpp): what it does there becomes an exception here.
+/// The library may crash, loop or ask for absurd memory on a damaged file, so it reads in sandboxed children
+/// (parallel/sandbox/sandbox.hpp): what it does there becomes an exception here.
 #pragma once
 
 #include <cstdint>

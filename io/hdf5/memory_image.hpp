@@ -1,7 +1,7 @@
 /// What HDF5 writes of a file that is laid out in memory.
 #pragma once
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,9 +1,9 @@
 /// What the readers of the two encodings make of a Medit file. Internal to io/medit/.
 #pragma once
 
-#include "io/file_mesh.hpp"
+#include "aeroloom/io/file_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/medit/medit_layout.hpp"
-#include "parallel/communicator.hpp"
 
 #include <array>
 #include <cstdint>

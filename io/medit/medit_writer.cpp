@@ -1,10 +1,10 @@
 #include "io/medit/medit_writer.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/medit/medit_layout.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/streams/range_writer.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "io/openfoam/foam_faces.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -61,13 +61,13 @@ public:
     for (const auto& counts : mesh.patch_faces) _all_triangles.push_back(counts[0]);
   }
 
-  struct Place {
+  struct FoamFacePlace {
     std::int32_t patch = 0;
     LocalIndex in_part = 0;
     GlobalIndex in_mesh = 0;
   };
   /// `face` is a boundary face of the piece.
-  Place of(LocalIndex face) const {
+  FoamFacePlace of(LocalIndex face) const {
     const bool is_triangle = face < _part.faces[0].count();
     const std::size_t s = is_triangle ? 0 : 1;
     const Block& block = _part.faces[s];
@@ -219,7 +219,7 @@ private:
       for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
         const LocalIndex face = _links.boundary_face[first + side];
         if (face < 0 || _links.behind[first + side].exists()) continue;
-        const PatchPlaces::Place place = _places.of(face);
+        const PatchPlaces::FoamFacePlace place = _places.of(face);
         _result.faces[begin[place.patch] + static_cast<std::size_t>(place.in_part)] = {
             cell,
             static_cast<std::int32_t>(side),

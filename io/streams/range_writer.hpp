@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/streams/byte_order.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "io/su2/su2_markers.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "io/streams/text_lines.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/log.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "io/streams/range_writer.hpp"
 #include "io/su2/su2_markers.hpp"
 #include "io/vtk_order.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -97,19 +97,19 @@ void for_each_line(const FilePart& part, const BoundaryPatches& patches, const B
 }
 
 /// The text that a part has in a section.
-struct Stretch {
+struct TextBlock {
   std::int32_t section, part;
   std::int64_t bytes;   ///< its length
   std::int64_t offset;  ///< in the file
 
   static constexpr auto fields() {
-    return std::tuple(&Stretch::section, &Stretch::part, &Stretch::bytes, &Stretch::offset);
+    return std::tuple(&TextBlock::section, &TextBlock::part, &TextBlock::bytes, &TextBlock::offset);
   }
 };
 
 /// All stretches of this rank's parts with their lengths.
-std::vector<Stretch> measure(const FileMesh& mesh, const BoundaryPatches& patches) {
-  std::vector<Stretch> stretches;
+std::vector<TextBlock> measure(const FileMesh& mesh, const BoundaryPatches& patches) {
+  std::vector<TextBlock> stretches;
   for (const FilePart& part : mesh.parts) {
     for_each_line(
         part, patches,
@@ -121,12 +121,12 @@ std::vector<Stretch> measure(const FileMesh& mesh, const BoundaryPatches& patche
   return stretches;
 }
 
-bool stands_before(const Stretch& a, const Stretch& b) {
+bool stands_before(const TextBlock& a, const TextBlock& b) {
   return a.section != b.section ? a.section < b.section : a.part < b.part;
 }
 
 /// Places headings and stretches one behind the other; returns the offsets of headings.
-std::vector<std::int64_t> place(const std::vector<std::string>& headings, std::vector<Stretch>& stretches) {
+std::vector<std::int64_t> place(const std::vector<std::string>& headings, std::vector<TextBlock>& stretches) {
   std::sort(stretches.begin(), stretches.end(), stands_before);
   std::vector<std::int64_t> heading_offsets;
   std::int64_t at = 0;
@@ -148,8 +148,8 @@ void write_su2(const parallel::Communicator& communicator, const FileMesh& mesh,
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const std::vector<std::string> headings = headings_of(mesh, patches, names);
-  const std::vector<Stretch> mine = measure(mesh, patches);
-  std::vector<Stretch> all = communicator.all_gather_items(std::span<const Stretch>(mine));
+  const std::vector<TextBlock> mine = measure(mesh, patches);
+  std::vector<TextBlock> all = communicator.all_gather_items(std::span<const TextBlock>(mine));
   const std::vector<std::int64_t> heading_offsets = place(headings, all);
   remove_markers(communicator, path);
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
@@ -162,7 +162,7 @@ void write_su2(const parallel::Communicator& communicator, const FileMesh& mesh,
       for_each_line(
           part, patches,
           [&](std::int32_t section) {
-            const Stretch wanted{section, part.id, 0, 0};
+            const TextBlock wanted{section, part.id, 0, 0};
             writer.move_to(std::lower_bound(all.begin(), all.end(), wanted, stands_before)->offset);
           },
           [&](std::string_view text) { writer.put_text(text); });

@@ -11,8 +11,8 @@
 /// own.
 #pragma once
 
-#include "io/file_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/io/file_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <string>
 

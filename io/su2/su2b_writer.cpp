@@ -4,7 +4,7 @@
 #include "io/su2/su2_writer.hpp"
 #include "io/su2/su2b_layout.hpp"
 #include "io/vtk_order.hpp"
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
 #include <string>
 #include <vector>

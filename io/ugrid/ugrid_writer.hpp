@@ -10,8 +10,8 @@
 /// place.
 #pragma once
 
-#include "io/file_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/io/file_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <string>
 

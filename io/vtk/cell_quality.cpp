@@ -1,7 +1,7 @@
 #include "io/vtk/cell_quality.hpp"
 
-#include "mesh/cell_measures.hpp"
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/cell_measures.hpp"
+#include "aeroloom/mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// Shape measures of cells of all shapes, as the cell arrays of files show them.
 #pragma once
 
-#include "geometry/vec.hpp"
-#include "io/file_mesh.hpp"
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/io/file_mesh.hpp"
 
 #include <span>
 

@@ -1,8 +1,8 @@
 /// What the writers of VTK files share. Included by io/vtk/*.cpp alone: it names VTK.
 #pragma once
 
-#include "io/vtk/vtk_writer.hpp"
-#include "mesh/patch.hpp"
+#include "aeroloom/io/vtk/vtk_writer.hpp"
+#include "aeroloom/mesh/patch.hpp"
 
 #include <cstdint>
 #include <cstring>

@@ -1,7 +1,7 @@
 #include "io/vtk/vtk_part.hpp"
 
-#include "parallel/contained.hpp"
-#include "parallel/crash_note.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/sandbox/crash_note.hpp"
 
 #include <cerrno>
 #include <filesystem>
@@ -21,8 +21,8 @@ constexpr const char* part_task = "read a VTK file";
 constexpr const char* sources_task = "read an index of VTK files";
 
 /// Compressed arrays and text grow in memory, but not beyond measure.
-parallel::ContainedLimits limits_of(std::int64_t file_bytes) {
-  parallel::ContainedLimits limits;
+parallel::SandboxLimits limits_of(std::int64_t file_bytes) {
+  parallel::SandboxLimits limits;
   limits.cpu_seconds = 10 + 4e-6 * static_cast<double>(file_bytes);
   limits.address_space_bytes = (std::int64_t{1} << 30) + 100 * file_bytes;
   return limits;
@@ -40,32 +40,32 @@ parallel::Bytes run_sources_task(std::span<const std::byte> input) {
   return parallel::to_wire(extract_vtk_sources(text_of(input)));
 }
 
-/// Before any server of contained runs starts.
+/// Before any server of sandboxed runs starts.
 const bool tasks_are_known = [] {
-  parallel::register_contained_task(part_task, run_part_task);
-  parallel::register_contained_task(sources_task, run_sources_task);
+  parallel::register_sandbox_task(part_task, run_part_task);
+  parallel::register_sandbox_task(sources_task, run_sources_task);
   return true;
 }();
 
 parallel::Bytes run(const char* task, const std::string& path) {
   if (!tasks_are_known) throw std::logic_error("the tasks of VTK files are not registered");
-  const parallel::ContainedLimits limits = limits_of(readable_bytes(path));
+  const parallel::SandboxLimits limits = limits_of(readable_bytes(path));
   const parallel::CrashNote note(fmt::format("reading '{}'", path));
-  parallel::ContainedResult result = parallel::run_contained(task, std::as_bytes(std::span(path)), limits);
+  parallel::SandboxResult result = parallel::run_sandboxed(task, std::as_bytes(std::span(path)), limits);
   switch (result.status) {
-    case parallel::ContainedStatus::ok:
+    case parallel::SandboxStatus::ok:
       return std::move(result.output);
-    case parallel::ContainedStatus::threw:
+    case parallel::SandboxStatus::threw:
       throw std::runtime_error(fmt::format("'{}': {}", path, result.message));
-    case parallel::ContainedStatus::out_of_memory:
+    case parallel::SandboxStatus::out_of_memory:
       throw std::runtime_error(
           fmt::format("'{}': VTK's reader asks for more than {} MiB of memory, too much for a file of this "
                       "size; it is damaged, or compressed beyond measure",
                       path, limits.address_space_bytes >> 20));
-    case parallel::ContainedStatus::out_of_time:
+    case parallel::SandboxStatus::out_of_time:
       throw std::runtime_error(fmt::format("'{}': VTK's reader does not end within {:.0f} s; it is damaged",
                                            path, limits.cpu_seconds));
-    case parallel::ContainedStatus::aborted:
+    case parallel::SandboxStatus::aborted:
       break;
   }
   throw std::runtime_error(

@@ -1,9 +1,9 @@
-/// One VTK file as a mesh reader wants it. VTK reads in a child process (parallel/contained.hpp): what it
-/// crashes on, or takes too much time or memory for, is an error like any other.
+/// One VTK file as a mesh reader wants it. VTK reads in a child process (parallel/sandbox/sandbox.hpp): what
+/// it crashes on, or takes too much time or memory for, is an error like any other.
 #pragma once
 
-#include "io/file_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/io/file_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "io/vtk/vtk_parts.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/local_file.hpp"
-#include "parallel/collective_error.hpp"
-#include "parallel/progress.hpp"
+#include "parallel/observation/progress.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 /// most of it.
 #pragma once
 
-#include "io/file_mesh.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/io/file_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 /// Meshes from VTK files of any origin.
 #pragma once
 
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/raw_mesh.hpp"
-#include "parallel/communicator.hpp"
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace aeroloom::io {
 /// Reads the tetrahedra, pyramids and prisms of a .vtu, .pvtu or (legacy) .vtk file, in any of their forms.
 /// The parts of a .pvtu are spread over ranks, each read by one; a single file is read by one rank. VTK reads
 /// in a child process, so that no file can take the program down; of the libraries that run without worker
-/// servers (parallel/contained.hpp), this does not hold.
+/// servers (parallel/sandbox/sandbox.hpp), this does not hold.
 ///
 /// Points with equal `global_id` are one (or with equal ids in the array that the file declares its
 /// GlobalIds). Without ids, points of a .pvtu are one where all three coordinates have equal bits, and those

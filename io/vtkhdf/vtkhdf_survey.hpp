@@ -1,8 +1,8 @@
 /// What a VTKHDF file holds, without its large arrays.
 #pragma once
 
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
-#include "parallel/communicator.hpp"
 
 #include <cstdint>
 #include <string>

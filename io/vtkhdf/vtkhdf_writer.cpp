@@ -1,8 +1,8 @@
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/vtk_order.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
-#include "parallel/collective_error.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -33,16 +33,16 @@ GridCounts counts_of(std::int64_t points, const std::array<Block, N>& blocks) {
 /// One row per part of the whole mesh, by its id.
 std::vector<GridCounts> gather_rows(const parallel::Communicator& communicator, const FileMesh& mesh,
                                     const std::vector<GridCounts>& mine) {
-  struct Row {
+  struct PartCounts {
     std::int64_t part;
     GridCounts counts;
 
-    static constexpr auto fields() { return std::tuple(&Row::part, &Row::counts); }
+    static constexpr auto fields() { return std::tuple(&PartCounts::part, &PartCounts::counts); }
   };
-  std::vector<Row> rows;
+  std::vector<PartCounts> rows;
   for (std::size_t i = 0; i < mine.size(); ++i) rows.push_back({mesh.parts[i].id, mine[i]});
   std::vector<GridCounts> all(static_cast<std::size_t>(mesh.part_count));
-  for (const Row& row : communicator.all_gather_items(std::span<const Row>(rows)))
+  for (const PartCounts& row : communicator.all_gather_items(std::span<const PartCounts>(rows)))
     all[static_cast<std::size_t>(row.part)] = row.counts;
   return all;
 }

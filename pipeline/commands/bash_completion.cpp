@@ -157,19 +157,19 @@ std::string tables(const std::vector<const CLI::App*>& commands) {
 }
 
 /// Names that users make up are not offered, but values behind them are.
-std::string key_tables(const std::vector<KeyInfo>& keys) {
-  const std::string made_up = std::string(".") + made_up_name + ".";
+std::string key_tables(const std::vector<cases::KeyInfo>& keys) {
+  const std::string made_up = std::string(".") + cases::made_up_name + ".";
   std::vector<std::string> offered;
   Cases values("_aeroloom_key_values", "$1");
-  for (const KeyInfo& key : keys) {
-    if (key.has_keys_below() || key.kind == KeyKind::retired) continue;
+  for (const cases::KeyInfo& key : keys) {
+    if (key.has_keys_below()) continue;
     std::string pattern = key.path;
     const std::size_t at = pattern.find(made_up);
     if (at != std::string::npos) pattern.replace(at, made_up.size(), ".*.");
     if (at == std::string::npos) offered.push_back(key.path + "=");
     if (!key.choices.empty()) {
       values.add(pattern, fmt::format("_aeroloom_words '{}'", fmt::join(key.choices, " ")));
-    } else if (key.kind == KeyKind::flag) {
+    } else if (key.kind == cases::KeyKind::flag) {
       values.add(pattern, "_aeroloom_words 'true false'");
     } else if (key.name() == "file" || key.name() == "directory") {
       values.add(pattern, "_aeroloom_files");
@@ -180,7 +180,7 @@ std::string key_tables(const std::vector<KeyInfo>& keys) {
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& program, const std::vector<KeyInfo>& keys) {
+std::string bash_completion(const CLI::App& program, const std::vector<cases::KeyInfo>& keys) {
   std::vector<const CLI::App*> commands = program.get_subcommands({});
   commands.push_back(&program);
   return "# Completion of aeroloom in bash, made by `aeroloom completion bash`.\n" + tables(commands) +

@@ -1,7 +1,7 @@
 /// Completion of the command line in bash.
 #pragma once
 
-#include "pipeline/key_info.hpp"
+#include "case/key_info.hpp"
 
 #include <string>
 #include <vector>
@@ -14,6 +14,6 @@ namespace aeroloom::pipeline {
 
 /// A script for bash to source, made from the commands and options of the program and the keys of a case. It
 /// needs no package beside bash.
-std::string bash_completion(const CLI::App& program, const std::vector<KeyInfo>& keys);
+std::string bash_completion(const CLI::App& program, const std::vector<cases::KeyInfo>& keys);
 
 }  // namespace aeroloom::pipeline

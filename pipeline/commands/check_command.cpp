@@ -20,15 +20,16 @@ Command add_check(CLI::App& program) {
   add_case_file(*app, *arguments);
   add_overrides(*app, *arguments);
   add_memory_option(*app, arguments->memory);
-  add_help_footer(
-      *app,
-      {{"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
-       {"aeroloom check case.yaml --set sizing.target_tetrahedra=200000", "of another size"}},
-      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  add_help_footer(*app,
+                  {{"aeroloom check case.yaml", "what is wrong with the CAD, what a run will cost"},
+                   {"aeroloom check case.yaml --set sizing.target_tetrahedra=200000", "of another size"}},
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
+                   report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
               return within_memory(communicator, arguments->memory, [&] {
-                return guarded(communicator, ExitCode::cad, [&] { return check_case(communicator, input); });
+                return guarded(communicator, report::ExitCode::cad,
+                               [&] { return check_case(communicator, input); });
               });
             });
           }};

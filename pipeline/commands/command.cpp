@@ -1,14 +1,14 @@
 #include "pipeline/commands/command.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/contained.hpp"
-#include "parallel/log.hpp"
-#include "parallel/memory_limit.hpp"
+#include "aeroloom/case/option_keys.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/observation/memory_limit.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/plain_words.hpp"
-#include "pipeline/option_keys.hpp"
 #include "pipeline/stage.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/text_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -72,62 +72,63 @@ void choose_sandbox(const Communicator& communicator, parallel::Sandbox sandbox)
 }  // namespace
 
 int with_case(const Communicator& communicator, const CaseArguments& arguments, const Loudness& loudness,
-              const std::function<int(const Case&)>& work) {
+              const std::function<int(const cases::Case&)>& work) {
   parallel::configure_log(communicator, loudness.level());
-  Case input;
+  cases::Case input;
   try {
     // Rank 0 alone looks at the file; all learn of an error together.
     std::string resolved;
     parallel::agree(communicator, [&] {
       if (arguments.file.empty())
-        input = case_of_overrides(arguments.overrides);
+        input = cases::case_of_overrides(arguments.overrides);
       else if (communicator.is_root())
-        input = read_case(arguments.file, arguments.overrides);
-      if (communicator.is_root() && !arguments.file.empty()) resolved = resolved_yaml(input);
+        input = cases::read_case(arguments.file, arguments.overrides);
+      if (communicator.is_root() && !arguments.file.empty()) resolved = cases::resolved_yaml(input);
     });
     communicator.broadcast_value(resolved);
     parallel::agree(communicator, [&] {
-      if (!communicator.is_root() && !resolved.empty()) input = case_of_resolved(resolved);
+      if (!communicator.is_root() && !resolved.empty()) input = cases::case_of_resolved(resolved);
     });
   } catch (const parallel::CollectiveError& error) {
     const bool memory = error.kind() == parallel::FailureKind::resources;
-    return fail(communicator, memory ? ExitCode::resources : ExitCode::usage, error.what());
+    return fail(communicator, memory ? report::ExitCode::resources : report::ExitCode::usage, error.what());
   }
   parallel::configure_log(communicator, loudness.level(input.output.log));
   try {
     choose_sandbox(communicator, input.sandbox);
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, ExitCode::resources, error.what());
+    return fail(communicator, report::ExitCode::resources, error.what());
   }
   return work(input);
 }
 
 void print(const Communicator& communicator, const std::string& text) {
   parallel::agree(communicator, [&] {
-    if (communicator.is_root()) print_text(parallel::printable(text));
+    if (communicator.is_root()) report::print_text(parallel::printable(text));
   });
 }
 
-int fail(const Communicator& communicator, ExitCode code, const std::string& message) {
-  if (communicator.is_root()) parallel::log_error(with_keys(plain_words(message)));
+int fail(const Communicator& communicator, report::ExitCode code, const std::string& message) {
+  if (communicator.is_root()) parallel::log_error(cases::with_keys(plain_words(message)));
   communicator.barrier();
   return static_cast<int>(code);
 }
 
-int guarded(const Communicator& communicator, ExitCode otherwise, const std::function<ExitCode()>& work) {
+int guarded(const Communicator& communicator, report::ExitCode otherwise,
+            const std::function<report::ExitCode()>& work) {
   try {
-    const ExitCode code = work();
+    const report::ExitCode code = work();
     communicator.barrier();
     return static_cast<int>(code);
   } catch (const std::invalid_argument& error) {
-    return fail(communicator, ExitCode::usage, error.what());
+    return fail(communicator, report::ExitCode::usage, error.what());
   } catch (const parallel::CollectiveError& error) {
     return fail(communicator, code_of(error, otherwise), error.what());
-  } catch (const parallel::ContainedInterrupted& error) {
-    return fail(communicator, ExitCode::resources, error.what());
+  } catch (const parallel::SandboxInterrupted& error) {
+    return fail(communicator, report::ExitCode::resources, error.what());
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();
-    return fail(communicator, ExitCode::resources, parallel::out_of_memory_text());
+    return fail(communicator, report::ExitCode::resources, parallel::out_of_memory_text());
   }
 }
 

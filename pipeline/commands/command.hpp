@@ -1,11 +1,11 @@
 /// What the commands of the program share: how one is added to the command line, and how it ends.
 #pragma once
 
-#include "parallel/collective_error.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/log.hpp"
-#include "pipeline/case.hpp"
-#include "pipeline/exit_code.hpp"
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/report/exit_code.hpp"
 
 #include <functional>
 #include <string>
@@ -44,16 +44,16 @@ void add_overrides(CLI::App& command, CaseArguments& arguments);
 /// Reads the case, by rank 0, lets the log speak as the line or else the case asks for, and does the
 /// work, which returns the exit code; a case that cannot be read is a usage error. Collective.
 int with_case(const parallel::Communicator& communicator, const CaseArguments& arguments,
-              const Loudness& loudness, const std::function<int(const Case&)>& work);
+              const Loudness& loudness, const std::function<int(const cases::Case&)>& work);
 
 /// Printed by rank 0 at once. Collective; throws CollectiveError where it cannot be.
 void print(const parallel::Communicator& communicator, const std::string& text);
 /// Prints the message on rank 0; the exit code. Collective.
-int fail(const parallel::Communicator& communicator, ExitCode code, const std::string& message);
+int fail(const parallel::Communicator& communicator, report::ExitCode code, const std::string& message);
 
 /// Does the work of a command that has no stages: the exit code for what it throws is `otherwise`, unless the
 /// kind of failure demands another. Collective.
-int guarded(const parallel::Communicator& communicator, ExitCode otherwise,
-            const std::function<ExitCode()>& work);
+int guarded(const parallel::Communicator& communicator, report::ExitCode otherwise,
+            const std::function<report::ExitCode()>& work);
 
 }  // namespace aeroloom::pipeline

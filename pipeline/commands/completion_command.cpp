@@ -19,11 +19,11 @@ Command add_completion(CLI::App& program) {
                   {{"aeroloom completion bash > aeroloom.bash",
                     "then `source aeroloom.bash`, or put it where "
                     "bash looks (docs/usage.md)"}},
-                  {ExitCode::ok, ExitCode::usage, ExitCode::files});
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files});
   return {app, [&program](const parallel::Communicator& communicator, const Loudness&) {
-            return guarded(communicator, ExitCode::files, [&] {
-              print(communicator, bash_completion(program, case_keys()));
-              return ExitCode::ok;
+            return guarded(communicator, report::ExitCode::files, [&] {
+              print(communicator, bash_completion(program, cases::case_keys()));
+              return report::ExitCode::ok;
             });
           }};
 }

@@ -1,8 +1,8 @@
+#include "case/nearest_name.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/memory_option.hpp"
 #include "pipeline/convert_file.hpp"
-#include "pipeline/nearest_name.hpp"
 
 #include <memory>
 #include <optional>
@@ -29,7 +29,7 @@ io::FileFormat format_called(const std::string& name) {
     if (format.name == name) return format.format;
     known.emplace_back(format.name);
   }
-  const std::optional<std::string> nearest = nearest_name(name, known);
+  const std::optional<std::string> nearest = cases::nearest_name(name, known);
   throw CLI::ValidationError("--format", fmt::format("no format is called '{}'; {}", name,
                                                      nearest ? "did you mean '" + *nearest + "'?"
                                                              : "known are " + format_choices()));
@@ -61,13 +61,14 @@ Command add_convert(CLI::App& program) {
                   {{"aeroloom convert out/mesh.pvtu mesh.cgns", "for a solver (docs/formats.md)"},
                    {"mpirun -n 2 aeroloom convert out/mesh.pvtu mesh.hdf --format vtkhdf", "by two ranks"},
                    {"aeroloom convert out/mesh.pvtu wing.foam --parts 4", "OpenFOAM, for four processors"}},
-                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files,
+                   report::ExitCode::resources, report::ExitCode::bug});
   return {app, [conversion](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
             return within_memory(communicator, conversion->memory, [&] {
-              return guarded(communicator, ExitCode::files, [&] {
+              return guarded(communicator, report::ExitCode::files, [&] {
                 convert_file(communicator, *conversion);
-                return ExitCode::ok;
+                return report::ExitCode::ok;
               });
             });
           }};

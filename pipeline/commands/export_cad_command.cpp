@@ -1,4 +1,4 @@
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 
@@ -20,21 +20,21 @@ Command add_export_cad(CLI::App& program) {
   app->add_option("file", arguments->step, "the STEP file to write")->required()->type_name(file_kind::step);
   app->add_flag("--domain", arguments->domain, "what is meshed, with the far field, for other meshers");
   add_overrides(*app, *arguments);
-  add_help_footer(
-      *app,
-      {{"aeroloom export-cad case.yaml wing.step", "the built-in aircraft, or any case's file"},
-       {"aeroloom export-cad case.yaml domain.step --domain", "with the far field around it"}},
-      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  add_help_footer(*app,
+                  {{"aeroloom export-cad case.yaml wing.step", "the built-in aircraft, or any case's file"},
+                   {"aeroloom export-cad case.yaml domain.step --domain", "with the far field around it"}},
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
+                   report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
-              return guarded(communicator, ExitCode::cad, [&] {
+            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
+              return guarded(communicator, report::ExitCode::cad, [&] {
                 parallel::agree(communicator, [&] {
                   const cad::ExportedPart part =
                       arguments->domain ? cad::ExportedPart::domain : cad::ExportedPart::geometry;
                   if (communicator.is_root()) cad::export_step(input.domain, part, arguments->step);
                 });
                 parallel::log_info(fmt::format("wrote {}", arguments->step));
-                return ExitCode::ok;
+                return report::ExitCode::ok;
               });
             });
           }};

@@ -6,25 +6,25 @@
 namespace aeroloom::pipeline {
 namespace {
 
-const char* meaning_of(ExitCode code) {
+const char* meaning_of(report::ExitCode code) {
   switch (code) {
-    case ExitCode::ok:
+    case report::ExitCode::ok:
       return "ok";
-    case ExitCode::usage:
+    case report::ExitCode::usage:
       return "command line or configuration";
-    case ExitCode::cad:
+    case report::ExitCode::cad:
       return "CAD";
-    case ExitCode::surface:
+    case report::ExitCode::surface:
       return "surface stage";
-    case ExitCode::volume:
+    case report::ExitCode::volume:
       return "volume stage";
-    case ExitCode::quality_gate:
+    case report::ExitCode::quality_gate:
       return "a limit on quality is missed";
-    case ExitCode::files:
+    case report::ExitCode::files:
       return "a file cannot be read or written";
-    case ExitCode::resources:
+    case report::ExitCode::resources:
       return "out of memory";
-    case ExitCode::bug:
+    case report::ExitCode::bug:
       return "a bug of this program";
   }
   return "";
@@ -33,11 +33,11 @@ const char* meaning_of(ExitCode code) {
 }  // namespace
 
 void add_help_footer(CLI::App& command, std::initializer_list<Example> examples,
-                     std::initializer_list<ExitCode> codes) {
+                     std::initializer_list<report::ExitCode> codes) {
   std::string text = "Examples:\n";
   for (const Example& example : examples) text += fmt::format("  {}\n      {}\n", example.line, example.what);
   text += "\nExit codes:\n";
-  for (const ExitCode code : codes)
+  for (const report::ExitCode code : codes)
     text += fmt::format("  {:>2}  {}\n", static_cast<int>(code), meaning_of(code));
   text.pop_back();
   command.footer(text);

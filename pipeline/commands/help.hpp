@@ -1,7 +1,7 @@
 /// What `--help` tells beside the options: examples and exit codes.
 #pragma once
 
-#include "pipeline/exit_code.hpp"
+#include "aeroloom/report/exit_code.hpp"
 
 #include <initializer_list>
 #include <string>
@@ -41,6 +41,6 @@ struct Example {
 
 /// Puts the examples and the meaning of the exit codes under the help of a command.
 void add_help_footer(CLI::App& command, std::initializer_list<Example> examples,
-                     std::initializer_list<ExitCode> codes);
+                     std::initializer_list<report::ExitCode> codes);
 
 }  // namespace aeroloom::pipeline

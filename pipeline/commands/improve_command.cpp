@@ -18,7 +18,7 @@ namespace aeroloom::pipeline {
 namespace {
 
 /// Whether what is improved, or the report beside it, would be overwritten. Empty where not.
-std::string what_would_be_lost(const std::string& mesh, const OutputOptions& output) {
+std::string what_would_be_lost(const std::string& mesh, const cases::OutputOptions& output) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   for (const io::FileFormat format : output.formats) {
@@ -56,26 +56,27 @@ Command add_improve(CLI::App& program) {
                   {{"aeroloom improve out/mesh.pvtu --set output.directory=better", "what a run has made"},
                    {"mpirun -n 2 aeroloom improve mesh.meshb --set improve.target_angle=20",
                     "another program's mesh, by two ranks"}},
-                  {ExitCode::ok, ExitCode::usage, ExitCode::volume, ExitCode::quality_gate, ExitCode::files,
-                   ExitCode::resources, ExitCode::bug});
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::volume,
+                   report::ExitCode::quality_gate, report::ExitCode::files, report::ExitCode::resources,
+                   report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
               const std::string idle = setting_without_effect(arguments->overrides);
               if (!idle.empty()) {
                 return fail(
-                    communicator, ExitCode::usage,
+                    communicator, report::ExitCode::usage,
                     fmt::format("'{}' says nothing to improve, which takes a mesh as it is: improve.*, "
                                 "output.* and volume.piece_tets do",
                                 idle));
               }
               const std::string lost = what_would_be_lost(arguments->mesh, input.output);
               if (!lost.empty()) {
-                return fail(communicator, ExitCode::usage,
+                return fail(communicator, report::ExitCode::usage,
                             fmt::format("'{}' is not overwritten: {}. Remedy: --set output.directory=FOLDER",
                                         input.output.directory, lost));
               }
               return within_memory(communicator, arguments->memory, [&] {
-                return run_stages(communicator, input, {"", arguments->mesh}, [&](RunRecord& record) {
+                return run_stages(communicator, input, {"", arguments->mesh}, [&](report::RunRecord& record) {
                   improve_file(communicator, arguments->mesh, input, record);
                 });
               });

@@ -16,19 +16,19 @@ Command add_info(CLI::App& program) {
       ->required()
       ->type_name(file_kind::any);
   app->add_flag("--json", request->print_json, "print JSON (docs/usage.md)")->group(option_group::output);
-  add_help_footer(
-      *app,
-      {{"aeroloom info out/mesh.pvtu", "cells, patches, regions, box of a mesh"},
-       {"aeroloom info wing.step", "unit, box, solids, names, layers and colours of CAD"},
-       {"aeroloom info case.yaml", "a case with every value spelled out"},
-       {"aeroloom info out/mesh.pvtu --json", "for programs"}},
-      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::files, ExitCode::resources, ExitCode::bug});
+  add_help_footer(*app,
+                  {{"aeroloom info out/mesh.pvtu", "cells, patches, regions, box of a mesh"},
+                   {"aeroloom info wing.step", "unit, box, solids, names, layers and colours of CAD"},
+                   {"aeroloom info case.yaml", "a case with every value spelled out"},
+                   {"aeroloom info out/mesh.pvtu --json", "for programs"}},
+                  {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
+                   report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
   return {app, [request](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
             const bool is_case = request->file.ends_with(".yaml") || request->file.ends_with(".yml");
-            return guarded(communicator, is_case ? ExitCode::usage : ExitCode::cad, [&] {
+            return guarded(communicator, is_case ? report::ExitCode::usage : report::ExitCode::cad, [&] {
               show_info(communicator, *request);
-              return ExitCode::ok;
+              return report::ExitCode::ok;
             });
           }};
 }

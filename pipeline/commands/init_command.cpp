@@ -1,8 +1,8 @@
-#include "pipeline/case_schema.hpp"
-#include "pipeline/case_template.hpp"
+#include "case/case_schema.hpp"
+#include "case/case_template.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/text_file.hpp"
 
 #include <cctype>
 #include <filesystem>
@@ -27,10 +27,12 @@ struct InitArguments {
 
 /// A file of this name that is no schema of ours is somebody else's.
 void require_ours(const std::string& schema_file) {
-  if (!fs::exists(schema_file) || read_text(schema_file).find(schema_title) != std::string::npos) return;
-  throw CaseError(schema_file +
-                  " is there already and is no schema of Aeroloom; --force replaces it, "
-                  "--no-schema does without");
+  if (!fs::exists(schema_file) ||
+      report::read_text(schema_file).find(cases::schema_title) != std::string::npos)
+    return;
+  throw cases::CaseError(schema_file +
+                         " is there already and is no schema of Aeroloom; --force replaces it, "
+                         "--no-schema does without");
 }
 
 /// What is made of triangles is no CAD.
@@ -39,7 +41,7 @@ void require_cad(const std::string& geometry) {
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   for (const char* faceted : {".stl", ".obj", ".ply", ".off", ".vtp", ".3mf"}) {
     if (extension == faceted)
-      throw CaseError(
+      throw cases::CaseError(
           fmt::format("{}: {} files hold triangles, not CAD. Remedy: STEP, IGES or BREP from the "
                       "program that made it",
                       geometry, extension));
@@ -49,17 +51,17 @@ void require_cad(const std::string& geometry) {
 void write_template(const InitArguments& arguments) {
   require_cad(arguments.geometry);
   if (fs::is_directory(arguments.file))
-    throw CaseError(arguments.file + " is a folder; give the case a name, such as " +
-                    (fs::path(arguments.file) / "case.yaml").string());
+    throw cases::CaseError(arguments.file + " is a folder; give the case a name, such as " +
+                           (fs::path(arguments.file) / "case.yaml").string());
   if (fs::exists(arguments.file) && !arguments.force)
-    throw CaseError(arguments.file + " is there already; --force replaces it");
+    throw cases::CaseError(arguments.file + " is there already; --force replaces it");
   const std::string schema_file = (fs::path(arguments.file).parent_path() / schema_name).string();
-  TemplateRequest request{arguments.geometry, arguments.full, arguments.no_schema ? "" : schema_name};
+  cases::TemplateRequest request{arguments.geometry, arguments.full, arguments.no_schema ? "" : schema_name};
   if (!arguments.no_schema) {
     if (!arguments.force) require_ours(schema_file);
-    write_text(schema_file, case_schema(case_keys()));
+    report::write_text(schema_file, cases::case_schema(cases::case_keys()));
   }
-  write_text(arguments.file, case_template(case_keys(), request));
+  report::write_text(arguments.file, cases::case_template(cases::case_keys(), request));
   parallel::log_info("wrote " + arguments.file +
                      (arguments.no_schema ? "" : ", and " + schema_file + " for editors"));
   if (!arguments.geometry.empty() && !fs::exists(arguments.geometry) &&
@@ -86,17 +88,18 @@ Command add_init(CLI::App& program) {
   app->add_flag("--no-schema", arguments->no_schema,
                 std::string("do not write ") + schema_name + " beside it, for editors")
       ->group(option_group::output);
-  add_help_footer(*app,
-                  {{"aeroloom init case.yaml --geometry wing.step", "a case of all defaults"},
-                   {"aeroloom init every.yaml --full", "with every key"}},
-                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::bug});
+  add_help_footer(
+      *app,
+      {{"aeroloom init case.yaml --geometry wing.step", "a case of all defaults"},
+       {"aeroloom init every.yaml --full", "with every key"}},
+      {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
-            return guarded(communicator, ExitCode::usage, [&] {
+            return guarded(communicator, report::ExitCode::usage, [&] {
               parallel::agree(communicator, [&] {
                 if (communicator.is_root()) write_template(*arguments);
               });
-              return ExitCode::ok;
+              return report::ExitCode::ok;
             });
           }};
 }

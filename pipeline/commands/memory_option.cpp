@@ -1,6 +1,6 @@
 #include "pipeline/commands/memory_option.hpp"
 
-#include "parallel/memory_limit.hpp"
+#include "parallel/observation/memory_limit.hpp"
 #include "pipeline/commands/command.hpp"
 #include "pipeline/commands/help.hpp"
 
@@ -58,7 +58,7 @@ int within_memory(const parallel::Communicator& communicator, std::int64_t bytes
   try {
     if (bytes_of_node > 0) parallel::limit_memory(communicator, bytes_of_node);
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, ExitCode::resources, error.what());
+    return fail(communicator, report::ExitCode::resources, error.what());
   }
   return work();
 }

@@ -22,7 +22,7 @@ Command add_quality(CLI::App& program) {
   app->add_option("--output", arguments->request.json_file, "write the JSON to this file")
       ->type_name(file_kind::json)
       ->group(option_group::output);
-  for (const std::string_view key : gate_keys) {
+  for (const std::string_view key : cases::gate_keys) {
     app->add_option_function<std::string>(
            fmt::format("--gate.{}", key),
            [gate = arguments.get(), key](const std::string& value) {
@@ -38,16 +38,16 @@ Command add_quality(CLI::App& program) {
       {{"aeroloom quality out/mesh.pvtu", "angles, shapes, ratios, worst cells (docs/quality.md)"},
        {"aeroloom quality out/mesh.pvtu --gate.largest_edge_ratio=1000", "exit code 6 where one is larger"},
        {"aeroloom quality mesh.meshb --json --output quality.json", "the same for programs"}},
-      {ExitCode::ok, ExitCode::usage, ExitCode::quality_gate, ExitCode::files, ExitCode::resources,
-       ExitCode::bug});
+      {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::quality_gate, report::ExitCode::files,
+       report::ExitCode::resources, report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const Case& input) {
+            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
               std::string missed;
-              const int code = guarded(communicator, ExitCode::files, [&] {
+              const int code = guarded(communicator, report::ExitCode::files, [&] {
                 missed = show_quality(communicator, arguments->request, input.gate);
-                return ExitCode::ok;
+                return report::ExitCode::ok;
               });
-              if (!missed.empty()) return fail(communicator, ExitCode::quality_gate, missed);
+              if (!missed.empty()) return fail(communicator, report::ExitCode::quality_gate, missed);
               if (code == 0 && !arguments->overrides.empty() && !arguments->request.print_json)
                 print(communicator, "limits: every one is met\n");
               return code;

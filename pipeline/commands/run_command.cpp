@@ -41,18 +41,19 @@ Command add_run(CLI::App& program) {
        {"aeroloom run case.yaml --max-memory 80%", "end with a message before the node runs short"},
        {"aeroloom run case.yaml --checkpoints -q", "keep what each stage has made; print no facts"},
        {"aeroloom run case.yaml --resume", "go on where an earlier run was ended"}},
-      {ExitCode::ok, ExitCode::usage, ExitCode::cad, ExitCode::surface, ExitCode::volume,
-       ExitCode::quality_gate, ExitCode::files, ExitCode::resources, ExitCode::bug});
+      {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad, report::ExitCode::surface,
+       report::ExitCode::volume, report::ExitCode::quality_gate, report::ExitCode::files,
+       report::ExitCode::resources, report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             CaseArguments given = *arguments;
             if (arguments->resume) given.overrides.push_back("output.checkpoints=resume");
             if (arguments->checkpoints) given.overrides.push_back("output.checkpoints=write");
-            return with_case(communicator, given, loudness, [&](const Case& read) {
-              Case input = read;
+            return with_case(communicator, given, loudness, [&](const cases::Case& read) {
+              cases::Case input = read;
               input.memory_limit = arguments->memory;
               return within_memory(communicator, arguments->memory, [&] {
                 return run_stages(communicator, input, {given.file, ""},
-                                  [&](RunRecord& record) { run_case(communicator, input, record); });
+                                  [&](report::RunRecord& record) { run_case(communicator, input, record); });
               });
             });
           }};

@@ -1,10 +1,10 @@
-#include "parallel/termination.hpp"
+#include "parallel/communication/termination.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/scaling_prediction.hpp"
-#include "pipeline/library_versions.hpp"
 #include "pipeline/output_lock.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/library_versions.hpp"
+#include "report/text_file.hpp"
 #include "study/jobs.hpp"
 #include "study/page.hpp"
 #include "study/prediction_files.hpp"
@@ -43,14 +43,15 @@ std::string own_path() {
 }
 
 std::string versions_line() {
-  std::string line = "aeroloom " + program_version();
-  for (const auto& [name, version] : library_versions()) line += fmt::format(", {} {}", name, version);
+  std::string line = "aeroloom " + report::program_version();
+  for (const auto& [name, version] : report::library_versions())
+    line += fmt::format(", {} {}", name, version);
   return line;
 }
 
 /// The case without what says where its results go.
-std::string subject_of(const Case& input) {
-  std::istringstream lines(resolved_yaml(input));
+std::string subject_of(const cases::Case& input) {
+  std::istringstream lines(cases::resolved_yaml(input));
   std::string text;
   bool is_output = false;
   for (std::string line; std::getline(lines, line);) {
@@ -60,10 +61,10 @@ std::string subject_of(const Case& input) {
   return text;
 }
 
-study::CaseSize size_of(const SizingRequest& request) {
+study::CaseSize size_of(const cases::SizingRequest& request) {
   study::CaseSize size;
   if (!request.minimum || !request.maximum || request.target_tetrahedra) {
-    size.target = request.target_tetrahedra.value_or(default_target);
+    size.target = request.target_tetrahedra.value_or(cases::default_target);
     return size;
   }
   const auto add = [&](const char* key, const std::optional<double>& length) {
@@ -81,7 +82,7 @@ void tell_progress(const std::string& text) {
   parallel::log_info("scaling: " + text);
 }
 
-study::StudyRecord make_record(const ScalingArguments& arguments, const Case& input) {
+study::StudyRecord make_record(const ScalingArguments& arguments, const cases::Case& input) {
   study::StudyRecord record;
   study::StudyOptions& options = record.options;
   options.program = own_path();
@@ -131,26 +132,27 @@ void add_prediction(study::Json& study, const study::StudyRecord& record,
 }
 
 /// Tables, page, and the exit code: that of the first run that failed.
-ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs,
-                     const study::Network& network) {
+report::ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs,
+                             const study::Network& network) {
   study::require_equal_meshes(runs);
   const study::Machine machine = study::this_machine();
-  const std::vector<study::Row> rows = study::make_rows(record, runs, machine);
+  const std::vector<study::SeriesRow> rows = study::make_rows(record, runs, machine);
   study::Json study = study::study_json(record, runs, rows, machine);
   add_prediction(study, record, runs, network);
   const std::string json = study.dump(1) + "\n";
   const fs::path& folder = record.options.directory;
-  write_text((folder / "scaling.json").string(), json);
-  write_text((folder / "scaling.csv").string(), study::study_csv(runs));
-  write_text((folder / "scaling.html").string(), study::study_page(json));
-  print_text(study::study_text(rows));
+  report::write_text((folder / "scaling.json").string(), json);
+  report::write_text((folder / "scaling.csv").string(), study::study_csv(runs));
+  report::write_text((folder / "scaling.html").string(), study::study_page(json));
+  report::print_text(study::study_text(rows));
   tell_progress((folder / "scaling.html").string());
   for (const study::RunResult& run : runs)
-    if (run.marks.state == study::RunState::failed) return static_cast<ExitCode>(std::max(1, run.marks.code));
-  return ExitCode::ok;
+    if (run.marks.state == study::RunState::failed)
+      return static_cast<report::ExitCode>(std::max(1, run.marks.code));
+  return report::ExitCode::ok;
 }
 
-ExitCode carry_out_study(const ScalingArguments& arguments, const Case& input) {
+report::ExitCode carry_out_study(const ScalingArguments& arguments, const cases::Case& input) {
   study::StudyRecord record = make_record(arguments, input);
   const study::Launcher launcher = study::make_launcher(arguments.launcher);
   std::vector<study::WeakScale> weak;
@@ -163,7 +165,7 @@ ExitCode carry_out_study(const ScalingArguments& arguments, const Case& input) {
   return write_study(record, study::collect_runs(record), network_of(arguments.prediction));
 }
 
-ExitCode write_study_jobs(const ScalingArguments& arguments, const Case& input) {
+report::ExitCode write_study_jobs(const ScalingArguments& arguments, const cases::Case& input) {
   study::StudyRecord record = make_record(arguments, input);
   std::vector<study::WeakScale> weak;
   if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), tell_progress);
@@ -171,17 +173,17 @@ ExitCode write_study_jobs(const ScalingArguments& arguments, const Case& input) 
   add_earlier_runs(record);
   study::save(record);
   study::JobOptions jobs{fs::absolute(arguments.jobs).lexically_normal(), {}, arguments.launcher};
-  if (!arguments.header.empty()) jobs.header = read_text(arguments.header);
+  if (!arguments.header.empty()) jobs.header = report::read_text(arguments.header);
   if (!jobs.header.empty() && !jobs.header.ends_with('\n')) jobs.header += '\n';
   study::write_jobs(record, jobs, [&](const std::vector<std::string>& settings) {
     return study::forecast_case(record.options, settings);
   });
   tell_progress(fmt::format("{} jobs are in {}: submit.sh there submits them", record.runs.size(),
                             jobs.folder.string()));
-  return ExitCode::ok;
+  return report::ExitCode::ok;
 }
 
-ExitCode collect_study(const ScalingArguments& arguments) {
+report::ExitCode collect_study(const ScalingArguments& arguments) {
   const fs::path jobs = fs::absolute(arguments.collected).lexically_normal();
   const study::StudyRecord record = study::load_study(study::results_of_jobs(jobs));
   const std::vector<study::RunResult> runs = study::collect_runs(record, study::ask_queue(jobs));
@@ -191,12 +193,12 @@ ExitCode collect_study(const ScalingArguments& arguments) {
   return write_study(record, runs, network_of(arguments.prediction));
 }
 
-ExitCode compare_studies(const ScalingArguments& arguments) {
+report::ExitCode compare_studies(const ScalingArguments& arguments) {
   const auto json_of = [](const std::string& place) {
-    return read_text(fs::is_directory(place) ? place + "/scaling.json" : place);
+    return report::read_text(fs::is_directory(place) ? place + "/scaling.json" : place);
   };
-  print_text(study::compare_text(json_of(arguments.compared[0]), json_of(arguments.compared[1])));
-  return ExitCode::ok;
+  report::print_text(study::compare_text(json_of(arguments.compared[0]), json_of(arguments.compared[1])));
+  return report::ExitCode::ok;
 }
 
 void add_options(CLI::App& app, ScalingArguments& arguments) {
@@ -246,10 +248,10 @@ int run_scaling(const parallel::Communicator& communicator, const ScalingArgumen
                 const Loudness& loudness) {
   const bool measures = !arguments.prediction.measured.empty();
   if (communicator.size() > 1 && !measures)
-    return fail(communicator, ExitCode::usage,
+    return fail(communicator, report::ExitCode::usage,
                 "scaling starts the ranks of its runs itself. Remedy: call it without a launcher");
-  const auto guard = [&](const std::function<ExitCode()>& work) {
-    return guarded(communicator, ExitCode::files, [&] {
+  const auto guard = [&](const std::function<report::ExitCode()>& work) {
+    return guarded(communicator, report::ExitCode::files, [&] {
       try {
         return work();
       } catch (const std::ios_base::failure&) {
@@ -266,8 +268,8 @@ int run_scaling(const parallel::Communicator& communicator, const ScalingArgumen
   if (!arguments.compared.empty()) return guard([&] { return compare_studies(arguments); });
   if (!arguments.collected.empty()) return guard([&] { return collect_study(arguments); });
   if (arguments.file.empty())
-    return fail(communicator, ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
-  return with_case(communicator, arguments, loudness, [&](const Case& input) {
+    return fail(communicator, report::ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
+  return with_case(communicator, arguments, loudness, [&](const cases::Case& input) {
     return guard([&] {
       fs::create_directories(input.output.directory);
       const OutputLock lock(communicator, input.output.directory);
@@ -295,7 +297,8 @@ Command add_scaling(CLI::App& program) {
        {"aeroloom scaling --predict out --ranks 1,16,256,4096", "what that run would take on more ranks"},
        {"mpirun -n 2 aeroloom scaling --measure-network network.json",
         "latency and bandwidth, for --predict out --network network.json"}},
-      {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::resources, ExitCode::bug});
+      {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::resources,
+       report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             return run_scaling(communicator, *arguments, loudness);
           }};

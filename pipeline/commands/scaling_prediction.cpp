@@ -1,10 +1,10 @@
 #include "pipeline/commands/scaling_prediction.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "parallel/network_probe.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/network_probe.hpp"
 #include "pipeline/commands/command.hpp"
 #include "pipeline/commands/help.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/text_file.hpp"
 #include "study/prediction_files.hpp"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ std::vector<CLI::Option*> add_prediction_options(CLI::App& app, PredictionArgume
 study::Network network_of(const PredictionArguments& arguments) {
   study::Network network;
   if (!arguments.network.empty()) {
-    const Json json = Json::parse(read_text(arguments.network), nullptr, false);
+    const Json json = Json::parse(report::read_text(arguments.network), nullptr, false);
     const auto at = [&](const char* key) {
       if (!json.is_object() || !json.contains(key) || !json[key].is_number())
         throw std::runtime_error(fmt::format("'{}' has no {}. Remedy: aeroloom scaling --measure-network {}",
@@ -97,26 +97,26 @@ study::Network network_of(const PredictionArguments& arguments) {
   return network;
 }
 
-ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks) {
+report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks) {
   if (ranks.empty()) ranks = usual_ranks();
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   const fs::path folder = arguments.run;
   const study::Forecasts forecasts =
       study::forecast_ranks(study::read_costs(folder), arguments.run, ranks, network_of(arguments));
-  write_text((folder / "prediction.json").string(), study::prediction_json(forecasts).dump(1) + "\n");
-  write_text((folder / "prediction.csv").string(), study::prediction_csv(forecasts));
-  print_text(study::prediction_text(forecasts));
-  return ExitCode::ok;
+  report::write_text((folder / "prediction.json").string(), study::prediction_json(forecasts).dump(1) + "\n");
+  report::write_text((folder / "prediction.csv").string(), study::prediction_csv(forecasts));
+  report::print_text(study::prediction_text(forecasts));
+  return report::ExitCode::ok;
 }
 
-ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file) {
+report::ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file) {
   const parallel::NetworkProbe probe = parallel::probe_network(communicator);
   parallel::agree(communicator, [&] {
-    if (communicator.is_root()) write_text(file, to_json(probe, communicator.size()).dump(1) + "\n");
+    if (communicator.is_root()) report::write_text(file, to_json(probe, communicator.size()).dump(1) + "\n");
   });
   print(communicator, describe(probe, communicator.size(), file));
-  return ExitCode::ok;
+  return report::ExitCode::ok;
 }
 
 }  // namespace aeroloom::pipeline

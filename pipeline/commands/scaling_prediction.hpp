@@ -1,8 +1,8 @@
 /// `aeroloom scaling --predict` and `--measure-network`.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "pipeline/exit_code.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/report/exit_code.hpp"
 #include "study/replay.hpp"
 
 #include <filesystem>
@@ -34,9 +34,9 @@ study::Network network_of(const PredictionArguments& arguments);
 
 /// Prints where time goes, writes prediction.json and prediction.csv beside the run's report. Of no ranks:
 /// the powers of two up to 10,000. Throws as read_costs() and predict().
-ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks);
+report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks);
 
 /// Measures between the ranks, prints, and writes the file. Collective.
-ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file);
+report::ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file);
 
 }  // namespace aeroloom::pipeline

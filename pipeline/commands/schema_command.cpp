@@ -1,8 +1,8 @@
-#include "pipeline/case_reference.hpp"
-#include "pipeline/case_schema.hpp"
+#include "case/case_reference.hpp"
+#include "case/case_schema.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
-#include "pipeline/text_file.hpp"
+#include "report/text_file.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -21,13 +21,13 @@ struct SchemaArguments {
 
 /// What is to be written: the schema, or the page of the reference with its tables renewed.
 std::string schema_text(const SchemaArguments& arguments) {
-  if (!arguments.markdown) return case_schema(case_keys());
-  std::string reference = case_reference(case_keys());
+  if (!arguments.markdown) return cases::case_schema(cases::case_keys());
+  std::string reference = cases::case_reference(cases::case_keys());
   if (arguments.output.empty() || !std::filesystem::exists(arguments.output)) return reference;
   try {
-    return with_reference(read_text(arguments.output), reference);
+    return cases::with_reference(report::read_text(arguments.output), reference);
   } catch (const std::invalid_argument& error) {
-    throw CaseError(arguments.output + ": " + error.what());
+    throw cases::CaseError(arguments.output + ": " + error.what());
   }
 }
 
@@ -43,21 +43,22 @@ Command add_schema(CLI::App& program) {
   app->add_flag("--markdown", arguments->markdown,
                 "the reference in Markdown; in a file that has the marks of its place, that alone is renewed")
       ->group(option_group::output);
-  add_help_footer(*app,
-                  {{"aeroloom schema --output aeroloom.schema.json", "for editors (docs/usage.md)"},
-                   {"aeroloom schema --markdown", "the keys with their texts, ranges and defaults"}},
-                  {ExitCode::ok, ExitCode::usage, ExitCode::files, ExitCode::bug});
+  add_help_footer(
+      *app,
+      {{"aeroloom schema --output aeroloom.schema.json", "for editors (docs/usage.md)"},
+       {"aeroloom schema --markdown", "the keys with their texts, ranges and defaults"}},
+      {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::bug});
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
-            return guarded(communicator, ExitCode::usage, [&] {
+            return guarded(communicator, report::ExitCode::usage, [&] {
               parallel::agree(communicator, [&] {
                 if (!communicator.is_root()) return;
                 const std::string text = schema_text(*arguments);
-                if (!arguments->output.empty()) write_text(arguments->output, text);
-                if (arguments->output.empty()) print_text(text);
+                if (!arguments->output.empty()) report::write_text(arguments->output, text);
+                if (arguments->output.empty()) report::print_text(text);
               });
               if (!arguments->output.empty()) parallel::log_info("wrote " + arguments->output);
-              return ExitCode::ok;
+              return report::ExitCode::ok;
             });
           }};
 }

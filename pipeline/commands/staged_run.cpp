@@ -1,11 +1,11 @@
 #include "pipeline/commands/staged_run.hpp"
 
-#include "parallel/log.hpp"
-#include "parallel/memory_limit.hpp"
-#include "parallel/termination.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/report/report.hpp"
+#include "parallel/communication/termination.hpp"
+#include "parallel/observation/memory_limit.hpp"
 #include "pipeline/commands/plain_words.hpp"
 #include "pipeline/output_lock.hpp"
-#include "pipeline/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
 
@@ -51,55 +51,56 @@ void require_writable_folder(const Communicator& communicator, const std::string
 
 }  // namespace
 
-int run_stages(const Communicator& communicator, const Case& input, const ReportSubject& subject,
-               const std::function<void(RunRecord&)>& stages) {
+int run_stages(const Communicator& communicator, const cases::Case& input,
+               const report::ReportSubject& subject, const std::function<void(report::RunRecord&)>& stages) {
   std::optional<OutputLock> lock;
   try {
     require_writable_folder(communicator, input.output.directory);
     lock.emplace(communicator, input.output.directory);
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, ExitCode::files, fmt::format("output.directory: {}", error.what()));
+    return fail(communicator, report::ExitCode::files, fmt::format("output.directory: {}", error.what()));
   }
   std::optional<EarlierFiles> earlier;  // rank 0 looks at the folder
   if (communicator.is_root()) earlier.emplace(input.output);
   const parallel::LastWords last_words([&, ranks = communicator.size()](int signal) {
-    const bool keeps = input.output.checkpoints != CheckpointUse::none;
-    RunOutcome ended{static_cast<ExitCode>(128 + signal), current_stage(),
-                     fmt::format("ended by SIG{}; {}", sigabbrev_np(signal),
-                                 keeps ? "what checkpoints have kept is found by --resume"
-                                       : "nothing is kept for another run (--checkpoints does that)")};
+    const bool keeps = input.output.checkpoints != cases::CheckpointUse::none;
+    report::RunOutcome ended{
+        static_cast<report::ExitCode>(128 + signal), current_stage(),
+        fmt::format("ended by SIG{}; {}", sigabbrev_np(signal),
+                    keeps ? "what checkpoints have kept is found by --resume"
+                          : "nothing is kept for another run (--checkpoints does that)")};
     try {
       if (earlier) tell_older(ended.older_files = earlier->left(), input.output.directory);
-      write_last_report(input, ended, subject, ranks);
+      report::write_last_report(input, ended, subject, ranks);
     } catch (const std::exception& error) {
       parallel::log_error(fmt::format("the report cannot be written: {}", error.what()));
     }
   });
-  RunRecord record;
-  RunOutcome outcome;
+  report::RunRecord record;
+  report::RunOutcome outcome;
   const double age = parallel::process_age_seconds(), begin = parallel::wall_seconds();
   record.clock.note("start", age);
   try {
     stages(record);
-  } catch (const StageFailure& failure) {
+  } catch (const report::StageFailure& failure) {
     outcome = {failure.code(), failure.stage(), plain_words(failure.what())};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
   if (earlier) tell_older(outcome.older_files = earlier->left(record.hash), input.output.directory);
   try {
-    const std::string table = write_report(communicator, input, record, outcome, subject);
-    if (outcome.code == ExitCode::ok) tell(table);
+    const std::string table = report::write_report(communicator, input, record, outcome, subject);
+    if (outcome.code == report::ExitCode::ok) tell(table);
   } catch (const parallel::CollectiveError& error) {
-    if (outcome.code == ExitCode::ok)
-      outcome = {code_of(error, ExitCode::files), "output", plain_words(error.what())};
+    if (outcome.code == report::ExitCode::ok)
+      outcome = {code_of(error, report::ExitCode::files), "output", plain_words(error.what())};
     else
       outcome.message += fmt::format("\n  the report cannot be written: {}", error.what());
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();
-    if (outcome.code == ExitCode::ok)
-      outcome = {ExitCode::resources, "output", parallel::out_of_memory_text()};
+    if (outcome.code == report::ExitCode::ok)
+      outcome = {report::ExitCode::resources, "output", parallel::out_of_memory_text()};
   }
-  if (outcome.code != ExitCode::ok) {
+  if (outcome.code != report::ExitCode::ok) {
     return fail(communicator, outcome.code,
                 fmt::format("stage {} failed: {}", outcome.stage, outcome.message));
   }

@@ -1,8 +1,8 @@
 /// What commands with stages share: the record of a run, its report and its end.
 #pragma once
 
+#include "aeroloom/report/report.hpp"
 #include "pipeline/commands/command.hpp"
-#include "pipeline/report.hpp"
 #include "pipeline/run.hpp"
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace aeroloom::pipeline {
 
 /// Does the stages (run_case, improve_file) and reports, a failure too as far as the output directory can be
 /// written. Returns the exit code. Collective.
-int run_stages(const parallel::Communicator& communicator, const Case& input, const ReportSubject& subject,
-               const std::function<void(RunRecord&)>& stages);
+int run_stages(const parallel::Communicator& communicator, const cases::Case& input,
+               const report::ReportSubject& subject, const std::function<void(report::RunRecord&)>& stages);
 
 }  // namespace aeroloom::pipeline

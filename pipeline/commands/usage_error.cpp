@@ -1,7 +1,7 @@
 #include "pipeline/commands/usage_error.hpp"
 
-#include "pipeline/nearest_name.hpp"
-#include "pipeline/yaml_value.hpp"
+#include "case/nearest_name.hpp"
+#include "case/yaml_value.hpp"
 
 #include <vector>
 
@@ -28,7 +28,7 @@ std::vector<std::string> command_names(const CLI::App& program) {
 }
 
 std::string suggest(const std::string& word, const std::vector<std::string>& known) {
-  const std::optional<std::string> nearest = nearest_name(word, known);
+  const std::optional<std::string> nearest = cases::nearest_name(word, known);
   return nearest ? fmt::format("; did you mean '{}'?", *nearest) : "";
 }
 
@@ -44,7 +44,7 @@ std::string explain_usage_error(const CLI::App& program, const CLI::ParseError& 
   const std::vector<CLI::App*> parsed = program.get_subcommands();
   if (parsed.empty()) {
     const std::vector<std::string> names = command_names(program), extra = program.remaining();
-    const std::string advice = fmt::format("\ncommands: {}\nsee aeroloom --help", joined(names));
+    const std::string advice = fmt::format("\ncommands: {}\nsee aeroloom --help", cases::joined(names));
     if (extra.empty()) {
       const bool none = error.get_name() == "RequiredError";
       return (none ? std::string("a command is missing") : std::string(error.what())) + advice;

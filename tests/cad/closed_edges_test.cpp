@@ -1,6 +1,6 @@
 #include "cad/domain/sharpen.hpp"
-#include "cad/model/joined_faces.hpp"
 #include "cad/model/patches.hpp"
+#include "cad/model/topology/joined_faces.hpp"
 #include "tests/cad/blunt_shapes.hpp"
 #include "tests/cad/half_models.hpp"
 #include "tests/cad/prisms.hpp"

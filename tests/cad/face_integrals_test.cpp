@@ -1,4 +1,4 @@
-#include "cad/model/face_integrals.hpp"
+#include "cad/model/evaluation/face_integrals.hpp"
 
 #include "cad_shapes.hpp"
 

@@ -1,7 +1,7 @@
 /// Half far fields, and what holds for every half model.
 #pragma once
 
-#include "cad/domain/domain.hpp"
+#include "aeroloom/cad/domain/domain.hpp"
 
 #include <algorithm>
 #include <bit>

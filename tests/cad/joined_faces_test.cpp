@@ -1,7 +1,7 @@
-#include "cad/model/joined_faces.hpp"
+#include "cad/model/topology/joined_faces.hpp"
 
 #include "cad/builtin/primitives.hpp"
-#include "cad/model/face_width.hpp"
+#include "cad/model/evaluation/face_width.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <algorithm>
@@ -148,16 +148,16 @@ TEST(JoinedFaces, FacetsCoverAllSheets) {
     area += 0.5 * norm(cross(facets.points[b] - facets.points[a], facets.points[c] - facets.points[a]));
   }
   EXPECT_NEAR(area, 2 * std::numbers::pi * height, 0.1);
-  std::vector<int> passages(joined.model.edge_count(), 0);
+  std::vector<int> coedges(joined.model.edge_count(), 0);
   for (const auto& line : facets.boundary) {
-    ++passages[line.use.edge];
+    ++coedges[line.use.edge];
     for (std::size_t i = 0; i < line.nodes.size(); ++i) {
       const Vec2 uv = joined.model.edge_uv(joined.side, line.use, line.parameters[i]);
       EXPECT_LT(distance(joined.model.face_point(joined.side, uv), facets.points[line.nodes[i]]), 1e-6);
     }
   }
   for (EdgeId e = 0; e < joined.model.edge_count(); ++e) {
-    EXPECT_EQ(passages[e], joined.model.is_seam(e) ? 2 : 1);
+    EXPECT_EQ(coedges[e], joined.model.is_seam(e) ? 2 : 1);
   }
 }
 

@@ -1,7 +1,7 @@
 /// Properties that every model has, whatever its shape.
 #pragma once
 
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +25,13 @@ inline Vec2 end_uv(const Model& model, FaceId face, const EdgeUse& use) {
 /// Each loop runs head to tail in space, and each pair (edge, use) is passed once.
 inline void expect_closed_loops(const Model& model, double tolerance) {
   for (FaceId f = 0; f < model.face_count(); ++f) {
-    std::map<std::pair<EdgeId, int>, int> passages;
+    std::map<std::pair<EdgeId, int>, int> coedges;
     ASSERT_FALSE(model.face(f).loops.empty() && model.facets(f, 1, 1).boundary.size() > 0);
     for (const auto& loop : model.face(f).loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const EdgeUse& here = loop[i];
         const EdgeUse& next = loop[(i + 1) % loop.size()];
-        EXPECT_EQ(++passages[std::pair(here.edge, here.use)], 1);
+        EXPECT_EQ(++coedges[std::pair(here.edge, here.use)], 1);
         const VertexId end = here.reversed ? model.edge(here.edge).first : model.edge(here.edge).last;
         const VertexId start = next.reversed ? model.edge(next.edge).last : model.edge(next.edge).first;
         EXPECT_EQ(end, start) << "face " << f;

@@ -1,4 +1,4 @@
-#include "cad/model/model.hpp"
+#include "aeroloom/cad/model/model.hpp"
 
 #include "cad/builtin/primitives.hpp"
 #include "tests/cad/model_checks.hpp"
@@ -60,7 +60,7 @@ TEST_P(Primitives, FacetsStayCloseAndTurnLittle) {
       const Vec2 uv = (facets.uv[t[0]] + facets.uv[t[1]] + facets.uv[t[2]]) / 3.0;
       EXPECT_LT(distance((a + b + c) / 3.0, model.face_point(f, uv)), 2 * deflection);
       const Vec3 normal = cross(b - a, c - a);
-      if (norm(normal) < 1e-12) continue;  // between two passages of a pole
+      if (norm(normal) < 1e-12) continue;  // between two coedges of a pole
       for (int i = 0; i < 3; ++i) {
         const auto across = normals.find({t[(i + 1) % 3], t[i]});
         if (across != normals.end()) {
@@ -72,7 +72,7 @@ TEST_P(Primitives, FacetsStayCloseAndTurnLittle) {
   }
 }
 
-TEST_P(Primitives, BothPassagesOfASeamCarryTheSameNodes) {
+TEST_P(Primitives, BothCoedgesOfASeamCarryTheSameNodes) {
   for (FaceId f = 0; f < model.face_count(); ++f) {
     const Facets facets = model.facets(f, 1e-3, 0.2);
     for (const auto& line : facets.boundary) {

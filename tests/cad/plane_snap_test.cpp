@@ -1,4 +1,4 @@
-#include "cad/model/plane_snap.hpp"
+#include "cad/model/evaluation/plane_snap.hpp"
 
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/cad/model_checks.hpp"

@@ -1,4 +1,4 @@
-#include "cad/model/point_locator.hpp"
+#include "aeroloom/cad/model/evaluation/point_locator.hpp"
 
 #include "cad/builtin/primitives.hpp"
 

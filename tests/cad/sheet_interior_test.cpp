@@ -1,4 +1,4 @@
-#include "cad/model/sheet_interior.hpp"
+#include "cad/model/topology/sheet_interior.hpp"
 
 #include "tests/cad/cad_shapes.hpp"
 

@@ -1,8 +1,8 @@
 #include "cavities/rounds.hpp"
 
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/tet_faces.hpp"
-#include "mesh/validity.hpp"
-#include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -14,16 +14,16 @@ using parallel::Communicator;
 
 constexpr int squares = 6, pieces = 7;
 
-/// Every shared vertex inside wishes for the cavity of its cell.
-CavityWishes wish_for_shared(const mesh::DistributedMesh& mesh, int shift, double size = 0.3) {
-  CavityWishes wishes;
+/// Every shared vertex inside claims the cavity of its cell.
+CavityClaims claim_for_shared(const mesh::DistributedMesh& mesh, int shift, double size = 0.3) {
+  CavityClaims claims;
   for (const mesh::Piece& piece : mesh.pieces) {
-    auto& mine = wishes.emplace_back(piece.vertex_count(), no_cavity);
+    auto& mine = claims.emplace_back(piece.vertex_count(), no_cavity);
     for (const mesh::LocalIndex v : piece.shared_vertices) {
       if (piece.vertex_dimension[v] == 3) mine[v] = cavity_at(piece.point(v), size, 1, shift);
     }
   }
-  return wishes;
+  return claims;
 }
 
 /// The tetrahedra as they were.
@@ -96,10 +96,10 @@ std::string hash(const Communicator& communicator, const mesh::DistributedMesh& 
 }
 
 CavityRound one_round(const Communicator& communicator, mesh::DistributedMesh& mesh,
-                      const CavityWishes& wishes, Reach reach, const RefillCavity& refill,
+                      const CavityClaims& claims, CavityExtent extent, const RefillCavity& refill,
                       parallel::StageClock& clock) {
   const mesh::SharedVertices shared(communicator, mesh);
-  return refill_cavities(communicator, mesh, shared, wishes, reach, refill, clock);
+  return refill_cavities(communicator, mesh, shared, {claims, extent, refill}, clock);
 }
 
 TEST(Cavities, KeepTheMeshWhole) {
@@ -108,7 +108,7 @@ TEST(Cavities, KeepTheMeshWhole) {
   const mesh::GlobalIndex cells = count_cells(world, mesh);
   parallel::StageClock clock;
   for (int shift = 0; shift < 4; ++shift) {
-    const CavityRound round = one_round(world, mesh, wish_for_shared(mesh, shift), {}, same, clock);
+    const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, shift), {}, same, clock);
     EXPECT_GT(round.cavities, 0);
     EXPECT_EQ(round.refilled, round.cavities);
     expect_valid(world, mesh);
@@ -127,7 +127,7 @@ TEST(Cavities, SayWhatTheyChanged) {
   };
   const std::vector<mesh::Piece> before = mesh.pieces;
   parallel::StageClock clock;
-  const CavityRound round = one_round(world, mesh, wish_for_shared(mesh, 0), {}, divided, clock);
+  const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, 0), {}, divided, clock);
   ASSERT_EQ(round.changes.size(), before.size());
   std::int64_t changed = 0, kept = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
@@ -150,7 +150,7 @@ TEST(Cavities, SayWhatTheyChanged) {
 TEST(Cavities, ReachAsFarAsTheyAreTold) {
   const auto world = Communicator::world();
   std::vector<std::int64_t> taken, triangles;
-  for (const Reach reach : {Reach{0, false}, {1, false}, {2, false}, {2, true}}) {
+  for (const CavityExtent reach : {CavityExtent{0, false}, {1, false}, {2, false}, {2, true}}) {
     mesh::DistributedMesh mesh = mesh::examples::cube(world, 2 * squares, pieces);
     std::int64_t tets = 0, on_surface = 0;
     const auto count = [&](const Cavity& cavity) {
@@ -159,9 +159,9 @@ TEST(Cavities, ReachAsFarAsTheyAreTold) {
       return same(cavity);
     };
     // Far from each other, a cavity each.
-    CavityWishes wishes;
+    CavityClaims claims;
     for (const mesh::Piece& piece : mesh.pieces) {
-      auto& mine = wishes.emplace_back(piece.vertex_count(), no_cavity);
+      auto& mine = claims.emplace_back(piece.vertex_count(), no_cavity);
       for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
         const geometry::Vec3 p = piece.point(v);
         const auto at = [](double x, double place) { return std::abs(x - place) < 0.04; };
@@ -170,7 +170,7 @@ TEST(Cavities, ReachAsFarAsTheyAreTold) {
       }
     }
     parallel::StageClock clock;
-    one_round(world, mesh, wishes, reach, count, clock);
+    one_round(world, mesh, claims, reach, count, clock);
     expect_valid(world, mesh);
     taken.push_back(world.sum(tets));
     triangles.push_back(world.sum(on_surface));
@@ -186,7 +186,7 @@ TEST(Cavities, TakeNewVertices) {
   parallel::StageClock clock;
   std::int64_t taken = 0;
   one_round(
-      world, mesh, wish_for_shared(mesh, 0), {},
+      world, mesh, claim_for_shared(mesh, 0), {},
       [&](const Cavity& cavity) {
         taken += static_cast<std::int64_t>(cavity.tets.size());
         return divided(cavity);
@@ -196,14 +196,14 @@ TEST(Cavities, TakeNewVertices) {
   EXPECT_EQ(count_cells(world, mesh), cells + 3 * world.sum(taken));
 }
 
-/// Every shared vertex on the surface wishes for the cavity of its cell.
-CavityWishes wish_for_surface(const mesh::DistributedMesh& mesh) {
-  CavityWishes wishes;
+/// Every shared vertex on the surface claims the cavity of its cell.
+CavityClaims claim_for_surface(const mesh::DistributedMesh& mesh) {
+  CavityClaims claims;
   for (const mesh::Piece& piece : mesh.pieces) {
-    auto& mine = wishes.emplace_back(piece.vertex_count(), no_cavity);
+    auto& mine = claims.emplace_back(piece.vertex_count(), no_cavity);
     for (const mesh::LocalIndex v : piece.shared_vertices) mine[v] = cavity_at(piece.point(v), 0.3, 1, 0);
   }
-  return wishes;
+  return claims;
 }
 
 std::int64_t count_moved(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
@@ -225,8 +225,8 @@ TEST(Cavities, MayChangeTheSurface) {
   const mesh::MeshCounts before = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(count_moved(world, together), 0);
   parallel::StageClock clock;
-  one_round(world, together, wish_for_surface(together), {}, slid, clock);
-  one_round(self, alone, wish_for_surface(alone), {}, slid, clock);
+  one_round(world, together, claim_for_surface(together), {}, slid, clock);
+  one_round(self, alone, claim_for_surface(alone), {}, slid, clock);
   expect_valid(world, together);
   const mesh::MeshCounts after = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(after.vertices, before.vertices);
@@ -245,7 +245,7 @@ TEST(Cavities, RefuseAnotherBoundary) {
     result.tets.pop_back();
     return std::optional(result);
   };
-  EXPECT_THROW(one_round(self, mesh, wish_for_shared(mesh, 0), {}, without_one, clock),
+  EXPECT_THROW(one_round(self, mesh, claim_for_shared(mesh, 0), {}, without_one, clock),
                parallel::CollectiveError);
 }
 
@@ -256,14 +256,14 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   parallel::StageClock clock;
   for (int shift = 0; shift < 3; ++shift) {
     const auto refill = shift == 1 ? divided : same;
-    const Reach reach{shift, shift == 2};
-    one_round(world, together, wish_for_shared(together, shift), reach, refill, clock);
-    one_round(self, alone, wish_for_shared(alone, shift), reach, refill, clock);
+    const CavityExtent reach{shift, shift == 2};
+    one_round(world, together, claim_for_shared(together, shift), reach, refill, clock);
+    one_round(self, alone, claim_for_shared(alone, shift), reach, refill, clock);
   }
   EXPECT_EQ(hash(world, together), hash(self, alone));
 }
 
-TEST(Cavities, AreDealtToTheRanksByTheirTetrahedra) {
+TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, 4 * squares, pieces);
   parallel::StageClock clock;
@@ -273,7 +273,7 @@ TEST(Cavities, AreDealtToTheRanksByTheirTetrahedra) {
     largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
     return same(cavity);
   };
-  one_round(world, mesh, wish_for_shared(mesh, 0, 0.03), {}, count, clock);
+  one_round(world, mesh, claim_for_shared(mesh, 0, 0.03), {}, count, clock);
   // The heaviest rank is above the mean by no more than one cavity.
   EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
@@ -285,7 +285,7 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   const std::string before = hash(world, mesh);
   parallel::StageClock clock;
   const CavityRound round = one_round(
-      world, mesh, wish_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; }, clock);
+      world, mesh, claim_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; }, clock);
   EXPECT_GT(round.cavities, 0);
   EXPECT_EQ(round.refilled, 0);
   EXPECT_EQ(hash(world, mesh), before);

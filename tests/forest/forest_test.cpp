@@ -1,7 +1,7 @@
 #include "forest/forest.hpp"
 
-#include "parallel/collective_error.hpp"
-#include "sizing/octree.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/sizing/octree.hpp"
 
 #include <map>
 #include <random>
@@ -135,7 +135,7 @@ TEST(Forest, HasTheLeavesOfTheSmallestBalancedOctree) {
   }
 }
 
-TEST(Forest, IsDealtOutByWeight) {
+TEST(Forest, IsPartitionedByWeight) {
   const Communicator world = Communicator::world();
   parallel::StageClock clock;
   std::mt19937_64 random(5);
@@ -146,7 +146,7 @@ TEST(Forest, IsDealtOutByWeight) {
     for (std::size_t i = 0; i < grown.local().size(); ++i)
       weights.push_back(grown.first(world.rank()) + static_cast<std::int64_t>(i) >= grown.count() / 2 ? 100
                                                                                                       : 0);
-    const Forest forest = deal_out(world, grown, weights, clock);
+    const Forest forest = partition_by_weight(world, grown, weights, clock);
     const Octants expected = splits.leaves();
     expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);

@@ -4,10 +4,10 @@
 ///   only_sc   it has started the library under p4est alone
 ///   aborts    p4est aborts while the last rank works for us
 ///   memory    there is no memory left for it there
-#include "parallel/host.hpp"
+#include "aeroloom/parallel/communication/host.hpp"
 
 #include "forest/forest.hpp"
-#include "parallel/environment.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <cstdio>
 #include <cstring>
@@ -44,7 +44,7 @@ std::int64_t grow_ours(const parallel::Communicator& communicator) {
                                                                : forest::Verdict::keep;
   };
   const forest::Forest grown = forest::grow(communicator, judge, clock);
-  deal_out(communicator, grown, std::vector<std::int32_t>(grown.local().size(), 1), clock);
+  partition_by_weight(communicator, grown, std::vector<std::int32_t>(grown.local().size(), 1), clock);
   return grown.count();
 }
 

@@ -1,8 +1,8 @@
 #include "front/front.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
 #include "front/edge_crossings.hpp"
 #include "geometry/predicates.hpp"
-#include "mesh/quality.hpp"
 #include "tests/front/loops.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "geometry/half_edges.hpp"
+#include "aeroloom/geometry/half_edges.hpp"
 
 #include <gtest/gtest.h>
 

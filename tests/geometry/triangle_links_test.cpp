@@ -33,13 +33,13 @@ void expect_sound(const TriangleLinks& mesh) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
     if (mesh.triangles[t].vertices[0] < 0) continue;
     for (int i = 0; i < 3; ++i) {
-      const LinkedEdge edge = linked_edge(t, i), mate = mesh.mate(edge);
+      const LinkedEdge edge = linked_edge(t, i), twin = mesh.twin(edge);
       EXPECT_EQ(triangle_of(edge), t);
       EXPECT_EQ(corner_of(edge), i);
-      if (mate == no_linked_edge) continue;
-      EXPECT_EQ(mesh.mate(mate), edge);
-      EXPECT_EQ(mesh.origin(mate), mesh.target(edge));
-      EXPECT_EQ(mesh.target(mate), mesh.origin(edge));
+      if (twin == no_linked_edge) continue;
+      EXPECT_EQ(mesh.twin(twin), edge);
+      EXPECT_EQ(mesh.origin(twin), mesh.target(edge));
+      EXPECT_EQ(mesh.target(twin), mesh.origin(edge));
     }
   }
 }
@@ -47,7 +47,7 @@ void expect_sound(const TriangleLinks& mesh) {
 TEST(TriangleLinks, NeighboursKnowEachOther) {
   const TriangleLinks mesh = square();
   expect_sound(mesh);
-  EXPECT_EQ(mesh.mate(mesh.find(0, 1)), no_linked_edge);
+  EXPECT_EQ(mesh.twin(mesh.find(0, 1)), no_linked_edge);
   EXPECT_EQ(mesh.apex(mesh.find(0, 1)), 4);
   EXPECT_EQ(mesh.apex(mesh.find(4, 0)), 1);
   EXPECT_EQ(mesh.apex(mesh.find(0, 4)), 3);
@@ -93,7 +93,7 @@ TEST(TriangleLinks, EdgesOfMoreThanTwoTrianglesStayUnlinked) {
   TriangleLinks mesh;
   mesh.build(Triples{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 5);
   for (std::int32_t t = 0; t < 3; ++t) {
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(mesh.mate(linked_edge(t, i)), no_linked_edge);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(mesh.twin(linked_edge(t, i)), no_linked_edge);
   }
 }
 

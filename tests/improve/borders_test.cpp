@@ -1,5 +1,5 @@
 #include "improve/bad_cells.hpp"
-#include "improve/border_relaxation.hpp"
+#include "improve/border_smoothing.hpp"
 #include "improve/cavity_improver.hpp"
 #include "improve/scatter.hpp"
 #include "tests/improve/shaken.hpp"
@@ -14,7 +14,7 @@ using mesh::LocalIndex;
 using mesh::Piece;
 using parallel::Communicator;
 
-const TetQuality measure(28);
+const mesh::TetQuality measure(28);
 constexpr int pieces = 7;
 
 DistributedMesh shaken(const Communicator& communicator, std::uint32_t seed) {
@@ -26,7 +26,7 @@ std::string hash(const Communicator& communicator, const DistributedMesh& mesh) 
 }
 
 std::int64_t relax(const Communicator& communicator, DistributedMesh& mesh, int passes) {
-  return relax_borders(communicator, mesh, mesh::SharedVertices(communicator, mesh), measure, passes);
+  return smooth_borders(communicator, mesh, mesh::SharedVertices(communicator, mesh), measure, passes);
 }
 
 double inverse_ratios(const Communicator& communicator, const DistributedMesh& mesh) {
@@ -49,7 +49,7 @@ double worst(const Communicator& communicator, const DistributedMesh& mesh) {
   return communicator.minimum(least);
 }
 
-TEST(BorderRelaxation, LiftsTheAverageAndNeverTheWorst) {
+TEST(BorderSmoothing, LiftsTheAverageAndNeverTheWorst) {
   const auto world = Communicator::world();
   for (std::uint32_t seed = 0; seed < 5; ++seed) {
     DistributedMesh mesh = shaken(world, seed);
@@ -67,7 +67,7 @@ TEST(BorderRelaxation, LiftsTheAverageAndNeverTheWorst) {
   }
 }
 
-TEST(BorderRelaxation, MovesVerticesThatPiecesShareAndNoOthers) {
+TEST(BorderSmoothing, MovesVerticesThatPiecesShareAndNoOthers) {
   const auto world = Communicator::world();
   DistributedMesh mesh = shaken(world, 11);
   const std::vector<Piece> before = mesh.pieces;
@@ -88,7 +88,7 @@ TEST(BorderRelaxation, MovesVerticesThatPiecesShareAndNoOthers) {
   EXPECT_GT(moves, 0);
 }
 
-TEST(BorderRelaxation, DoesNotDependOnRanks) {
+TEST(BorderSmoothing, DoesNotDependOnRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   for (std::uint32_t seed = 20; seed < 25; ++seed) {
     DistributedMesh together = shaken(world, seed), alone = shaken(self, seed);
@@ -98,7 +98,7 @@ TEST(BorderRelaxation, DoesNotDependOnRanks) {
   }
 }
 
-TEST(BorderRelaxation, LeavesASinglePieceAlone) {
+TEST(BorderSmoothing, LeavesASinglePieceAlone) {
   const auto self = Communicator::self();
   DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 0, 3), 1);
   EXPECT_EQ(relax(self, mesh, 2), 0);
@@ -186,12 +186,12 @@ TEST(BadCells, FollowRounds) {
     const auto improve = [&](const cavities::Cavity& cavity) { return improver.improve(cavity, report); };
     BadCells bad(mesh, measure);
     const std::int64_t first = world.sum(bad.state(mesh).bad);
-    cavities::CavityWishes wishes;
+    cavities::CavityClaims claims;
     parallel::StageClock clock;
     for (int shift = 0; shift < 4; ++shift) {
-      if (world.sum(wish_for_bad(mesh, bad, measure, shift, Effort::sparing, wishes)) == 0) break;
-      bad.update(mesh, cavities::refill_cavities(world, mesh, mesh::SharedVertices(world, mesh), wishes, {},
-                                                 improve, clock));
+      if (world.sum(claim_for_bad(mesh, bad, measure, shift, Effort::sparing, claims)) == 0) break;
+      bad.update(mesh, cavities::refill_cavities(world, mesh, mesh::SharedVertices(world, mesh),
+                                                 {claims, {}, improve}, clock));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
       BadState all;

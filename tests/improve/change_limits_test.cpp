@@ -7,7 +7,7 @@
 namespace aeroloom::improve {
 namespace {
 
-const TetQuality measure(28);
+const mesh::TetQuality measure(28);
 
 sizing::SizeField uniform(double size) {
   sizing::SizingOptions options;

@@ -46,7 +46,7 @@ TEST(CornerRelief, LeavesFewWithSeveralFacesOnTheBoundary) {
   mesh::Piece piece = six_in_each_cube(4);
   examples::close_boundary(piece);
   const auto triangles = piece.boundary;
-  const TetQuality measure(15);
+  const mesh::TetQuality measure(15);
   TetMesh mesh(piece, measure);
   const int before = count_in_corners(mesh);
   ASSERT_GT(before, 20);
@@ -84,7 +84,7 @@ TEST(CornerTrials, RelievesWhatNoSingleChangeDoes) {
   mesh::Piece piece = six_in_each_cube(4, 0.4);
   examples::close_boundary(piece);
   const std::vector<double> triangles = boundary_points(piece);
-  TetMesh mesh(piece, TetQuality(32.6));
+  TetMesh mesh(piece, mesh::TetQuality(32.6));
   ASSERT_GE(worst_of(mesh), mesh.measure().target());
   const ChangeLimits limits;
   CornerRelief(limits).run(mesh);
@@ -104,7 +104,7 @@ TEST(CornerTrials, RelievesWhatNoSingleChangeDoes) {
 TEST(CornerTrials, LeavesWhatIsForced) {
   mesh::Piece piece = six_in_each_cube(4, -1.0);
   examples::close_boundary(piece);
-  TetMesh mesh(piece, TetQuality(28));
+  TetMesh mesh(piece, mesh::TetQuality(28));
   const double worst = worst_of(mesh);
   CornerTrials(nullptr, 20, Effort::sparing).run(mesh);
   EXPECT_GT(count_in_corners(mesh), 0);
@@ -117,7 +117,7 @@ TEST(CornerRelief, LeavesWhatTheCornerForces) {
   for (const double target : {15.0, 40.0}) {
     mesh::Piece alone = examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3});
     examples::close_boundary(alone);
-    const TetQuality measure(target);
+    const mesh::TetQuality measure(target);
     TetMesh mesh(alone, measure);
     EXPECT_EQ(CornerRelief(limits).run(mesh), target < 20 ? 1 : 0) << target;
     mesh.finish();

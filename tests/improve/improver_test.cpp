@@ -1,4 +1,4 @@
-#include "improve/improver.hpp"
+#include "aeroloom/improve/improver.hpp"
 
 #include "mesh/shared_vertices.hpp"
 #include "tests/improve/shaken.hpp"

@@ -1,6 +1,6 @@
+#include "aeroloom/cad/model/evaluation/point_locator.hpp"
+#include "aeroloom/improve/improver.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "cad/model/point_locator.hpp"
-#include "improve/improver.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <map>

@@ -1,9 +1,9 @@
+#include "aeroloom/mesh/quality.hpp"
 #include "improve/cavity_insertion.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
 #include "improve/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
-#include "mesh/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 using examples::make_piece;
 using examples::volume;
 
-const TetQuality measure(15);
+const mesh::TetQuality measure(15);
 
 /// `count` tetrahedra around an edge along z that passes close by one side of their ring.
 mesh::Piece make_spindle(int count) {
@@ -58,8 +58,8 @@ TEST(TetQuality, IsNotPositiveWithoutVolume) {
   EXPECT_LE(measure({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), 0);
   EXPECT_LE(measure({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}), 0);
   EXPECT_LE(measure({0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}), 0);
-  EXPECT_FALSE(has_positive_volume({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}));
-  EXPECT_TRUE(has_positive_volume({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-300}));
+  EXPECT_FALSE(geometry::has_positive_volume({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}));
+  EXPECT_TRUE(geometry::has_positive_volume({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-300}));
 }
 
 TEST(TetMesh, KeepsCellsThatNobodyChanges) {
@@ -164,7 +164,7 @@ TEST(FaceRemoval, RemovesOneOrSeveralFaces) {
     }
     mesh::Piece piece = make_piece(points, cells);
     const double before = volume(piece);
-    TetMesh mesh(piece, TetQuality(50));
+    TetMesh mesh(piece, mesh::TetQuality(50));
     FaceRemoval removal;
     Replacement best;
     for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
@@ -196,7 +196,7 @@ mesh::Piece make_octahedron(Vec3 inner) {
 
 TEST(Smoothing, CentresAVertexAndStopsThere) {
   mesh::Piece piece = make_octahedron({0.5, 0.3, 0.15});
-  TetMesh mesh(piece, TetQuality(50));
+  TetMesh mesh(piece, mesh::TetQuality(50));
   const ChangeLimits any;
   Smoothing smoothing(any);
   std::vector<LocalIndex> star;

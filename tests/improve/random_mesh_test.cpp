@@ -1,4 +1,4 @@
-#include "improve/improver.hpp"
+#include "aeroloom/improve/improver.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <map>
@@ -140,7 +140,7 @@ mesh::Piece cube_with_strip(std::uint32_t seed) {
 
 // Beside a strip a sparing run leaves what an unsparing one still mends.
 TEST(RandomMeshes, GetBetterBesideStripsWhereNothingIsSpared) {
-  const TetQuality measure(28);
+  const mesh::TetQuality measure(28);
   int better = 0, valid = 0;
   for (std::uint32_t seed = 300; seed < 320; ++seed) {
     Piece sparing = cube_with_strip(seed);

@@ -10,7 +10,7 @@
 namespace aeroloom::improve {
 namespace {
 
-const TetQuality measure(28);
+const mesh::TetQuality measure(28);
 constexpr double width = 0.04;
 
 /// A triangle of length 1 between two curves, if `dimension` is 1, and apexes over it at the given heights,

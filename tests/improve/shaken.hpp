@@ -2,10 +2,10 @@
 /// at random.
 #pragma once
 
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "geometry/predicates.hpp"
-#include "improve/tet_quality.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
+#include "mesh/tet_quality.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <limits>
@@ -98,7 +98,7 @@ struct Extremes {
 
 /// The worst of all pieces; angles and bad ones by the angles alone.
 inline Extremes examine(const std::vector<mesh::Piece>& pieces, double target_angle) {
-  const TetQuality measure(target_angle);
+  const mesh::TetQuality measure(target_angle);
   Extremes extremes;
   for (const mesh::Piece& piece : pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {

@@ -1,7 +1,7 @@
 #include "improve/sliding.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "mesh/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <limits>
@@ -17,7 +17,7 @@ using examples::close_boundary;
 using examples::make_piece;
 using examples::volume;
 
-const TetQuality measure(28);
+const mesh::TetQuality measure(28);
 
 double least_quality(const mesh::Piece& piece) {
   double least = std::numeric_limits<double>::max();
@@ -83,7 +83,7 @@ TEST(Sliding, LeavesWhatOthersKnow) {
   mesh::Piece shared = make_fan(model, 0, middle, {0.1, 0.1}, 0.05);
   mesh::Piece elsewhere = shared, corner = shared;
   shared.shared_vertices = {0};
-  shared.shared_tokens = {7};
+  shared.shared_keys = {7};
   EXPECT_FALSE(slide_first_vertex(shared, model)) << "another piece knows the vertex";
   elsewhere.vertex_entity[0] = 1;
   EXPECT_FALSE(slide_first_vertex(elsewhere, model)) << "the vertex does not lie on the face it names";

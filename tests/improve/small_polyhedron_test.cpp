@@ -14,7 +14,7 @@ namespace {
 using examples::make_piece;
 using examples::volume;
 
-const TetQuality measure(28);
+const mesh::TetQuality measure(28);
 
 /// Tetrahedra around an edge along z that passes close by one side of their ring.
 mesh::Piece make_spindle(int count) {

@@ -1,8 +1,8 @@
+#include "aeroloom/mesh/quality.hpp"
 #include "improve/boundary_flip.hpp"
 #include "improve/edge_contraction.hpp"
-#include "improve/relaxation.hpp"
+#include "improve/mean_ratio_smoothing.hpp"
 #include "improve/tet_mesh.hpp"
-#include "mesh/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using examples::close_boundary;
 using examples::make_piece;
 using examples::volume;
 
-const TetQuality measure(15);
+const mesh::TetQuality measure(15);
 
 /// A pyramid over a square whose base is a flat tetrahedron on top of two others.
 mesh::Piece make_flat_lid(double height) {
@@ -79,7 +79,7 @@ TEST(BoundaryFlip, KeepsEdgesBetweenFacesAndSharpOnes) {
   mesh::Piece other_piece = make_flat_lid(0.02);
   for (LocalIndex v = 0; v < 4; ++v) {
     other_piece.shared_vertices.push_back(v);
-    other_piece.shared_tokens.push_back(v);
+    other_piece.shared_keys.push_back(v);
   }
   EXPECT_FALSE(proposes(other_piece)) << "another piece may know the triangles";
 }
@@ -140,7 +140,7 @@ LocalIndex vertex_at(const mesh::Piece& piece, Vec3 p) {
   return -1;
 }
 
-TEST(Relaxation, LiftsTheAverageAndNeverTheWorst) {
+TEST(MeanRatioSmoothing, LiftsTheAverageAndNeverTheWorst) {
   mesh::Piece piece = make_lattice(5);
   std::mt19937 random(7);
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -163,7 +163,7 @@ TEST(Relaxation, LiftsTheAverageAndNeverTheWorst) {
   auto [mean, worst] = ratios(mesh);
   const double first = mean;
   for (int pass = 0; pass < 4; ++pass) {
-    Relaxation().run(mesh, 1);
+    MeanRatioSmoothing().run(mesh, 1);
     const auto [next_mean, next_worst] = ratios(mesh);
     EXPECT_GE(next_mean, mean);
     EXPECT_GE(next_worst, worst);
@@ -225,18 +225,18 @@ mesh::Piece make_icosahedron(geometry::Vec3 inside) {
   return piece;
 }
 
-TEST(Relaxation, BringsAVertexToTheMiddle) {
+TEST(MeanRatioSmoothing, BringsAVertexToTheMiddle) {
   for (const geometry::Vec3 from : {geometry::Vec3{0.7, 0, 0}, {0.3, -0.8, 0.4}, {-0.1, 0.6, 0.6}}) {
     mesh::Piece piece = make_icosahedron(from);
     ASSERT_EQ(piece.cell_count(), 20);
     TetMesh mesh(piece, measure);
-    EXPECT_GT(Relaxation().run(mesh, 20), 0);
+    EXPECT_GT(MeanRatioSmoothing().run(mesh, 20), 0);
     EXPECT_LT(norm(mesh.point(12)), 0.1 * norm(from)) << from.x << ' ' << from.y << ' ' << from.z;
   }
 }
 
 /// The first step goes straight down the sum of inverse mean ratios.
-TEST(Relaxation, StepsAlongTheGradient) {
+TEST(MeanRatioSmoothing, StepsAlongTheGradient) {
   for (const geometry::Vec3 from : {geometry::Vec3{0.7, 0, 0.1}, {0.3, -0.8, 0.4}, {-0.1, 0.2, 0.9}}) {
     mesh::Piece piece = make_icosahedron(from);
     // A body without symmetry, or every wrong sum would point to its middle too.
@@ -258,7 +258,7 @@ TEST(Relaxation, StepsAlongTheGradient) {
       left[axis] -= 1e-5, right[axis] += 1e-5;
       downhill[axis] = sum_at(left) - sum_at(right);
     }
-    ASSERT_EQ(Relaxation().run(mesh, 1), 1);
+    ASSERT_EQ(MeanRatioSmoothing().run(mesh, 1), 1);
     const geometry::Vec3 step = mesh.point(12) - from;
     EXPECT_GT(dot(step, downhill), (1 - 1e-6) * norm(step) * norm(downhill));
   }

@@ -1,6 +1,6 @@
+#include "aeroloom/mesh/face_links.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/raw_mesh.hpp"
-#include "mesh/face_links.hpp"
-#include "parallel/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "io/checkpoint_file.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
 
 #include <random>

@@ -5,8 +5,8 @@
 /// same case comes again for the same seed.
 #pragma once
 
-#include "parallel/collective_error.hpp"
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <array>

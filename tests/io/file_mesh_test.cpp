@@ -1,6 +1,6 @@
-#include "io/file_mesh.hpp"
+#include "aeroloom/io/file_mesh.hpp"
 
-#include "mesh/face_links.hpp"
+#include "aeroloom/mesh/face_links.hpp"
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/mesh/meshes.hpp"

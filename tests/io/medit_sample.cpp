@@ -1,6 +1,6 @@
 // Writes the mixed mesh as Medit files for programs that others wrote. usage: io_medit_sample FOLDER
 #include "io/medit/medit_writer.hpp"
-#include "parallel/environment.hpp"
+#include "parallel/communication/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
 #include <string>

@@ -1,9 +1,9 @@
+#include "aeroloom/mesh/face_links.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/medit/medit_layout.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/medit/medit_reader.hpp"
 #include "io/medit/medit_writer.hpp"
-#include "mesh/face_links.hpp"
-#include "parallel/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
@@ -108,9 +108,9 @@ TEST_F(Medit, LayoutBeyondThirtyTwoBits) {
 }
 
 /// A tetrahedron in a file of any version and byte order, as another program might write it.
-class ForeignFile {
+class ImportedFile {
 public:
-  ForeignFile(int version, bool swapped) : _version(version), _swapped(swapped) {
+  ImportedFile(int version, bool swapped) : _version(version), _swapped(swapped) {
     number<std::int32_t>(1), number<std::int32_t>(version);
     section(3), number<std::int32_t>(3), close();
     section(5), integer(1), integer(1), integer(2), integer(9), close();  // an edge
@@ -163,8 +163,8 @@ private:
 TEST_F(Medit, VersionsAndByteOrders) {
   for (const int version : {1, 2, 3, 4}) {
     for (const bool swapped : {false, true}) {
-      const std::string file = path("foreign.meshb");
-      examples::put_bytes(world, file, ForeignFile(version, swapped).bytes);
+      const std::string file = path("imported.meshb");
+      examples::put_bytes(world, file, ImportedFile(version, swapped).bytes);
       const Assembled read = assemble(world, read_medit(world, file), file, 1);
       EXPECT_EQ(read.mesh.vertex_count, 4);
       EXPECT_EQ(read.mesh.cell_count(), 1);
@@ -179,7 +179,7 @@ TEST_F(Medit, VersionsAndByteOrders) {
 }
 
 TEST_F(Medit, TextWithCommentsAndOtherSections) {
-  const std::string file = path("foreign.mesh");
+  const std::string file = path("imported.mesh");
   examples::put_bytes(
       world, file,
       "# by hand\nMeshVersionFormatted\n1\nDimension\n3 Vertices 4 0 0 0 1\n1 0 0 1 0 1. 0 1 # here\n0 0 1e0 "
@@ -222,11 +222,11 @@ TEST_F(Medit, RefusesWithThePlace) {
   expect("bad.mesh", head + "Tetrahedra 1 1 2 3 0 1", "line 3: there is no vertex 0");
   expect("bad.mesh", "solid", "no MeshVersionFormatted");
   expect("bad.mesh", "", "");
-  std::string bytes = ForeignFile(3, false).bytes;
+  std::string bytes = ImportedFile(3, false).bytes;
   bytes[24 + 0] = 10;
   expect("bad.meshb", bytes, "byte 24: there are 1 Hexahedra");
   expect("bad.meshb", bytes.substr(0, 20), "the file ends here");
-  bytes = ForeignFile(3, false).bytes;
+  bytes = ImportedFile(3, false).bytes;
   bytes[4] = 5;
   expect("bad.meshb", bytes, "byte 4: there is no version 5");
   EXPECT_NE(refusal("empty.meshb", ""), "");
@@ -292,7 +292,7 @@ TEST_F(Medit, HostileNames) {
 TEST_F(Medit, PlacesBeyondFourGibibytes) {
   // Vertices in front of a hole of 5 GiB, tetrahedra behind it; a sparse file takes no room.
   const std::string file = path("sparse.meshb");
-  const std::string near = ForeignFile(3, false).bytes;
+  const std::string near = ImportedFile(3, false).bytes;
   const std::int64_t hole = std::int64_t{5} << 30;
   if (world.is_root()) {
     std::string head = near;

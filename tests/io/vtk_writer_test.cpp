@@ -1,7 +1,7 @@
-#include "io/vtk/vtk_writer.hpp"
+#include "aeroloom/io/vtk/vtk_writer.hpp"
 
-#include "mesh/quality.hpp"
-#include "parallel/collective_error.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
 #include "tests/mesh/meshes.hpp"
 
@@ -179,7 +179,7 @@ mesh::Piece sheet(mesh::PieceId id, int n) {
                                {id + static_cast<double>(i) / n, static_cast<double>(j), 0});
       if (i % n == 0) {
         piece.shared_vertices.push_back(i * (n + 1) + j);
-        piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(id + i / n) * 1000000 + j);
+        piece.shared_keys.push_back(static_cast<mesh::SharedVertexKey>(id + i / n) * 1000000 + j);
       }
     }
   }

@@ -3,7 +3,7 @@
 /// wide (64-bit labels), whole (one part) and regions (four parts that end at the interface).
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/openfoam/openfoam_writer.hpp"
-#include "parallel/environment.hpp"
+#include "parallel/communication/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
 #include <cstdio>

@@ -2,7 +2,7 @@
 /// programs of others to read. usage: write_solver_files FOLDER
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
-#include "parallel/environment.hpp"
+#include "parallel/communication/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
 #include <exception>

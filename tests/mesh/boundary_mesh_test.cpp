@@ -1,6 +1,6 @@
 #include "mesh/boundary_mesh.hpp"
 
-#include "mesh/validity.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <map>

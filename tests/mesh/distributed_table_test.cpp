@@ -15,7 +15,7 @@ using Words = DistributedTable<std::int64_t>;
 TEST(DistributedTable, KeysFarFromOthersDoNotMoveAllToOneRank) {
   const Communicator world = Communicator::world();
   constexpr GlobalIndex count = 20'000, far = GlobalIndex{1} << 61;
-  std::vector<Points::Row> points;
+  std::vector<Points::KeyedValue> points;
   std::vector<GlobalIndex> keys;
   for (GlobalIndex i = world.rank(); i < count; i += world.size()) {
     const GlobalIndex key = i < 10 ? far + i : 3 * i;
@@ -26,7 +26,7 @@ TEST(DistributedTable, KeysFarFromOthersDoNotMoveAllToOneRank) {
   EXPECT_EQ(table.count(), count);
   EXPECT_LE(static_cast<GlobalIndex>(table.mine().size()), count / world.size() + count / 16);
   std::sort(keys.begin(), keys.end());
-  const Points::Found found = table.fetch(keys);
+  const Points::Fetched found = table.fetch(keys);
   EXPECT_EQ(found.missing, -1);
   for (std::size_t i = 0; i < keys.size(); ++i)
     EXPECT_EQ(found.values[i][0], static_cast<double>(keys[i] >= far ? keys[i] - far : keys[i] / 3));
@@ -39,7 +39,7 @@ TEST(DistributedTable, KeysFarFromOthersDoNotMoveAllToOneRank) {
 
 /// Every rank has all the rows of some keys below `limit`, with the square as the value.
 Words squares(const Communicator& world, GlobalIndex limit) {
-  std::vector<Words::Row> rows;
+  std::vector<Words::KeyedValue> rows;
   for (GlobalIndex key = world.rank(); key < limit; key += 2) rows.push_back({key, key * key});
   return {world, even_ranges(world.size(), limit), std::move(rows)};
 }
@@ -49,9 +49,9 @@ TEST(DistributedTable, KeepsAKeyThatComesSeveralTimesOnce) {
   const Words table = squares(world, 100);
   EXPECT_EQ(table.clash(), -1);
   EXPECT_EQ(table.count(), world.size() == 1 ? 50 : 100);
-  for (const Words::Row& row : table.mine()) EXPECT_EQ(row.value, row.key * row.key);
+  for (const Words::KeyedValue& row : table.mine()) EXPECT_EQ(row.value, row.key * row.key);
   if (world.size() < 3) return;
-  std::vector<Words::Row> rows{{40 + world.rank() % 2, world.rank()}};
+  std::vector<Words::KeyedValue> rows{{40 + world.rank() % 2, world.rank()}};
   EXPECT_EQ(Words(world, even_ranges(world.size(), 100), rows).clash(), 40);
 }
 

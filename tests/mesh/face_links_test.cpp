@@ -1,4 +1,4 @@
-#include "mesh/face_links.hpp"
+#include "aeroloom/mesh/face_links.hpp"
 
 #include "tests/mesh/mixed_mesh.hpp"
 

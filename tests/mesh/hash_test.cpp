@@ -1,4 +1,4 @@
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <cstring>

@@ -2,7 +2,7 @@
 /// same whatever the communicator. On Communicator::self() one rank holds all of it.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -42,7 +42,7 @@ inline std::set<int> shared_vertices(const WholeMesh& whole) {
   return shared;
 }
 
-/// One piece of a whole mesh; its vertices in the order its cells meet them. Tokens of shared vertices are
+/// One piece of a whole mesh; its vertices in the order its cells meet them. shared-vertex keys are
 /// arbitrary but fixed.
 inline Piece cut_piece(const WholeMesh& whole, PieceId id, const std::set<int>& shared) {
   Piece piece;
@@ -58,7 +58,7 @@ inline Piece cut_piece(const WholeMesh& whole, PieceId id, const std::set<int>& 
     piece.vertex_entity.push_back(whole.entities[v]);
     if (shared.count(v)) {
       piece.shared_vertices.push_back(found->second);
-      piece.shared_tokens.push_back(0x9e3779b97f4a7c15ULL * static_cast<SharedToken>(v + 1));
+      piece.shared_keys.push_back(0x9e3779b97f4a7c15ULL * static_cast<SharedVertexKey>(v + 1));
     }
     return found->second;
   };

@@ -1,6 +1,6 @@
-#include "mesh/delivery.hpp"
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/collective_error.hpp"
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <tuple>

@@ -6,8 +6,8 @@
 /// its middle and, on the far side, two tetrahedra. An affine map makes all of it oblique.
 #pragma once
 
-#include "mesh/distributed_mesh.hpp"
-#include "mesh/tokens.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "mesh/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <array>
@@ -291,7 +291,7 @@ private:
       piece.vertex_entity.push_back(std::max(_entity[v], 0));
       if (_known_by[v].size() < 2) continue;
       piece.shared_vertices.push_back(place);
-      piece.shared_tokens.push_back(running_token(v));
+      piece.shared_keys.push_back(running_key(v));
     }
     return local;
   }

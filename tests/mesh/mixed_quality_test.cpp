@@ -1,4 +1,4 @@
-#include "mesh/mixed_quality.hpp"
+#include "aeroloom/mesh/mixed_quality.hpp"
 
 #include "tests/mesh/mixed_mesh.hpp"
 

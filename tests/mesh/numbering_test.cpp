@@ -1,5 +1,5 @@
-#include "mesh/distributed_mesh.hpp"
-#include "parallel/collective_error.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <map>
@@ -96,13 +96,13 @@ TEST(Numbering, RefusesCoordinatesThatDifferInTheLastBit) {
   }
 }
 
-TEST(Numbering, RefusesATokenTwiceInOnePiece) {
+TEST(Numbering, RefusesAKeyTwiceInOnePiece) {
   const auto world = Communicator::world();
   auto mesh = examples::two_tets(world);
   for (Piece& piece : mesh.pieces) {
     if (piece.id != 0) continue;
     piece.set_point(piece.shared_vertices[1], piece.point(piece.shared_vertices[0]));
-    piece.shared_tokens[1] = piece.shared_tokens[0];
+    piece.shared_keys[1] = piece.shared_keys[0];
   }
   EXPECT_THROW(number_mesh(world, mesh), parallel::CollectiveError);
 }

@@ -1,4 +1,4 @@
-#include "mesh/patch.hpp"
+#include "aeroloom/mesh/patch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 
 #include "mesh/tet_measures.hpp"
 #include "tests/mesh/meshes.hpp"

@@ -1,7 +1,7 @@
 #include "mesh/shared_vertices.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/mixing.hpp"
-#include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <functional>
@@ -204,23 +204,24 @@ TEST_P(SharedVerticesOfCube, DropWhatOnlyOnePieceKnows) {
   const DistributedMesh before = mesh;
   std::int64_t added = 0;
   for (Piece& piece : mesh.pieces) {
-    std::vector<SharedToken> tokens(piece.vertex_count(), 0);
+    std::vector<SharedVertexKey> vertex_keys(piece.vertex_count(), 0);
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
-      tokens[piece.shared_vertices[s]] = piece.shared_tokens[s];
-    piece.shared_vertices.clear(), piece.shared_tokens.clear();
+      vertex_keys[piece.shared_vertices[s]] = piece.shared_keys[s];
+    piece.shared_vertices.clear(), piece.shared_keys.clear();
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      const bool alone = tokens[v] == 0;
+      const bool alone = vertex_keys[v] == 0;
       if (alone && v % 3 == 0) continue;
       added += alone;
       piece.shared_vertices.push_back(v);
-      piece.shared_tokens.push_back(alone ? mix_in(static_cast<std::uint64_t>(piece.id) + 1, v) : tokens[v]);
+      piece.shared_keys.push_back(alone ? mix_in(static_cast<std::uint64_t>(piece.id) + 1, v)
+                                        : vertex_keys[v]);
     }
   }
   SharedVertices shared(world, mesh);
   EXPECT_EQ(shared.drop_unshared(mesh), added);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     EXPECT_EQ(mesh.pieces[p].shared_vertices, before.pieces[p].shared_vertices);
-    EXPECT_EQ(mesh.pieces[p].shared_tokens, before.pieces[p].shared_tokens);
+    EXPECT_EQ(mesh.pieces[p].shared_keys, before.pieces[p].shared_keys);
   }
   // As if it had been made of what is left.
   const SharedVertices fresh(world, mesh);

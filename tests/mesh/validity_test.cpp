@@ -1,7 +1,7 @@
-#include "mesh/validity.hpp"
+#include "aeroloom/mesh/validity.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/boundary_mesh.hpp"
-#include "parallel/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <functional>
@@ -233,11 +233,11 @@ TEST(VolumeValidity, FindsATriangleOfNoTetrahedron) {
   EXPECT_FOUND(faults, "boundary triangles that are no face of a tetrahedron: 1,");
 }
 
-TEST(VolumeValidity, FindsALostToken) {
+TEST(VolumeValidity, FindsALostSharedVertexKey) {
   const auto faults = volume_faults(1, [](Piece& piece) {
     const LocalIndex v = piece.shared_vertices.back();
     piece.shared_vertices.pop_back();
-    piece.shared_tokens.pop_back();
+    piece.shared_keys.pop_back();
     add_vertex(piece, piece.point(v));  // makes the mesh to be numbered anew
   });
   EXPECT_FOUND(faults, "faces of one tetrahedron without a boundary triangle:");

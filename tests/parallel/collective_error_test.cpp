@@ -1,4 +1,4 @@
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <filesystem>
 #include <fstream>

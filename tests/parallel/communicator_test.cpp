@@ -1,4 +1,4 @@
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <cstdlib>
 #include <numeric>

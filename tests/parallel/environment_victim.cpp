@@ -1,10 +1,10 @@
 /// A program that ends badly on its last rank, for environment_test.sh: environment_victim WAY, where WAY is
 /// none, before (the communicator is used without an environment), throws (nobody catches), leaves (the
-/// exception passes the environment), aborts (abort_all_ranks) or dies (killed while its contained run
+/// exception passes the environment), aborts (abort_all_ranks) or dies (killed while its sandboxed run
 /// works).
-#include "parallel/communicator.hpp"
-#include "parallel/contained.hpp"
-#include "parallel/environment.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <csignal>
 #include <cstdio>
@@ -42,7 +42,7 @@ void end_badly(const std::string& way) {
       sleep(1);
       std::raise(SIGKILL);
     }).detach();
-    run_contained("sleep_long", {}, {});
+    run_sandboxed("sleep_long", {}, {});
   }
 }
 
@@ -59,7 +59,7 @@ void run(int argc, char** argv, const std::string& way) {
 int main(int argc, char** argv) {
   const std::string way = argc > 1 ? argv[1] : "none";
   if (way == "before") return use_before_start();
-  register_contained_task("sleep_long", sleep_long);
+  register_sandbox_task("sleep_long", sleep_long);
   if (way != "leaves") {
     run(argc, argv, way);
     return 0;

@@ -1,8 +1,8 @@
 /// The stages inside a program that runs MPI itself. Has its own main: no Environment is alive here.
-#include "parallel/host.hpp"
+#include "aeroloom/parallel/communication/host.hpp"
 
-#include "parallel/contained.hpp"
-#include "parallel/environment.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/communication/environment.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -86,16 +86,16 @@ Bytes refuse(std::span<const std::byte>) {
 }
 
 TEST(Host, WithoutAServerTasksRunInTheRank) {
-  register_contained_task("reverse", reverse);
-  register_contained_task("refuse", refuse);
+  register_sandbox_task("reverse", reverse);
+  register_sandbox_task("refuse", refuse);
   const Bytes input{std::byte{1}, std::byte{2}};
-  const ContainedResult good = run_contained("reverse", input, {});
-  EXPECT_EQ(good.status, ContainedStatus::ok);
+  const SandboxResult good = run_sandboxed("reverse", input, {});
+  EXPECT_EQ(good.status, SandboxStatus::ok);
   EXPECT_EQ(good.output, (Bytes{std::byte{2}, std::byte{1}}));
-  const ContainedResult bad = run_contained("refuse", input, {});
-  EXPECT_EQ(bad.status, ContainedStatus::threw);
+  const SandboxResult bad = run_sandboxed("refuse", input, {});
+  EXPECT_EQ(bad.status, SandboxStatus::threw);
   EXPECT_EQ(bad.message, "bad facet");
-  EXPECT_THROW(run_contained("nobody", input, {}), std::logic_error);
+  EXPECT_THROW(run_sandboxed("nobody", input, {}), std::logic_error);
 }
 
 }  // namespace

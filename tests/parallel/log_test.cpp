@@ -1,7 +1,7 @@
-#include "parallel/log.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 
-#include "parallel/progress.hpp"
-#include "parallel/warnings.hpp"
+#include "aeroloom/parallel/observation/warnings.hpp"
+#include "parallel/observation/progress.hpp"
 
 #include <algorithm>
 #include <chrono>

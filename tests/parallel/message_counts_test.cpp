@@ -1,7 +1,7 @@
-#include "parallel/message_counts.hpp"
+#include "aeroloom/parallel/communication/message_counts.hpp"
 
-#include "parallel/neighbour_exchange.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/communication/neighbour_exchange.hpp"
 
 #include <functional>
 #include <map>

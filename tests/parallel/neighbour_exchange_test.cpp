@@ -1,4 +1,4 @@
-#include "parallel/neighbour_exchange.hpp"
+#include "parallel/communication/neighbour_exchange.hpp"
 
 #include <cstdint>
 #include <stdexcept>

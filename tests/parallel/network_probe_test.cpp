@@ -1,4 +1,4 @@
-#include "parallel/network_probe.hpp"
+#include "parallel/communication/network_probe.hpp"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "parallel/node_array.hpp"
+#include "aeroloom/parallel/communication/node_array.hpp"
 
 #include <cstdint>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "parallel/schedule.hpp"
+#include "parallel/communication/schedule.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
-#include "parallel/shared_file.hpp"
+#include "parallel/storage/shared_file.hpp"
 
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
 
 #include <csignal>
 #include <filesystem>

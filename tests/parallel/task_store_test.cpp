@@ -1,4 +1,4 @@
-#include "parallel/task_store.hpp"
+#include "aeroloom/parallel/storage/task_store.hpp"
 
 #include <filesystem>
 #include <fstream>

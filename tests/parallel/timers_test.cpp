@@ -1,4 +1,4 @@
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 
 #include <chrono>
 #include <cstring>

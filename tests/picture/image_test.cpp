@@ -28,8 +28,8 @@ Image decode(const std::vector<std::uint8_t>& bytes) {
   return image;
 }
 
-/// Triangles in many colours and depths, dealt out to ranks.
-Image scribble(const Communicator& communicator, int dealt_to) {
+/// Triangles in many colours and depths, distributed to ranks.
+Image scribble(const Communicator& communicator, int ranks) {
   Canvas canvas(97, 61);
   std::mt19937 random(7);
   const auto number = [&](double most) { return most * static_cast<double>(random()) / 4294967296.0; };
@@ -39,7 +39,7 @@ Image scribble(const Communicator& communicator, int dealt_to) {
     // Some have the same depth everywhere.
     if (i % 3 == 0) corners[0].depth = corners[1].depth = corners[2].depth = 20;
     const Colour colour{static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()), 90};
-    if (i % dealt_to == communicator.rank()) canvas.draw_triangle(corners, {colour, colour});
+    if (i % ranks == communicator.rank()) canvas.draw_triangle(corners, {colour, colour});
   }
   return composite(communicator, std::move(canvas), white);
 }

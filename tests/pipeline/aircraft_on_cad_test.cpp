@@ -1,11 +1,11 @@
 // The built-in aircraft stage by stage, as a library: faces divided, volume in zones, improved, and its
 // boundary compared with the CAD itself.
-#include "cad/domain/domain.hpp"
-#include "improve/improver.hpp"
-#include "mesh/validity.hpp"
-#include "surface/surface_mesher.hpp"
+#include "aeroloom/cad/domain/domain.hpp"
+#include "aeroloom/improve/improver.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "tests/references.hpp"
-#include "volume/volume_mesher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using geometry::Vec3;
 
-/// Before the server of contained runs starts.
+/// Before the server of sandboxed runs starts.
 [[maybe_unused]] const bool registered = (volume::register_volume_tasks(), true);
 
 struct Aircraft {

@@ -1,12 +1,12 @@
 // Cases on shapes of the CAD library, for tests of the whole program in one process.
 #pragma once
 
-#include "parallel/collective_error.hpp"
-#include "parallel/communicator.hpp"
-#include "pipeline/load_domain.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "pipeline/run.hpp"
 #include "tests/references.hpp"
-#include "volume/volume_mesher.hpp"
 
 #include <filesystem>
 #include <string>
@@ -17,10 +17,10 @@
 
 namespace aeroloom::pipeline::cad_cases {
 
-/// Contained tasks must be known before the environment starts.
+/// Sandboxed tasks must be known before the environment starts.
 inline const bool registered = [] {
   volume::register_volume_tasks();
-  register_geometry_tasks();
+  domain::register_geometry_tasks();
   return true;
 }();
 
@@ -64,8 +64,8 @@ private:
 };
 
 /// A coarse case on a file.
-inline Case coarse_case(const std::string& file, const Folder& folder, double target) {
-  Case input;
+inline cases::Case coarse_case(const std::string& file, const Folder& folder, double target) {
+  cases::Case input;
   input.domain.file = file;
   input.sizing.target_tetrahedra = target;
   input.output.directory = folder.path() + "/out";
@@ -74,17 +74,17 @@ inline Case coarse_case(const std::string& file, const Folder& folder, double ta
 }
 
 /// Runs the case on all ranks together; the record, and in `alone` the hash of the mesh of one rank.
-inline RunRecord run_twice(const Case& input, std::string& alone) {
+inline report::RunRecord run_twice(const cases::Case& input, std::string& alone) {
   const auto world = parallel::Communicator::world();
-  RunRecord record;
+  report::RunRecord record;
   run_case(world, input, record);
   alone = record.hash;
   parallel::agree(world, [&] {
     if (!world.is_root()) return;
     alone = references::of_one_rank(world, record.hash, [&] {
-      Case again = input;
+      cases::Case again = input;
       again.output.directory += "_alone";
-      RunRecord other;
+      report::RunRecord other;
       run_case(parallel::Communicator::self(), again, other);
       return other.hash;
     });

@@ -1,6 +1,7 @@
 // Damaged files end in a model or in a message, never in a crash, whatever is wrong with them.
-#include "cad/model/model.hpp"
-#include "pipeline/load_domain.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "tests/scoped_fault.hpp"
 
 #include <array>
 #include <cctype>
@@ -31,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const bool registered = (register_geometry_tasks(), true);
+const bool registered = (domain::register_geometry_tasks(), true);
 
 struct Variant {
   std::string name;
@@ -148,7 +149,7 @@ protected:
     options.file = file.string();
     parallel::StageClock clock;
     try {
-      const cad::Domain domain = prepare_contained(options, clock);
+      const cad::Domain domain = domain::prepare_sandboxed(options, clock);
       EXPECT_GT(domain.model.face_count(), 0) << file;
       return {};
     } catch (const cad::CadError& error) {
@@ -195,16 +196,15 @@ TEST_F(DamagedFiles, EndInAModelOrAMessage) {
 }
 
 TEST_F(DamagedFiles, CrashesAndHangsOfTheCadLibraryBecomeMessages) {
-  using parallel::Sabotage;
-  const std::map<Sabotage, std::string> expected{{Sabotage::throws, "sabotage: an exception"},
-                                                 {Sabotage::aborts, "crashed"},
-                                                 {Sabotage::exhausts_memory, "memory"}};
-  for (const auto& [sabotage, words] : expected) {
+  const std::map<std::string, std::string> expected{
+      {"throws", "injected fault: an exception"}, {"aborts", "crashed"}, {"exhausts_memory", "memory"}};
+  for (const auto& [fault, words] : expected) {
     cad::DomainOptions options;
     options.file = (_folder / "any.step").string();
     parallel::StageClock clock;
+    const ScopedFault injected("domain=" + fault);
     try {
-      prepare_contained(options, clock, sabotage);
+      domain::prepare_sandboxed(options, clock);
       ADD_FAILURE() << words;
     } catch (const cad::CadError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();

@@ -47,14 +47,12 @@ def main():
         checks += [
             expect("unknown key", Run(program, COARSE_WING + "sizng: {minimum: 1}\n", ranks), 2, "sizng", "sizing",
                    "case.yaml:5:"),
-            expect("retired key", Run(program, COARSE_WING, ranks, ["volume.erase_interfaces=false"]), 2,
-                   "volume.erase_interfaces", "no longer needed"),
             expect("size of zero", Run(program, COARSE_WING, ranks, ["sizing.minimum=0"]), 2, "sizing.minimum"),
             expect("missing file", Run(program, file_case(folder / "absent.step"), ranks), 7, "absent.step"),
             expect("corrupt file", Run(program, file_case(corrupt), ranks), 3, "corrupt.step"),
             expect("empty file", Run(program, file_case(empty), ranks), 3, "empty.step"),
             expect("open shell", Run(program, file_case(SOURCE / "tests/data/open_shell.step"), ranks), 3, "open"),
-            expect("abort in TetGen", Run(program, COARSE_WING, ranks, ["volume.inject=aborts"]), 5, "SIGABRT"),
+            expect("abort in TetGen", Run(program, COARSE_WING, ranks, fault="zone=aborts"), 5, "SIGABRT"),
         ]
     checks.append(expect("far field cuts the body", Run(program, COARSE_WING, 3, ["farfield.extent=0.4"]), 3,
                          "far field"))

@@ -60,7 +60,7 @@ constexpr double extent = 3;
 
 void expect_half(const HalfModel& half) {
   const Folder folder;
-  Case input = cad_cases::coarse_case(folder.write(half.body, "body.brep"), folder, 20000);
+  cases::Case input = cad_cases::coarse_case(folder.write(half.body, "body.brep"), folder, 20000);
   cad::FarFieldOptions far_field;
   far_field.shape = half.shape;
   far_field.extent = extent;
@@ -69,7 +69,7 @@ void expect_half(const HalfModel& half) {
   if (half.position != 0) far_field.symmetry_position = half.position;
   input.domain.far_field = far_field;
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_NEAR(record.mesh_volume, half.fluid, 0.02 * half.fluid);
   const std::set<double> values =
@@ -155,14 +155,14 @@ TEST(HalfModel, CavityIsLeftOut) {
 void expect_refused(const TopoDS_Shape& body, const cad::FarFieldOptions& far_field,
                     const std::string& words) {
   const Folder folder;
-  Case input = cad_cases::coarse_case(folder.write(body, "body.brep"), folder, 5000);
+  cases::Case input = cad_cases::coarse_case(folder.write(body, "body.brep"), folder, 5000);
   input.domain.far_field = far_field;
-  RunRecord record;
+  report::RunRecord record;
   try {
     run_case(parallel::Communicator::world(), input, record);
     ADD_FAILURE() << "meshed: " << words;
-  } catch (const StageFailure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::cad);
+  } catch (const report::StageFailure& failure) {
+    EXPECT_EQ(failure.code(), report::ExitCode::cad);
     EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
   }
 }

@@ -66,12 +66,12 @@ def main():
     before = raw.report["quality"]["min_dihedral_deg"]
     assert all(needle["forced"] for needle in raw.report["surface"]["needles"]), raw.report["surface"]["needles"]
 
-    # A foreign file: the same result on any number of ranks, better, its space and its boundary kept.
-    foreign = raw.folder / "foreign.vtu"
-    write(as_another_program_writes_it(read(raw.output / "mesh.pvtu")), foreign)
+    # A imported file: the same result on any number of ranks, better, its space and its boundary kept.
+    imported = raw.folder / "imported.vtu"
+    write(as_another_program_writes_it(read(raw.output / "mesh.pvtu")), imported)
     hashes = set()
     for ranks in (1, 2, 3):
-        code, text, report = improve(program, foreign, raw.folder / f"improved_{ranks}", ranks,
+        code, text, report = improve(program, imported, raw.folder / f"improved_{ranks}", ranks,
                                      ("volume.piece_tets=20000", "improve.target_angle=20"))
         assert code == 0, text
         hashes.add(report["mesh"]["hash"])
@@ -91,7 +91,7 @@ def main():
     assert len(hashes) == 1, f"the mesh depends on the number of ranks: {hashes}"
 
     # More than the surface of a file admits, which stays as it is.
-    code, text, report = improve(program, foreign, raw.folder / "held", 1, ("improve.target_angle=40",))
+    code, text, report = improve(program, imported, raw.folder / "held", 1, ("improve.target_angle=40",))
     kinds = report["improve"]["below_target"]
     assert code == 0 and kinds["held_by_surface"]["tetrahedra"] > 0, (text, kinds)
 
@@ -110,7 +110,7 @@ def main():
     hexahedron.SetPoints(corners)
     hexahedron.InsertNextCell(vtk.VTK_VOXEL, 8, list(range(8)))
     write(hexahedron, raw.folder / "voxel.vtu")
-    (raw.folder / "torn.vtu").write_bytes(foreign.read_bytes()[:2000])
+    (raw.folder / "torn.vtu").write_bytes(imported.read_bytes()[:2000])
     (raw.folder / "mesh.stl").write_text("solid\n")
     for name, word in (("voxel.vtu", "vtkVoxel"), ("torn.vtu", "cut off"), ("mesh.stl", ".pvtu"),
                        ("absent.vtu", "No such file")):
@@ -118,7 +118,7 @@ def main():
         assert code == 7 and word in text and name in text, f"{name}: {code}\n{text}"
 
     # The gate: the mesh is written, the exit code says that it is not what was asked for.
-    code, text, report = improve(program, foreign, raw.folder / "gate", 2,
+    code, text, report = improve(program, imported, raw.folder / "gate", 2,
                                  ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179",
                                   "improve.gate.largest_volume_ratio=1.5", "improve.gate.min_scaled_jacobian=1"))
     assert code == 6 and "min_mean_ratio" in text and "largest_angle" not in text, text
@@ -127,7 +127,7 @@ def main():
     assert cells["volume_ratio"]["maximum"] > 1.5 and cells["mean_ratio"]["cells"] == report["mesh"]["tetrahedra"]
     assert abs(cells["mean_ratio"]["mean"] - report["quality"]["mean_mean_ratio"]) < 1e-12
     assert report["exit_code"] == 6 and (raw.folder / "gate" / "mesh.pvtu").exists()
-    code, text, _ = improve(program, foreign, raw.folder / "gate", 1, ("improve.gate.smallest_angel=10",))
+    code, text, _ = improve(program, imported, raw.folder / "gate", 1, ("improve.gate.smallest_angel=10",))
     assert code == 2 and "smallest_angle" in text, text
 
 

@@ -47,7 +47,7 @@ def main():
                "--set", "sizing.minimum=0.1", "--set", "sizing.surface_maximum=0.3",
                "--max-memory", f"{180 * ranks}M")
         assert (report()["status"], report()["exit_code"]) == ("failed", 8)
-        # Out of memory on the way: in a contained run, and in the ranks.
+        # Out of memory on the way: in a sandboxed run, and in the ranks.
         text = expect(8, ["stage geometry failed: out of memory", "--max-memory"], ranks, "run", "case.yaml",
                       "--max-memory", f"{45 * ranks}M")
         assert text.count("error") == 1, text

@@ -1,13 +1,13 @@
 // picture_files CASE.yaml|MESH FOLDER [section.key=value ...]: the pictures of a run, or of a mesh as it is,
 // as files in a folder, for who wants to look at them.
-#include "foreign/foreign_mesh.hpp"
+#include "aeroloom/domain/load_domain.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
+#include "imported/imported_mesh.hpp"
 #include "mesh/boundary_mesh.hpp"
-#include "parallel/contained.hpp"
-#include "parallel/environment.hpp"
-#include "pipeline/load_domain.hpp"
-#include "pipeline/pictures.hpp"
+#include "parallel/communication/environment.hpp"
 #include "pipeline/run.hpp"
-#include "volume/volume_mesher.hpp"
+#include "report/pictures.hpp"
 
 #include <cstdio>
 #include <ctime>
@@ -20,12 +20,13 @@
 namespace aeroloom::pipeline {
 namespace {
 
-std::vector<Picture> pictures_of_mesh(const parallel::Communicator& world, const std::string& file) {
-  const mesh::DistributedMesh volume = foreign::load_foreign_mesh(world, file, 100'000);
+std::vector<report::Picture> pictures_of_mesh(const parallel::Communicator& world, const std::string& file) {
+  const mesh::DistributedMesh volume = imported::import_mesh(world, file, 100'000);
   const mesh::DistributedMesh surface = mesh::boundary_mesh(world, volume, mesh::number_mesh(world, volume));
   const mesh::Numbering numbering = mesh::number_mesh(world, surface);
   const std::clock_t begin = std::clock();
-  std::vector<Picture> pictures = make_pictures(world, volume, {surface, numbering, volume.patch_types, ""});
+  std::vector<report::Picture> pictures =
+      report::make_pictures(world, volume, {surface, numbering, volume.patch_types, ""});
   if (world.is_root())
     std::printf("pictures: %.2f s of CPU\n", double(std::clock() - begin) / CLOCKS_PER_SEC);
   return pictures;
@@ -33,16 +34,16 @@ std::vector<Picture> pictures_of_mesh(const parallel::Communicator& world, const
 
 void write_pictures(const std::vector<std::string>& arguments) {
   const auto world = parallel::Communicator::world();
-  std::vector<Picture> pictures;
+  std::vector<report::Picture> pictures;
   if (arguments.at(1).ends_with(".yaml")) {
-    RunRecord record;
-    run_case(world, read_case(arguments[1], {arguments.begin() + 3, arguments.end()}), record);
+    report::RunRecord record;
+    run_case(world, cases::read_case(arguments[1], {arguments.begin() + 3, arguments.end()}), record);
     pictures = record.pictures;
   } else {
     pictures = pictures_of_mesh(world, arguments[1]);
   }
   std::filesystem::create_directories(arguments.at(2));
-  for (const Picture& picture : pictures) {
+  for (const report::Picture& picture : pictures) {
     std::ofstream(arguments[2] + "/" + picture.name + ".png", std::ios::binary)
         .write(reinterpret_cast<const char*>(picture.png.data()),
                static_cast<std::streamsize>(picture.png.size()));
@@ -57,7 +58,7 @@ void write_pictures(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   using namespace aeroloom;
   volume::register_volume_tasks();
-  pipeline::register_geometry_tasks();
+  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   try {
     pipeline::write_pictures({argv, argv + argc});

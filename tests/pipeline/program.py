@@ -36,10 +36,15 @@ patches:
 SHARED_RANKS = 2
 
 
+def with_fault(fault):
+    """The environment of a run with this fault in its sandboxed tasks, such as "zone=aborts"; none: as it is."""
+    return {**os.environ, "AEROLOOM_FAULT": fault} if fault else None
+
+
 class Run:
     """One finished run: exit code, output, seconds, report and output folder."""
 
-    def __init__(self, program, case, ranks=1, overrides=(), seconds=280, folder=None):
+    def __init__(self, program, case, ranks=1, overrides=(), seconds=280, folder=None, fault=None):
         self.folder = pathlib.Path(folder or tempfile.mkdtemp(prefix="aeroloom_test_"))
         case_file = self.folder / "case.yaml"
         case_file.write_text(case)
@@ -48,7 +53,7 @@ class Run:
         for override in (f"output.directory={self.output}", *overrides):
             command += ["--set", override]
         start = time.monotonic()
-        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, cwd=self.folder)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, cwd=self.folder, env=with_fault(fault))
         self.seconds = time.monotonic() - start
         self.code, self.text = done.returncode, done.stdout + done.stderr
         report = self.output / "report.json"

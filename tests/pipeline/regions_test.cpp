@@ -38,14 +38,14 @@ struct Expected {
 
 void expect_regions(const TopoDS_Shape& shape, const Expected& expected) {
   const Folder folder;
-  Case input = cad_cases::coarse_case(folder.write(shape, "regions.brep"), folder, 3000);
+  cases::Case input = cad_cases::coarse_case(folder.write(shape, "regions.brep"), folder, 3000);
   input.domain.kind = cad::DomainKind::fluid;
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   ASSERT_EQ(record.regions_filled.size(), expected.volumes.size());
   std::vector<double> volumes;
-  for (const RegionRow& region : record.regions_filled) {
+  for (const report::RegionRow& region : record.regions_filled) {
     EXPECT_FALSE(region.name.empty());
     EXPECT_GT(region.tetrahedra, 0);
     volumes.push_back(region.volume);
@@ -55,7 +55,7 @@ void expect_regions(const TopoDS_Shape& shape, const Expected& expected) {
   const double whole = std::accumulate(volumes.begin(), volumes.end(), 0.0);
   EXPECT_NEAR(record.mesh_volume, whole, 1e-9 * whole);
   const auto inner = std::count_if(record.patches.begin(), record.patches.end(),
-                                   [](const PatchRow& patch) { return patch.inner; });
+                                   [](const report::PatchRow& patch) { return patch.inner; });
   EXPECT_EQ(inner > 0, expected.inner_patches > 0);
   const bool written = std::filesystem::exists(input.output.directory + "/interfaces.pvtp");
   EXPECT_EQ(written, expected.inner_patches > 0);
@@ -89,15 +89,15 @@ TEST(Regions, TwoBoxesTouchInAnEdgeAlone) {
 
 TEST(Regions, OverlappingSolidsAreRefusedWithAPlace) {
   const Folder folder;
-  Case input = cad_cases::coarse_case(
+  cases::Case input = cad_cases::coarse_case(
       folder.write(together({box(0, 0, 0, 2, 1, 1), box(1, 0, 0, 2, 1, 1)}), "overlap.brep"), folder, 3000);
   input.domain.kind = cad::DomainKind::fluid;
-  RunRecord record;
+  report::RunRecord record;
   try {
     run_case(parallel::Communicator::world(), input, record);
     ADD_FAILURE() << "overlapping solids were meshed";
-  } catch (const StageFailure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::cad);
+  } catch (const report::StageFailure& failure) {
+    EXPECT_EQ(failure.code(), report::ExitCode::cad);
     EXPECT_NE(std::string(failure.what()).find("overlap"), std::string::npos) << failure.what();
     EXPECT_NE(std::string(failure.what()).find("around (1.5, 0.5, 0.5)"), std::string::npos)
         << failure.what();
@@ -110,10 +110,10 @@ TEST(Regions, LoopsOfAFaceMayTouchInAVertex) {
   const TopoDS_Shape plate = box(0, 0, 0, 4, 4, 1);
   const TopoDS_Shape pin = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(3, 2, 1), gp_Dir(0, 0, 1)), 1, 2).Shape();
   const Folder folder;
-  Case input = cad_cases::coarse_case(folder.write(together({plate, pin}), "pin.brep"), folder, 20000);
+  cases::Case input = cad_cases::coarse_case(folder.write(together({plate, pin}), "pin.brep"), folder, 20000);
   input.domain.kind = cad::DomainKind::body;
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_GT(record.counts.cells, 5000);
 }

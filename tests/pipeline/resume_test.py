@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checkpoints: killed runs resumed on another number of ranks, damaged and foreign ones, full disks.
+"""Checkpoints: killed runs resumed on another number of ranks, damaged ones and those of other cases, full disks.
 usage: resume_test.py PROGRAM"""
 import json
 import pathlib

@@ -7,18 +7,18 @@ import subprocess
 import sys
 import tempfile
 
-from program import COARSE_WING, SOURCE
+from program import COARSE_WING, SOURCE, with_fault
 
 CASE = COARSE_WING + "output: {pictures: false}\nvolume: {piece_tets: 8000}\n"
 
 
-def run(program, folder, *overrides, forbidden=True):
+def run(program, folder, *overrides, forbidden=True, fault=None):
     """Exit code and all that two ranks print."""
     command = [SOURCE / "scripts" / "mpirun_local.sh", "2"]
     if forbidden:
         command.append(SOURCE / "tests" / "pipeline" / "without_processes.py")
     command += [program, "run", "case.yaml"] + [word for one in overrides for word in ("--set", one)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=folder)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=folder, env=with_fault(fault))
     return done.returncode, done.stdout + done.stderr
 
 
@@ -45,8 +45,8 @@ def main():
         code, text = run(program, folder, forbidden=False)
         assert code == 0 and json.loads(report.read_text())["mesh"]["hash"] == found, text
 
-        for crash, where in (("volume.inject=aborts", "stage volume, zone 0"), ("geometry.inject=aborts", "stage geometry, ")):
-            code, text = run(program, folder, "parallel.sandbox=none", crash, "volume.inject_zone=0")
+        for fault, where in (("zone=aborts@0", "stage volume, zone 0"), ("domain=aborts", "stage geometry, ")):
+            code, text = run(program, folder, "parallel.sandbox=none", fault=fault)
             assert code != 0 and f"error: {where}" in text and "crashed with SIGABRT" in text, text
 
 

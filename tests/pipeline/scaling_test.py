@@ -149,8 +149,8 @@ def check_prediction(shell):
 
 
 def check_failures_are_shown(shell):
-    code, text, error = shell.run("scaling case.yaml --ranks 1 --repeats 1 --no-serial --set output.directory=bad "
-                                  "--set volume.inject=aborts")
+    code, text, error = shell.run("scaling case.yaml --ranks 1 --repeats 1 --no-serial --set output.directory=bad",
+                                  fault="zone=aborts")
     assert code == 5 and "failed with code 5" in text, (code, text + error)
     run, = study(shell, "bad")["runs"]
     assert run["state"] == "failed" and run["exit_code"] == 5 and run["said"].startswith("stage volume"), run

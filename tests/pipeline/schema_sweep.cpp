@@ -1,9 +1,9 @@
-/// What the parser takes and refuses, for comparison with the schema: for every key, section and retired key
+/// What the parser takes and refuses, for comparison with the schema: for every key and section
 /// values inside and outside of what it accepts. Prints lines "yes CASE" and "no CASE", each case YAML in one
 /// line. Values in quotes that look like numbers, and words for true and false, are left out: there the
 /// schema is stricter on purpose.
-#include "pipeline/case.hpp"
-#include "pipeline/key_info.hpp"
+#include "aeroloom/case/case.hpp"
+#include "case/key_info.hpp"
 
 #include <cmath>
 #include <iostream>
@@ -11,45 +11,43 @@
 #include <string>
 #include <vector>
 
-using namespace aeroloom::pipeline;
+using namespace aeroloom;
 
 namespace {
 
-std::vector<std::string> numbers(const KeyInfo& key) {
+std::vector<std::string> numbers(const cases::KeyInfo& key) {
   std::vector<std::string> values = {"abc", "1 m", "[1]", "{a: 1}", "true", "",
                                      "0",   "1",   "-1",  "2.5",    "0.25"};
   const double infinity = std::numeric_limits<double>::infinity();
   const auto round = [&](double limit) {
     if (!std::isfinite(limit)) return;
-    const double by = key.kind == KeyKind::integer ? 1 : 0;
+    const double by = key.kind == cases::KeyKind::integer ? 1 : 0;
     for (const double value : {limit, by > 0 ? limit - by : std::nextafter(limit, -infinity),
                                by > 0 ? limit + by : std::nextafter(limit, infinity), limit - 0.5,
                                limit + 0.5, 10 * limit + 1, -10 * limit - 1})
-      values.push_back(shortest(value));
+      values.push_back(cases::shortest(value));
   };
   round(key.range.low);
   round(key.range.high);
   return values;
 }
 
-std::vector<std::string> values_of(const KeyInfo& key) {
+std::vector<std::string> values_of(const cases::KeyInfo& key) {
   switch (key.kind) {
-    case KeyKind::section:
-    case KeyKind::named:
+    case cases::KeyKind::section:
+    case cases::KeyKind::named:
       return {"", "{}", "5", "abc", "[a]", "{no_such_key: 1}"};
-    case KeyKind::number:
-    case KeyKind::integer:
+    case cases::KeyKind::number:
+    case cases::KeyKind::integer:
       return numbers(key);
-    case KeyKind::flag:
+    case cases::KeyKind::flag:
       return {"true", "false", "3", "abc", "", "[true]", "{a: 1}"};
-    case KeyKind::text:
+    case cases::KeyKind::text:
       return {"abc", "5", "''", "", "[a]", "{a: 1}"};
-    case KeyKind::texts:
+    case cases::KeyKind::texts:
       return {"abc", "5", "[a, b]", "[a, 7]", "[]", "", "[[a]]", "[{a: 1}]", "['']", "''", "{a: 1}", "[~]"};
-    case KeyKind::retired:
-      return {"1", "", "true"};
-    case KeyKind::choice:
-    case KeyKind::choices:
+    case cases::KeyKind::choice:
+    case cases::KeyKind::choices:
       break;
   }
   std::vector<std::string> values = key.choices;
@@ -76,8 +74,8 @@ std::string case_with(const std::string& path, const std::string& value) {
 void tell(const std::string& path, const std::string& value) {
   bool taken = true;
   try {
-    case_of_overrides({path + "=" + value});
-  } catch (const CaseError&) {
+    cases::case_of_overrides({path + "=" + value});
+  } catch (const cases::CaseError&) {
     taken = false;
   }
   std::cout << (taken ? "yes " : "no ") << case_with(path, value) << "\n";
@@ -87,7 +85,7 @@ void tell(const std::string& path, const std::string& value) {
 
 int main() {
   tell("no_such_section", "{}");
-  for (const KeyInfo& key : case_keys()) {
+  for (const cases::KeyInfo& key : cases::case_keys()) {
     for (const std::string& value : values_of(key)) tell(key.path, value);
   }
   return 0;

@@ -14,9 +14,9 @@ using cad_cases::Folder;
 
 constexpr double thickness = 0.01;
 
-RunRecord run_wing(const TopoDS_Shape& wing, cad::TrailingEdges treatment) {
+report::RunRecord run_wing(const TopoDS_Shape& wing, cad::TrailingEdges treatment) {
   const Folder folder;
-  Case input = cad_cases::coarse_case(folder.write(wing, "wing.brep"), folder, 30000);
+  cases::Case input = cad_cases::coarse_case(folder.write(wing, "wing.brep"), folder, 30000);
   input.domain.trailing_edges.treatment = treatment;
   input.domain.far_field = cad::FarFieldOptions{};
   input.domain.far_field->extent = 3;
@@ -25,7 +25,7 @@ RunRecord run_wing(const TopoDS_Shape& wing, cad::TrailingEdges treatment) {
   input.sizing.minimum = input.sizing.feature_minimum = 0.06;
   input.sizing.maximum = 2;
   std::string alone;
-  RunRecord record = cad_cases::run_twice(input, alone);
+  report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   return record;
 }
@@ -33,8 +33,8 @@ RunRecord run_wing(const TopoDS_Shape& wing, cad::TrailingEdges treatment) {
 TEST(SharpEdges, HalfWingWithAKinkAndASharpTip) {
   const TopoDS_Shape wing =
       cad::shapes::blunt_wing({{0, 0, thickness}, {1, 0.1, thickness}, {2, 0.5, thickness}, {3, 0.9, 0}});
-  const RunRecord blunt = run_wing(wing, cad::TrailingEdges::keep);
-  const RunRecord sharp = run_wing(wing, cad::TrailingEdges::sharpen);
+  const report::RunRecord blunt = run_wing(wing, cad::TrailingEdges::keep);
+  const report::RunRecord sharp = run_wing(wing, cad::TrailingEdges::sharpen);
   const auto closed = cad::shapes::changes_about(sharp.domain.changes, "was closed to a curve");
   if (parallel::Communicator::world().is_root()) {
     EXPECT_EQ(closed.size(), 3u);

@@ -5,7 +5,7 @@ import shlex
 import subprocess
 import tempfile
 
-from program import SOURCE
+from program import SOURCE, with_fault
 
 LAUNCHER = str(SOURCE / "scripts" / "mpirun_local.sh")
 
@@ -17,10 +17,11 @@ class Shell:
         self.program = str(pathlib.Path(program).resolve())
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_line_"))
 
-    def run(self, line, ranks=1):
+    def run(self, line, ranks=1, fault=None):
         """Exit code, standard output and standard error of `aeroloom LINE`."""
         command = [LAUNCHER, str(ranks), self.program] + shlex.split(line)
-        done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=self.folder)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=200, cwd=self.folder,
+                              env=with_fault(fault))
         return done.returncode, done.stdout, done.stderr
 
     def type(self, line):

@@ -13,8 +13,8 @@ namespace {
 
 using cad_cases::Folder;
 
-Case case_on(const char* name, const Folder& folder, double minimum, double maximum) {
-  Case input = cad_cases::coarse_case(source_tree() / "tests" / "data" / name, folder, 20000);
+cases::Case case_on(const char* name, const Folder& folder, double minimum, double maximum) {
+  cases::Case input = cad_cases::coarse_case(source_tree() / "tests" / "data" / name, folder, 20000);
   input.sizing.minimum = minimum;
   input.sizing.maximum = maximum;
   input.sizing.growth = 1.6;
@@ -22,23 +22,23 @@ Case case_on(const char* name, const Folder& folder, double minimum, double maxi
   return input;
 }
 
-void expect_area(const RunRecord& record, const std::string& patch, double area) {
+void expect_area(const report::RunRecord& record, const std::string& patch, double area) {
   const auto found = std::find_if(record.patches.begin(), record.patches.end(),
-                                  [&](const PatchRow& row) { return row.name == patch; });
+                                  [&](const report::PatchRow& row) { return row.name == patch; });
   ASSERT_NE(found, record.patches.end());
   EXPECT_NEAR(found->area, area, 0.02 * area);
 }
 
 TEST(ShippedFiles, WingBodyInAFarField) {
   const Folder folder;
-  Case input = case_on("wing_body.step", folder, 0.1, 4);
+  cases::Case input = case_on("wing_body.step", folder, 0.1, 4);
   input.sizing.surface_maximum = 0.6;
   input.domain.trailing_edges.treatment = cad::TrailingEdges::sharpen;
   input.domain.far_field = cad::FarFieldOptions{};
   input.domain.far_field->shape = cad::FarFieldShape::box;
   input.domain.far_field->extent = 3;
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_EQ(record.faces, 16) << "six of the far field, ten of twelve of the body";
   if (parallel::Communicator::world().is_root()) {
@@ -51,10 +51,10 @@ TEST(ShippedFiles, WingBodyInAFarField) {
 
 TEST(ShippedFiles, BracketOfLooseTrimmedFaces) {
   const Folder folder;
-  Case input = case_on("bracket.igs", folder, 2, 8);
+  cases::Case input = case_on("bracket.igs", folder, 2, 8);
   input.domain.kind = cad::DomainKind::fluid;
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_EQ(record.faces, 13);
   if (parallel::Communicator::world().is_root()) {

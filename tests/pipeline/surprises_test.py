@@ -76,7 +76,7 @@ def check_older_files(shell):
     assert code == 0 and "not of this run: mesh.su2" in error, error
     assert report(shell)["older_files"] == ["mesh.su2"], report(shell)["older_files"]
     before = (shell.folder / "out" / "mesh.pvtu").read_bytes()
-    code, _, error = shell.run("run case.yaml --set volume.inject=aborts")
+    code, _, error = shell.run("run case.yaml", fault="zone=aborts")
     assert code == 5, error
     assert (shell.folder / "out" / "mesh.pvtu").read_bytes() == before
     assert "mesh.pvtu" in report(shell)["older_files"], report(shell)["older_files"]

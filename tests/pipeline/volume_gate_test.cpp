@@ -7,8 +7,8 @@
 namespace aeroloom::pipeline {
 namespace {
 
-RunRecord with_region(double volume, double cad_volume) {
-  RunRecord record;
+report::RunRecord with_region(double volume, double cad_volume) {
+  report::RunRecord record;
   record.quality = mesh::QualitySummary{};
   record.sizes.minimum = 0.1;
   record.regions_filled.push_back({.name = "tank", .volume = volume, .cad_volume = cad_volume});
@@ -16,19 +16,19 @@ RunRecord with_region(double volume, double cad_volume) {
 }
 
 TEST(VolumeGate, RefusesRegionsOfAnotherVolume) {
-  const QualityGate gate;
+  const cases::QualityGate gate;
   EXPECT_NO_THROW(require_quality(gate, with_region(0.95, 1)));
-  EXPECT_THROW(require_quality(gate, with_region(0.85, 1)), StageFailure);
+  EXPECT_THROW(require_quality(gate, with_region(0.85, 1)), report::StageFailure);
   EXPECT_TRUE(coarse_region(gate, with_region(0.85, 1)).empty());
 }
 
 TEST(VolumeGate, WarnsOfRegionsAFewElementsWide) {
-  const QualityGate gate;
+  const cases::QualityGate gate;
   const double few = 0.2 * 0.2 * 0.2;
   EXPECT_NO_THROW(require_quality(gate, with_region(0.85 * few, few)));
   EXPECT_NE(coarse_region(gate, with_region(0.85 * few, few)).find("'tank'"), std::string::npos);
   EXPECT_TRUE(coarse_region(gate, with_region(0.95 * few, few)).empty());
-  EXPECT_THROW(require_quality(gate, with_region(0.7 * few, few)), StageFailure);
+  EXPECT_THROW(require_quality(gate, with_region(0.7 * few, few)), report::StageFailure);
 }
 
 }  // namespace

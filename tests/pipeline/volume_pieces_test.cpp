@@ -1,5 +1,6 @@
 // A region in many volume pieces: the mesh of one piece, whatever the rank count.
 #include "tests/pipeline/cad_cases.hpp"
+#include "tests/scoped_fault.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,9 @@ TopoDS_Shape box_with_sphere() {
   return BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeSphere(1).Shape()).Shape();
 }
 
-Case pieces_case(const Folder& folder, const TopoDS_Shape& shape, double target, std::int64_t piece_tets) {
-  Case input = cad_cases::coarse_case(folder.write(shape, "pieces.brep"), folder, target);
+cases::Case pieces_case(const Folder& folder, const TopoDS_Shape& shape, double target,
+                        std::int64_t piece_tets) {
+  cases::Case input = cad_cases::coarse_case(folder.write(shape, "pieces.brep"), folder, target);
   input.domain.kind = cad::DomainKind::fluid;
   input.volume.piece_tets = piece_tets;
   return input;
@@ -32,9 +34,9 @@ Case pieces_case(const Folder& folder, const TopoDS_Shape& shape, double target,
 
 TEST(VolumePieces, AreOneMeshForAnyNumberOfRanks) {
   const Folder folder;
-  const Case input = pieces_case(folder, box_with_sphere(), 60'000, 2'500);
+  const cases::Case input = pieces_case(folder, box_with_sphere(), 60'000, 2'500);
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_GE(record.decomposition.zones, 10);
   EXPECT_NEAR(record.mesh_volume, 64 - 4 * M_PI / 3, 0.15);
@@ -45,9 +47,9 @@ TEST(VolumePieces, AreOneMeshForAnyNumberOfRanks) {
 
 TEST(VolumePieces, AreTheMeshOfOnePiece) {
   const Folder folder;
-  Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
+  cases::Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
   input.improve.enabled = false;
-  RunRecord many, one;
+  report::RunRecord many, one;
   run_case(parallel::Communicator::world(), input, many);
   input.volume.piece_tets = 1'000'000'000;
   run_case(parallel::Communicator::world(), input, one);
@@ -67,24 +69,24 @@ TEST(VolumePieces, OfTwoRegionsKeepThemApart) {
   builder.MakeCompound(both);
   builder.Add(both, BRepAlgoAPI_Cut(block, rod).Shape());
   builder.Add(both, rod);
-  const Case input = pieces_case(folder, both, 40'000, 3'000);
+  const cases::Case input = pieces_case(folder, both, 40'000, 3'000);
   std::string alone;
-  const RunRecord record = cad_cases::run_twice(input, alone);
+  const report::RunRecord record = cad_cases::run_twice(input, alone);
   EXPECT_EQ(record.hash, alone);
   EXPECT_EQ(record.regions_filled.size(), 2u);
   EXPECT_GT(record.decomposition.zones, 4);
 }
 
-class FailingPiece : public testing::TestWithParam<parallel::Sabotage> {};
+class FailingPiece : public testing::TestWithParam<const char*> {};
 
 TEST_P(FailingPiece, EndsMergedWithItsNeighbour) {
   const Folder folder;
-  Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
-  input.volume.sabotage = GetParam();
-  input.volume.retries = GetParam() == parallel::Sabotage::hangs ? 0 : 1;
-  input.volume.sabotaged_zone = 2;
+  cases::Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
+  const std::string fault = GetParam();
+  const ScopedFault injected("zone=" + fault + "@2");
+  input.volume.retries = fault == "hangs" ? 0 : 1;
   input.volume.base_cpu_seconds = 1;  // what hangs need not do so for long
-  RunRecord record;
+  report::RunRecord record;
   run_case(parallel::Communicator::world(), input, record);
   const auto& retries = record.volume.retries;
   const auto merge = std::find_if(retries.begin(), retries.end(), [](const volume::Retry& retry) {
@@ -94,22 +96,20 @@ TEST_P(FailingPiece, EndsMergedWithItsNeighbour) {
   EXPECT_FALSE(merge->reason.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FailingPiece,
-                         testing::Values(parallel::Sabotage::throws, parallel::Sabotage::aborts,
-                                         parallel::Sabotage::hangs, parallel::Sabotage::exhausts_memory));
+INSTANTIATE_TEST_SUITE_P(All, FailingPiece, testing::Values("throws", "aborts", "hangs", "exhausts_memory"));
 
 TEST(VolumePieces, ThatAllFailEndTheRunWithAReproducer) {
   const Folder folder;
-  Case input = pieces_case(folder, box_with_sphere(), 8'000, 2'000);
-  input.volume.sabotage = parallel::Sabotage::throws;
+  cases::Case input = pieces_case(folder, box_with_sphere(), 8'000, 2'000);
+  const ScopedFault injected("zone=throws");
   input.volume.retries = 1;
   std::filesystem::create_directories(input.output.directory);
-  RunRecord record;
+  report::RunRecord record;
   try {
     run_case(parallel::Communicator::world(), input, record);
     FAIL() << "the failure went unnoticed";
-  } catch (const StageFailure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::volume);
+  } catch (const report::StageFailure& failure) {
+    EXPECT_EQ(failure.code(), report::ExitCode::volume);
     const std::string text = failure.what();
     EXPECT_NE(text.find("offending_triangles.vtp"), std::string::npos) << text;
     EXPECT_NE(text.find("CAD faces"), std::string::npos) << text;

@@ -1,6 +1,6 @@
 #include "sizing/local_chord.hpp"
 
-#include "sizing/trailing_edges.hpp"
+#include "aeroloom/sizing/trailing_edges.hpp"
 #include "tests/cad/blunt_shapes.hpp"
 
 #include <vector>

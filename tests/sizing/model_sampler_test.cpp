@@ -1,7 +1,7 @@
-#include "sizing/model_sampler.hpp"
+#include "aeroloom/sizing/model_sampler.hpp"
 
-#include "cad/model/joined_faces.hpp"
-#include "sizing/curvature_size.hpp"
+#include "aeroloom/sizing/curvature_size.hpp"
+#include "cad/model/topology/joined_faces.hpp"
 #include "sizing/narrow_faces.hpp"
 #include "tests/cad/strip_shapes.hpp"
 

@@ -1,6 +1,6 @@
-#include "sizing/pages.hpp"
+#include "aeroloom/sizing/pages.hpp"
 
-#include "sizing/octree.hpp"
+#include "aeroloom/sizing/octree.hpp"
 #include "sizing/seed_tree.hpp"
 
 #include <algorithm>

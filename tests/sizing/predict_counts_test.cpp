@@ -1,8 +1,8 @@
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/sizing/choose_sizes.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "parallel/collective_error.hpp"
-#include "sizing/choose_sizes.hpp"
 #include "sizing/facet_integral.hpp"
-#include "sizing/size_field.hpp"
 
 #include <cmath>
 #include <numbers>

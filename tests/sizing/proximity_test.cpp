@@ -1,10 +1,10 @@
 // Sizes fall to the thickness of thin parts and to the width of gaps, but not along wedges.
-#include "sizing/proximity.hpp"
+#include "aeroloom/sizing/proximity.hpp"
 
+#include "aeroloom/cad/domain/domain.hpp"
+#include "aeroloom/sizing/model_sources.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "cad/domain/domain.hpp"
-#include "sizing/model_sources.hpp"
-#include "sizing/size_field.hpp"
 #include "tests/wall_bodies.hpp"
 
 #include <algorithm>

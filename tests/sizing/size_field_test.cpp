@@ -1,7 +1,7 @@
-#include "sizing/size_field.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
 #include "sizing/field_builder.hpp"
 
 #include <algorithm>

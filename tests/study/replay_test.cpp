@@ -83,7 +83,7 @@ TEST(Replay, SerialAndRepeatedWorkStays) {
 }
 
 TEST(Replay, LoadsThatWereMisjudgedAreImbalance) {
-  // Dealt out as two and two; one of the four takes three times what was thought.
+  // Scheduled as two and two; one of the four takes three times what was thought.
   RunCosts costs = run_of({stage_of("surface", {tasks_of("face", {1, 1, 1, 1})})});
   costs.stages[0].groups[0].tasks[0].seconds = 3;
   const Prediction prediction = predict(costs, 2, no_network);

@@ -32,9 +32,9 @@ void leave_all(const StudyRecord& study) {
   }
 }
 
-const Row& row_of(const std::vector<Row>& rows, Series series, int ranks) {
+const SeriesRow& row_of(const std::vector<SeriesRow>& rows, Series series, int ranks) {
   return *std::find_if(rows.begin(), rows.end(),
-                       [&](const Row& row) { return row.series == series && row.ranks == ranks; });
+                       [&](const SeriesRow& row) { return row.series == series && row.ranks == ranks; });
 }
 
 TEST(Results, MarksTellHowFarARunIs) {
@@ -58,9 +58,9 @@ TEST(Results, SpeedUpIsAgainstOneRankInOnePiece) {
   leave_all(study);
   const std::vector<RunResult> runs = collect_runs(study);
   EXPECT_NO_THROW(require_equal_meshes(runs));
-  const std::vector<Row> rows = make_rows(study, runs, machine_of(2));
+  const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
   ASSERT_EQ(rows.size(), 5U);
-  const Row& two = row_of(rows, Series::strong, 2);
+  const SeriesRow& two = row_of(rows, Series::strong, 2);
   EXPECT_EQ(two.ended, 3);
   EXPECT_FALSE(two.by_cpu);
   EXPECT_NEAR(two.median.wall, 5.1, 1e-12);  // the median of 5, 5.1, 5.2
@@ -75,8 +75,8 @@ TEST(Results, MoreRanksThanProcessorsAreJudgedByCpu) {
   const Folder folder("cpu");
   const StudyRecord study = a_study(folder.path, {1, 2}, 1);
   leave_all(study);
-  const std::vector<Row> rows = make_rows(study, collect_runs(study), machine_of(1));
-  const Row& two = row_of(rows, Series::strong, 2);
+  const std::vector<SeriesRow> rows = make_rows(study, collect_runs(study), machine_of(1));
+  const SeriesRow& two = row_of(rows, Series::strong, 2);
   EXPECT_TRUE(two.by_cpu);
   EXPECT_NEAR(two.seconds(), 4, 1e-12);
   EXPECT_NEAR(two.speedup, 2, 1e-12);
@@ -114,7 +114,7 @@ TEST(Results, WhatFailedIsShownAsThat) {
   EXPECT_EQ(runs[2].failure, "error: out of memory <here>");
   EXPECT_EQ(runs[1].marks.state, RunState::begun);
   EXPECT_EQ(runs[1].failure, "queue: job 7 RUNNING 0:0");
-  const std::vector<Row> rows = make_rows(study, runs, machine_of(2));
+  const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
   EXPECT_EQ(row_of(rows, Series::strong, 2).failed, 1);
   const std::string page = study_page(study_json(study, runs, rows, machine_of(2)).dump());
   EXPECT_NE(page.find("out of memory &lt;here&gt;"), std::string::npos);
@@ -126,7 +126,7 @@ TEST(Results, TableAndPageHaveAllRuns) {
   const StudyRecord study = a_study(folder.path, {1, 2}, 2, {{1, {}}, {2, {}}});
   leave_all(study);
   const std::vector<RunResult> runs = collect_runs(study);
-  const std::vector<Row> rows = make_rows(study, runs, machine_of(2));
+  const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
   const std::string csv = study_csv(runs);
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   std::istringstream lines(csv);

@@ -1,7 +1,7 @@
 #include "surface/chart.hpp"
 
+#include "aeroloom/cad/domain/domain.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "cad/domain/domain.hpp"
 #include "geometry/predicates.hpp"
 #include "surface/conformal_map.hpp"
 #include "surface/support_topology.hpp"

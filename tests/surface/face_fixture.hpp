@@ -1,10 +1,10 @@
 /// Faces of small shapes and of real files, ready to be turned into supports and charts.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "parallel/communicator.hpp"
-#include "parallel/timers.hpp"
-#include "sizing/size_field.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 #include "surface/chart.hpp"
 #include "surface/curves.hpp"
 #include "surface/support.hpp"

@@ -52,7 +52,7 @@ mesh::DistributedMesh distribute(const Soup& soup, int pieces, const parallel::C
           piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
           if (pieces > 1) {
             piece.shared_vertices.push_back(at->second);
-            piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(v) + 1000);
+            piece.shared_keys.push_back(static_cast<mesh::SharedVertexKey>(v) + 1000);
           }
         }
         piece.cells.push_back(at->second);

@@ -1,11 +1,11 @@
 /// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
 #include "surface/coarse_loops.hpp"
 #include "surface/face_mesher.hpp"
 #include "surface/piece_pool.hpp"
-#include "surface/surface_mesher.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>
@@ -56,7 +56,7 @@ Seam measure_seam(const Communicator& communicator, const mesh::DistributedMesh&
   for (const mesh::Piece& piece : surface.pieces) {
     std::vector<char> on_cut(piece.vertex_count(), 0);
     for (std::size_t i = 0; i < piece.shared_vertices.size(); ++i) {
-      on_cut[piece.shared_vertices[i]] = mesh::is_cut_token(piece.shared_tokens[i]);
+      on_cut[piece.shared_vertices[i]] = mesh::is_cut_vertex_key(piece.shared_keys[i]);
     }
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
@@ -211,11 +211,11 @@ TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
   EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
 }
 
-PieceSeed side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
+Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
   parallel::StageClock clock;
   const CurveMesh curves = discretise_curves(Communicator::self(), model, field, clock);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    if (!model.is_planar(f)) return seed_of_face(model, f, curves, field, {});
+    if (!model.is_planar(f)) return subface_of_face(model, f, curves, field, {});
   }
   throw std::logic_error("a cylinder without a side");
 }
@@ -223,12 +223,12 @@ PieceSeed side_of_cylinder(const cad::Model& model, const sizing::SizeField& fie
 TEST(CoarseLoops, KeepASubsetInOrder) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.02);
-  const PieceSeed seed = side_of_cylinder(model, field);
+  const Subface subface = side_of_cylinder(model, field);
   const auto fine = static_cast<std::size_t>(std::round(2 * std::numbers::pi * 0.25 / 0.02));
-  ASSERT_NEAR(seed.support.loop_edges.size(), 2 * fine, 2);
-  const CoarseLoops by_size = coarsen_loops(seed, field.scaled(4), std::numbers::pi);
+  ASSERT_NEAR(subface.support.loop_edges.size(), 2 * fine, 2);
+  const CoarseLoops by_size = coarsen_loops(subface, field.scaled(4), std::numbers::pi);
   EXPECT_NEAR(by_size.segments.size(), 0.5 * static_cast<double>(fine), 2);
-  const CoarseLoops by_turn = coarsen_loops(seed, field.scaled(1000), 30 * std::numbers::pi / 180);
+  const CoarseLoops by_turn = coarsen_loops(subface, field.scaled(1000), 30 * std::numbers::pi / 180);
   EXPECT_GE(by_turn.segments.size(), 24u);
   EXPECT_LE(by_turn.segments.size(), 30u);
   for (const CoarseLoops& loops : {by_size, by_turn}) {
@@ -240,47 +240,47 @@ TEST(CoarseLoops, KeepASubsetInOrder) {
       // What lies between comes in order along the circle: every step is a fine edge.
       std::int32_t last = segment.from;
       const auto step = [&](std::int32_t v) {
-        EXPECT_LT(distance(seed.vertices.points[last], seed.vertices.points[v]), 0.025);
+        EXPECT_LT(distance(subface.vertices.points[last], subface.vertices.points[v]), 0.025);
         last = v;
       };
       for (std::int32_t i = segment.begin; i < segment.end; ++i) step(loops.inside[i]);
       step(segment.to);
     }
-    EXPECT_EQ(seen.size(), seed.vertices.points.size());
+    EXPECT_EQ(seen.size(), subface.vertices.points.size());
   }
   EXPECT_EQ(by_size.find(-1, 0), nullptr);
 }
 
-TEST(PieceSeeds, TravelBitForBit) {
+TEST(Subfaces, TravelBitForBit) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.1);
-  const PieceSeed seed = side_of_cylinder(model, field);
-  const PieceSeed copy = parallel::from_wire<PieceSeed>(parallel::to_wire(seed));
-  EXPECT_EQ(parallel::to_wire(copy), parallel::to_wire(seed));
+  const Subface subface = side_of_cylinder(model, field);
+  const Subface copy = parallel::from_wire<Subface>(parallel::to_wire(subface));
+  EXPECT_EQ(parallel::to_wire(copy), parallel::to_wire(subface));
   EXPECT_EQ(parallel::to_wire(mesh_piece(model, copy, field, {})),
-            parallel::to_wire(mesh_piece(model, seed, field, {})));
+            parallel::to_wire(mesh_piece(model, subface, field, {})));
 }
 
-TEST(Tokens, NameVerticesOfCurvesAndCuts) {
+TEST(SharedVertexKeys, NameVerticesOfCurvesAndCuts) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   parallel::StageClock clock;
   const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1), clock);
-  std::set<mesh::SharedToken> names;
+  std::set<mesh::SharedVertexKey> names;
   for (CurveVertex v = 0; v < static_cast<CurveVertex>(curves.points.size()); ++v) {
-    const mesh::SharedToken token = curves.token(model, v);
-    EXPECT_EQ(curves.vertex_of(token), v);
-    EXPECT_EQ(mesh::edge_of_token(token), curves.edge_of(model, v));
-    EXPECT_FALSE(mesh::is_cut_token(token));
-    names.insert(token);
+    const mesh::SharedVertexKey vertex_key = curves.vertex_key(model, v);
+    EXPECT_EQ(curves.vertex_of(vertex_key), v);
+    EXPECT_EQ(mesh::edge_of_vertex_key(vertex_key), curves.edge_of(model, v));
+    EXPECT_FALSE(mesh::is_cut_vertex_key(vertex_key));
+    names.insert(vertex_key);
   }
   for (const auto& [face, group, index] : {std::array{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}}) {
-    const mesh::SharedToken token = mesh::cut_token(face, group, index);
-    EXPECT_TRUE(mesh::is_cut_token(token));
-    EXPECT_EQ(mesh::edge_of_token(token), cad::no_entity);
-    names.insert(token);
+    const mesh::SharedVertexKey vertex_key = mesh::cut_vertex_key(face, group, index);
+    EXPECT_TRUE(mesh::is_cut_vertex_key(vertex_key));
+    EXPECT_EQ(mesh::edge_of_vertex_key(vertex_key), cad::no_entity);
+    names.insert(vertex_key);
   }
   EXPECT_EQ(names.size(), curves.points.size() + 4);
-  EXPECT_THROW(mesh::cut_token(0, 1 << 16, 0), std::runtime_error);
+  EXPECT_THROW(mesh::cut_vertex_key(0, 1 << 16, 0), std::runtime_error);
 }
 
 }  // namespace

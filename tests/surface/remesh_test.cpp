@@ -1,7 +1,7 @@
 #include "surface/remesh.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "mesh/quality.hpp"
 #include "surface/face_remesher.hpp"
 
 #include <algorithm>

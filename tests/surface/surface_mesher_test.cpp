@@ -1,10 +1,10 @@
 /// The whole surface stage on analytic shapes, on any number of ranks.
-#include "surface/surface_mesher.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
 
+#include "aeroloom/cad/domain/domain.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "cad/builtin/primitives.hpp"
-#include "cad/domain/domain.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_mesher.hpp"
 
@@ -135,8 +135,8 @@ TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
   parallel::StageClock clock;
   const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field, clock);
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
-    const PieceSeed seed = seed_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
-    mesh::Piece alone = mesh_piece(meshed.model, seed, meshed.field, {});
+    const Subface subface = subface_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
+    mesh::Piece alone = mesh_piece(meshed.model, subface, meshed.field, {});
     alone.id = piece.id;
     EXPECT_EQ(parallel::to_wire(piece), parallel::to_wire(alone)) << "face " << piece.common_face();
   }

@@ -10,7 +10,7 @@ namespace aeroloom::volume {
 namespace {
 
 using parallel::Communicator;
-using Vertices = std::array<mesh::SharedToken, 3>;
+using Vertices = std::array<mesh::SharedVertexKey, 3>;
 
 ZoneFace face(const Vertices& vertices, ZoneIndex zone, int odd, mesh::RegionId region = 0) {
   ZoneFace result{};
@@ -26,7 +26,7 @@ ZoneFace face(const Vertices& vertices, ZoneIndex zone, int odd, mesh::RegionId 
 std::vector<ZoneFace> fitting_faces() {
   std::mt19937_64 random(6);
   std::vector<ZoneFace> faces;
-  for (mesh::SharedToken i = 0; i < 300; ++i) {
+  for (mesh::SharedVertexKey i = 0; i < 300; ++i) {
     const Vertices vertices{i, i + 1 + random() % 50, 1000 + i * i};
     const auto zone = static_cast<ZoneIndex>(random() % 12),
                other = static_cast<ZoneIndex>((zone + 1 + random() % 11) % 12);

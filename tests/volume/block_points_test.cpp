@@ -1,7 +1,7 @@
 /// The graded body-centred lattice, block by block.
 #include "volume/block_points.hpp"
 
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 #include "volume/tetgen_run.hpp"

@@ -1,7 +1,7 @@
 /// Size fields to fill with.
 #pragma once
 
-#include "sizing/size_field.hpp"
+#include "aeroloom/sizing/size_field.hpp"
 
 #include <vector>
 

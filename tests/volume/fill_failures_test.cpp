@@ -1,9 +1,13 @@
 /// What the stage does about zones that cannot be filled: the ladder of retries, and the message at its end.
-#include "parallel/collective_error.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "aeroloom/parallel/sandbox/fault.hpp"
 #include "tests/references.hpp"
+#include "tests/scoped_fault.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/filled.hpp"
 
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -14,7 +18,7 @@ namespace {
 
 using geometry::Vec3;
 using parallel::Communicator;
-using Sabotage = parallel::Sabotage;
+using Fault = parallel::Fault;
 
 const bool tasks_are_known = (register_volume_tasks(), true);
 
@@ -26,14 +30,20 @@ sizing::SizeField sizes() {
   return fields::uniform(0.35);
 }
 
-VolumeOptions struck(Sabotage sabotage, std::int64_t zone, int retries) {
-  VolumeOptions options;
-  options.piece_tets = 2000;
-  options.sabotage = sabotage;
-  options.sabotaged_zone = zone;
-  options.retries = retries;
-  return options;
-}
+const std::map<Fault, std::string> names{
+    {Fault::none, "none"}, {Fault::throws, "throws"}, {Fault::aborts, "aborts"}};
+
+/// Options of a filling in which a zone, or all (-1), have a fault; while this lives.
+struct Faulty : VolumeOptions {
+  Faulty(Fault fault, std::int64_t zone, int wanted_retries) {
+    piece_tets = 2000;
+    retries = wanted_retries;
+    if (fault != Fault::none)
+      injected.emplace("zone=" + names.at(fault) + (zone < 0 ? "" : "@" + std::to_string(zone)));
+  }
+
+  std::optional<ScopedFault> injected;
+};
 
 /// Bytes that are the same on every rank, or the test fails.
 void expect_same_everywhere(const Communicator& communicator, const std::string& text) {
@@ -42,12 +52,12 @@ void expect_same_everywhere(const Communicator& communicator, const std::string&
 
 // --- one zone
 
-class OneZone : public testing::TestWithParam<std::tuple<Sabotage, int>> {};
+class OneZone : public testing::TestWithParam<std::tuple<Fault, int>> {};
 
 TEST_P(OneZone, climbs_the_ladder_and_is_merged) {
   const Communicator world = Communicator::world();
-  const auto [sabotage, retries] = GetParam();
-  const Filled filled(world, body(), sizes(), struck(sabotage, 2, retries));
+  const auto [fault, retries] = GetParam();
+  const Filled filled(world, body(), sizes(), Faulty(fault, 2, retries));
   EXPECT_GE(filled.decomposed.zones, 4);
   expect_valid(filled, body());
   ASSERT_EQ(filled.report.retries.size(), static_cast<std::size_t>(retries) + 1);
@@ -64,18 +74,18 @@ TEST_P(OneZone, climbs_the_ladder_and_is_merged) {
   for (const Retry& retry : filled.report.retries) said += retry.change + "; " + retry.reason + "; ";
   expect_same_everywhere(world, said);
   // The merged zone has its pieces, the one that is gone none.
-  const Filled whole(world, body(), sizes(), struck(Sabotage::none, 2, retries));
+  const Filled whole(world, body(), sizes(), Faulty(Fault::none, 2, retries));
   EXPECT_LT(filled.mesh.piece_count, whole.mesh.piece_count);
 }
 
 INSTANTIATE_TEST_SUITE_P(all, OneZone,
-                         testing::Combine(testing::Values(Sabotage::throws, Sabotage::aborts),
+                         testing::Combine(testing::Values(Fault::throws, Fault::aborts),
                                           testing::Values(0, 1, 3)));
 
 TEST(Ladder, leads_to_the_same_mesh_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   for (const int retries : {0, 3}) {
-    const VolumeOptions options = struck(Sabotage::throws, 1, retries);
+    const Faulty options(Fault::throws, 1, retries);
     const Filled filled(world, body(), sizes(), options);
     const std::string hash = mesh::hash_mesh(world, filled.mesh, filled.numbering);
     if (!world.is_root()) continue;
@@ -89,8 +99,8 @@ TEST(Ladder, leads_to_the_same_mesh_on_any_number_of_ranks) {
 /// A merger changes no point, and the mesh is unique: it is that of zones which nothing happened to.
 TEST(Ladder, changes_no_cell_where_zones_are_merged) {
   const Communicator world = Communicator::world();
-  const Filled merged(world, body(), sizes(), struck(Sabotage::throws, 0, 1));
-  const Filled untouched(world, body(), sizes(), struck(Sabotage::none, -1, 1));
+  const Filled merged(world, body(), sizes(), Faulty(Fault::throws, 0, 1));
+  const Filled untouched(world, body(), sizes(), Faulty(Fault::none, -1, 1));
   EXPECT_FALSE(merged.report.retries.empty());
   EXPECT_TRUE(untouched.report.retries.empty());
   EXPECT_EQ(merged.report.rounds, 3);
@@ -100,8 +110,8 @@ TEST(Ladder, changes_no_cell_where_zones_are_merged) {
 
 TEST(Ladder, moves_points_of_the_zone_on_its_later_rungs) {
   const Communicator world = Communicator::world();
-  const Filled moved(world, body(), sizes(), struck(Sabotage::throws, 0, 2));
-  const Filled untouched(world, body(), sizes(), struck(Sabotage::none, -1, 2));
+  const Filled moved(world, body(), sizes(), Faulty(Fault::throws, 0, 2));
+  const Filled untouched(world, body(), sizes(), Faulty(Fault::none, -1, 2));
   expect_valid(moved, body());
   const auto a = cells_by_coordinates(moved), b = cells_by_coordinates(untouched);
   std::vector<std::uint64_t> common;
@@ -145,10 +155,10 @@ Ending failure_of(const Communicator& communicator, const surfaces::Surface& sur
 TEST(VolumeFailures, name_place_faces_and_what_was_tried) {
   const Communicator world = Communicator::world();
   for (const int retries : {0, 1}) {
-    const Ending ending = failure_of(world, body(), sizes(), struck(Sabotage::throws, -1, retries));
+    const Ending ending = failure_of(world, body(), sizes(), Faulty(Fault::throws, -1, retries));
     EXPECT_FALSE(ending.triangles.empty());
-    for (const char* part : {"zone 0 between (-2, -2, -2) and (2, 2, 2)", "sabotage: an exception", "'face ",
-                             "Tried:", "merged with zone", "piece size"})
+    for (const char* part : {"zone 0 between (-2, -2, -2) and (2, 2, 2)", "injected fault: an exception",
+                             "'face ", "Tried:", "merged with zone", "piece size"})
       EXPECT_NE(ending.text.find(part), std::string::npos) << part << " in: " << ending.text;
     EXPECT_EQ(ending.text.find("wider halo") != std::string::npos, retries > 0) << ending.text;
   }
@@ -156,7 +166,7 @@ TEST(VolumeFailures, name_place_faces_and_what_was_tried) {
 
 TEST(VolumeFailures, say_the_same_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
-  const VolumeOptions options = struck(Sabotage::throws, -1, 0);
+  const Faulty options(Fault::throws, -1, 0);
   const Ending ending = failure_of(world, body(), sizes(), options);
   if (!world.is_root()) return;
   const Ending alone = failure_of(Communicator::self(), body(), sizes(), options);
@@ -166,8 +176,8 @@ TEST(VolumeFailures, say_the_same_on_any_number_of_ranks) {
 
 TEST(VolumeFailures, leave_the_ranks_able_to_go_on) {
   const Communicator world = Communicator::world();
-  failure_of(world, body(), sizes(), struck(Sabotage::aborts, -1, 0));
-  const Filled filled(world, body(), sizes(), struck(Sabotage::none, -1, 0));
+  failure_of(world, body(), sizes(), Faulty(Fault::aborts, -1, 0));
+  const Filled filled(world, body(), sizes(), Faulty(Fault::none, -1, 0));
   expect_valid(filled, body());
 }
 

@@ -1,6 +1,6 @@
 /// The whole stage: from a surface mesh and sizes to tetrahedra that fit together.
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
 #include "tests/references.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/filled.hpp"

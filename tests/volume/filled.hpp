@@ -1,9 +1,9 @@
 /// A volume that was filled, and what any must be like.
 #pragma once
 
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "mesh/mixing.hpp"
-#include "mesh/validity.hpp"
-#include "parallel/log.hpp"
 #include "tests/volume/steps.hpp"
 #include "volume/decomposition_data.hpp"
 

@@ -1,5 +1,5 @@
 /// The lattice alone: its Delaunay mesh and its density.
-#include "mesh/quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 #include "volume/block_points.hpp"
@@ -24,6 +24,7 @@ struct Endless {
       : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, box, clock) {
     const auto blocks = static_cast<std::size_t>(tree.block_count());
     table.longest_edge.assign(blocks, 0);
+    table.count_met();
     table.triangles.assign(blocks, 0);
     const std::vector<RegionId> regions(blocks, 0);
     const std::vector<BlockChange> changes(blocks);

@@ -1,12 +1,12 @@
 /// The steps of the decomposition, taken one by one so that tests can look at each.
 #pragma once
 
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "tests/volume/surfaces.hpp"
 #include "volume/block_points.hpp"
 #include "volume/block_regions.hpp"
 #include "volume/near_surface.hpp"
 #include "volume/neighbourhood.hpp"
-#include "volume/volume_mesher.hpp"
 #include "volume/zones.hpp"
 
 #include <numeric>
@@ -43,12 +43,12 @@ private:
 /// A surface on its ranks, with sizes: what the stage starts from.
 struct Problem {
   Problem(const parallel::Communicator& ranks, const surfaces::Surface& of, sizing::SizeField sizes,
-          VolumeOptions wishes = {})
+          VolumeOptions claims = {})
       : communicator(ranks),
         surface(surfaces::spread(ranks, of)),
         numbering(mesh::number_mesh(ranks, surface)),
         field(std::move(sizes)),
-        options(wishes) {}
+        options(claims) {}
 
   VolumeInput input() const { return {surface, numbering, field, options}; }
 
@@ -74,14 +74,15 @@ struct Lattice {
         own_triangles(
             deliver_surface(problem.communicator, frame, tree, problem.surface, problem.numbering, clock)),
         table(tabulate_surface(frame, tree, own_triangles)) {
-    learn_what_touches(problem.communicator, frame, tree, table, own_triangles, clock);
+    learn_what_touches(problem.communicator, known(), own_triangles, clock);
     changes.resize(tree.block_count());
-    learn_what_is_far_finer(problem.communicator, source(problem, {}), tree, table, clock);
+    learn_what_is_far_finer(problem.communicator, known(), source(problem, {}), clock);
     changes.resize(tree.block_count());
   }
   Lattice(const Lattice&) = delete;
   Lattice& operator=(const Lattice&) = delete;
 
+  KnownLattice known() { return {frame, tree, table}; }
   /// What points are made from. `regions` are those of this rank's blocks.
   LatticeSource source(const Problem& problem, std::span<const mesh::RegionId> regions) const {
     return {frame,  tree,    problem.field,
@@ -103,8 +104,8 @@ struct Surroundings {
       : reach(reach_of(problem, lattice)),
         triangles(deliver(problem, lattice)),
         surface(triangles),
-        found(find_block_regions(problem.communicator, lattice.frame, lattice.tree, lattice.table, triangles,
-                                 surface, reach, lattice.clock)),
+        found(find_block_regions(problem.communicator, lattice.known(), {triangles, surface, reach},
+                                 lattice.clock)),
         regions(found.of_block) {}
 
   static SurfaceReach reach_of(const Problem& problem, Lattice& lattice) {

@@ -1,11 +1,11 @@
 /// Small surfaces to fill, and their way into a distributed mesh.
 #pragma once
 
+#include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
 #include "geometry/predicates.hpp"
-#include "geometry/vec.hpp"
-#include "mesh/distributed_mesh.hpp"
 #include "mesh/mixing.hpp"
-#include "parallel/communicator.hpp"
 #include "volume/owned_cells.hpp"
 #include "volume/surface_share.hpp"
 
@@ -320,7 +320,7 @@ inline mesh::DistributedMesh spread(const parallel::Communicator& communicator, 
                                                           : v);
         if (parts_at[v].size() < 2) continue;
         piece.shared_vertices.push_back(known->second);
-        piece.shared_tokens.push_back(static_cast<mesh::SharedToken>(v));
+        piece.shared_keys.push_back(static_cast<mesh::SharedVertexKey>(v));
       }
       piece.triangle_face.push_back(surface.face[t]);
       piece.triangle_patch.push_back(surface.face[t] % 2);

@@ -1,11 +1,11 @@
-/// One try at filling a zone in a contained child: what comes back, and what a failing child leaves behind.
+/// One try at filling a zone in a sandboxed child: what comes back, and what a failing child leaves behind.
 #include "volume/zone_fill.hpp"
 
-#include "parallel/communicator.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
 #include "tests/volume/surfaces.hpp"
 #include "volume/boundary_distance.hpp"
 #include "volume/cell_order.hpp"
-#include "volume/volume_mesher.hpp"
 
 #include <algorithm>
 #include <random>
@@ -18,7 +18,7 @@ namespace {
 
 using geometry::Vec3;
 using parallel::Communicator;
-using Sabotage = parallel::Sabotage;
+using Fault = parallel::Fault;
 
 const bool tasks_are_known = (register_volume_tasks(), true);
 
@@ -50,7 +50,7 @@ double volume_of(const ZoneProblem& problem, const ZoneFilling& filling) {
 
 TEST(FillZone, fills_a_cube) {
   const ZoneProblem problem = cube_problem();
-  const ZoneFilling filling = fill_zone(problem, Sabotage::none);
+  const ZoneFilling filling = fill_zone(problem, Fault::none);
   ASSERT_TRUE(filling.filled) << filling.failure;
   EXPECT_NEAR(volume_of(problem, filling), 8, 1e-11);
   EXPECT_EQ(filling.owned.cells.size(), filling.owned.regions.size());
@@ -63,7 +63,7 @@ TEST(FillZone, fills_a_cube) {
 
 TEST(FillZone, makes_the_same_cells_anywhere_and_of_any_scale) {
   const auto cells_of = [](const ZoneProblem& problem) {
-    const ZoneFilling filling = fill_zone(problem, Sabotage::none);
+    const ZoneFilling filling = fill_zone(problem, Fault::none);
     EXPECT_TRUE(filling.filled) << filling.failure;
     std::set<LocalCell> cells;
     for (LocalCell cell : filling.owned.cells) {
@@ -113,7 +113,7 @@ TEST(FillZone, keeps_crossings_with_their_cells) {
   ZoneProblem problem = cube_problem();
   for (std::size_t v = 0; v < problem.points.size(); ++v)
     problem.owners[v] = problem.points[v].x < 0.2 ? Owner::mine : Owner::higher;
-  const ZoneFilling filling = fill_zone(problem, Sabotage::none);
+  const ZoneFilling filling = fill_zone(problem, Fault::none);
   ASSERT_TRUE(filling.filled) << filling.failure;
   EXPECT_GT(filling.owned.crossings.size(), 50u);
   for (std::size_t i = 0; i < filling.owned.crossings.size(); ++i) {
@@ -144,7 +144,7 @@ TEST(FillZone, says_why_a_surface_cannot_be_filled) {
   problem.owners.assign(problem.points.size(), Owner::mine);
   problem.front.assign(problem.triangles.size(), 0);
   problem.back.assign(problem.triangles.size(), mesh::no_region);
-  const ZoneFilling filling = fill_zone(problem, Sabotage::none);
+  const ZoneFilling filling = fill_zone(problem, Fault::none);
   EXPECT_FALSE(filling.filled);
   EXPECT_NE(filling.failure.find("intersect"), std::string::npos) << filling.failure;
   EXPECT_TRUE(filling.owned.cells.empty());
@@ -157,38 +157,38 @@ TEST(PredictTetrahedra, grows_with_points_and_triangles) {
 
 // --- containment: the last rank is struck, the others go on
 
-struct Strike {
-  Sabotage sabotage;
+struct Injection {
+  Fault fault;
   const char* says;
 };
-class Containment : public testing::TestWithParam<Strike> {};
+class Containment : public testing::TestWithParam<Injection> {};
 
 TEST_P(Containment, turns_a_failure_into_a_filling_that_says_so) {
   const Communicator world = Communicator::world();
-  const bool is_struck = world.rank() == world.size() - 1;
+  const bool is_faulty = world.rank() == world.size() - 1;
   const ZoneProblem problem = cube_problem(50);
   // Memory is used up in CPU time, too, and more of it on a slow machine.
-  const double seconds = GetParam().sabotage == Sabotage::hangs ? 1 : 10;
+  const double seconds = GetParam().fault == Fault::hangs ? 1 : 10;
   const ZoneFilling filling =
-      fill_zone(problem, is_struck ? GetParam().sabotage : Sabotage::none, nullptr, seconds);
-  EXPECT_EQ(filling.filled, !is_struck);
-  EXPECT_EQ(filling.failure.empty(), !is_struck);
-  EXPECT_EQ(filling.owned.cells.empty(), is_struck);
-  if (is_struck) {
+      fill_zone(problem, is_faulty ? GetParam().fault : Fault::none, nullptr, seconds);
+  EXPECT_EQ(filling.filled, !is_faulty);
+  EXPECT_EQ(filling.failure.empty(), !is_faulty);
+  EXPECT_EQ(filling.owned.cells.empty(), is_faulty);
+  if (is_faulty) {
     EXPECT_NE(filling.failure.find(GetParam().says), std::string::npos) << filling.failure;
   }
   // The same ranks can still talk and fill.
   EXPECT_EQ(world.sum(std::int64_t{1}), world.size());
-  const ZoneFilling again = fill_zone(problem, Sabotage::none);
+  const ZoneFilling again = fill_zone(problem, Fault::none);
   EXPECT_TRUE(again.filled) << again.failure;
   EXPECT_NEAR(volume_of(problem, again), 8, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(all, Containment,
-                         testing::Values(Strike{Sabotage::throws, "sabotage: an exception"},
-                                         Strike{Sabotage::aborts, "crashed"},
-                                         Strike{Sabotage::hangs, "did not end"},
-                                         Strike{Sabotage::exhausts_memory, "memory"}));
+                         testing::Values(Injection{Fault::throws, "injected fault: an exception"},
+                                         Injection{Fault::aborts, "crashed"},
+                                         Injection{Fault::hangs, "did not end"},
+                                         Injection{Fault::exhausts_memory, "memory"}));
 
 // --- the order of cells
 

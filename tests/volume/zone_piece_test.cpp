@@ -18,7 +18,7 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::RegionId;
-using mesh::SharedToken;
+using mesh::SharedVertexKey;
 using parallel::Communicator;
 
 const bool tasks_are_known = (register_volume_tasks(), true);
@@ -28,7 +28,7 @@ struct Zone {
   ZoneFilling filling;
   ZoneResult result;
 
-  SharedToken token(LocalIndex v) const { return content.tokens[v]; }
+  SharedVertexKey vertex_key(LocalIndex v) const { return content.vertex_keys[v]; }
 };
 
 /// All zones of two nested regions, filled one by one.
@@ -46,7 +46,7 @@ protected:
     zones = new std::vector<Zone>;
     for (const ZoneShipment& batch : data.plan.batches) {
       for (ZoneContent& content : supply_zones(*communicator, data.store(problem->input()), batch, clock)) {
-        ZoneFilling filling = fill_zone(content.problem, parallel::Sabotage::none);
+        ZoneFilling filling = fill_zone(content.problem, parallel::Fault::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(content, filling);
         zones->push_back({std::move(content), std::move(filling), std::move(result)});
@@ -144,35 +144,35 @@ TEST_F(ZonePieces, classify_their_vertices) {
 
 TEST_F(ZonePieces, share_the_vertices_on_faces_to_other_zones_and_between_regions) {
   for (const Zone& zone : *zones) {
-    std::set<SharedToken> expected;
+    std::set<SharedVertexKey> expected;
     for (const Crossing& crossing : zone.filling.owned.crossings) {
       for (int k = 0; k < 4; ++k) {
-        if (k != crossing.face) expected.insert(zone.token(zone.filling.owned.cells[crossing.cell][k]));
+        if (k != crossing.face) expected.insert(zone.vertex_key(zone.filling.owned.cells[crossing.cell][k]));
       }
     }
     for (std::size_t v = 0; v < zone.content.problem.surface_points(); ++v) {
       const Vec3 p = zone.content.problem.points[v];
       if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) == 0.5)
-        expected.insert(zone.token(static_cast<LocalIndex>(v)));
+        expected.insert(zone.vertex_key(static_cast<LocalIndex>(v)));
     }
-    for (const LocalIndex v : zone.filling.owned.touched) expected.insert(zone.token(v));
-    for (const LocalIndex v : zone.filling.owned.touched) expected.insert(zone.token(v));
-    std::set<SharedToken> found;
+    for (const LocalIndex v : zone.filling.owned.touched) expected.insert(zone.vertex_key(v));
+    for (const LocalIndex v : zone.filling.owned.touched) expected.insert(zone.vertex_key(v));
+    std::set<SharedVertexKey> found;
     for (const mesh::Piece& piece : zone.result.pieces) {
-      std::map<std::array<double, 3>, SharedToken> tokens;
-      for (std::size_t v = 0; v < zone.content.tokens.size(); ++v) {
+      std::map<std::array<double, 3>, SharedVertexKey> vertex_keys;
+      for (std::size_t v = 0; v < zone.content.vertex_keys.size(); ++v) {
         const Vec3 p = zone.content.problem.points[v];
-        tokens[{p.x, p.y, p.z}] = zone.content.tokens[v];
+        vertex_keys[{p.x, p.y, p.z}] = zone.content.vertex_keys[v];
       }
-      std::set<SharedToken> of_piece(piece.shared_tokens.begin(), piece.shared_tokens.end());
+      std::set<SharedVertexKey> of_piece(piece.shared_keys.begin(), piece.shared_keys.end());
       for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
         const Vec3 p = piece.point(piece.shared_vertices[s]);
-        EXPECT_EQ(piece.shared_tokens[s], tokens.at({p.x, p.y, p.z}));
+        EXPECT_EQ(piece.shared_keys[s], vertex_keys.at({p.x, p.y, p.z}));
       }
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
         const Vec3 p = piece.point(v);
-        const SharedToken token = tokens.at({p.x, p.y, p.z});
-        EXPECT_EQ(of_piece.count(token), expected.count(token));
+        const SharedVertexKey vertex_key = vertex_keys.at({p.x, p.y, p.z});
+        EXPECT_EQ(of_piece.count(vertex_key), expected.count(vertex_key));
       }
       found.insert(of_piece.begin(), of_piece.end());
     }
@@ -183,9 +183,9 @@ TEST_F(ZonePieces, share_the_vertices_on_faces_to_other_zones_and_between_region
 TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
   for (const Zone& zone : *zones) {
     ASSERT_EQ(zone.result.faces.size(), zone.filling.owned.crossings.size());
-    std::map<SharedToken, LocalIndex> known;
-    for (std::size_t v = 0; v < zone.content.tokens.size(); ++v)
-      known[zone.content.tokens[v]] = static_cast<LocalIndex>(v);
+    std::map<SharedVertexKey, LocalIndex> known;
+    for (std::size_t v = 0; v < zone.content.vertex_keys.size(); ++v)
+      known[zone.content.vertex_keys[v]] = static_cast<LocalIndex>(v);
     const ZoneFinder finder = decomposition->data().finder(problem->input());
     for (std::size_t i = 0; i < zone.result.faces.size(); ++i) {
       const ZoneFace& face = zone.result.faces[i];
@@ -220,7 +220,7 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   content.dimension = {2};
   content.entity = {7};
   content.problem.owners.assign(4, Owner::mine);
-  content.tokens = {0, 101, 102, 103};
+  content.vertex_keys = {0, 101, 102, 103};
   content.surface_vertices = 100;
   content.leaves = {3, 4, 5, 6};
   ZoneFilling filling;
@@ -240,10 +240,10 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   EXPECT_EQ(piece.vertex_dimension[0], 2);
   EXPECT_EQ(piece.vertex_entity[0], 7);
   // The first is touched by others, three are on faces to them; the added one is nobody else's.
-  EXPECT_EQ(piece.shared_tokens, (std::vector<SharedToken>{0, 101, 102, 103}));
+  EXPECT_EQ(piece.shared_keys, (std::vector<SharedVertexKey>{0, 101, 102, 103}));
   ASSERT_EQ(result.faces.size(), 2u);
   EXPECT_EQ(result.faces[0].leaves[2], -1);
-  EXPECT_GT(result.faces[0].vertices[2], SharedToken{1} << 60);
+  EXPECT_GT(result.faces[0].vertices[2], SharedVertexKey{1} << 60);
   EXPECT_GE(result.faces[1].leaves[2], 0);
 }
 

@@ -197,15 +197,15 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
       const Leaf leaf = leaf_of_lattice(*alone.data.tree, row.number);
       const Vec3 place = divided.data.frame->to_grid(row.point);
       if (!nearness.holds({place, place}, leaf.block)) continue;
-      ASSERT_LT(at, content.tokens.size());
-      EXPECT_EQ(content.tokens[at],
-                static_cast<mesh::SharedToken>(divided.problem.numbering.vertex_count + row.number));
+      ASSERT_LT(at, content.vertex_keys.size());
+      EXPECT_EQ(content.vertex_keys[at],
+                static_cast<mesh::SharedVertexKey>(divided.problem.numbering.vertex_count + row.number));
       EXPECT_EQ(content.problem.points[at], row.point);
       EXPECT_EQ(content.problem.regions[at - first], row.region);
       ++at;
     }
-    EXPECT_EQ(at, content.tokens.size());
-    EXPECT_EQ(content.problem.points.size(), content.tokens.size());
+    EXPECT_EQ(at, content.vertex_keys.size());
+    EXPECT_EQ(content.problem.points.size(), content.vertex_keys.size());
     EXPECT_EQ(divided.plan.loads[content.zone].points, static_cast<std::int64_t>(at - first));
   }
   EXPECT_EQ(world.sum(zones), static_cast<std::int64_t>(divided.all.size()));
@@ -235,7 +235,7 @@ TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
       for (int k = 0; k < 3; ++k) {
         const auto v = content.problem.triangles[at][k];
         vertices.insert(t.vertices[k]);
-        EXPECT_EQ(content.tokens[v], static_cast<mesh::SharedToken>(t.vertices[k]));
+        EXPECT_EQ(content.vertex_keys[v], static_cast<mesh::SharedVertexKey>(t.vertices[k]));
         EXPECT_EQ(content.problem.points[v], t.points[k]);
         EXPECT_EQ(content.dimension[v], t.dimension[k]);
         EXPECT_EQ(content.entity[v], t.entity[k]);
@@ -254,12 +254,14 @@ TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
 TEST(SupplyZones, tells_whose_each_vertex_is) {
   Divided divided(Communicator::world()), alone(Communicator::self());
   for (const ZoneContent& content : divided.supply_all()) {
-    const auto& tokens = content.tokens;
-    EXPECT_EQ(std::adjacent_find(tokens.begin(), tokens.end(), std::greater_equal<>()), tokens.end());
+    const auto& vertex_keys = content.vertex_keys;
+    EXPECT_EQ(std::adjacent_find(vertex_keys.begin(), vertex_keys.end(), std::greater_equal<>()),
+              vertex_keys.end());
     std::array<int, 3> count{};
-    for (std::size_t v = 0; v < content.tokens.size(); ++v) {
+    for (std::size_t v = 0; v < content.vertex_keys.size(); ++v) {
       const bool is_surface = v < content.problem.surface_points();
-      EXPECT_EQ(content.tokens[v] < mesh::running_token(divided.problem.numbering.vertex_count), is_surface);
+      EXPECT_EQ(content.vertex_keys[v] < mesh::running_key(divided.problem.numbering.vertex_count),
+                is_surface);
       Leaf leaf{};
       if (is_surface) {  // by brute force
         const Vec3 g = divided.data.frame->to_grid(content.problem.points[v]);
@@ -269,7 +271,7 @@ TEST(SupplyZones, tells_whose_each_vertex_is) {
           if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
         }
       } else {
-        leaf = leaf_of_lattice(*alone.data.tree, static_cast<std::int64_t>(content.tokens[v]) -
+        leaf = leaf_of_lattice(*alone.data.tree, static_cast<std::int64_t>(content.vertex_keys[v]) -
                                                      divided.problem.numbering.vertex_count);
       }
       const ZoneIndex zone = alone.data.zones->of(leaf.block, leaf.child);
@@ -290,7 +292,7 @@ TEST(SupplyZones, brings_the_same_on_any_number_of_ranks) {
   for (ZoneContent& content : alone.supply_all()) expected.emplace(content.zone, content);
   for (const ZoneContent& content : divided.supply_all()) {
     const ZoneContent& same = expected.at(content.zone);
-    EXPECT_EQ(content.tokens, same.tokens);
+    EXPECT_EQ(content.vertex_keys, same.vertex_keys);
     EXPECT_EQ(content.problem.points, same.problem.points);
     EXPECT_EQ(content.problem.owners, same.problem.owners);
     EXPECT_EQ(content.problem.triangles, same.problem.triangles);

@@ -1,0 +1,111 @@
+#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace aeroloom::cad {
+namespace {
+
+/// The normal of the face at the vertex, or nearby where the surface is singular there.
+Vec3 normal_at(const Model& model, const FaceCorner& corner) {
+  const EdgeEnd end = end_at_corner(corner.leaving, true);
+  const Edge& edge = model.edge(end.edge);
+  const double from = end.first ? edge.first_parameter : edge.last_parameter;
+  const double to = end.first ? edge.last_parameter : edge.first_parameter;
+  for (const double part : {0.0, 1e-3, 1e-2}) {
+    const Vec2 uv = model.edge_uv(corner.face, corner.leaving, from + part * (to - from));
+    const Vec3 normal = model.face_frame(corner.face, uv).normal;
+    if (norm(normal) > 0) return normal;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
+  const Face& face = model.face(id);
+  std::vector<FaceCorner> corners;
+  for (const auto& whole_loop : face.loops) {
+    // At a pole the edges before and behind it meet.
+    std::vector<EdgeUse> loop;
+    for (const EdgeUse& use : whole_loop) {
+      if (!model.edge(use.edge).degenerate) loop.push_back(use);
+    }
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const EdgeUse &arriving = loop[i], &leaving = loop[(i + 1) % loop.size()];
+      if (model.is_seam(arriving.edge) || model.is_seam(leaving.edge)) continue;
+      const Edge& edge = model.edge(leaving.edge);
+      corners.push_back({id, leaving.reversed ? edge.last : edge.first, arriving, leaving});
+    }
+  }
+  return corners;
+}
+
+FaceId face_beyond(const Model& model, FaceId face, EdgeId id) {
+  const Edge& edge = model.edge(id);
+  if (edge.faces.size() != 2) return no_entity;
+  const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
+  int uses = 0;
+  for (const auto& loop : model.face(other).loops) {
+    for (const EdgeUse& use : loop) uses += use.edge == id;
+  }
+  return uses == 1 ? other : no_entity;
+}
+
+BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner) {
+  const FaceId first = face_beyond(model, corner.face, corner.arriving.edge),
+               second = face_beyond(model, corner.face, corner.leaving.edge);
+  if (first == no_entity || second == no_entity || first == second) return BeyondCorner::other;
+  for (const auto& loop : model.face(first).loops) {
+    for (const EdgeUse& use : loop) {
+      const Edge& edge = model.edge(use.edge);
+      const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
+      if (at_corner && std::find(edge.faces.begin(), edge.faces.end(), second) != edge.faces.end())
+        return BeyondCorner::faces_that_meet;
+    }
+  }
+  return BeyondCorner::two_faces;
+}
+
+std::optional<double> parameter_at(const Model& model, EdgeEnd end, double wanted) {
+  const Edge& edge = model.edge(end.edge);
+  const double from = end.first ? edge.first_parameter : edge.last_parameter;
+  const double range = (end.first ? edge.last_parameter : edge.first_parameter) - from;
+  const Vec3 vertex = model.edge_point(end.edge, from);
+  const auto is_beyond = [&](double part) {
+    return distance(model.edge_point(end.edge, from + part * range), vertex) >= wanted;
+  };
+  const double speed = norm(model.edge_tangent(end.edge, from)) * std::abs(range);
+  double high = speed > 0 ? std::clamp(wanted / speed, 1e-9, 0.5) : 1e-3, low = 0;
+  while (!is_beyond(high)) {
+    if (high >= 0.5) return std::nullopt;
+    low = high;
+    high = std::min(1.5 * high, 0.5);
+  }
+  for (int step = 0; step < 40; ++step) {
+    const double middle = 0.5 * (low + high);
+    (is_beyond(middle) ? high : low) = middle;
+  }
+  return from + high * range;
+}
+
+std::optional<CornerOpening> open_corner(const Model& model, const FaceCorner& corner, double wanted) {
+  const EdgeEnd ends[2] = {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)};
+  CornerOpening opening;
+  const Vec3 vertex = model.vertex(corner.vertex);
+  for (int i = 0; i < 2; ++i) {
+    const auto parameter = parameter_at(model, ends[i], wanted);
+    if (!parameter) return std::nullopt;
+    opening.parameters[i] = *parameter;
+    opening.points[i] = model.edge_point(ends[i].edge, *parameter);
+  }
+  const Vec3 back = opening.points[0] - vertex, out = opening.points[1] - vertex;
+  const Vec3 area = cross(out, back);
+  if (dot(area, normal_at(model, corner)) < 0) return std::nullopt;
+  opening.width = distance(opening.points[0], opening.points[1]);
+  opening.degrees = std::atan2(norm(area), dot(out, back)) * 180 / std::numbers::pi;
+  return opening;
+}
+
+}  // namespace aeroloom::cad

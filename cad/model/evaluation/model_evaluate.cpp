@@ -1,0 +1,316 @@
+#include "cad/model/evaluation/face_integrals.hpp"
+#include "cad/model/model_data.hpp"
+#include "cad/model/occ_guard.hpp"
+#include "cad/model/to_vec.hpp"
+#include "cad/model/topology/closed_edges_data.hpp"
+#include "cad/model/topology/sheets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <TColStd_Array1OfReal.hxx>
+
+namespace aeroloom::cad {
+namespace {
+
+/// Parameters for a point that was moved away from those of `guess`: where the surface goes on to it, its
+/// own, else the guess, which lies on the face's border.
+Vec2 follow_moved_point(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
+  const Vec2 settled = settle_on_face(face, point, guess, tolerance);
+  const double before = distance(face.surface.point(guess), point);
+  return distance(face.surface.point(settled), point) < 0.5 * before ? settled : guess;
+}
+
+PrincipalCurvatures curvatures_of(const SurfaceJet& jet) {
+  const double e = dot(jet.du, jet.du), f = dot(jet.du, jet.dv), g = dot(jet.dv, jet.dv);
+  const Vec3 normal = cross(jet.du, jet.dv);
+  const double area = norm(normal);
+  if (!(area > 1e-12 * std::max(e, g))) return {};
+  const double l = dot(jet.duu, normal) / area, m = dot(jet.duv, normal) / area,
+               n = dot(jet.dvv, normal) / area;
+  const double determinant = area * area;
+  const double mean = 0.5 * (e * n - 2 * f * m + g * l) / determinant;
+  const double gauss = (l * n - m * m) / determinant;
+  const double spread = std::sqrt(std::max(0.0, mean * mean - gauss));
+  const double first = std::abs(mean + spread), second = std::abs(mean - spread);
+  if (!std::isfinite(first) || !std::isfinite(second)) return {};
+  return {std::max(first, second), std::min(first, second), true};
+}
+
+}  // namespace
+
+std::int32_t Model::vertex_count() const {
+  return static_cast<std::int32_t>(_data->vertices.size());
+}
+std::int32_t Model::edge_count() const {
+  return static_cast<std::int32_t>(_data->edges.size());
+}
+std::int32_t Model::face_count() const {
+  return static_cast<std::int32_t>(_data->faces.size());
+}
+std::int32_t Model::region_count() const {
+  return static_cast<std::int32_t>(_data->region_names.size());
+}
+Vec3 Model::vertex(VertexId id) const {
+  return _data->vertex_snaps.at(id)(_data->vertices[id]);
+}
+const Edge& Model::edge(EdgeId id) const {
+  return _data->edges.at(id);
+}
+const Face& Model::face(FaceId id) const {
+  return _data->faces.at(id);
+}
+const std::string& Model::region_name(RegionId id) const {
+  return _data->region_names.at(id);
+}
+const std::vector<std::string>& Model::patches() const {
+  return _data->patches;
+}
+const Box& Model::bounds() const {
+  return _data->bounds;
+}
+const Box& Model::body_bounds() const {
+  return _data->body_bounds;
+}
+bool Model::is_far_field(FaceId id) const {
+  return _data->far_field.at(id) != 0;
+}
+const std::string& Model::unit_name() const {
+  return _data->unit_name;
+}
+double Model::unit_in_metres() const {
+  return _data->unit_in_metres;
+}
+double Model::sewn_gap() const {
+  return _data->gap;
+}
+std::vector<std::byte> Model::serialise() const {
+  return _data->bytes;
+}
+
+Vec3 Model::edge_point(EdgeId id, double parameter) const {
+  const Edge& edge = _data->edges.at(id);
+  if (edge.degenerate) return vertex(edge.first);
+  return _data->edge_snaps[id](to_vec(_data->edge_evaluators[id].curve.Value(parameter)));
+}
+
+Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
+  if (_data->edges.at(id).degenerate) return {};
+  gp_Pnt point;
+  gp_Vec tangent;
+  _data->edge_evaluators[id].curve.D1(parameter, point, tangent);
+  return to_vec(tangent);
+}
+
+double Model::edge_curvature(EdgeId id, double parameter) const {
+  const EdgeEvaluator& evaluator = _data->edge_evaluators.at(id);
+  if (_data->edges[id].degenerate || evaluator.curve.GetType() == GeomAbs_Line) return 0;
+  gp_Pnt point;
+  gp_Vec first, second;
+  evaluator.curve.D2(parameter, point, first, second);
+  const double speed = first.Magnitude();
+  const double curvature = first.Crossed(second).Magnitude() / (speed * speed * speed);
+  return std::isfinite(curvature) ? curvature : 0;
+}
+
+// Curve and parameter curve of an edge trace the same line, in many files not at the same pace: the parameter
+// curve gives a guess, the point of the edge decides.
+Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFace& all = joined->faces.at(face);
+    if (all.sheets.size() == 1) return joined->base.edge_uv(all.sheets.front().face, use, parameter);
+    const JoinedFace::Use& own = all.use(use);
+    return all.from_member(own.sheet, joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
+  }
+  const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
+  if (const ClosedEdges* closed = _data->closed.get()) {
+    const Vec2 guess = closed->base_uv(face, use, parameter);
+    if (!closed->moved[use.edge] || _data->edges[use.edge].degenerate) return guess;
+    return follow_moved_point(evaluator, edge_point(use.edge, parameter), guess,
+                              1e-10 * _data->bounds.diagonal());
+  }
+  const UseCurve& on_face = evaluator.use(use);
+  const Edge& edge = _data->edges[use.edge];
+  double at = parameter;
+  if (on_face.first != edge.first_parameter || on_face.last != edge.last_parameter) {
+    const double share = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
+    at = on_face.first + share * (on_face.last - on_face.first);
+  }
+  const gp_Pnt2d guess = on_face.curve.Value(at);
+  const bool is_end = parameter == edge.first_parameter || parameter == edge.last_parameter;
+  if (edge.degenerate || is_end) return {guess.X(), guess.Y()};
+  return settle_on_face(evaluator, edge_point(use.edge, parameter), {guess.X(), guess.Y()},
+                        1e-10 * _data->bounds.diagonal());
+}
+
+std::vector<double> Model::edge_breaks(EdgeId id) const {
+  const Edge& edge = _data->edges.at(id);
+  if (edge.degenerate) return {edge.first_parameter, edge.last_parameter};
+  return guarded("splitting an edge where it is not smooth", [&] {
+    const GeomAdaptor_Curve& curve = _data->edge_evaluators[id].curve;
+    TColStd_Array1OfReal breaks(1, curve.NbIntervals(GeomAbs_C1) + 1);
+    curve.Intervals(breaks, GeomAbs_C1);
+    std::vector<double> result(breaks.begin(), breaks.end());
+    result.front() = edge.first_parameter;
+    result.back() = edge.last_parameter;
+    return result;
+  });
+}
+
+Vec3 Model::face_point(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_point(at.face, at.uv);
+  }
+  return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
+}
+
+SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_frame(at.face, at.uv);
+  }
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  const SurfaceJet jet = face.surface.jet(uv, 1);
+  SurfaceFrame frame{_data->face_snaps[id](jet.point), jet.du, jet.dv, {}};
+  const Vec3 normal = cross(frame.du, frame.dv);
+  // Below this the angle between the derivatives is rounding error: the direction would be noise.
+  if (norm(normal) > 1e-12 * std::max(dot(frame.du, frame.du), dot(frame.dv, frame.dv))) {
+    frame.normal = face.reversed ? -normalized(normal) : normalized(normal);
+  }
+  return frame;
+}
+
+PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_curvatures(at.face, at.uv);
+  }
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  if (face.planar) return {0, 0, true};
+  return curvatures_of(face.surface.jet(uv, 2));
+}
+
+CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.face_curved_point(at.face, at.uv);
+  }
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  if (face.planar) return {face_point(id, uv), {0, 0, true}};
+  const SurfaceJet jet = face.surface.jet(uv, 2);
+  return {_data->face_snaps[id](jet.point), curvatures_of(jet)};
+}
+
+Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->base.parameter_periods(at.face, at.uv);
+  }
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  return {face.u.repeats_after(), face.v.repeats_after()};
+}
+
+Vec2 Model::wrap(FaceId id, Vec2 uv) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const JoinedFaces::Place at = joined->locate(id, uv);
+    return joined->faces[id].from_member(at.sheet, joined->base.wrap(at.face, at.uv));
+  }
+  const FaceEvaluator& face = _data->face_evaluators.at(id);
+  return {face.u.wrap(uv.x), face.v.wrap(uv.y)};
+}
+
+bool Model::is_planar(FaceId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const auto& sheets = joined->faces.at(id).sheets;
+    return sheets.size() == 1 && joined->base.is_planar(sheets.front().face);
+  }
+  return _data->face_evaluators.at(id).planar;
+}
+
+bool Model::is_exact_plane(FaceId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    const auto& sheets = joined->faces.at(id).sheets;
+    return sheets.size() == 1 && joined->base.is_exact_plane(sheets.front().face);
+  }
+  const auto& fixed = _data->face_snaps.at(id).fixed;
+  return fixed[0] || fixed[1] || fixed[2];
+}
+
+std::vector<FaceId> Model::members(FaceId id) const {
+  if (!_data->joined) return {id};
+  std::vector<FaceId> faces;
+  for (const Sheet& sheet : _data->joined->faces.at(id).sheets) faces.push_back(sheet.face);
+  return faces;
+}
+
+std::int32_t Model::sheet_count(FaceId id) const {
+  return _data->joined ? static_cast<std::int32_t>(_data->joined->faces.at(id).sheets.size()) : 1;
+}
+
+std::int32_t Model::sheet(FaceId id, Vec2 uv) const {
+  return _data->joined ? _data->joined->locate(id, uv).sheet : 0;
+}
+
+bool Model::is_seam(EdgeId id) const {
+  const Edge& edge = _data->edges.at(id);
+  if (edge.faces.size() != 1) return false;
+  int uses = 0;
+  for (const auto& loop : _data->faces[edge.faces.front()].loops) {
+    for (const EdgeUse& use : loop) uses += use.edge == id;
+  }
+  return uses > 1;
+}
+
+double Model::face_area(FaceId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) {
+    double area = 0;
+    for (const Sheet& sheet : joined->faces.at(id).sheets) area += joined->base.face_area(sheet.face);
+    return area;
+  }
+  return _data->integrated(id).area;
+}
+
+double Model::region_volume(RegionId id) const {
+  if (const JoinedFaces* joined = _data->joined.get()) return joined->base.region_volume(id);
+  // Seen from the middle of the region: from far off, what integrals lack is a part of areas times distances,
+  // which may be more than the volume of a small region.
+  Vec3 middle;
+  double area = 0;
+  for (FaceId f = 0; f < face_count(); ++f) {
+    const Face& face = _data->faces[f];
+    if (face.front != id && face.back != id) continue;
+    const FaceEvaluator& evaluator = _data->integrated(f);
+    middle += evaluator.moment;
+    area += evaluator.area;
+  }
+  if (area > 0) middle = middle / area;
+  double volume = 0;
+  for (FaceId f = 0; f < face_count(); ++f) {
+    const Face& face = _data->faces[f];
+    if (face.front != id && face.back != id) continue;
+    const FaceEvaluator& evaluator = _data->integrated(f);
+    const double flux = evaluator.flux - dot(middle, evaluator.area_vector) / 3;
+    // The flux is along du x dv; the normal points out of the front region.
+    const double out_of_front = evaluator.reversed ? -flux : flux;
+    if (face.front == id) volume += out_of_front;
+    if (face.back == id) volume -= out_of_front;
+  }
+  return volume;
+}
+
+const FaceEvaluator& Model::Data::integrated(FaceId id) const {
+  const FaceEvaluator& face = face_evaluators.at(id);
+  if (face.area >= 0) return face;
+  guarded("integrating the area of " + describe_face(id), [&] {
+    const FaceIntegrals found = integrate_face(face.shape, face.surface, bounds.center());
+    face.flux = found.flux;
+    face.area_vector = found.area_vector;
+    face.moment = (found.area < 0 ? -1.0 : 1.0) * found.moment;
+    face.area = std::abs(found.area);
+  });
+  return face;
+}
+
+}  // namespace aeroloom::cad

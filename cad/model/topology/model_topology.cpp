@@ -1,0 +1,282 @@
+#include "cad/model/topology/model_topology.hpp"
+
+#include "cad/model/evaluation/plane_snap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomLib_IsPlanarSurface.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+// The CAD library's maps copy when they are moved.
+struct Maps {  // NOLINT(bugprone-exception-escape)
+  TopTools_IndexedMapOfShape vertices, edges, faces, solids;
+};
+
+bool bounds_material(const TopoDS_Shape& part) {
+  return part.Orientation() == TopAbs_FORWARD || part.Orientation() == TopAbs_REVERSED;
+}
+
+/// Visits the edges of a face loop by loop, oriented as in the face turned forward. Edges lying inside the
+/// face bound no material and are passed over.
+template <class Visit>
+void for_each_edge(const TopoDS_Shape& face, Visit&& visit) {
+  for (TopoDS_Iterator wires(face.Oriented(TopAbs_FORWARD)); wires.More(); wires.Next()) {
+    if (wires.Value().ShapeType() != TopAbs_WIRE) continue;
+    for (TopoDS_Iterator edges(wires.Value()); edges.More(); edges.Next()) {
+      if (bounds_material(edges.Value())) visit(TopoDS::Wire(wires.Value()), TopoDS::Edge(edges.Value()));
+    }
+  }
+}
+
+Maps map_shapes(const TopoDS_Shape& shape) {
+  Maps maps;
+  TopExp::MapShapes(shape, TopAbs_FACE, maps.faces);
+  TopExp::MapShapes(shape, TopAbs_SOLID, maps.solids);
+  for (int i = 1; i <= maps.faces.Extent(); ++i) {
+    for_each_edge(maps.faces(i), [&](const TopoDS_Wire&, const TopoDS_Edge& edge) {
+      if (maps.edges.Contains(edge)) return;
+      maps.edges.Add(edge.Oriented(TopAbs_FORWARD));
+      TopoDS_Vertex first, last;
+      TopExp::Vertices(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), first, last);
+      if (first.IsNull() || last.IsNull())
+        throw CadError(fmt::format("edge {} has no end vertices", maps.edges.Extent() - 1));
+      maps.vertices.Add(first);
+      maps.vertices.Add(last);
+    });
+  }
+  return maps;
+}
+
+void add_vertices(const Maps& maps, Model::Data& data) {
+  for (int i = 1; i <= maps.vertices.Extent(); ++i) {
+    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)));
+    data.vertices.push_back({p.X(), p.Y(), p.Z()});
+  }
+}
+
+void add_edges(const Maps& maps, Model::Data& data) {
+  for (int i = 1; i <= maps.edges.Extent(); ++i) {
+    EdgeEvaluator evaluator;
+    evaluator.shape = TopoDS::Edge(maps.edges(i));
+    Edge edge;
+    TopoDS_Vertex first, last;
+    TopExp::Vertices(evaluator.shape, first, last);
+    edge.first = maps.vertices.FindIndex(first) - 1;
+    edge.last = maps.vertices.FindIndex(last) - 1;
+    edge.degenerate = BRep_Tool::Degenerated(evaluator.shape);
+    BRep_Tool::Range(evaluator.shape, edge.first_parameter, edge.last_parameter);
+    if (!edge.degenerate) {
+      double low, high;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(evaluator.shape, low, high);
+      if (curve.IsNull()) {
+        const Vec3 at = data.vertices[edge.first];
+        throw CadError(
+            fmt::format("edge {} at ({:.6g}, {:.6g}, {:.6g}) has no curve", i - 1, at.x, at.y, at.z));
+      }
+      evaluator.curve.Load(curve, low, high);
+      edge.first_parameter = low, edge.last_parameter = high;
+    }
+    data.edges.push_back(std::move(edge));
+    data.edge_evaluators.push_back(std::move(evaluator));
+  }
+}
+
+UseCurve use_curve(const TopoDS_Face& face, const TopoDS_Edge& edge, const EdgeUse& use) {
+  UseCurve result;
+  result.use = use;
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, result.first, result.last);
+  if (curve.IsNull())
+    throw CadError(fmt::format("edge {} has no parameter curve on one of its faces", use.edge));
+  result.curve.Load(curve);
+  return result;
+}
+
+ParameterRange parameter_range(double low, double high, double period, bool closed, double face_low) {
+  if (period > 0) return {face_low, face_low + period, period, false};
+  return {low, high, 0, closed};
+}
+
+/// One use with where it starts and ends in the loop's direction.
+struct LoopPart {
+  EdgeUse use;
+  VertexId start, end;
+  Vec2 uv_start, uv_end;
+};
+
+LoopPart loop_part(const Model::Data& data, const UseCurve& curve) {
+  const Edge& edge = data.edges[curve.use.edge];
+  const gp_Pnt2d low = curve.curve.Value(curve.first), high = curve.curve.Value(curve.last);
+  LoopPart part{curve.use, edge.first, edge.last, {low.X(), low.Y()}, {high.X(), high.Y()}};
+  if (curve.use.reversed) {
+    std::swap(part.start, part.end);
+    std::swap(part.uv_start, part.uv_end);
+  }
+  return part;
+}
+
+/// Chains the edges of a wire head to tail. Where several start at the vertex, the nearest in parameters
+/// follows. A wire that touches itself may give several loops.
+std::vector<std::vector<EdgeUse>> chain_loops(std::vector<LoopPart> parts, Vec2 scale) {
+  std::vector<std::vector<EdgeUse>> loops;
+  while (!parts.empty()) {
+    std::vector<EdgeUse>& loop = loops.emplace_back();
+    const VertexId begin = parts.front().start;
+    LoopPart current = parts.front();
+    parts.erase(parts.begin());
+    loop.push_back(current.use);
+    while (true) {
+      auto best = parts.end();
+      double least = std::numeric_limits<double>::max();
+      for (auto part = parts.begin(); part != parts.end(); ++part) {
+        if (part->start != current.end) continue;
+        const Vec2 gap = part->uv_start - current.uv_end;
+        const double away = std::hypot(gap.x * scale.x, gap.y * scale.y);
+        if (away < least) least = away, best = part;
+      }
+      if (best == parts.end()) break;
+      current = *best;
+      parts.erase(best);
+      loop.push_back(current.use);
+    }
+    if (current.end != begin) {
+      throw CadError(
+          fmt::format("a loop of edges does not close: it starts at vertex {} and stops at vertex {}", begin,
+                      current.end));
+    }
+  }
+  return loops;
+}
+
+/// The face's loops as seen along its surface's own normal, outer one first.
+std::vector<std::vector<EdgeUse>> add_uses(const Maps& maps, Model::Data& data, FaceEvaluator& face) {
+  const TopoDS_Wire outer = BRepTools::OuterWire(face.shape);
+  TopTools_IndexedMapOfShape wires;
+  if (!outer.IsNull()) wires.Add(outer);
+  std::vector<std::vector<LoopPart>> parts(wires.Extent());
+  for_each_edge(face.shape, [&](const TopoDS_Wire& wire, const TopoDS_Edge& edge) {
+    const std::size_t loop = wires.Add(wire) - 1;
+    parts.resize(wires.Extent());
+    EdgeUse use{maps.edges.FindIndex(edge) - 1, 0, edge.Orientation() == TopAbs_REVERSED};
+    if (use.reversed && BRep_Tool::IsClosed(edge, face.shape)) use.use = 1;
+    const auto taken = [&](const UseCurve& other) {
+      return other.use.edge == use.edge && other.use.use == use.use;
+    };
+    if (std::any_of(face.uses.begin(), face.uses.end(), taken)) use.use = 1 - use.use;
+    face.uses.push_back(use_curve(face.shape, edge, use));
+    parts[loop].push_back(loop_part(data, face.uses.back()));
+  });
+  const Vec2 extent = face.uv_high - face.uv_low;
+  const Vec2 scale{extent.x > 0 ? 1 / extent.x : 1, extent.y > 0 ? 1 / extent.y : 1};
+  std::vector<std::vector<EdgeUse>> loops;
+  for (auto& wire : parts) {
+    for (auto& loop : chain_loops(std::move(wire), scale)) loops.push_back(std::move(loop));
+  }
+  std::sort(face.uses.begin(), face.uses.end(), [](const UseCurve& a, const UseCurve& b) {
+    return std::pair(a.use.edge, a.use.use) < std::pair(b.use.edge, b.use.use);
+  });
+  return loops;
+}
+
+/// Which solids lie on either side of each face, from the way each solid orients it.
+void add_regions(const Maps& maps, Model::Data& data) {
+  for (int region = 1; region <= maps.solids.Extent(); ++region) {
+    for (TopExp_Explorer faces(maps.solids(region), TopAbs_FACE); faces.More(); faces.Next()) {
+      if (!bounds_material(faces.Current())) continue;
+      const int id = maps.faces.FindIndex(faces.Current()) - 1;
+      Face& face = data.faces[id];
+      const bool reversed = faces.Current().Orientation() == TopAbs_REVERSED;
+      if (face.front == no_entity) {
+        face.front = region - 1;
+        data.face_evaluators[id].reversed = reversed;
+      } else if (face.back == no_entity && reversed != data.face_evaluators[id].reversed) {
+        face.back = region - 1;
+      } else {
+        throw CadError(fmt::format("regions {} and {} lie on the same side of {}: the solids overlap",
+                                   face.front, region - 1, data.describe_face(id)));
+      }
+    }
+  }
+}
+
+/// Loops were collected along the surface's own normal; seen against the outward normal they run the other
+/// way where the two are opposite.
+void orient_loops(Model::Data& data) {
+  for (std::size_t id = 0; id < data.faces.size(); ++id) {
+    if (!data.face_evaluators[id].reversed) continue;
+    for (auto& loop : data.faces[id].loops) {
+      std::reverse(loop.begin(), loop.end());
+      for (EdgeUse& use : loop) use.reversed = !use.reversed;
+    }
+    for (UseCurve& curve : data.face_evaluators[id].uses) curve.use.reversed = !curve.use.reversed;
+  }
+}
+
+}  // namespace
+
+FaceEvaluator make_evaluator(const TopoDS_Shape& shape, double planar_tolerance) {
+  FaceEvaluator face;
+  face.shape = TopoDS::Face(shape.Oriented(TopAbs_FORWARD));
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.shape);
+  if (surface.IsNull()) throw CadError("a face has no surface (a bare triangulation)");
+  face.surface = SurfaceEvaluator(surface);
+  BRepTools::UVBounds(face.shape, face.uv_low.x, face.uv_high.x, face.uv_low.y, face.uv_high.y);
+  const GeomAdaptor_Surface& s = face.surface.adaptor();
+  face.u = parameter_range(s.FirstUParameter(), s.LastUParameter(), s.IsUPeriodic() ? s.UPeriod() : 0,
+                           s.IsUClosed(), face.uv_low.x);
+  face.v = parameter_range(s.FirstVParameter(), s.LastVParameter(), s.IsVPeriodic() ? s.VPeriod() : 0,
+                           s.IsVClosed(), face.uv_low.y);
+  face.planar = s.GetType() == GeomAbs_Plane || GeomLib_IsPlanarSurface(surface, planar_tolerance).IsPlanar();
+  return face;
+}
+
+const UseCurve& FaceEvaluator::use(const EdgeUse& wanted) const {
+  const auto found =
+      std::lower_bound(uses.begin(), uses.end(), wanted, [](const UseCurve& a, const EdgeUse& b) {
+        return std::pair(a.use.edge, a.use.use) < std::pair(b.edge, b.use);
+      });
+  if (found == uses.end() || found->use.edge != wanted.edge || found->use.use != wanted.use) {
+    throw std::out_of_range(
+        fmt::format("edge {} (use {}) does not bound this face", wanted.edge, wanted.use));
+  }
+  return *found;
+}
+
+void index_topology(Model::Data& data) {
+  const Maps maps = map_shapes(data.shape);
+  add_vertices(maps, data);
+  add_edges(maps, data);
+  data.faces.resize(maps.faces.Extent());
+  for (int i = 1; i <= maps.faces.Extent(); ++i) {
+    data.face_evaluators.push_back(make_evaluator(maps.faces(i), 1e-9 * data.bounds.diagonal()));
+    data.faces[i - 1].loops = add_uses(maps, data, data.face_evaluators.back());
+    for (const UseCurve& curve : data.face_evaluators.back().uses) {
+      auto& users = data.edges[curve.use.edge].faces;
+      if (users.empty() || users.back() != i - 1) users.push_back(i - 1);
+    }
+  }
+  add_regions(maps, data);
+  for (FaceId id = 0; id < static_cast<FaceId>(data.faces.size()); ++id) {
+    if (data.faces[id].front == no_entity) throw CadError(data.describe_face(id) + " bounds no solid");
+  }
+  orient_loops(data);
+  mark_exact_planes(data);
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,130 @@
+#include "aeroloom/case/case.hpp"
+
+#include "case/case_keys.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cases {
+
+namespace {
+
+void check_geometry(const KeyTable& keys, const CaseDraft& draft, const std::string& file) {
+  const auto at = [&](const std::string& key) { return keys.where("geometry." + key) + ": "; };
+  const bool from_file = !draft.result.domain.file.empty(), built_in = draft.builtin != Builtin::none;
+  if (!from_file && !built_in) {
+    throw CaseError(file + ": the case has no geometry; give 'geometry.file' or 'geometry.builtin'");
+  }
+  if (from_file && built_in) {
+    throw CaseError(at("builtin") + "'geometry.file' and 'geometry.builtin' exclude each other");
+  }
+  if (draft.dimensions_given && !built_in) {
+    throw CaseError(at("dimensions") + "'geometry.dimensions' belongs to 'geometry.builtin', not to a file");
+  }
+  const cad::TrailingEdgeOptions& trailing = draft.result.domain.trailing_edges;
+  const char* const needless = draft.sharpen_width       ? "sharpen_width"
+                               : !trailing.faces.empty() ? "sharpen_faces"
+                                                         : nullptr;
+  if (needless != nullptr && trailing.treatment != cad::TrailingEdges::sharpen) {
+    throw CaseError(at(needless) +
+                    fmt::format("'geometry.{}' needs 'geometry.trailing_edges: sharpen'", needless));
+  }
+  if (draft.result.domain.kind != cad::DomainKind::fluid) return;
+  if (built_in)
+    throw CaseError(at("domain") + "the built-in geometry is a body, 'geometry.domain' cannot be fluid");
+  if (draft.far_field_given) {
+    throw CaseError(keys.where("farfield") + ": 'farfield' surrounds bodies, but 'geometry.domain' is fluid");
+  }
+}
+
+/// Refuses `smaller` above `larger`, wherever the two were given.
+void check_order(const KeyTable& keys, const std::string& smaller, std::optional<double> small_value,
+                 const std::string& larger, std::optional<double> large_value) {
+  if (!small_value || !large_value || *small_value <= *large_value) return;
+  throw CaseError(fmt::format("{}: '{}' is {}, but must be at least '{}', which is {} ({})",
+                              keys.where(larger), larger, *large_value, smaller, *small_value,
+                              keys.where(smaller)));
+}
+
+void check_sizing(const KeyTable& keys, const SizingRequest& sizing) {
+  check_order(keys, "sizing.minimum", sizing.minimum, "sizing.maximum", sizing.maximum);
+  check_order(keys, "sizing.minimum", sizing.minimum, "sizing.surface_maximum", sizing.surface_maximum);
+}
+
+/// Where the geometry of a case file is: seen from its folder or else from the working directory.
+std::string locate(const std::string& geometry_file, const std::string& case_file) {
+  namespace fs = std::filesystem;
+  if (geometry_file.empty() || fs::path(geometry_file).is_absolute()) return geometry_file;
+  const fs::path beside_case = fs::path(case_file).parent_path() / geometry_file;
+  std::error_code ignored;  // what cannot be looked at is not there
+  return fs::exists(beside_case, ignored) ? beside_case.string() : geometry_file;
+}
+
+/// What was read, once it fits together.
+Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& name) {
+  check_geometry(keys, draft, name);
+  check_sizing(keys, draft.result.sizing);
+  Case result = draft.result;
+  result.patches.assign(draft.patches.begin(), draft.patches.end());
+  if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
+  if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
+  result.domain.smallest_size = result.sizing.minimum.value_or(0);
+  return result;
+}
+
+}  // namespace
+
+Case read_case(const std::string& file, const std::vector<std::string>& overrides) {
+  CaseDraft draft;
+  KeyTable keys;
+  declare_case_keys(keys, draft);
+  keys.read_file(file);
+  for (const std::string& assignment : overrides) keys.read_override(assignment);
+  Case result = finish(keys, draft, file);
+  const bool overridden = std::any_of(overrides.begin(), overrides.end(), [](const std::string& assignment) {
+    return assignment.starts_with("geometry.file=") || assignment.starts_with("geometry=");
+  });
+  if (!overridden) result.domain.file = locate(result.domain.file, file);
+  return result;
+}
+
+Case case_of_resolved(const std::string& yaml) {
+  CaseDraft draft;
+  KeyTable keys;
+  declare_case_keys(keys, draft);
+  keys.read_text(yaml, "the resolved case");
+  return finish(keys, draft, "the resolved case");
+}
+
+Case case_of_overrides(const std::vector<std::string>& overrides) {
+  CaseDraft draft;
+  KeyTable keys;
+  declare_case_keys(keys, draft);
+  for (const std::string& assignment : overrides) keys.read_override(assignment);
+  return draft.result;
+}
+
+std::string resolved_yaml(const Case& input) {
+  CaseDraft draft;
+  draft.result = input;
+  if (input.domain.transport) {
+    draft.builtin = Builtin::transport;
+    draft.dimensions = *input.domain.transport;
+    draft.dimensions_given = true;
+  }
+  if (input.domain.trailing_edges.width > 0) draft.sharpen_width = input.domain.trailing_edges.width;
+  if (input.domain.far_field) {
+    draft.far_field = *input.domain.far_field;
+    draft.far_field_given = true;
+  }
+  draft.patches.assign(input.patches.begin(), input.patches.end());
+  KeyTable keys;
+  declare_case_keys(keys, draft);
+  for (const PatchRule& rule : input.patches) keys.add_named("patches", rule.name);
+  return keys.write();
+}
+
+}  // namespace aeroloom::cases

@@ -1,0 +1,111 @@
+/// From a file or a built-in shape to the fluid domain to mesh.
+#pragma once
+
+#include "aeroloom/cad/builtin/transport.hpp"
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/cad/repair/change.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// Whether the file's solids are the fluid, or bodies in a far field.
+enum class DomainKind { automatic, fluid, body };
+
+enum class FarFieldShape { sphere, box, hemisphere, cylinder };
+enum class Axis { x, y, z };
+
+/// How a half model's plane of symmetry is found. `automatic`: none, except for the hemisphere, where it is
+/// the plane y = 0 the body is symmetric about, or else the coordinate plane it ends at.
+enum class Symmetry { automatic, none, x, y, z };
+
+/// The far field around a body. Its reference length is the largest extent of the body's box.
+struct FarFieldOptions {
+  FarFieldShape shape = FarFieldShape::sphere;
+  double extent = 10;   ///< distance from the body's centre to the far field, in reference lengths; for box
+                        ///< and cylinder: from the centre to each side and end
+  Axis axis = Axis::x;  ///< of the cylinder
+  /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
+  /// on the positive side is kept; the far field is cut to the same half.
+  Symmetry symmetry = Symmetry::automatic;
+  std::optional<double> symmetry_position =
+      {};  ///< of the plane on its axis; default: where the body ends, or 0
+
+  static constexpr auto fields() {
+    return std::tuple(&FarFieldOptions::shape, &FarFieldOptions::extent, &FarFieldOptions::axis,
+                      &FarFieldOptions::symmetry, &FarFieldOptions::symmetry_position);
+  }
+};
+
+/// What happens to blunt trailing edges: strips between two faces that meet at a sharp angle. `sharpen`: they
+/// are closed here; `automatic`: they are kept here, and those closed later that sizes cannot resolve, where
+/// that moves little.
+enum class TrailingEdges { automatic, keep, sharpen };
+
+struct TrailingEdgeOptions {
+  TrailingEdges treatment = TrailingEdges::automatic;
+  std::vector<std::string> faces =
+      {};  ///< patterns of faces' or patches' names, with * and ?; none: any face
+  double width =
+      0;  ///< of strips that are closed, at most; 0: 3 % of their length, 10 % of the neighbours' breadth
+
+  static constexpr auto fields() {
+    return std::tuple(&TrailingEdgeOptions::treatment, &TrailingEdgeOptions::faces,
+                      &TrailingEdgeOptions::width);
+  }
+};
+
+struct DomainOptions {
+  std::string file;  ///< STEP, IGES or BREP, by content and extension; empty for `transport`
+  std::optional<TransportDimensions> transport;  ///< the built-in aircraft
+  DomainKind kind = DomainKind::automatic;
+  std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
+  TrailingEdgeOptions trailing_edges = {};
+  double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
+
+  static constexpr auto fields() {
+    return std::tuple(&DomainOptions::file, &DomainOptions::transport, &DomainOptions::kind,
+                      &DomainOptions::far_field, &DomainOptions::trailing_edges,
+                      &DomainOptions::smallest_size);
+  }
+};
+
+/// What was read and what was done with it, for log and report.
+struct DomainReport {
+  DomainKind kind = DomainKind::automatic;  ///< as decided
+  std::string reason;                       ///< why, when it was decided here
+  double reference_length = 0;              ///< of the body (or the domain)
+  Changes changes;                          ///< every repair: what, where, how much
+
+  static constexpr auto fields() {
+    return std::tuple(&DomainReport::kind, &DomainReport::reason, &DomainReport::reference_length,
+                      &DomainReport::changes);
+  }
+};
+
+struct Domain {
+  Model model;
+  DomainReport report;
+};
+
+/// Reads, heals and builds the domain, in this process: what crashes in the CAD library ends it. Not
+/// collective: one rank calls it and broadcasts model.serialise(). Closed shells become solids; faces that
+/// belong to no solid are dropped and listed. Throws CadError for what cannot be meshed: unreadable files,
+/// open shells, a far field that cuts the body, a boolean operation whose volume does not add up;
+/// std::ios_base::failure when the file cannot be opened.
+Domain prepare_domain(const DomainOptions& options);
+
+enum class ExportedPart {
+  geometry,  ///< as read and healed, before any far field
+  domain     ///< what is meshed: bodies united, regions joined, the far field around them
+};
+
+/// Writes the model's shape with names as STEP; joined faces and closed trailing edges are as in the CAD. Not
+/// collective. Throws as prepare_domain; std::ios_base::failure when the file cannot be written.
+void export_step(const DomainOptions& options, ExportedPart part, const std::string& file);
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,14 @@
+/// What is wrong with a case.
+#pragma once
+
+#include <stdexcept>
+
+namespace aeroloom::cases {
+
+/// The text starts with where: "file:line:column: " or "--set key=value: ".
+class CaseError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace aeroloom::cases

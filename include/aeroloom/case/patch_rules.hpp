@@ -1,0 +1,35 @@
+/// What the case says of patches: names, which faces they join, and what they are to a solver.
+#pragma once
+
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/mesh/patch.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::cases {
+
+/// A patch of the case.
+struct PatchRule {
+  std::string name;
+  /// Patterns of faces' or patches' names, with * and ?; none: the patch of this name.
+  std::vector<std::string> faces;
+  std::optional<mesh::PatchType> type;  ///< empty: what suits it by default
+};
+
+/// A model with the patches of the case, and what each of them is.
+struct TypedPatches {
+  cad::Model model;
+  std::vector<mesh::PatchType> types;  ///< by patch of the model
+  std::vector<std::string> warnings;   ///< what the rules ask for and do not get, or get and may not expect
+};
+
+/// Joins faces into patches by the first rule that one of its names matches; others keep their patch. By
+/// default a patch called as its type or one of its usual other names ("symmetry_plane", "inflow") is that,
+/// what the program added around a body is `farfield`, all others are walls; a patch with faces between
+/// regions alone is `interior`. Throws std::invalid_argument with the nearest names for a pattern that
+/// matches no face, and for a rule whose faces others have all taken.
+TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules);
+
+}  // namespace aeroloom::cases

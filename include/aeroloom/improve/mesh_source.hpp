@@ -1,0 +1,15 @@
+/// What a mesh was made from.
+#pragma once
+
+#include "aeroloom/cad/model/evaluation/point_locator.hpp"
+#include "aeroloom/sizing/size_field.hpp"
+
+namespace aeroloom::improve {
+
+/// What the mesh was made from, as far as that is known.
+struct MeshSource {
+  cad::PointLocator* locator = nullptr;      ///< of the CAD model: boundary vertices may slide on it
+  const sizing::SizeField* sizes = nullptr;  ///< edges keep to them (change_limits.hpp)
+};
+
+}  // namespace aeroloom::improve

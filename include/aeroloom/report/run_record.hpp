@@ -1,0 +1,86 @@
+/// What a run has found out, and what a report is written from.
+#pragma once
+
+#include "aeroloom/attribution/pinned.hpp"
+#include "aeroloom/attribution/size_conformity.hpp"
+#include "aeroloom/cad/domain/domain.hpp"
+#include "aeroloom/domain/bounded_faces.hpp"
+#include "aeroloom/domain/trailing_edges.hpp"
+#include "aeroloom/domain/unresolved_features.hpp"
+#include "aeroloom/domain/wall_findings.hpp"
+#include "aeroloom/improve/improver.hpp"
+#include "aeroloom/mesh/mixed_quality.hpp"
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/parallel/communication/communicator.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/report/picture.hpp"
+#include "aeroloom/sizing/size_field.hpp"
+#include "aeroloom/surface/surface_mesher.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::report {
+
+/// A boundary patch of the finished mesh.
+struct PatchRow {
+  std::string name;
+  mesh::PatchType type = mesh::PatchType::wall;
+  double area = 0;      ///< of the triangles, in the square of the model's unit
+  double cad_area = 0;  ///< of the CAD faces
+  std::int64_t triangles = 0;
+  bool inner = false;  ///< has faces between two regions
+};
+
+/// A region of the finished mesh.
+struct RegionRow {
+  std::string name;
+  double volume = 0;
+  std::int64_t tetrahedra = 0;
+  double cad_volume = 0;      ///< of the CAD's region; 0 where there is no CAD
+  bool in_far_field = false;  ///< bounded by a far field, which is as coarse as it likes
+};
+
+/// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
+/// rank except `domain` and `pictures`, which rank 0 alone holds.
+struct RunRecord {
+  std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
+  std::int64_t input_bytes = 0;      ///< of that file
+  std::vector<std::string> resumed;  ///< stages whose results came from an earlier run
+  cad::DomainReport domain;
+  std::string unit;
+  double unit_in_metres = 0;
+  geometry::Box bounds;
+  std::int32_t regions = 0, faces = 0, edges = 0;
+  std::vector<std::string> face_names;        ///< by face id
+  std::vector<mesh::PatchType> patch_types;   ///< by patch of the model
+  domain::TrailingEdgeReport trailing_edges;  ///< what became of blunt ones
+  cad::Changes joined_faces;                  ///< narrow faces that vanished in their neighbours
+  sizing::SizingOptions sizes;
+  std::optional<domain::FeatureReport> features;
+  std::vector<domain::NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
+  sizing::PredictedCounts forecast;               ///< what the size field predicts
+  domain::WallFindings walls;                     ///< what was found of walls close to each other
+  std::int64_t size_field_leaves = 0;
+  surface::SurfaceReport surface;
+  volume::DecompositionReport decomposition;
+  volume::VolumeReport volume;
+  attribution::SizeConformity conformity;
+  improve::ImproveReport improve;
+  attribution::PinnedReport pinned;
+  mesh::MeshCounts counts;
+  double mesh_volume = 0;
+  std::string hash;
+  std::optional<mesh::QualitySummary> surface_quality, quality;
+  std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for what only this has
+  std::vector<PatchRow> patches;
+  std::vector<RegionRow> regions_filled;
+  std::vector<Picture> pictures;
+  parallel::StageClock clock;
+  double wall_seconds = 0;  ///< of the program, from its start to the end of the last stage
+};
+
+}  // namespace aeroloom::report

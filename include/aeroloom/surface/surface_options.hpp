@@ -1,0 +1,47 @@
+/// What the user may ask of the surface stage.
+#pragma once
+
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/partition/background_surface.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// How a surface is cut into pieces: one per CAD face, or as many as their size asks for.
+enum class SurfaceDecomposition : std::int8_t { faces, pieces };
+
+/// Divides the background mesh of a face: the part of each of its triangles, from 0. The borders between
+/// parts become cuts. Must be a function of its arguments alone.
+using FaceDivider =
+    std::function<std::vector<std::int32_t>(cad::FaceId, const partition::BackgroundSurface&)>;
+
+/// The steps that make the cuts of a face good. All are done; benchmarks leave one out to see what it is
+/// worth.
+struct DivisionSteps {
+  bool contraction = true;    ///< of arcs of the dual graph, before it is partitioned
+  bool repair = true;         ///< of parts that fell asunder: stray components join a neighbour
+  bool widening = true;       ///< of wedges below the cut angle, which go to the part beside them
+  bool straightening = true;  ///< of the borders between parts
+};
+
+struct SurfaceOptions {
+  SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
+  std::int64_t piece_triangles = 10'000;  ///< wanted triangles of a piece
+  double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
+  DivisionSteps division = {};
+  FaceDivider divider = {};   ///< cuts every face this way instead; empty: by load
+  double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
+  double chart_spread =
+      60;  ///< degrees normals of one chart may spread from their axis before the chart is split
+  int smoothing_sweeps = 6;  ///< of vertex smoothing and edge flips inside a face
+  int mending_rounds = 6;    ///< rounds of local refinement where faces come too close, before giving up
+  double most_growth =
+      4;  ///< triangles that rounds of local refinement may come to, over those predicted for the first one
+  int needle_rounds =
+      2;  ///< at most as many rounds of local refinement for needles that the CAD does not force
+};
+
+}  // namespace aeroloom::surface

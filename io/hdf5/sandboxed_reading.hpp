@@ -1,0 +1,36 @@
+/// The side of InputFile that runs in a child and sees HDF5. Internal to io/hdf5/.
+#pragma once
+
+#include "aeroloom/parallel/communication/packer.hpp"
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+
+namespace aeroloom::io::hdf5 {
+
+enum class Operation : std::uint8_t { survey, integers, reals, texts };
+
+/// What the child is asked.
+struct ReadingRequest {
+  Operation operation = Operation::survey;
+  std::string path;
+  parallel::Bytes details;  ///< a SurveyRequest, a RowRange, or the name of an array of texts
+
+  static constexpr auto fields() {
+    return std::tuple(&ReadingRequest::operation, &ReadingRequest::path, &ReadingRequest::details);
+  }
+};
+
+/// Rows of an array.
+struct RowRange {
+  std::string array;
+  std::int64_t begin = 0, count = 0;
+
+  static constexpr auto fields() { return std::tuple(&RowRange::array, &RowRange::begin, &RowRange::count); }
+};
+
+/// The name of the sandboxed task, which is known before main() begins.
+const std::string& reading_task();
+
+}  // namespace aeroloom::io::hdf5

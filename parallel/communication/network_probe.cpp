@@ -1,0 +1,83 @@
+#include "parallel/communication/network_probe.hpp"
+
+#include "aeroloom/parallel/communication/host.hpp"
+#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/communication/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <stdexcept>
+
+namespace aeroloom::parallel {
+
+namespace {
+
+using session::check;
+
+constexpr std::array<int, 8> lengths{8, 64, 1 << 10, 1 << 13, 1 << 16, 1 << 18, 1 << 20, 1 << 22};
+constexpr int repeats = 31;
+
+/// What the network takes, whatever else the processors are asked to do meanwhile.
+double least(const std::vector<double>& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
+/// Half of there and back, on the rank that begins; the other one sends back.
+double send_back_and_forth(MPI_Comm group, int partner, bool begins, std::vector<std::byte>& content,
+                           int length) {
+  const double begin = wall_seconds();
+  const auto send = [&] { check(MPI_Send(content.data(), length, MPI_BYTE, partner, 0, group), "sending"); };
+  const auto receive = [&] {
+    check(MPI_Recv(content.data(), length, MPI_BYTE, partner, 0, group, MPI_STATUS_IGNORE), "receiving");
+  };
+  if (begins) send();
+  receive();
+  if (!begins) send();
+  return 0.5 * (wall_seconds() - begin);
+}
+
+double time_messages(const Communicator& communicator, MPI_Comm group, int length) {
+  const int half = communicator.size() / 2, rank = communicator.rank();
+  const bool begins = rank < half, takes_part = rank < 2 * half;
+  std::vector<std::byte> content(static_cast<std::size_t>(length));
+  std::vector<double> seconds;
+  communicator.barrier();
+  for (int i = 0; takes_part && i < repeats; ++i)
+    seconds.push_back(
+        send_back_and_forth(group, begins ? rank + half : rank - half, begins, content, length));
+  return communicator.maximum(begins ? least(seconds) : 0.0);
+}
+
+double time_reductions(const Communicator& communicator) {
+  std::vector<double> seconds;
+  for (int i = 0; i < repeats; ++i) {
+    const double begin = wall_seconds();
+    communicator.maximum(std::int64_t{i});
+    seconds.push_back(wall_seconds() - begin);
+  }
+  return communicator.maximum(least(seconds));
+}
+
+}  // namespace
+
+NetworkProbe probe_network(const Communicator& communicator) {
+  if (communicator.size() < 2)
+    throw std::invalid_argument(
+        "a network is measured between ranks, and there is one. Remedy: mpirun -n 2 or more");
+  MPI_Comm group = host_communicator(communicator);
+  NetworkProbe probe;
+  time_messages(communicator, group, lengths.front());  // connections are made by the first message
+  for (const int length : lengths)
+    probe.messages.push_back({length, time_messages(communicator, group, length)});
+  probe.reduction_seconds = time_reductions(communicator);
+  const int steps = std::bit_width(static_cast<unsigned>(communicator.size() - 1));
+  const MessageTiming &shortest = probe.messages.front(), &longest = probe.messages.back();
+  probe.latency_seconds = std::max(shortest.seconds, probe.reduction_seconds / steps);
+  probe.bytes_per_second =
+      static_cast<double>(longest.bytes) / std::max(longest.seconds - shortest.seconds, 1e-9);
+  return probe;
+}
+
+}  // namespace aeroloom::parallel

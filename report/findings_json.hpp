@@ -1,0 +1,20 @@
+/// What was found out while sizes were chosen, as report.json and the answer of `aeroloom check` have it.
+#pragma once
+
+#include "aeroloom/domain/bounded_faces.hpp"
+#include "aeroloom/domain/trailing_edges.hpp"
+#include "aeroloom/domain/unresolved_features.hpp"
+#include "aeroloom/domain/wall_findings.hpp"
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::report {
+
+nlohmann::ordered_json to_json(const std::vector<domain::NamedBound>& faces);
+nlohmann::ordered_json to_json(const domain::TrailingEdgeReport& edges);
+nlohmann::ordered_json to_json(const domain::FeatureReport& features);
+nlohmann::ordered_json to_json(const domain::WallFindings& walls);
+
+}  // namespace aeroloom::report

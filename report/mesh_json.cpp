@@ -1,0 +1,88 @@
+#include "aeroloom/case/quality_gate.hpp"
+#include "report/change_json.hpp"
+#include "report/mixed_quality_json.hpp"
+#include "report/parts_json.hpp"
+
+namespace aeroloom::report {
+Json mesh_json(const RunRecord& record) {
+  return {{"points", record.counts.vertices},
+          {"tetrahedra", record.counts.cells},
+          {"boundary_triangles", record.counts.boundary_triangles},
+          {"volume", record.mesh_volume},
+          {"hash", record.hash}};
+}
+
+namespace {
+
+Json distribution_json(const mesh::Distribution& d) {
+  return {
+      {"minimum", d.minimum},
+      {"maximum", d.maximum},
+      {"mean", d.mean},
+      {"percentile_0.1", d.percentile_01},
+      {"percentile_1", d.percentile_1},
+      {"percentile_5", d.percentile_5},
+      {"histogram", {{"low", d.histogram.low}, {"high", d.histogram.high}, {"counts", d.histogram.counts}}}};
+}
+
+Json gate_json(const cases::Case& input, const RunRecord& record) {
+  Json limits = Json::array();
+  const mesh::MixedQuality* cells = record.cells ? &*record.cells : nullptr;
+  for (const cases::GateLimit& row :
+       cases::compare_with_gate(input.gate, *record.quality, record.pinned, cells)) {
+    limits.push_back({{"key", row.key},
+                      {"limit", row.limit},
+                      {"side", row.at_most ? "at most" : "at least"},
+                      {"value", row.value},
+                      {"met", row.met()}});
+  }
+  return limits;
+}
+
+}  // namespace
+
+Json quality_json(const cases::Case& input, const RunRecord& record) {
+  const mesh::QualitySummary& quality = *record.quality;
+  Json json = {{"min_dihedral_deg", quality.min_dihedral.minimum},
+               {"max_dihedral_deg", quality.max_dihedral.maximum},
+               {"min_mean_ratio", quality.mean_ratio.minimum},
+               {"mean_mean_ratio", quality.mean_ratio.mean},
+               {"min_dihedral", distribution_json(quality.min_dihedral)},
+               {"max_dihedral", distribution_json(quality.max_dihedral)},
+               {"mean_ratio", distribution_json(quality.mean_ratio)},
+               {"radius_ratio", distribution_json(quality.radius_ratio)}};
+  json["gate"] = gate_json(input, record);
+  json["worst"] = Json::array();
+  for (const mesh::WorstCell& cell : quality.worst) {
+    json["worst"].push_back(
+        {{"min_dihedral_deg", cell.value}, {"cell", cell.cell}, {"center", to_json(cell.center)}});
+  }
+  if (record.cells) json["cells"] = to_json(*record.cells);
+  return json;
+}
+
+Json patches_json(const RunRecord& record) {
+  Json json = Json::array();
+  for (const PatchRow& patch : record.patches) {
+    json.push_back({{"name", patch.name},
+                    {"type", mesh::name_of(patch.type)},
+                    {"area", patch.area},
+                    {"cad_area", patch.cad_area > 0 ? Json(patch.cad_area) : Json()},
+                    {"triangles", patch.triangles},
+                    {"inner", patch.inner}});
+  }
+  return json;
+}
+
+Json regions_json(const RunRecord& record) {
+  Json json = Json::array();
+  for (const RegionRow& region : record.regions_filled) {
+    json.push_back({{"name", region.name},
+                    {"volume", region.volume},
+                    {"cad_volume", region.cad_volume > 0 ? Json(region.cad_volume) : Json()},
+                    {"tetrahedra", region.tetrahedra}});
+  }
+  return json;
+}
+
+}  // namespace aeroloom::report

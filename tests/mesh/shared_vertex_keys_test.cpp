@@ -1,0 +1,52 @@
+#include "mesh/shared_vertex_keys.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::mesh {
+namespace {
+
+TEST(SharedVertexKeys, OfSurfacesAscendByVertexCurveAndCut) {
+  const std::int32_t most = std::numeric_limits<std::int32_t>::max();
+  EXPECT_LT(cad_vertex_key(3), cad_vertex_key(4));
+  EXPECT_LT(cad_vertex_key(most), curve_vertex_key(0, 0));
+  EXPECT_LT(curve_vertex_key(0, most), curve_vertex_key(1, 0));
+  EXPECT_LT(curve_vertex_key(5, 7), curve_vertex_key(5, 8));
+  EXPECT_LT(curve_vertex_key(most - 1, most), cut_vertex_key(0, 0, 0));
+  EXPECT_LT(cut_vertex_key(2, 3, 4), cut_vertex_key(2, 3, 5));
+  EXPECT_LT(cut_vertex_key(2, 3, (1 << 24) - 1), cut_vertex_key(2, 4, 0));
+  EXPECT_LT(cut_vertex_key(2, (1 << 16) - 1, 9), cut_vertex_key(3, 0, 0));
+}
+
+TEST(SharedVertexKeys, TellWhatTheyWereMadeOf) {
+  EXPECT_EQ(edge_of_vertex_key(cad_vertex_key(12)), -1);
+  EXPECT_EQ(index_of_vertex_key(cad_vertex_key(12)), 12);
+  EXPECT_EQ(edge_of_vertex_key(curve_vertex_key(7, 5)), 7);
+  EXPECT_EQ(index_of_vertex_key(curve_vertex_key(7, 5)), 5);
+  EXPECT_FALSE(is_cut_vertex_key(curve_vertex_key(7, 5)));
+  EXPECT_TRUE(is_cut_vertex_key(cut_vertex_key(7, 5, 3)));
+  EXPECT_EQ(edge_of_vertex_key(cut_vertex_key(7, 5, 3)), -1);
+}
+
+TEST(SharedVertexKeys, CutsBeyondWhatCanBeNamedAreRefused) {
+  EXPECT_NO_THROW(cut_vertex_key((1 << 23) - 1, (1 << 16) - 1, (1 << 24) - 1));
+  EXPECT_THROW(cut_vertex_key(1 << 23, 0, 0), std::runtime_error);
+  EXPECT_THROW(cut_vertex_key(0, 1 << 16, 0), std::runtime_error);
+  EXPECT_THROW(cut_vertex_key(0, 0, 1 << 24), std::runtime_error);
+}
+
+TEST(SharedVertexKeys, OfVolumesNeverMeet) {
+  const std::int64_t many = std::int64_t{1} << 40;
+  EXPECT_LT(running_key(many), added_key(0, 0));
+  EXPECT_LT(added_key(3, 5), added_key(4, 0));
+  EXPECT_LT(added_key((1 << 28), 5), late_key(0, 0, 0));
+  EXPECT_LT(late_key(0, 3, 9), late_key(0, 4, 0));
+  EXPECT_LT(late_key(0, (1 << 22), 9), late_key(1, 0, 0));
+  EXPECT_LT(late_key(most_key_rounds, (1 << 22), 9), placed_key(0, 0));
+  EXPECT_LT(placed_key(0, many), placed_key(1, 0));
+}
+
+}  // namespace
+}  // namespace aeroloom::mesh
