@@ -7,7 +7,6 @@
 #include "parallel/observation/library_versions.hpp"
 #include "partition/library_version.hpp"
 
-#include <CLI/Version.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -30,7 +29,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
           {"yaml-cpp", AEROLOOM_YAML_VERSION},
           {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                         NLOHMANN_JSON_VERSION_PATCH)},
-          {"CLI11", CLI11_VERSION},
+          {"CLI11", AEROLOOM_CLI11_VERSION},
           {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
           {"spdlog", parallel::spdlog_version()}};
 }

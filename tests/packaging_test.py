@@ -41,7 +41,7 @@ SPACK_TOOLS = {"c", "cxx", "cmake", "ninja"}
 # Started, not linked.
 LAUNCHER = "openmpi-bin"
 # What the program alone, the tests or the benchmarks are built with: others who link the stages do without.
-NOT_FOR_OTHERS = {"nlohmann_json", "yaml-cpp", "CLI11", "Python3", "GTest", "benchmark"}
+NOT_FOR_OTHERS = {"CLI11", "Python3", "GTest", "benchmark"}
 
 
 def packages_of(text):

@@ -167,6 +167,7 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
   }
   questions = take_questions(communicator, std::move(questions));
   std::vector<Parcel> outgoing;
+  constexpr std::size_t batch = 32;  // triangles that follow each other are near each other
   for_each_asker(questions, [&](std::span<const Question> asked) {
     NearBoxes of_all, of_large;  // triangles
     for (const Question& question : asked) {
@@ -175,11 +176,19 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
     }
     of_all.build();
     of_large.build();
-    for (const SurfaceTriangle& triangle : own) {
-      const GridBox box = grid_box(frame, triangle.points);
-      if (of_large.any_within(box, 0) &&
-          of_all.any_within(box, reach.per_edge * longest_edge(triangle.points)))
-        outgoing.push_back({triangle, asked.front().from});
+    for (std::size_t first = 0; first < own.size(); first += batch) {
+      const auto some = std::span(own).subspan(first, std::min(batch, own.size() - first));
+      geometry::Box around;
+      for (const SurfaceTriangle& triangle : some) {
+        for (const Vec3& p : triangle.points) around.add(frame.to_grid(p));
+      }
+      if (!of_large.any_within(GridBox{around.low, around.high}.dilated(rounding), 0)) continue;
+      for (const SurfaceTriangle& triangle : some) {
+        const GridBox box = grid_box(frame, triangle.points);
+        if (of_large.any_within(box, 0) &&
+            of_all.any_within(box, reach.per_edge * longest_edge(triangle.points)))
+          outgoing.push_back({triangle, asked.front().from});
+      }
     }
   });
   return send(communicator, std::move(outgoing), own);

@@ -125,7 +125,8 @@ TEST_F(CaseTest, ResolvedCaseReadsBackTheSame) {
        {std::string("geometry: {file: 'a b: #c.step', domain: fluid}\n"),
         std::string(
             "geometry: {builtin: transport, dimensions: {wing: {sweep: 0.1}}}\nfarfield: {extent: 3}\n"
-            "sizing: {minimum: 1e-7, growth: 1.1}\nimprove: {enabled: false}\nvolume: {halo: 1.5}\n")}) {
+            "sizing: {minimum: 1e-7, growth: 1.1}\nimprove: {enabled: false}\nvolume: {perturbation: "
+            "0.004}\n")}) {
     const std::string resolved = resolved_yaml(read(yaml));
     EXPECT_EQ(resolved_yaml(read(resolved)), resolved);
     EXPECT_EQ(resolved_yaml(case_of_resolved(resolved)), resolved);
