@@ -32,7 +32,7 @@ struct StripEdge {
   }
 };
 
-/// Those of the edges (ascending, the same on every rank) that belong to strip triangles and run from one
+/// The edges (ascending, the same on every rank) that belong to strip triangles and run from one
 /// curve to the other: by number, each once, the same on every rank. Collective.
 std::vector<StripEdge> find_strip_edges(const parallel::Communicator& communicator,
                                         const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,

@@ -68,7 +68,7 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
   }
 }
 
-/// Those edges lie on curves where triangles of two CAD faces meet.
+/// Curves are known by their edges: those at which triangles of two CAD faces meet.
 std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& communicator,
                                               const mesh::DistributedMesh& mesh,
                                               const mesh::Numbering& numbering) {
@@ -91,7 +91,7 @@ std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& comm
     curves.push_back({a.vertex, a.face, a.curve, a.step});
     curves.push_back({b.vertex, b.face, b.curve, b.step});
   }
-  // Those of a vertex and face together, in the order they had.
+  // Curves of one vertex and face together, in the order they had.
   std::stable_sort(curves.begin(), curves.end(), [](const CurveAtVertex& a, const CurveAtVertex& b) {
     return std::tie(a.vertex, a.face) < std::tie(b.vertex, b.face);
   });

@@ -60,18 +60,18 @@ void run(const Communicator& communicator, const cases::Case& input) {
     total.bad_before += report.bad_before;
     total.bad_after += report.bad_after;
     total.smoothed += report.smoothed;
-    total.swaps += report.swaps;
+    total.replaced += report.replaced;
   }
   const double seconds = parallel::cpu_seconds() - start;
   const Angles after = measure_angles(filled);
   std::printf(
       "RESULT pieces=%zu target_deg=%g tets_before=%lld tets_after=%lld cpu_seconds=%.3f "
-      "seconds_per_million=%.3f bad_before=%lld bad_after=%lld smoothed=%lld swaps=%lld",
+      "seconds_per_million=%.3f bad_before=%lld bad_after=%lld smoothed=%lld replaced=%lld",
       filled.pieces.size(), input.improve.target_angle, static_cast<long long>(before.tetrahedra),
       static_cast<long long>(after.tetrahedra), seconds,
       1e6 * seconds / static_cast<double>(before.tetrahedra), static_cast<long long>(total.bad_before),
       static_cast<long long>(total.bad_after), static_cast<long long>(total.smoothed),
-      static_cast<long long>(total.swaps));
+      static_cast<long long>(total.replaced));
   for (const auto& [when, angles] : {std::pair("before", before), std::pair("after", after)}) {
     std::printf(" min_angle_%s=%.3f max_angle_%s=%.3f", when, angles.smallest, when, angles.largest);
     for (int i = 0; i < 4; ++i) {

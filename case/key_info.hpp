@@ -22,7 +22,7 @@ struct KeyDoc {
   bool common = false;  ///< touched by many, and so in the short template
 };
 
-/// The same, as that of a key that many touch.
+/// The text of a key that many users touch.
 inline KeyDoc common(KeyDoc doc) {
   doc.common = true;
   return doc;

@@ -60,7 +60,8 @@ struct Limits {
 Forest grow(const parallel::Communicator& communicator, const Judge& judge, parallel::StageClock& clock,
             Limits limits = {});
 
-/// The same leaves, distributed by weight, one per leaf of this rank, none negative. Collective.
+/// A forest with the same leaves, partitioned by weights, one per leaf of this rank, none negative.
+/// Collective.
 Forest partition_by_weight(const parallel::Communicator& communicator, const Forest& forest,
                            std::span<const std::int32_t> weights, parallel::StageClock& clock);
 

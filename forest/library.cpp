@@ -34,7 +34,7 @@ void keep_error(FILE*, const char*, int, int, int, int priority, const char* tex
   said[std::strcspn(said, "\n")] = '\0';
 }
 
-/// Those not given yet must not be asked for.
+/// A package that has no number yet must not be asked for.
 bool is_registered(int package) {
   return package >= 0 && sc_package_is_registered(package) != 0;
 }

@@ -56,7 +56,7 @@ struct MovedSum {
   void add(const MovedSum& other) { sum += other.sum; }
 };
 
-/// The same at several places, with the worst quality there.
+/// Sums at several places of trial, with the worst quality there.
 struct Trials {
   double sum[trial_count] = {};
   double worst[trial_count];

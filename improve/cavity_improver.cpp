@@ -185,7 +185,7 @@ std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavit
   ImproveOptions options = _options;
   options.corner_trials = 0;  // were done piece by piece
   const ImproveReport mine = improve_piece(_piece, options, _source, &_numbered);
-  if (mine.smoothed + mine.slid + mine.swaps == 0 || is_worse_than(cavity)) return std::nullopt;
+  if (mine.smoothed + mine.slid + mine.replaced == 0 || is_worse_than(cavity)) return std::nullopt;
   report.add_changes(mine);
   return build_refilling(cavity);
 }

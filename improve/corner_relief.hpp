@@ -50,7 +50,7 @@ private:
   /// The cavity of these tetrahedra gets a vertex inside, that sees all its faces.
   void fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity);
   void split_neighbourhood(TetMesh& mesh, LocalIndex t);
-  /// So do those of the tetrahedra around one or two of the vertices.
+  /// The cavities of tetrahedra around one or two of the vertices get a vertex inside.
   void fill_stars(TetMesh& mesh, LocalIndex t);
   void sort_found();
   void consider(const TetMesh& mesh);

@@ -101,12 +101,12 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
   schedule.run(options.sweeps);
   std::optional<Schedule> again;
   if (const std::int64_t relieved = CornerRelief(limits).run(mesh); relieved > 0) {
-    report.swaps += relieved;
+    report.replaced += relieved;
     again.emplace(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
     again->run(sweeps_after_relief);
-    report.swaps += CornerRelief(limits).run(mesh);
+    report.replaced += CornerRelief(limits).run(mesh);
   }
-  report.swaps += CornerTrials(source.sizes, options.corner_trials, effort).run(mesh);
+  report.replaced += CornerTrials(source.sizes, options.corner_trials, effort).run(mesh);
   report.smoothed += MeanRatioSmoothing().run(mesh, options.relaxation);
   const BadState after = state_of(mesh);
   mesh.finish();
@@ -119,7 +119,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     if (each == nullptr) continue;
     report.smoothed += each->smoothed();
     report.slid += each->slid();
-    report.swaps += each->swaps();
+    report.replaced += each->replaced();
   }
   return report;
 }
@@ -132,8 +132,8 @@ constexpr int last_rounds = 3;
 constexpr int most_trials = 8;
 constexpr cavities::CavityExtent last_reach{2, true};
 
-/// So many that they are no burden, for each of the bad ones: one takes about as long as improving ten
-/// thousand tetrahedra. None where too many are left.
+/// Trials, so many that they are no burden, for each of the bad ones: one takes about as long as improving
+/// ten thousand tetrahedra. None where too many are left.
 int affordable_trials(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                       std::int64_t bad) {
   std::int64_t cells = 0;
@@ -252,8 +252,8 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
     }
   });
   improve_across(communicator, mesh, options, source, total, clock);
-  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.slid, &total.swaps,
-                              &total.changed_triangles}) {
+  for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.slid,
+                              &total.replaced, &total.changed_triangles}) {
     *count = communicator.sum(*count);
   }
   for (double* angle : {&total.min_angle_before, &total.min_angle_after})

@@ -24,7 +24,7 @@ public:
 
   /// With the vertex at p.
   double operator()(Vec3 p) const;
-  /// The same with its gradient; invalid ones are left out of the latter.
+  /// The sum with its gradient; invalid ones are left out of the latter.
   double with_gradient(Vec3 p, Vec3& gradient) const;
 
 private:

@@ -50,13 +50,8 @@ Schedule::Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits
       _limits(limits),
       _effort(effort),
       _smoothing(limits),
-      _version(mesh.slot_count(), 0),
-      _attempt(mesh.slot_count(), 0),
-      _attempt_means(mesh.slot_count(), Means::swaps_and_smoothing),
-      _changed(mesh.vertex_count(), 1),
-      _smoothed_in_vain(mesh.vertex_count(), 0),
-      _slid_in_vain(mesh.vertex_count(), 0),
-      _moved_in_vain(mesh.vertex_count(), 0) {
+      _slots(mesh.slot_count()),
+      _vertices(mesh.vertex_count()) {
   if (locator) _sliding.emplace(*locator, limits);
 }
 
@@ -70,9 +65,8 @@ void Schedule::run(int sweeps) {
 }
 
 void Schedule::follow_relief(const std::vector<LocalIndex>& fresh) {
-  std::fill(_attempt.begin(), _attempt.end(), _now);
-  std::fill(_attempt_means.begin(), _attempt_means.end(), Means::new_vertices);
-  for (const LocalIndex t : fresh) _attempt[t] = 0;
+  for (SlotHistory& slot : _slots) slot.attempt = _now, slot.attempt_means = Means::new_vertices;
+  for (const LocalIndex t : fresh) _slots[t].attempt = 0;
   note_change(fresh, -1);
   _corners.emplace();
 }
@@ -86,14 +80,15 @@ Schedule::Sweep Schedule::sweep(Means means) {
     std::pop_heap(_queue.begin(), _queue.end(), later);
     const Task task = _queue.back();
     _queue.pop_back();
-    if (task.version != _version[task.tet] || !_mesh.is_alive(task.tet) || !worth_trying(task.tet, means))
+    if (task.version != _slots[task.tet].version || !_mesh.is_alive(task.tet) ||
+        !worth_trying(task.tet, means))
       continue;
     --tries;
     if (mend(task.tet, means)) {
       ++done.gains;
     } else {
-      _attempt[task.tet] = _now;
-      _attempt_means[task.tet] = means;
+      _slots[task.tet].attempt = _now;
+      _slots[task.tet].attempt_means = means;
     }
   }
   return done;
@@ -103,7 +98,7 @@ void Schedule::fill_queue() {
   _queue.clear();
   for (LocalIndex t = 0; t < _mesh.slot_count(); ++t) {
     if (_mesh.is_alive(t) && _mesh.quality(t) < target_of(t)) {
-      _queue.push_back({_mesh.quality(t), t, _version[t]});
+      _queue.push_back({_mesh.quality(t), t, _slots[t].version});
     }
   }
   std::make_heap(_queue.begin(), _queue.end(), later);
@@ -111,17 +106,18 @@ void Schedule::fill_queue() {
 
 void Schedule::push(LocalIndex t) {
   if (_mesh.quality(t) >= target_of(t)) return;
-  _queue.push_back({_mesh.quality(t), t, _version[t]});
+  _queue.push_back({_mesh.quality(t), t, _slots[t].version});
   std::push_heap(_queue.begin(), _queue.end(), later);
 }
 
 bool Schedule::worth_trying(LocalIndex t, Means means) const {
-  if (_attempt[t] == 0) return true;
+  if (_slots[t].attempt == 0) return true;
   // Beside a strip every try moves what the next one finds, little comes of it, and no other means follow.
-  if (_attempt_means[t] >= Means::moving_cavities && is_spared(t)) return false;
-  if (_attempt_means[t] < means) return true;
+  if (_slots[t].attempt_means >= Means::moving_cavities && is_spared(t)) return false;
+  if (_slots[t].attempt_means < means) return true;
   const Corners& corners = _mesh.corners(t);
-  return std::any_of(corners.begin(), corners.end(), [&](LocalIndex v) { return _changed[v] > _attempt[t]; });
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](LocalIndex v) { return _vertices[v].changed > _slots[t].attempt; });
 }
 
 bool Schedule::mend(LocalIndex t, Means means) {
@@ -150,7 +146,7 @@ bool Schedule::swap(LocalIndex t) {
     if (_face_removal.propose(_mesh, t, face, std::max(least, _best.after), _trial)) keep_trial();
   }
   if (!_best.improves() || !apply(_best)) return false;
-  ++_swaps;
+  ++_replaced;
   return true;
 }
 
@@ -159,9 +155,9 @@ bool Schedule::smooth(LocalIndex t) {
   bool moved = false;
   for (const LocalIndex v : corners) {
     if (_mesh.quality(t) >= target_of(t)) break;
-    if (_mesh.is_fixed(v) || !has_changed_since(_smoothed_in_vain[v], v)) continue;
+    if (_mesh.is_fixed(v) || !has_changed_since(_vertices[v].smoothed_in_vain, v)) continue;
     if (!_smoothing.smooth(_mesh, v, _star)) {
-      _smoothed_in_vain[v] = _now;
+      _vertices[v].smoothed_in_vain = _now;
       continue;
     }
     moved = true;
@@ -177,9 +173,9 @@ bool Schedule::slide(LocalIndex t) {
   bool moved = false;
   for (const LocalIndex v : corners) {
     if (_mesh.quality(t) >= target_of(t)) break;
-    if (!has_changed_since(_slid_in_vain[v], v)) continue;
+    if (!has_changed_since(_vertices[v].slid_in_vain, v)) continue;
     if (!_sliding->slide(_mesh, v, _star)) {
-      _slid_in_vain[v] = _now;
+      _vertices[v].slid_in_vain = _now;
       continue;
     }
     moved = true;
@@ -200,20 +196,20 @@ bool Schedule::contract(LocalIndex t) {
     }
   }
   if (!_best.improves() || !apply(_best)) return false;
-  ++_swaps;
+  ++_replaced;
   return true;
 }
 
 bool Schedule::move_cavity(LocalIndex t) {
   const Corners corners = _mesh.corners(t);
   for (const LocalIndex v : corners) {
-    if (_mesh.is_fixed(v) || !has_changed_since(_moved_in_vain[v], v)) continue;
-    _moved_in_vain[v] = _now;
+    if (_mesh.is_fixed(v) || !has_changed_since(_vertices[v].moved_in_vain, v)) continue;
+    _vertices[v].moved_in_vain = _now;
     if (!_insertion.propose_around_vertex(_mesh, v, _trial)) continue;
     const Vec3 origin = _mesh.point(v);
     _mesh.move_vertex(v, _insertion.position(), {});
     if (apply(_trial)) {
-      ++_swaps;
+      ++_replaced;
       return true;
     }
     _mesh.move_vertex(v, origin, {});
@@ -234,19 +230,13 @@ bool Schedule::insert_vertex(LocalIndex t) {
   }
   if (!_best.improves()) return false;
   _mesh.add_vertex(position, beside);
-  _changed.push_back(_now);
-  _smoothed_in_vain.push_back(0);
-  _slid_in_vain.push_back(0);
-  _moved_in_vain.push_back(0);
+  _vertices.push_back({.changed = _now});
   if (apply(_best)) {
-    ++_swaps;
+    ++_replaced;
     return true;
   }
   _mesh.drop_last_vertex();
-  _changed.pop_back();
-  _smoothed_in_vain.pop_back();
-  _slid_in_vain.pop_back();
-  _moved_in_vain.pop_back();
+  _vertices.pop_back();
   return false;
 }
 
@@ -259,7 +249,7 @@ bool Schedule::is_allowed_with_vertex(Vec3 position, LocalIndex beside) {
 
 bool Schedule::reconnect(LocalIndex t) {
   if (!_polyhedron.propose(_mesh, t, _mesh.quality(t), _trial) || !apply(_trial)) return false;
-  ++_swaps;
+  ++_replaced;
   return true;
 }
 
@@ -274,10 +264,8 @@ bool Schedule::is_allowed(const Replacement& cavity) {
 bool Schedule::apply(const Replacement& cavity) {
   if (!is_allowed(cavity)) return false;
   _mesh.replace(cavity, _placed);
-  _version.resize(_mesh.slot_count(), 0);
-  _attempt.resize(_mesh.slot_count(), 0);
-  _attempt_means.resize(_mesh.slot_count(), Means::swaps_and_smoothing);
-  for (const LocalIndex t : _placed) _attempt[t] = 0;
+  _slots.resize(_mesh.slot_count());
+  for (const LocalIndex t : _placed) _slots[t].attempt = 0;
   note_change(_placed, -1);
   return true;
 }
@@ -285,8 +273,8 @@ bool Schedule::apply(const Replacement& cavity) {
 void Schedule::note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred) {
   ++_now;
   for (const LocalIndex t : tets) {
-    ++_version[t];
-    for (const LocalIndex v : _mesh.corners(t)) _changed[v] = _now;
+    ++_slots[t].version;
+    for (const LocalIndex v : _mesh.corners(t)) _vertices[v].changed = _now;
     if (t != deferred) push(t);
   }
 }

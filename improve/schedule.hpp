@@ -37,7 +37,7 @@ public:
   void run(int sweeps);
   std::int64_t smoothed() const { return _smoothed; }
   std::int64_t slid() const { return _slid; }
-  std::int64_t swaps() const { return _swaps; }
+  std::int64_t replaced() const { return _replaced; }
 
 private:
   /// Means, each including the ones before.
@@ -50,6 +50,16 @@ private:
 
   struct Sweep {
     std::int64_t tasks, gains;
+  };
+  /// Times count changes of the mesh; 0: never.
+  struct SlotHistory {
+    std::uint32_t version = 0;  ///< tasks of older versions are stale
+    std::uint32_t attempt = 0;  ///< when it was last tried in vain, and with which means
+    Means attempt_means = Means::swaps_and_smoothing;
+  };
+  struct VertexHistory {
+    std::uint32_t changed = 1;  ///< when something around it changed last
+    std::uint32_t smoothed_in_vain = 0, slid_in_vain = 0, moved_in_vain = 0;
   };
   Sweep sweep(Means means);
   void fill_queue();
@@ -75,7 +85,9 @@ private:
   }
   bool worth_trying(LocalIndex t, Means means) const;
   /// Whether the star of a vertex is another one than at that time.
-  bool has_changed_since(std::uint32_t time, LocalIndex v) const { return time == 0 || _changed[v] > time; }
+  bool has_changed_since(std::uint32_t time, LocalIndex v) const {
+    return time == 0 || _vertices[v].changed > time;
+  }
 
   TetMesh& _mesh;
   const Reach& _reach;
@@ -92,15 +104,11 @@ private:
   SmallPolyhedron _polyhedron;
   Replacement _best, _trial;
   std::vector<LocalIndex> _placed, _star;
-  std::vector<Task> _queue;             ///< a heap, worst on top
-  std::vector<std::uint32_t> _version;  ///< of each slot: tasks of older versions are stale
-  std::vector<std::uint32_t> _attempt;  ///< when a slot was last tried in vain; 0 never
-  std::vector<Means> _attempt_means;
-  std::vector<std::uint32_t> _changed;  ///< when something around a vertex changed last
-  std::vector<std::uint32_t> _smoothed_in_vain, _slid_in_vain,
-      _moved_in_vain;  ///< when a vertex was last; 0 never
+  std::vector<Task> _queue;  ///< a heap, worst on top
+  std::vector<SlotHistory> _slots;
+  std::vector<VertexHistory> _vertices;
   std::uint32_t _now = 1;
-  std::int64_t _smoothed = 0, _slid = 0, _swaps = 0;
+  std::int64_t _smoothed = 0, _slid = 0, _replaced = 0;
 };
 
 }  // namespace aeroloom::improve

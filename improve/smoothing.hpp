@@ -77,7 +77,7 @@ public:
   /// Whether there is such a gain to be had on the locus.
   bool promises(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus,
                 double gain);
-  /// The same for a vertex that may go everywhere; `star` receives its tetrahedra.
+  /// Smooths a vertex that may go everywhere; `star` receives its tetrahedra.
   bool smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star);
 
 private:

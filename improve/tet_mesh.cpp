@@ -244,7 +244,7 @@ void TetMesh::order_cells() {
   }
 }
 
-// Those that a cavity has swallowed.
+// Vertices that a cavity has swallowed.
 void TetMesh::remove_unused_vertices() {
   std::vector<LocalIndex> renumbered(_incident.size(), -1);
   LocalIndex kept = 0;

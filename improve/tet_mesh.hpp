@@ -133,7 +133,7 @@ public:
   void replace(const Replacement& cavity, std::vector<LocalIndex>& placed);
   /// Moves a vertex; `star` is all its tetrahedra.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star);
-  /// As above where the qualities of the star are known already.
+  /// Moves a vertex where the qualities of the star are known already.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star, std::span<const double> qualities);
   /// A new vertex inside the region that `like` lies in; to be used by the next replaced cavity.
   LocalIndex add_vertex(Vec3 p, LocalIndex like);

@@ -29,7 +29,7 @@ std::vector<std::string> distinct_names(std::span<const std::string> names, std:
     result[i] = cut_name(fit(names[i]), longest);
     if (result[i] != names[i] || !taken.reserve(result[i])) changed.push_back(i);
   }
-  // Those that stay as they are have gone first, lest a renamed one takes their place.
+  // Names that stay as they are have gone first, lest a renamed one takes their place.
   for (const std::size_t i : changed) {
     result[i] = taken.take(result[i], [&, wanted = result[i]](const std::string& number) {
       return cut_name(wanted, longest - number.size()) + number;

@@ -17,7 +17,7 @@ DistributedMesh boundary_mesh(const parallel::Communicator& communicator, const 
 
 /// What a surface mesh has of triangles: those that one region lies behind, or those that two share.
 enum class SurfacePart : std::uint8_t { outside, between_regions };
-/// Those alone. Pieces keep their ids, left out ones are empty. Not collective.
+/// The chosen triangles alone. Pieces keep their ids, left out ones are empty. Not collective.
 DistributedMesh part_of_surface(const DistributedMesh& surface, SurfacePart which);
 
 /// Triangles of a tetrahedral piece by CAD face, in their order: that of boundary_mesh.

@@ -55,7 +55,7 @@ public:
   /// Replaces the values of all copies by those of their owners. Collective.
   template <parallel::Flat T>
   void scatter(std::vector<T>& copies) const;
-  /// Both: all copies have the value of all pieces. Collective.
+  /// Reduces over all copies, and gives each the result. Collective.
   template <parallel::Flat T, class Op>
   void reduce_and_scatter(std::vector<T>& copies, const Op& op) const;
 

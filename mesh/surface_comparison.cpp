@@ -91,7 +91,7 @@ void check_same_triangles(const parallel::Communicator& communicator, const Dist
       meet_by_key(communicator, std::move(triangles), &BitTriangle::corners,
                   [](const BitTriangle& t) { return std::tie(t.side, t.piece, t.triangle); });
   for_each_key(met, &BitTriangle::corners, [&](std::span<const BitTriangle> group) {
-    // Those of the mesh come first: what either side has beyond the other is left over.
+    // Triangles of the mesh come first: what either side has beyond the other is left over.
     const auto of_mesh = static_cast<std::size_t>(
         std::count_if(group.begin(), group.end(), [](const BitTriangle& t) { return t.side == Side::mesh; }));
     const std::size_t common = std::min(of_mesh, group.size() - of_mesh);

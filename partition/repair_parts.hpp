@@ -28,8 +28,8 @@ struct RepairOptions {
   bool connects_parts = true;  ///< false: parts may stay asunder, to compare with
 };
 
-/// Both in turn, until nothing moves or a few rounds have passed. Parts are numbered by their first
-/// triangles, none is empty. Returns their number.
+/// Joins stray components and widens wedges in turn, until nothing moves or a few rounds have passed. Parts
+/// are numbered by their first triangles, none is empty. Returns their number.
 PartIndex repair_parts(const BackgroundSurface& surface, const VertexFans& fans, const RepairOptions& options,
                        std::vector<PartIndex>& part);
 

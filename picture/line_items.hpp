@@ -29,7 +29,7 @@ inline bool precedes(const LineItem& a, const LineItem& b) {
          std::tie(b.vertices, b.size, b.along.x, b.along.y, b.along.z);
 }
 
-/// Those that are connected by vertices.
+/// Line items that are connected by vertices.
 struct Line {
   std::vector<LineItem> items;  ///< by their vertices
   geometry::Box box;            ///< of the points of its items

@@ -264,7 +264,7 @@ void Checkpoints::remove_left_over(SavedStage found) {
   });
 }
 
-/// That of a volume which has been improved.
+/// Removes the volume once an improved one is kept.
 void Checkpoints::remove_volume_of(SavedStage kept) {
   if (kept != SavedStage::improve) return;
   parallel::agree(_communicator, [&] {

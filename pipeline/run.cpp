@@ -234,7 +234,7 @@ private:
     return build_surface(sized);
   }
 
-  /// As above; what fails near trailing edges that were closed may not fail where they stay.
+  /// Meshes the surface; what fails near trailing edges that were closed may not fail where they stay.
   surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, domain::SizedDomain& sized) {
     const bool sharpened = _input.domain.trailing_edges.treatment == cad::TrailingEdges::sharpen;
     const auto advised = [&](const std::string& text) {

@@ -11,7 +11,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
-/// Also counts the bytes.
+/// The digest of a file; counts its bytes.
 parallel::Digest digest_of_file(const std::string& path, std::int64_t* bytes = nullptr) {
   parallel::Digester digester;
   std::ifstream stream(path, std::ios::binary);

@@ -31,7 +31,7 @@ void write_outputs(const parallel::Communicator& communicator, const mesh::Distr
 class EarlierFiles {
 public:
   explicit EarlierFiles(const cases::OutputOptions& output);
-  /// Those that are still as they were, and not of a mesh with this hash as far as the report beside them
+  /// Files that are still as they were, and not of a mesh with this hash as far as the report beside them
   /// tells: not of this run.
   std::vector<std::string> left(const std::string& hash = {}) const;
 

@@ -36,12 +36,12 @@ struct PictureSource {
 std::vector<Picture> make_pictures(const parallel::Communicator& communicator,
                                    const mesh::DistributedMesh& volume, const PictureSource& source);
 
-/// Those of the surface alone, where there is no volume.
+/// Pictures of the surface alone, where there is no volume.
 std::vector<Picture> make_surface_pictures(const parallel::Communicator& communicator,
                                            const PictureSource& source);
 
-/// Those of the volume, or of the surface alone where `volume` is null; a failure is a warning, and there are
-/// no pictures. Collective.
+/// Pictures of the volume, or of the surface alone where `volume` is null; a failure is a warning, and there
+/// are no pictures. Collective.
 std::vector<Picture> pictures_or_warning(const parallel::Communicator& communicator,
                                          const mesh::DistributedMesh* volume, const PictureSource& source);
 

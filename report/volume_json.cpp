@@ -88,7 +88,7 @@ Json improve_json(const cases::Case& input, const RunRecord& record) {
           {"bad_before", record.improve.bad_before},
           {"bad_after", record.improve.bad_after},
           {"smoothed", record.improve.smoothed},
-          {"swaps", record.improve.swaps},
+          {"replaced_cavities", record.improve.replaced},
           {"slid", record.improve.slid},
           {"changed_triangles", record.improve.changed_triangles},
           {"pinned_tetrahedra", record.pinned.tetrahedra},

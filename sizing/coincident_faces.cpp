@@ -236,7 +236,7 @@ private:
   std::map<FaceId, std::vector<FacetPair>> _pairs;  // by the other face
 };
 
-/// Both faces have seen each other, mostly: the larger area counts.
+/// The two faces have seen each other, mostly: the larger area counts.
 std::vector<CoincidentFaces> merge(std::vector<CoincidentFaces> all) {
   for (CoincidentFaces& each : all) {
     if (each.first > each.second) std::swap(each.first, each.second);

@@ -39,7 +39,7 @@ public:
 
   /// The field under the sources of all ranks, whose sizes may lie below the minimum. Called once.
   SizeField build(std::vector<SizeSource> sources);
-  /// As above; nothing, at less cost, where the field has clearly more than `most_leaves`.
+  /// Builds the field; nothing, at less cost, where the field has clearly more than `most_leaves`.
   std::optional<SizeField> build_within(std::vector<SizeSource> sources, std::int64_t most_leaves);
 
 private:

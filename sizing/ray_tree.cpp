@@ -115,8 +115,8 @@ struct Direction {
   std::size_t count = 0;  ///< of triangles along it
 };
 
-/// That in the cell with the largest boxes in all, of those whose sides add up to enough; takes away what is
-/// along it. None: a count of nothing.
+/// The direction in the cell with the largest boxes in all, of those whose sides add up to enough; takes away
+/// what is along it. None: a count of nothing.
 Direction take_direction(std::vector<Slender>& slender, std::int32_t cells, double least_sides) {
   struct Cell {
     double sides = 0;

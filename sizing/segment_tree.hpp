@@ -62,7 +62,7 @@ public:
     });
     return {bound, tag};
   }
-  /// As above, the distance alone.
+  /// The distance to the nearest segment alone.
   template <class Counts>
   double nearest(geometry::Vec3 p, double bound, const Counts& counts) const {
     return nearest_hit(p, bound, counts).away;

@@ -69,7 +69,7 @@ private:
     }
   }
 
-  /// Those that carry elements, and their segments.
+  /// Lists boundary lines that carry elements, and their segments.
   void list_lines() {
     std::vector<SegmentTree::Segment> segments;
     _first_piece.resize(_facets.boundary.size());

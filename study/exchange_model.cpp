@@ -8,7 +8,7 @@ namespace aeroloom::study {
 
 namespace {
 
-/// Those around a part of space, where a record of one rank does not tell.
+/// Partners around a part of space, where a record of one rank does not tell.
 constexpr double usual_partners = 26;
 
 /// Steps of a collective operation.

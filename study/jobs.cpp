@@ -22,7 +22,8 @@ constexpr double more_memory = 1.5;
 constexpr const char* results_name = "results";
 constexpr const char* submitted_name = "submitted";
 
-/// Both kinds of scripts share what they do; only how a run is told that its time is over is the queue's.
+/// Scripts for a queue and for a shell share what they do; only how a run is told that its time is over is
+/// the queue's.
 constexpr const char* body = R"sh(
 set -u
 cd {folder}

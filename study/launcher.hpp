@@ -48,7 +48,7 @@ double now_seconds();
 
 /// Ends the line that runs now, if any, and all that it has started: asked first, killed after a few seconds.
 void end_line();
-/// The same of a process group that an earlier call has left; nothing where it is gone or another program's.
+/// Ends a process group that an earlier call has left; does nothing where it is gone or another program's.
 void end_group(pid_t group, const std::string& program);
 
 template <class Began>

@@ -21,7 +21,7 @@ constexpr double projection_spread = 20 * degree;
 /// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,
 /// and one that is the best to be had.
 constexpr double acceptable_fold = 1e-4, bearable_fold = 1e-3;
-/// The same for parts that lie over others: chords of curves that meet at a sharp angle cross near their
+/// The limit for parts that lie over others: chords of curves that meet at a sharp angle cross near their
 /// meeting point.
 constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
 /// A flat domain may exceed the limits of stretch and scale so often before it is split.

@@ -23,7 +23,7 @@ using geometry::Vec3;
 
 /// Background triangles in a part of a division, about.
 constexpr double triangles_per_part = 64;
-/// So often the background gets twice as fine where its loops cross; a subface that is still no good stays
+/// How often the background gets twice as fine where its loops cross; a subface that is still no good stays
 /// whole.
 constexpr int most_halvings = 4;
 /// No cluster is heavier than this fraction of a part, so that parts can be balanced.

@@ -100,8 +100,8 @@ bool FaceRemesher::keeps_topology(geometry::LinkedEdge edge) {
   return true;
 }
 
-/// Those there are, and for each edge the square of its length in sizes: seven times as many where all edges
-/// have the length they should.
+/// The vertices there are, and for each edge the square of its length in sizes: seven times as many where all
+/// edges have the length they should.
 std::size_t FaceRemesher::bound_vertices() const {
   double bound = static_cast<double>(_mesh.points.size());
   for (const auto& [a, b, c] : _mesh.triangles) {

@@ -154,7 +154,7 @@ std::vector<Claim> find_claims(const std::vector<Batch>& table, const std::vecto
   return claims;
 }
 
-/// Those of a batch that reach into one of the batches of its claims: no others can meet their triangles.
+/// Triangles of a batch that reach into one of the batches of its claims: no others can meet their triangles.
 std::vector<SentTriangle> within_reach(const Triangles& triangles, std::span<const Claim> claims,
                                        const std::vector<Batch>& table) {
   std::vector<SentTriangle> reaching;

@@ -37,7 +37,7 @@ public:
   Conflicts mesh(const CurveMesh& curves, const sizing::SizeField& field);
   /// Predicted triangles of the first round.
   double first_triangles() const { return _first; }
-  /// That the whole surface may have in later rounds; at least twenty thousand.
+  /// Triangles that the whole surface may have in later rounds; at least twenty thousand.
   double most_triangles() const;
   /// Whether a face is cut into pieces; known on every rank.
   bool is_divided(cad::FaceId face) const { return _parts[face] > 1; }

@@ -15,7 +15,7 @@ struct SurfaceMetric {
   double uu = 0, uv = 0, vv = 0;
 };
 
-/// The same in the parameter plane, where a triangulation that is open along seams cannot fold: triangles of
+/// Flips in the parameter plane, where a triangulation that is open along seams cannot fold: triangles of
 /// the wrong orientation are flipped away where possible, the others are made Delaunay in the metric of the
 /// surface. Neither position nor flatness in space matters. `metrics` per point; `same` per point: a name
 /// that points share which are one in space (no edge may join them); `orientation`: 1 where triangles are

@@ -12,7 +12,7 @@ Vec2 without_axis(Vec3 p, int axis) {
   return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
 }
 
-// Both triangles have the edge pq. Coplanar ones overlap when their third vertices lie on one side of it.
+// The two triangles have the edge pq. Coplanar ones overlap when their third vertices lie on one side of it.
 bool folded_over_edge(Vec3 p, Vec3 q, Vec3 a, Vec3 b) {
   if (geometry::orient3d(p, q, a, b) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {

@@ -121,7 +121,7 @@ private:
     return _surface.distance().any_in(_box.dilated(reach));
   }
 
-  /// Those that are, and the sizes that decide.
+  /// Triangles near a block's points, and the sizes that decide.
   void find_triangles() {
     double largest = 0;
     for (Offer& offer : _offered) {

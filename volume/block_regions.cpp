@@ -240,7 +240,7 @@ std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witn
   return Contradiction{first->set, fewest->place, fewest->triangle, fewest->region, most->region};
 }
 
-/// That of the lowest set on all ranks. Collective.
+/// The contradiction of the lowest set on all ranks. Collective.
 std::optional<Contradiction> lowest_of(const parallel::Communicator& communicator,
                                        const std::optional<Contradiction>& mine) {
   std::vector<Contradiction> all;

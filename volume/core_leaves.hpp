@@ -34,7 +34,7 @@ public:
   /// The core leaves of a block, a bit each.
   std::uint8_t of(BlockIndex b) const { return _core[_ghosts.place(b)]; }
   bool is_core(const Leaf& leaf) const { return of(leaf.block) >> leaf.child & 1; }
-  /// Those of this rank's blocks, along the curve.
+  /// Core leaves of this rank's blocks, along the curve.
   std::span<const std::uint8_t> own() const { return std::span(_core).first(_ghosts.own_count()); }
   const GhostBlocks& ghosts() const { return _ghosts; }
   /// Indices of blocks have changed.

@@ -45,7 +45,7 @@ public:
 
   /// To a block of this rank.
   void move_to(BlockIndex b);
-  /// That may know something in the block, by number; those that have leaves of it among them.
+  /// Zones that may know something in the block, by number; those that have leaves of it among them.
   std::span<const NearZone> zones() const { return _near; }
 
 private:

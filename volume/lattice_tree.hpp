@@ -94,7 +94,7 @@ public:
   std::uint8_t all_leaves(BlockIndex b) const { return _split[b] ? 0xff : 1; }
 
   BlockIndex block_at(sizing::GridPoint p) const { return required(any_at(p)); }
-  /// The same, or a cube of which nothing is known.
+  /// The block at a place, or a cube of which nothing is known.
   BlockIndex any_at(sizing::GridPoint p) const { return _table.find(sizing::morton_key(p)); }
   /// Which leaf of its block holds a finest cube.
   int child_at(BlockIndex b, sizing::GridPoint p) const {
@@ -149,8 +149,8 @@ public:
   bool any_block_in(const GridBox& box, const Holds& holds) const {
     return any_block_in(box, holds, [](BlockIndex, BlockIndex, const GridCube&) { return false; });
   }
-  /// As before; of the blocks from `first` to before `last`, which fill `cube`, none is asked where
-  /// skips(first, last, cube).
+  /// Whether holds(b) for a block that touches the box; of the blocks from `first` to before `last`, which
+  /// fill `cube`, none is asked where skips(first, last, cube).
   template <class Holds, class Skips>
   bool any_block_in(const GridBox& box, const Holds& holds, const Skips& skips) const;
 

@@ -22,7 +22,7 @@ GridBox NearBoxes::build(std::size_t node, std::size_t first, std::size_t last) 
 
 bool NearBoxes::any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
                           double reach) const {
-  // The same for no reach at all, in a few comparisons.
+  // Without reach boxes overlap or not: told in a few comparisons.
   if (reach == 0 ? !_nodes[node].overlaps(box) : _nodes[node].gap_to(box) > reach) return false;
   if (last - first == 1) return true;
   const std::size_t middle = first + (last - first) / 2;

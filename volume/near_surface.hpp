@@ -33,8 +33,8 @@ public:
   /// the point sees all triangles there edge-on.
   std::optional<mesh::RegionId> region_at(geometry::Vec3 p, const BoundaryDistance::Nearest& nearest) const;
 
-  /// As above, told by what the way from p to q, a point inside a triangle, crosses first. All triangles must
-  /// be known that it may cross. Nothing where it meets one in an edge or vertex.
+  /// The region of a point, told by what the way from p to q, a point inside a triangle, crosses first. All
+  /// triangles must be known that it may cross. Nothing where it meets one in an edge or vertex.
   std::optional<mesh::RegionId> region_towards(geometry::Vec3 p, geometry::Vec3 q,
                                                std::int32_t triangle) const;
 

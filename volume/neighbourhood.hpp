@@ -53,7 +53,7 @@ void learn_what_touches(const parallel::Communicator& communicator, const KnownL
 /// Where there are far finer blocks on the surface (see look_of_block), one of them.
 void learn_what_is_far_finer(const parallel::Communicator& communicator, const KnownLattice& lattice,
                              const LatticeSource& source, parallel::StageClock& clock);
-/// Those across the borders of zones that halos of a width are told by (ZonesAround).
+/// Blocks across the borders of zones that halos of a width are told by (ZonesAround).
 void learn_what_is_cut(const parallel::Communicator& communicator, const KnownLattice& lattice,
                        const ZoneCuts& cuts, double width, parallel::StageClock& clock);
 

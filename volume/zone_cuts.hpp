@@ -69,7 +69,7 @@ public:
   ZoneIndex count() const { return _count; }
   /// The zone of a block: that of its middle.
   ZoneIndex zone_of(const GridCube& block) const;
-  /// That of all blocks there may be in a cube, no_zone where they may be of several.
+  /// The zone of all blocks there may be in a cube, no_zone where they may be of several.
   ZoneIndex zone_of_all(const GridCube& cube) const;
   /// Calls visit(zone) for all zones that blocks in a cube may be of.
   template <class Visit>

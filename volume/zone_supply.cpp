@@ -227,7 +227,7 @@ void ship(const parallel::Communicator& communicator, std::vector<Item>& items) 
     std::stable_sort(items.begin(), items.end(), before);
 }
 
-/// Those of a zone, from a list by zone.
+/// Items of a zone, from a list by zone.
 template <class Item>
 std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
   const auto first =

@@ -24,7 +24,7 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Both ends of a file, enough to tell what it is and whether it is complete.
+/// The first and last bytes of a file, enough to tell what it is and whether it is complete.
 struct Ends {
   std::string head, tail;
 };

@@ -26,7 +26,7 @@ struct MshBlock {
 };
 
 /// Blocks of the whole mesh: surfaces first (patch + 1), then volumes (region + 1), by shape, then entity.
-/// Those without elements are not written, but stay in the tables.
+/// Entities without elements are not written, but stay in the tables.
 struct MshBlocks {
   std::vector<std::array<MshBlock, face_shape_count>> faces;  ///< by patch
   std::vector<std::array<MshBlock, cell_shape_count>> cells;  ///< by region

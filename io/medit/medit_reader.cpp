@@ -46,7 +46,7 @@ std::optional<std::int64_t> first_nameless(const std::vector<std::int64_t>& refe
   return found == references.end() ? std::nullopt : std::optional(*found);
 }
 
-/// Those in use and those that have a name: a patch without faces keeps its place.
+/// References in use and those that have a name: a patch without faces keeps its place.
 template <class Names>
 void add_named(const Names& names, std::vector<std::int64_t>& references) {
   for (const auto& [reference, name] : names) references.push_back(reference);

@@ -33,7 +33,7 @@ struct MeditShare {
 int medit_corners(std::int32_t keyword);
 /// The name of a section of cells that are not read: hexahedra, polyhedra, curved ones; empty for all others.
 std::string medit_unreadable(std::int32_t keyword);
-/// The same by name in text files.
+/// Whether a section of that name, in a text file, is one of them.
 bool medit_unreadable(const std::string& keyword);
 
 /// Each rank reads its share of each section. Collective; throws CollectiveError.

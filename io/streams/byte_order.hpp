@@ -12,7 +12,7 @@ enum class ByteOrder { little, big };
 inline constexpr ByteOrder own_byte_order =
     std::endian::native == std::endian::little ? ByteOrder::little : ByteOrder::big;
 
-/// The same number with its bytes the other way round.
+/// A number with its bytes the other way round.
 template <class T>
 T with_bytes_reversed(T value) {
   auto bytes = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);

@@ -19,7 +19,7 @@ namespace aeroloom::io {
 /// files; of meshio for Gmsh's physical groups; of Gmsh itself; of meshio again.
 inline constexpr std::array<const char*, 5> region_arrays = {"region", "gmsh:physical", "CellEntityIds",
                                                              "gmsh:geometrical", "medit:ref"};
-/// The same of patches.
+/// Labels of patches.
 inline constexpr std::array<const char*, 5> patch_arrays = {"patch", "gmsh:physical", "CellEntityIds",
                                                             "gmsh:geometrical", "medit:ref"};
 

@@ -20,9 +20,9 @@ struct PartnerItems {
 /// parts where it is longer than 2^26 bytes.
 class NeighbourExchange {
 public:
-  /// Both sides know of each other: where this rank sends n > 0 items to another one, that one receives n
-  /// from this one. No rank twice in a list, and not this one. Throws std::logic_error, on all ranks, when
-  /// the sums do not fit; on one when a partner is no other rank. Collective.
+  /// Sender and receiver know of each other: where this rank sends n > 0 items to another one, that one
+  /// receives n from this one. No rank twice in a list, and not this one. Throws std::logic_error, on all
+  /// ranks, when the sums do not fit; on one when a partner is no other rank. Collective.
   NeighbourExchange(const Communicator& communicator, std::vector<PartnerItems> sends,
                     std::vector<PartnerItems> receives);
   /// One in which nobody has anything for anyone.
@@ -47,7 +47,7 @@ public:
     }
   }
 
-  /// The same the other way round: what was sent is received.
+  /// The exchange the other way round: what was sent is received.
   NeighbourExchange reversed() const;
 
 private:

@@ -13,7 +13,7 @@ namespace aeroloom::parallel {
 /// same on every rank, without communication. Loads are any non-negative unit.
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks);
 
-/// As above, to ranks that have something already: `burdens`, one for each.
+/// Assigns tasks to ranks that have something already: `burdens`, one for each.
 std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens);
 
 /// Moves tasks from where they are `now` only where that rank would get more than the mean: largest load
@@ -21,9 +21,9 @@ std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<
 /// May be less even than assign_largest_first. The same on every rank, without communication.
 std::vector<Rank> move_excess(std::span<const double> loads, std::span<const Rank> now, int ranks);
 
-/// The same shares, each as a whole on another rank, so that much of the load stays where it is `now`: what a
-/// share and a rank have in common decides, the most first; ties go to the lower share and the lower rank.
-/// The same on every rank, without communication.
+/// The shares of an assignment, each as a whole on another rank, so that much of the load stays where it is
+/// `now`: what a share and a rank have in common decides, the most first; ties go to the lower share and the
+/// lower rank. The same on every rank, without communication.
 std::vector<Rank> keep_in_place(std::span<const double> loads, std::span<const Rank> shares,
                                 std::span<const Rank> now, int ranks);
 

@@ -21,9 +21,9 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// So much more is done, and so many elements more are made.
+  /// `done` more units of work are done, `elements` more elements are made.
   void advance(std::int64_t done = 1, std::int64_t elements = 0) { reach(_done + done, _made + elements); }
-  /// So much is done, and so many elements there are.
+  /// `done` units of work are done, `elements` elements are made.
   void reach(std::int64_t done, std::int64_t elements);
 
 private:

@@ -48,7 +48,7 @@ TEST(ImproveMesh, DependsOnThePiecesAlone) {
   EXPECT_EQ(spread.bad_before, alone.bad_before);
   EXPECT_EQ(spread.bad_after, alone.bad_after);
   EXPECT_EQ(spread.smoothed, alone.smoothed);
-  EXPECT_EQ(spread.swaps, alone.swaps);
+  EXPECT_EQ(spread.replaced, alone.replaced);
   EXPECT_EQ(spread.min_angle_before, alone.min_angle_before);
   EXPECT_EQ(spread.min_angle_after, alone.min_angle_after);
 }

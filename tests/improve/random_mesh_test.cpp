@@ -76,7 +76,7 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   EXPECT_EQ(report.bad_after, after.bad);
   EXPECT_EQ(report.min_angle_before, before.angle);
   EXPECT_EQ(report.min_angle_after, after.angle);
-  EXPECT_GT(report.swaps, 0);
+  EXPECT_GT(report.replaced, 0);
   EXPECT_GT(report.smoothed, 0);
   EXPECT_EQ(boundary_triangles(mesh.pieces), boundary_triangles(old));
   for (const Piece& piece : mesh.pieces)

@@ -87,7 +87,7 @@ private:
   bool split_inside(std::int32_t t, int i);
   std::int32_t add_triangle(const Triangle& triangle);
 
-  /// The same piece of the edge as the face passes it the other time; -1 where there is none.
+  /// The piece of the edge as the face passes it the other time; -1 where there is none.
   std::int32_t partner(const BoundarySide& side) const;
   bool split_boundary(std::int32_t s);
   Vec2 middle_uv(const BoundarySide& side) const;

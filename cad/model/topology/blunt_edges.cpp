@@ -100,7 +100,7 @@ Sides tell_sides(std::vector<Run> runs) {
   return {{runs[0], runs[1]}, {}};
 }
 
-/// Both borders from the same end of the strip to the other: the second against the loop.
+/// The two borders of a strip from the same end of the strip to the other: the second against the loop.
 std::string lay_borders(const Model& model, const Sides& sides, BluntEdge& strip) {
   for (int side = 0; side < 2; ++side) {
     for (const EdgeUse& use : sides.borders[side].uses) {

@@ -22,7 +22,7 @@ struct NamedBound {
   }
 };
 
-/// Those of a model, the largest fractions first. Collective.
+/// The bounded faces of a model, the largest fractions first. Collective.
 std::vector<NamedBound> report_bounded_faces(const sizing::ModelSampler& sampler,
                                              const sizing::SizingOptions& sizes);
 

@@ -11,7 +11,7 @@ struct ImproveReport {
   double min_angle_before = 0, min_angle_after = 0;  ///< degrees
   std::int64_t smoothed = 0;                         ///< vertices inside moved
   std::int64_t slid = 0;                             ///< vertices moved along CAD faces and curves
-  std::int64_t swaps = 0;                            ///< cavities filled anew
+  std::int64_t replaced = 0;                         ///< cavities filled anew
   std::int64_t changed_triangles = 0;                ///< of the boundary
 
   bool is_lattice = false;  ///< of one piece, left as it is
@@ -19,13 +19,14 @@ struct ImproveReport {
   static constexpr auto fields() {
     return std::tuple(&ImproveReport::bad_before, &ImproveReport::bad_after, &ImproveReport::min_angle_before,
                       &ImproveReport::min_angle_after, &ImproveReport::smoothed, &ImproveReport::slid,
-                      &ImproveReport::swaps, &ImproveReport::changed_triangles, &ImproveReport::is_lattice);
+                      &ImproveReport::replaced, &ImproveReport::changed_triangles,
+                      &ImproveReport::is_lattice);
   }
   /// What another run has changed, on top.
   void add_changes(const ImproveReport& of) {
     smoothed += of.smoothed;
     slid += of.slid;
-    swaps += of.swaps;
+    replaced += of.replaced;
     changed_triangles += of.changed_triangles;
   }
 };

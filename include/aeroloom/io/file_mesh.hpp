@@ -114,7 +114,7 @@ FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::Di
                       const mesh::Numbering& numbering);
 FileMesh file_mesh_of(const parallel::Communicator& communicator, mesh::NumberedMesh mesh);
 
-/// The same mesh in `parts` parts (mesh/repartition.hpp). Collective.
+/// A mesh of a file in `parts` parts (mesh/repartition.hpp). Collective.
 FileMesh repartition(const parallel::Communicator& communicator, const FileMesh& mesh, std::int32_t parts,
                      mesh::PieceRegions regions = mesh::PieceRegions::several);
 

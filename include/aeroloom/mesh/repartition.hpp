@@ -1,4 +1,4 @@
-/// The same mesh in other pieces.
+/// A mesh in other pieces.
 #pragma once
 
 #include "aeroloom/mesh/distributed_mesh.hpp"

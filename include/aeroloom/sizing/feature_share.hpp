@@ -46,7 +46,7 @@ void set_feature_aspect(SizingOptions& options, double aspect, double floor);
 /// Lets gaps ask for sizes down to `floor`.
 void set_gap_floor(SizingOptions& options, double floor);
 
-/// Both as found.
+/// Sets aspect and floors as they were found.
 void set_features(SizingOptions& options, const FeatureShare& features);
 
 /// The least aspect, and then, with what that leaves of the budget, the lowest floor of gaps, with which the

@@ -97,7 +97,7 @@ public:
   SizeField build_field(const SizingOptions& options) const;
   /// As predict_counts. Collective.
   PredictedCounts predict(const SizeField& field) const;
-  /// Those of predict(). Collective.
+  /// The triangles that predict() counts. Collective.
   double count_triangles(const SizeField& field) const;
   /// The field under these options with the tetrahedra that it predicts; nothing where it has clearly more
   /// leaves. Collective.
@@ -170,7 +170,7 @@ private:
   /// A field whose sizes are `coarser` times as large as those under these options.
   std::optional<SizeField> build_coarser(const SizingOptions& options, double coarser,
                                          std::int64_t most_leaves) const;
-  /// Those of the model before; `number` tells which face has become of each.
+  /// Takes the faces sampled of the model before; `number` tells which face has become of each.
   void take_faces(std::vector<OwnFace> before, const std::vector<cad::FaceId>& number);
   void add_face(cad::FaceId id);
   void list_corners();

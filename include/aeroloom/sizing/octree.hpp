@@ -41,7 +41,7 @@ public:
 
     operator CellSpans() const { return {keys, levels}; }
   };
-  /// Those in this rank's pages. After balance().
+  /// The leaves in this rank's pages. After balance().
   Leaves leaves() const;
   /// How many there are on all ranks, once balanced.
   std::int64_t leaf_count() const;
@@ -83,7 +83,7 @@ public:
       entry = -entry;
     }
   }
-  /// The same table, which is the same on every rank, held once per node. Collective.
+  /// This table, which is the same on every rank, held once per node. Collective.
   LeafTable shared(const parallel::Communicator& communicator) const;
 
 private:

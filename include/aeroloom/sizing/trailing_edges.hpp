@@ -15,8 +15,8 @@ struct TrailingEdge {
   double share = 0;  ///< of the local chord that the strip is wide, at most
 };
 
-/// Those narrower than `width` at some place, by face; the same on every rank. Before the sampler's facets go
-/// on to a joined model. Collective. Throws CollectiveError where the CAD library fails.
+/// Trailing edges narrower than `width` at some place, by face; the same on every rank. Before the sampler's
+/// facets go on to a joined model. Collective. Throws CollectiveError where the CAD library fails.
 std::vector<TrailingEdge> find_trailing_edges(const ModelSampler& sampler, double width);
 
 }  // namespace aeroloom::sizing

@@ -36,7 +36,7 @@ constexpr mesh::GlobalIndex cells_per_vtk_file(mesh::GlobalIndex cells) {
 void write_volume(const parallel::Communicator& communicator, const FileMesh& mesh,
                   const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
-/// The same of a mesh of tetrahedra.
+/// Writes a mesh of tetrahedra.
 void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                   const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);

@@ -69,7 +69,7 @@ struct ExchangeCounts {
 const ExchangeCounts& exchange_counts();
 /// Counts what stays on this rank of something distributed by rendezvous, and is not handed over.
 void note_kept(std::uint64_t bytes);
-/// The same of a rendezvous that is spared, since there is one rank.
+/// Counts what a rendezvous would send that is spared, since there is one rank.
 void note_spared_rendezvous(std::uint64_t bytes);
 
 /// Messages of one kind over all ranks: of all together, and of the rank that has most of them.

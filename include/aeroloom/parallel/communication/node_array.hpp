@@ -41,7 +41,7 @@ public:
   NodeArray(const Communicator& communicator, std::vector<T> items) {
     *this = NodeArray(std::move(items)).shared(communicator);
   }
-  /// The same items in memory of the node, where that can be had. They are the same on every rank.
+  /// The items in memory of the node, where that can be had. They are the same on every rank.
   /// Collective.
   NodeArray shared(const Communicator& communicator) const {
     NodeArray result;

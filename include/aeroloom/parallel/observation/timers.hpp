@@ -95,7 +95,7 @@ public:
   void begin_round();
   /// Puts a task of the open stage on record; ignored when none is open.
   void note_task(TaskRecord task);
-  /// Those of this rank, in their order.
+  /// Tasks of this rank, in their order.
   const std::vector<TaskRecord>& tasks() const { return _tasks; }
   /// Memory of a child that ran for this stage while this process held what it holds now.
   void note_child_memory(std::int64_t bytes);

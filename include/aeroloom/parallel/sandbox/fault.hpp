@@ -9,8 +9,8 @@ namespace aeroloom::parallel {
 /// What a sandboxed task does before its work.
 enum class Fault : std::uint8_t { none, throws, aborts, hangs, exhausts_memory };
 
-/// Does it; returns for `none` only. Throws std::runtime_error for `throws`, std::bad_alloc where memory is
-/// limited.
+/// Acts as the fault says; returns for `none` only. Throws std::runtime_error for `throws`, std::bad_alloc
+/// where memory is limited.
 void inject_fault(Fault fault);
 
 /// A fault wanted of one kind of task, and of which of them: -1: of all.
