@@ -108,8 +108,13 @@ void cut_into_batches(const mesh::DistributedMesh& surface, parallel::Rank rank,
   }
 }
 
-/// The rank that tests a pair: either owner, in turn.
+/// The rank that tests a pair: the owner of the far smaller batch, or either owner in turn. A batch of the
+/// far field has all of a body in its box, but hardly a triangle in the box of a batch there.
 parallel::Rank tester(const std::vector<Batch>& table, BatchPair pair) {
+  constexpr double far_smaller = 0.25;
+  const double lower = table[pair.lower].box.diagonal(), upper = table[pair.upper].box.diagonal();
+  if (lower < far_smaller * upper) return table[pair.lower].rank;
+  if (upper < far_smaller * lower) return table[pair.upper].rank;
   return table[(pair.lower + pair.upper) % 2 == 0 ? pair.lower : pair.upper].rank;
 }
 
