@@ -193,13 +193,15 @@ std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& co
         parallel::pack(packers[claims[first].rank], std::tie(batch, reaching));
       });
   std::vector<parallel::Parcel> parcels;
+  parcels.reserve(packers.size());
   for (auto& [rank, packer] : packers) parcels.push_back({rank, packer.take()});
   for (const parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
     parallel::Unpacker unpacker(parcel.content);
     while (!unpacker.at_end()) {
       Triangles& triangles = at_hand[parallel::unpack<std::int32_t>(unpacker)];
-      for (const SentTriangle& t : parallel::unpack<std::vector<SentTriangle>>(unpacker))
-        triangles.push_back({t.corners, box_of(t.corners), t.cell});
+      const auto sent = parallel::unpack<std::vector<SentTriangle>>(unpacker);
+      triangles.reserve(triangles.size() + sent.size());
+      for (const SentTriangle& t : sent) triangles.push_back({t.corners, box_of(t.corners), t.cell});
     }
   }
   return at_hand;
