@@ -37,11 +37,13 @@ FaultRequest requested_fault(std::string_view task) {
                                                         {"exhausts_memory", Fault::exhausts_memory}};
   const auto named =
       equals == request.npos ? faults.end() : faults.find(request.substr(equals + 1, at - equals - 1));
-  if (named == faults.end())
+  const std::string number(at == request.npos ? "-1" : request.substr(at + 1));
+  const bool is_number = !number.empty() && number.find_first_not_of("0123456789") == number.npos;
+  if (named == faults.end() || (at != request.npos && !is_number))
     throw std::invalid_argument("AEROLOOM_FAULT is '" + std::string(request) +
                                 "'; it must be TASK=FAULT or TASK=FAULT@NUMBER");
   if (request.substr(0, equals) != task) return {};
-  return {named->second, at == request.npos ? -1 : std::stoll(std::string(request.substr(at + 1)))};
+  return {named->second, std::stoll(number)};
 }
 
 }  // namespace aeroloom::parallel

@@ -1,6 +1,8 @@
 #include "aeroloom/parallel/sandbox/sandbox.hpp"
 
 #include "aeroloom/parallel/observation/timers.hpp"
+#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "tests/scoped_fault.hpp"
 
 #include <csignal>
 #include <cstdio>
@@ -321,6 +323,21 @@ TEST(SandboxTest, RefusesUnknownTasksAndLateRegistration) {
   EXPECT_THROW(register_sandbox_task("late", reverse), std::logic_error);
   EXPECT_THROW(register_sandbox_task("reverse", spin), std::logic_error);
   EXPECT_NO_THROW(register_sandbox_task("reverse", reverse));
+}
+
+TEST(RequestedFault, IsReadFromTheEnvironmentOrRefused) {
+  EXPECT_EQ(requested_fault("zone").fault, Fault::none);
+  {
+    const ScopedFault injected("zone=aborts@3");
+    EXPECT_EQ(requested_fault("zone").fault, Fault::aborts);
+    EXPECT_EQ(requested_fault("zone").number, 3);
+    EXPECT_EQ(requested_fault("domain").fault, Fault::none);
+  }
+  for (const char* request :
+       {"aborts", "zone=", "zone=burns", "zone=aborts@", "zone=aborts@x", "zone=aborts@-1"}) {
+    const ScopedFault injected(request);
+    EXPECT_THROW(requested_fault("zone"), std::invalid_argument) << request;
+  }
 }
 
 }  // namespace
