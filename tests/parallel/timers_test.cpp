@@ -24,7 +24,7 @@ TEST(TimersTest, CpuTimeDoesNotRunWhileSleeping) {
   const double cpu = cpu_seconds(), wall = wall_seconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_GE(wall_seconds() - wall, 0.1);
-  EXPECT_LT(cpu_seconds() - cpu, 0.05);
+  EXPECT_LT(cpu_seconds() - cpu, (wall_seconds() - wall) / 2);
 }
 
 constexpr std::size_t hundred_megabytes = 100'000'000;
@@ -115,6 +115,7 @@ TEST(StageClockTest, AddsToTheOpenStageOnly) {
 TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
   const auto world = Communicator::world();
   StageClock clock;
+  const double before = cpu_seconds();
   clock.begin("volume");
   {
     const ScopedCpu task(clock, ScopedCpu::As::task);
@@ -129,10 +130,13 @@ TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
   }
   work(0.04);
   clock.end();
+  const double used = cpu_seconds() - before;
   const StageCost& cost = clock.costs()[0];
-  EXPECT_NEAR(cost.task_cpu_seconds, 0.06, 0.01);
-  EXPECT_NEAR(cost.check_cpu_seconds, 0.02, 0.01);
-  EXPECT_NEAR(cost.other_cpu_seconds, 0.04, 0.01);
+  // A busy machine may charge the loops more than they asked for, but no second is counted twice.
+  EXPECT_GE(cost.task_cpu_seconds, 0.06);
+  EXPECT_GE(cost.check_cpu_seconds, 0.02);
+  EXPECT_GE(cost.other_cpu_seconds, 0.04);
+  EXPECT_LE(cost.task_cpu_seconds + cost.check_cpu_seconds + cost.other_cpu_seconds, used);
   if (world.is_root())
     EXPECT_LT(cost.waiting_seconds, cost.wall_seconds - 0.4);
   else
@@ -141,8 +145,10 @@ TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
 
 TEST(StageClockTest, NotesWhatWasBefore) {
   StageClock clock;
+  const double noting = wall_seconds();
   clock.note("start", 2.5);
-  EXPECT_NEAR(clock.costs()[0].wall_seconds, 2.5, 0.01);
+  EXPECT_GE(clock.costs()[0].wall_seconds, 2.5);
+  EXPECT_LE(clock.costs()[0].wall_seconds, 2.5 + wall_seconds() - noting);
   EXPECT_GT(clock.costs()[0].other_cpu_seconds, 0);
   EXPECT_LE(clock.costs()[0].other_cpu_seconds, cpu_seconds());
   // The age has the clock ticks of the system. On a busy machine a sleep is as long as it likes.
@@ -234,6 +240,7 @@ TEST(StageClockTest, SummarisesWhatWasToBeExchanged) {
 
 TEST(StageClockTest, TellsRepeatedWorkFromSerial) {
   StageClock clock;
+  const double before = cpu_seconds();
   clock.begin("volume");
   {
     const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
@@ -244,9 +251,11 @@ TEST(StageClockTest, TellsRepeatedWorkFromSerial) {
     work(0.01);
   }
   clock.end();
+  const double used = cpu_seconds() - before;
   const StageCost& cost = clock.costs()[0];
-  EXPECT_NEAR(cost.repeated_cpu_seconds, 0.02, 0.005);
-  EXPECT_NEAR(cost.serial_cpu_seconds, 0.03, 0.005);
+  EXPECT_GE(cost.repeated_cpu_seconds, 0.02);
+  EXPECT_GE(cost.serial_cpu_seconds, cost.repeated_cpu_seconds + 0.01);
+  EXPECT_LE(cost.serial_cpu_seconds, used);
   EXPECT_DOUBLE_EQ(cost.task_cpu_seconds, cost.serial_cpu_seconds);
 }
 
