@@ -2,14 +2,18 @@
 """How well the replay of one run's records foretells the busiest of several ranks, as a Markdown table.
 
 usage: replay.py PROGRAM CASE [RANKS ...] [-- KEY=VALUE ...]
+       replay.py PROGRAM --study FOLDER
 
-Runs the case on each number of ranks (default 1 2 4 8) three times, in turns, and predicts the others from the record on
-the first number, of its three that with the median CPU time. Compared are CPU seconds of the busiest rank (tasks, checks, all else; start
-left out), summed over stages, medians; and the tasks alone. "scaled" is the prediction times all ranks' measured
-CPU of tasks over that of the record's: what caches and doubled work make of it.
+Runs the case on each number of ranks (default 1 2 4 8) three times, in turns, or takes the runs of a study (`aeroloom scaling`;
+its strong series), and predicts the others from the record on the first number, of its runs that with the median CPU time.
+Compared are CPU seconds of the busiest rank (tasks, checks, all else; start left out), summed over stages, medians. "scaled" is
+the prediction times all ranks' measured CPU of tasks over that of the record's: what caches and doubled work make of it. Where
+there are processors for all ranks, wall seconds too, on the network that the program measures between the ranks.
 """
 import json
+import os
 import pathlib
+import shutil
 import statistics
 import subprocess
 import sys
@@ -17,20 +21,85 @@ import tempfile
 
 from volume_balance import run as report_of
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 REPEATS = 3
 
 
-def run(program, case, ranks, settings, folder):
-    report = report_of(program, case, ranks, ["output.pictures=false", *settings], folder)
+def stages_of(report):
     return {stage["name"]: stage for stage in report["stages"] if stage["name"] != "start"}
+
+
+def run_all(program, case, many, settings, top):
+    """Folders and stages of all runs, by the number of ranks."""
+    runs = {ranks: [] for ranks in many}
+    for repeat in range(REPEATS):
+        for ranks in many:
+            folder = top / f"{ranks}_{repeat}"
+            runs[ranks].append((folder, stages_of(report_of(program, case, ranks, ["output.pictures=false", *settings], folder))))
+    return runs
+
+
+def runs_of_study(folder):
+    runs = {}
+    for report in sorted(pathlib.Path(folder).glob("runs/strong_*/report.json")):
+        text = json.loads(report.read_text())
+        if text["status"] == "ok":
+            runs.setdefault(text["ranks"], []).append((report.parent, stages_of(text)))
+    return dict(sorted(runs.items()))
 
 
 def busy(stage):
     return stage["cpu_seconds_max"] + stage["check_seconds"] + stage["other_seconds"]
 
 
+def busy_of_all(stages):
+    return sum(busy(stage) for stage in stages.values())
+
+
 def median_of(runs, figure):
-    return statistics.median(figure(stages) for stages in runs)
+    return statistics.median(figure(stages) for folder, stages in runs)
+
+
+def predictions(program, record, many, options=()):
+    """Of a copy of the record: its folder may be a study's."""
+    with tempfile.TemporaryDirectory() as name:
+        for file in ("report.json", "tasks.csv"):
+            shutil.copy(record / file, name)
+        subprocess.run([program, "scaling", "--predict", name, "--ranks", ",".join(map(str, many)), *options], check=True, capture_output=True)
+        rows = json.loads((pathlib.Path(name) / "prediction.json").read_text())["rows"]
+    return {row["ranks"]: {stage["name"]: stage for stage in row["stages"]} for row in rows}
+
+
+def print_busy(runs, first, told):
+    print("| ranks | stage | predicted | measured | ratio | CPU of all over the record's | scaled |\n|---|---|---|---|---|---|---|")
+    total = lambda stages, ranks, names: ranks * sum(stages[name]["cpu_seconds_mean"] for name in names)
+    grown = lambda ranks, names: (median_of(runs[ranks], lambda s: total(s, ranks, names)) /
+                                  max(1e-9, median_of(runs[first], lambda s: total(s, first, names))))
+    names = list(runs[first][0][1])
+    for ranks in list(runs)[1:]:
+        rows = [(name, told[ranks][name]["busy_cpu_seconds"], median_of(runs[ranks], lambda s: busy(s[name])), grown(ranks, [name]))
+                for name in names]
+        rows.append(("all", sum(row[1] for row in rows), median_of(runs[ranks], busy_of_all), grown(ranks, names)))
+        for name, predicted, measured, factor in rows:
+            print(f"| {ranks} | {name} | {predicted:.3f} | {measured:.3f} | {predicted / max(1e-9, measured):.2f} | {factor:.2f} "
+                  f"| {predicted * factor / max(1e-9, measured):.2f} |")
+
+
+def print_wall(program, runs, record):
+    """On the processors that there are."""
+    many = [ranks for ranks in list(runs)[1:] if ranks <= os.cpu_count()]
+    if not many:
+        return
+    print("\n| ranks | wall predicted | measured | ratio |\n|---|---|---|---|")
+    for ranks in many:
+        with tempfile.TemporaryDirectory() as name:
+            network = pathlib.Path(name) / "network.json"
+            subprocess.run([ROOT / "scripts/mpirun_local.sh", str(ranks), program, "scaling", "--measure-network", network], check=True,
+                           capture_output=True)
+            told = predictions(program, record, [ranks], ["--network", network])[ranks]
+        predicted = sum(stage["seconds"] for name, stage in told.items() if name != "start")
+        measured = median_of(runs[ranks], lambda s: sum(stage["wall_seconds"] for stage in s.values()))
+        print(f"| {ranks} | {predicted:.2f} | {measured:.2f} | {predicted / measured:.2f} |")
 
 
 def main():
@@ -38,33 +107,16 @@ def main():
     if "--" in arguments:
         settings = arguments[arguments.index("--") + 1:]
         arguments = arguments[:arguments.index("--")]
-    program, case = arguments[:2]
-    first, *many = [int(r) for r in arguments[2:]] or [1, 2, 4, 8]
+    program = arguments[0]
     with tempfile.TemporaryDirectory() as name:
-        top, runs = pathlib.Path(name), {ranks: [] for ranks in [first, *many]}
-        for repeat in range(REPEATS):
-            for ranks in runs:
-                runs[ranks].append(run(program, case, ranks, settings, top / f"{ranks}_{repeat}"))
-        all_of = lambda stages: sum(busy(stage) for stage in stages.values())
-        order = sorted(range(REPEATS), key=lambda i: all_of(runs[first][i]))
-        record = top / f"{first}_{order[REPEATS // 2]}"
-        subprocess.run([program, "scaling", "--predict", record, "--ranks", ",".join(map(str, runs))], check=True,
-                       capture_output=True)
-        told = {row["ranks"]: {stage["name"]: stage["busy_cpu_seconds"] for stage in row["stages"]}
-                for row in json.loads((record / "prediction.json").read_text())["rows"]}
-    print("| ranks | stage | predicted | measured | ratio | CPU of all over the record's | scaled |\n|---|---|---|---|---|---|---|")
-    total = lambda stages, ranks, name: ranks * stages[name]["cpu_seconds_mean"]
-    for ranks in many:
-        rows = []
-        for stage in runs[first][0]:
-            grown = median_of(runs[ranks], lambda s: total(s, ranks, stage)) / max(1e-9, median_of(runs[first], lambda s: total(s, first, stage)))
-            rows.append((stage, told[ranks][stage], median_of(runs[ranks], lambda s: busy(s[stage])), grown))
-        rows.append(("all", sum(row[1] for row in rows), median_of(runs[ranks], all_of),
-                     median_of(runs[ranks], lambda s: sum(total(s, ranks, n) for n in s)) /
-                     median_of(runs[first], lambda s: sum(total(s, first, n) for n in s))))
-        for stage, predicted, measured, grown in rows:
-            print(f"| {ranks} | {stage} | {predicted:.3f} | {measured:.3f} | {predicted / max(1e-9, measured):.2f} | {grown:.2f} "
-                  f"| {predicted * grown / max(1e-9, measured):.2f} |")
+        if arguments[1] == "--study":
+            runs = runs_of_study(arguments[2])
+        else:
+            runs = run_all(program, arguments[1], [int(r) for r in arguments[2:]] or [1, 2, 4, 8], settings, pathlib.Path(name))
+        first = next(iter(runs))
+        record = sorted(runs[first], key=lambda run: busy_of_all(run[1]))[len(runs[first]) // 2][0]
+        print_busy(runs, first, predictions(program, record, runs))
+        print_wall(program, runs, record)
 
 
 if __name__ == "__main__":

@@ -136,8 +136,10 @@ StageCosts stage_costs(const Json& stage, int ranks, const std::vector<TaskLine>
   const double of_all = at("cpu_seconds_mean") * ranks;
   costs.divisible = std::max(0.0, of_all - costs.serial - costs.repeated * ranks - of_tasks);
   costs.divisible += at("check_seconds") * ranks;
-  // What is on no clock is taken as what every rank does.
-  costs.repeated += at("other_seconds");
+  // Work that every rank repeats has a clock of its own. What is on no clock goes with a rank's part of the
+  // mesh: messages packed and unpacked, memory taken and given back. Every rank starts, though.
+  const double other = at("other_seconds");
+  costs.name == "start" ? costs.repeated += other : costs.divisible += other * ranks;
   costs.exchanges = exchanges_of(stage);
   costs.own_bytes = at("peak_own_bytes_max");
   return costs;

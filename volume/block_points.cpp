@@ -62,10 +62,13 @@ double clearance_of(const LatticeSource& source, BlockIndex b) {
 /// is there (learn_what_is_far_finer).
 bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
   const LatticeTree& tree = source.tree;
+  const int level = far_finer_level(tree.level(b));
   return tree.any_block_in(
       GridBox::of(tree.cube(b)).dilated(reach),
-      [&](BlockIndex n) { return is_far_finer(tree.level(n), tree.level(b)) && source.table.is_met(n); },
-      [&](BlockIndex first, BlockIndex last, const GridCube&) { return !source.table.any_met(first, last); });
+      [&](BlockIndex n) { return tree.level(n) >= level && source.table.is_met(n); },
+      [&](BlockIndex first, BlockIndex last, const GridCube&) {
+        return !source.table.any_met(first, last, level);
+      });
 }
 
 /// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.
@@ -276,16 +279,20 @@ SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, Bloc
   reach.per_edge = source.frame.grid_distance(farthest);
   for (BlockIndex b = first; b < last; ++b) {
     const double clear = source.frame.grid_distance(farthest * largest_size(source, b));
-    double nearest = 0;
-    bool from_within = false;
-    if (source.table.is_met(b)) {
-      nearest = nearest_in(source, b);
-      from_within = far == FarBlocks::from_within && sees_far_finer(source, b, nearest);
-      if (from_within) nearest = reach_from_within(source, b);
+    const double of_core = source.frame.grid_distance(core_reach(source, b));
+    BlockReach block{smallest_edge * clear, largest_edge * clear};
+    if (source.table.is_met(b)) block.nearest = nearest_in(source, b);
+    // Far finer blocks cost a search. Where all triangles that could matter are at hand none is spared by it.
+    const double farthest_of_all = std::max({block.most, block.nearest, of_core});
+    const auto [lowest, highest] =
+        source.tree.range_of(GridBox::of(source.tree.cube(b)).dilated(farthest_of_all));
+    const bool is_inside = lowest >= first && highest < last;
+    if (!is_inside && source.table.is_met(b)) {
+      block.from_within = far == FarBlocks::from_within && sees_far_finer(source, b, block.nearest);
+      if (block.from_within) block.nearest = reach_from_within(source, b);
     }
-    double least = smallest_edge * clear;
-    if (may_have_core(source, b)) least = std::max(least, source.frame.grid_distance(core_reach(source, b)));
-    reach.of_blocks.push_back({least, largest_edge * clear, nearest, from_within});
+    if (is_inside || may_have_core(source, b)) block.least = std::max(block.least, of_core);
+    reach.of_blocks.push_back(block);
   }
   return reach;
 }

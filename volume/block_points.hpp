@@ -91,9 +91,9 @@ inline constexpr double core_clearance = 0.6;
 /// many triangles may be the nearest.
 enum class FarBlocks { by_nearest, from_within };
 
-/// Whether a block of a level is so much finer than one of another that it is looked at with its kind.
-constexpr bool is_far_finer(int level, int than) {
-  return level >= than + 4;
+/// The level from which on blocks are so much finer than one of `than` that they are looked at together.
+constexpr int far_finer_level(int than) {
+  return than + 4;
 }
 /// How far from a block far finer ones on the surface are looked for, in the grid.
 std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b);

@@ -6,7 +6,9 @@ GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const Latti
     : _first(tree.first()), _last(tree.last()) {
   if (communicator.size() == 1) return;
   for (BlockIndex b = _first; b < _last; ++b) {
-    tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
+    const GridBox around = GridBox::of(tree.cube(b)).dilated(0.5);
+    if (tree.is_within_own(around)) continue;
+    tree.for_each_block_in(around, [&](BlockIndex n) {
       if (!is_own(n)) _ghosts.push_back(n);
     });
   }

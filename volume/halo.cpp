@@ -51,7 +51,7 @@ void ZonesAround::find_places(const GridCube& cube, const GridBox& around, int f
 void ZonesAround::move_to(BlockIndex b) {
   const GridBox block = GridBox::of(_tree.cube(b));
   const double size = largest_size_around(_frame, _tree, _table, b);
-  const GridBox around = block.dilated(reach(_frame, _tree, _table, b, _widest));
+  const GridBox around = block.dilated(_frame.grid_distance(_widest * size + _table.longest_edge[b]));
   _places.clear();
   find_places(LatticeTree::smallest_cube(around), around,
               std::min(_tree.level(b) + finer_levels, sizing::finest_level));

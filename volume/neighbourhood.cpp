@@ -46,7 +46,7 @@ void learn(const Communicator& communicator, LatticeTree& tree, SurfaceTable& ta
   tree.learn(std::move(blocks));
   table.longest_edge.assign(tree.block_count(), 0);
   for (const TouchedBlock& row : rows) table.longest_edge[tree.index(row.block.number)] = row.longest_edge;
-  table.count_met();
+  table.note_levels_met(tree);
   const auto move = [&](auto& values) {
     auto moved = std::decay_t<decltype(values)>(tree.block_count());
     std::copy(values.begin() + first, values.begin() + last, moved.begin() + tree.first());
@@ -145,12 +145,13 @@ void learn_what_is_far_finer(const Communicator& communicator, const KnownLattic
             tree.any_block_in(
                 question.box,
                 [&](BlockIndex b) {
-                  if (!table.is_met(b) || !is_far_finer(tree.level(b), question.level)) return false;
+                  if (!table.is_met(b) || tree.level(b) < far_finer_level(question.level)) return false;
                   add(b);
                   return true;
                 },
                 [&](BlockIndex first, BlockIndex last, const GridCube&) {
-                  return last <= tree.first() || first >= tree.last() || !table.any_met(first, last);
+                  return last <= tree.first() || first >= tree.last() ||
+                         !table.any_met(first, last, far_finer_level(question.level));
                 });
           }
         });

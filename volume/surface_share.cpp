@@ -119,10 +119,12 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
   return send(communicator, std::move(outgoing), {});
 }
 
-void SurfaceTable::count_met() {
-  met_before.assign(longest_edge.size() + 1, 0);
-  for (std::size_t b = 0; b < longest_edge.size(); ++b)
-    met_before[b + 1] = met_before[b] + (longest_edge[b] > 0 ? 1 : 0);
+void SurfaceTable::note_levels_met(const LatticeTree& tree) {
+  std::vector<std::uint8_t> levels(longest_edge.size(), 0);
+  for (BlockIndex b = 0; b < tree.block_count(); ++b) {
+    if (is_met(b)) levels[b] = static_cast<std::uint8_t>(tree.level(b) + 1);
+  }
+  levels_met = RangeMaximum(std::move(levels));
 }
 
 SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
@@ -147,7 +149,7 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
       if (b != middle) add(b);
     });
   }
-  table.count_met();
+  table.note_levels_met(tree);
   return table;
 }
 

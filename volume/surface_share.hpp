@@ -6,6 +6,7 @@
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/parallel/observation/timers.hpp"
 #include "volume/lattice_tree.hpp"
+#include "volume/range_maximum.hpp"
 
 #include <array>
 #include <cstdint>
@@ -43,12 +44,14 @@ struct SurfaceTable {
   std::vector<float> nearest;           ///< how far one of them is from its centre, at most
 
   bool is_met(BlockIndex b) const { return longest_edge[b] > 0; }
-  /// Whether one of the blocks from `first` to before `last` is.
-  bool any_met(BlockIndex first, BlockIndex last) const { return met_before[first] < met_before[last]; }
+  /// Whether one of the blocks from `first` to before `last` is that has at least this level.
+  bool any_met(BlockIndex first, BlockIndex last, int least_level) const {
+    return levels_met.over(first, last) > least_level;
+  }
   /// Once all longest edges are known.
-  void count_met();
+  void note_levels_met(const LatticeTree& tree);
 
-  std::vector<BlockIndex> met_before;  ///< per block, and one beyond: how many before it are met
+  RangeMaximum levels_met;  ///< per block: one more than its level where it is met, else 0
 };
 
 /// The triangles that meet this rank's blocks, by number. Collective.

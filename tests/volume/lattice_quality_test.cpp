@@ -24,7 +24,7 @@ struct Endless {
       : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, box, clock) {
     const auto blocks = static_cast<std::size_t>(tree.block_count());
     table.longest_edge.assign(blocks, 0);
-    table.count_met();
+    table.note_levels_met(tree);
     table.triangles.assign(blocks, 0);
     const std::vector<RegionId> regions(blocks, 0);
     const std::vector<BlockChange> changes(blocks);
