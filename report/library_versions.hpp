@@ -7,7 +7,7 @@
 
 namespace aeroloom::report {
 
-/// The version of the program: "0.1.0".
+/// The version of the program: "0.2.0".
 std::string program_version();
 
 /// Names and versions of the libraries, of those that are loaded where they can be asked, otherwise of those

@@ -74,10 +74,9 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
   std::vector<SurfaceTriangle> own;
   if (communicator.size() > 1) {
     for (const SurfaceTriangle& triangle : data.triangles) {
-      bool meets = false;
-      data.tree->for_each_own_block_in(grid_box(*data.frame, triangle.points),
-                                       [&](BlockIndex) { meets = true; });
-      if (meets) own.push_back(triangle);
+      if (data.tree->any_own_block_in(grid_box(*data.frame, triangle.points),
+                                      [](BlockIndex) { return true; }))
+        own.push_back(triangle);
     }
     own.shrink_to_fit();
     data.triangles = std::move(own);

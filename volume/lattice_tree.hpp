@@ -134,15 +134,17 @@ public:
   /// Of this rank's.
   template <class Visit>
   void for_each_own_block_in(const GridBox& box, const Visit& visit) const {
-    any_block_in(
-        box,
-        [&](BlockIndex b) {
-          visit(b);
-          return false;
-        },
-        [this](BlockIndex first, BlockIndex last, const GridCube&) {
-          return last <= _first || first >= _last;
-        });
+    any_own_block_in(box, [&](BlockIndex b) {
+      visit(b);
+      return false;
+    });
+  }
+  /// Whether holds(b) for one of this rank's that touches the box; it is not asked any further then.
+  template <class Holds>
+  bool any_own_block_in(const GridBox& box, const Holds& holds) const {
+    return any_block_in(box, holds, [this](BlockIndex first, BlockIndex last, const GridCube&) {
+      return last <= _first || first >= _last;
+    });
   }
   /// Whether holds(b) for a block that touches the box; it is not asked any further then.
   template <class Holds>

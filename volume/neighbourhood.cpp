@@ -107,7 +107,9 @@ void learn_what_touches(const Communicator& communicator, const KnownLattice& la
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) ask_for(GridBox::of(tree.cube(b)).dilated(0.5));
   for (const SurfaceTriangle& triangle : triangles) {
     for (const geometry::Vec3& p : triangle.points) {
-      const GridBox cell = GridBox::of({frame.cell_at(frame.to_grid(p)), sizing::finest_level});
+      const sizing::GridPoint place = frame.cell_at(frame.to_grid(p));
+      if (tree.is_own(tree.any_at(place))) continue;
+      const GridBox cell = GridBox::of({place, sizing::finest_level});
       ask_for({0.5 * (cell.low + cell.high), 0.5 * (cell.low + cell.high)});
     }
   }

@@ -66,7 +66,7 @@ struct Parcel {
   static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
 };
 
-/// What arrives here, by number, each once, with those that are here. Collective.
+/// What arrives here, by number, each once, with those that are here by number. Collective.
 std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, std::vector<Parcel> outgoing,
                                   const std::vector<SurfaceTriangle>& here) {
   const std::vector<Parcel> arrived =
@@ -76,8 +76,12 @@ std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, st
   order.reserve(here.size() + arrived.size());
   for (const SurfaceTriangle& triangle : here) order.push_back(&triangle);
   for (const Parcel& parcel : arrived) order.push_back(&parcel.triangle);
-  std::sort(order.begin(), order.end(),
-            [](const SurfaceTriangle* a, const SurfaceTriangle* b) { return a->number < b->number; });
+  const auto by_number = [](const SurfaceTriangle* a, const SurfaceTriangle* b) {
+    return a->number < b->number;
+  };
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(here.size());
+  std::sort(middle, order.end(), by_number);
+  std::inplace_merge(order.begin(), middle, order.end(), by_number);
   std::vector<SurfaceTriangle> result;
   result.reserve(order.size());
   for (const SurfaceTriangle* triangle : order) {
@@ -181,10 +185,13 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
     for (std::size_t first = 0; first < own.size(); first += batch) {
       const auto some = std::span(own).subspan(first, std::min(batch, own.size() - first));
       geometry::Box around;
+      double longest = 0;
       for (const SurfaceTriangle& triangle : some) {
         for (const Vec3& p : triangle.points) around.add(frame.to_grid(p));
+        longest = std::max(longest, longest_edge(triangle.points));
       }
-      if (!of_large.any_within(GridBox{around.low, around.high}.dilated(rounding), 0)) continue;
+      const GridBox whole = GridBox{around.low, around.high}.dilated(rounding);
+      if (!of_large.any_within(whole, 0) || !of_all.any_within(whole, reach.per_edge * longest)) continue;
       for (const SurfaceTriangle& triangle : some) {
         const GridBox box = grid_box(frame, triangle.points);
         if (of_large.any_within(box, 0) &&

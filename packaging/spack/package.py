@@ -7,10 +7,10 @@ class Aeroloom(CMakePackage):
     """From aircraft CAD to a distributed tetrahedral mesh, in parallel over MPI, the same mesh bit for bit whatever
     the number of ranks."""
 
-    # There is no archive to fetch: `spack dev-build aeroloom@0.1.0` builds the working tree.
+    # There is no archive to fetch: `spack dev-build aeroloom@0.2.0` builds the working tree.
     license("AGPL-3.0-or-later")
 
-    version("0.1.0")
+    version("0.2.0")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
