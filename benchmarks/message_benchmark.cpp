@@ -46,7 +46,17 @@ public:
     _item = part_of(_asked.neighbour.bytes, _asked.neighbour.count * ranks * _partners);
   }
 
-  void send_all() const {
+  /// Takes the memory of what is handed over, which the run packs beforehand.
+  void prepare() {
+    _parcels.assign(static_cast<std::size_t>(_asked.rendezvous.count), {});
+    for (std::vector<parallel::Parcel>& parcels : _parcels) {
+      for (std::int64_t i = 0; i < _partners; ++i) parcels.push_back({partner(i), Bytes(_parcel)});
+    }
+    _gathered = Bytes(part_of(_asked.all_gather.bytes, _asked.all_gather.count * _communicator.size()));
+    _sent = Bytes(static_cast<std::size_t>(_partners) * _item);
+  }
+
+  void send_all() {
     const Messages reductions = _asked.reduction;
     std::vector<std::int64_t> values(
         std::max<std::size_t>(1, part_of(reductions.bytes, reductions.count) / sizeof(std::int64_t)));
@@ -57,12 +67,11 @@ public:
     }
     // Sizes are a table of their own in the record, as they are here.
     for (std::int64_t i = 0; i < _asked.all_gather.count; ++i)
-      _communicator.all_gather(
-          Bytes(part_of(_asked.all_gather.bytes, _asked.all_gather.count * _communicator.size())));
+      _communicator.all_gather_items(std::span<const std::byte>(_gathered));
     for (std::int64_t i = _asked.all_gather.count; i < _asked.table.count; ++i) _communicator.sum(0.0);
     for (std::int64_t i = 0; i < _asked.gather.count; ++i)
       _communicator.gather(Bytes(part_of(_asked.gather.bytes, _asked.gather.count * _communicator.size())));
-    for (std::int64_t i = 0; i < _asked.rendezvous.count; ++i) exchange_parcels();
+    for (std::vector<parallel::Parcel>& parcels : _parcels) _communicator.exchange(std::move(parcels));
     exchange_with_neighbours();
   }
 
@@ -74,11 +83,6 @@ private:
     return static_cast<Rank>((_communicator.rank() + 2 * _communicator.size() - 1 - i) %
                              _communicator.size());
   }
-  void exchange_parcels() const {
-    std::vector<parallel::Parcel> parcels;
-    for (std::int64_t i = 0; i < _partners; ++i) parcels.push_back({partner(i), Bytes(_parcel)});
-    _communicator.exchange(std::move(parcels));
-  }
   void exchange_with_neighbours() const {
     if (_asked.neighbour.count == 0) return;
     std::vector<parallel::PartnerItems> sends, receives;
@@ -87,20 +91,24 @@ private:
       receives.push_back({partner_of(i), _item});
     }
     const parallel::NeighbourExchange neighbours(_communicator, sends, receives);
-    std::vector<char> out(neighbours.sent_items()), in(neighbours.received_items());
-    for (std::int64_t i = 0; i < _asked.neighbour.count; ++i)
-      neighbours.exchange(std::span<const char>(out), std::span<char>(in));
+    for (std::int64_t i = 0; i < _asked.neighbour.count; ++i) {
+      Bytes in(neighbours.received_items());
+      neighbours.exchange(std::span<const std::byte>(_sent), std::span<std::byte>(in));
+    }
   }
 
   const Communicator& _communicator;
   const parallel::ExchangeCounts& _asked;
   std::int64_t _partners = 0;
   std::size_t _parcel = 0, _item = 0;
+  std::vector<std::vector<parallel::Parcel>> _parcels;  // of each rendezvous
+  Bytes _gathered, _sent;
 };
 
-double median_seconds(const Communicator& communicator, const StageMessages& messages, int repeats) {
+double median_seconds(const Communicator& communicator, StageMessages& messages, int repeats) {
   std::vector<double> seconds;
   for (int i = 0; i < repeats; ++i) {
+    messages.prepare();
     communicator.barrier();
     const double start = parallel::wall_seconds();
     messages.send_all();
@@ -128,7 +136,7 @@ void run(const Communicator& communicator, const char* folder, int repeats) {
   for (const study::StageCosts& stage : costs.stages) {
     const double model = study::exchange_seconds(stage.exchanges, costs.ranks, communicator.size(), network);
     if (model <= 0) continue;
-    const StageMessages messages(communicator, stage.exchanges, costs.ranks);
+    StageMessages messages(communicator, stage.exchanges, costs.ranks);
     const double seconds = median_seconds(communicator, messages, repeats);
     print(stage.name.c_str(), model, seconds);
     predicted += model;

@@ -18,36 +18,35 @@ using session::check;
 
 constexpr std::array<int, 8> lengths{8, 64, 1 << 10, 1 << 13, 1 << 16, 1 << 18, 1 << 20, 1 << 22};
 constexpr int repeats = 31;
+constexpr int kept_bytes = 32 << 20;  // a rank keeps no more of what arrives
 
 /// What the network takes, whatever else the processors are asked to do meanwhile.
 double least(const std::vector<double>& values) {
   return *std::min_element(values.begin(), values.end());
 }
 
-/// Half of there and back, on the rank that begins; the other one sends back.
-double send_back_and_forth(MPI_Comm group, int partner, bool begins, std::vector<std::byte>& content,
-                           int length) {
+/// To the partner and from it at a time, as ranks exchange: both directions share what a rank can copy. What
+/// arrives is received into memory that is taken for it, as exchanges do: pages that the system has to clear.
+double exchange_once(MPI_Comm group, int partner, const Bytes& content, Bytes& arrived) {
   const double begin = wall_seconds();
-  const auto send = [&] { check(MPI_Send(content.data(), length, MPI_BYTE, partner, 0, group), "sending"); };
-  const auto receive = [&] {
-    check(MPI_Recv(content.data(), length, MPI_BYTE, partner, 0, group, MPI_STATUS_IGNORE), "receiving");
-  };
-  if (begins) send();
-  receive();
-  if (!begins) send();
-  return 0.5 * (wall_seconds() - begin);
+  const auto length = static_cast<int>(content.size());
+  arrived = Bytes(content.size());
+  check(MPI_Sendrecv(content.data(), length, MPI_BYTE, partner, 0, arrived.data(), length, MPI_BYTE, partner,
+                     0, group, MPI_STATUS_IGNORE),
+        "exchanging");
+  return wall_seconds() - begin;
 }
 
 double time_messages(const Communicator& communicator, MPI_Comm group, int length) {
   const int half = communicator.size() / 2, rank = communicator.rank();
-  const bool begins = rank < half, takes_part = rank < 2 * half;
-  std::vector<std::byte> content(static_cast<std::size_t>(length));
+  const bool takes_part = rank < 2 * half;
+  const Bytes content(static_cast<std::size_t>(length));
+  std::vector<Bytes> arrived(static_cast<std::size_t>(std::min(repeats, kept_bytes / length)));
   std::vector<double> seconds;
   communicator.barrier();
-  for (int i = 0; takes_part && i < repeats; ++i)
-    seconds.push_back(
-        send_back_and_forth(group, begins ? rank + half : rank - half, begins, content, length));
-  return communicator.maximum(begins ? least(seconds) : 0.0);
+  for (std::size_t i = 0; takes_part && i < arrived.size(); ++i)
+    seconds.push_back(exchange_once(group, rank < half ? rank + half : rank - half, content, arrived[i]));
+  return communicator.maximum(takes_part ? least(seconds) : 0.0);
 }
 
 double time_reductions(const Communicator& communicator) {

@@ -11,8 +11,7 @@ namespace aeroloom::parallel {
 /// One length of messages.
 struct MessageTiming {
   std::int64_t bytes = 0;
-  double seconds =
-      0;  ///< one way: half of there and back, the least of its repeats, of the slowest pair of ranks
+  double seconds = 0;  ///< to a partner and from it at a time, the least of its repeats, of the slowest rank
 };
 
 /// Seconds for all lengths, the same on every rank.
@@ -24,7 +23,7 @@ struct NetworkProbe {
   double bytes_per_second = 0;  ///< what the longest message takes beyond that
 };
 
-/// Rank r sends back and forth with rank r + P/2, all such pairs at a time, then all ranks reduce. Takes
+/// Rank r exchanges messages with rank r + P/2, all such pairs at a time, then all ranks reduce. Takes
 /// about a second. Collective; throws std::invalid_argument on one rank.
 NetworkProbe probe_network(const Communicator& communicator);
 
