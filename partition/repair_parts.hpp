@@ -1,7 +1,7 @@
 /// What METIS leaves to be done: connected parts whose borders meet at good angles.
 #pragma once
 
-#include "aeroloom/partition/background_surface.hpp"
+#include "partition/background_surface.hpp"
 
 #include <cstdint>
 #include <vector>
