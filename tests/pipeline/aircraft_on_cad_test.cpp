@@ -19,9 +19,6 @@ namespace {
 
 using geometry::Vec3;
 
-/// Before the server of sandboxed runs starts.
-[[maybe_unused]] const bool registered = (volume::register_volume_tasks(), true);
-
 struct Aircraft {
   cad::Model model;
   surface::SurfaceMesh surface;

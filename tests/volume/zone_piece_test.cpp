@@ -21,8 +21,6 @@ using mesh::RegionId;
 using mesh::SharedVertexKey;
 using parallel::Communicator;
 
-const bool tasks_are_known = (register_volume_tasks(), true);
-
 struct Zone {
   ZoneContent content;
   ZoneFilling filling;
