@@ -125,8 +125,7 @@ TEST(ChooseSizes, HitsTheTarget) {
 TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
   const Model model = sphere_in_box(20, 0.5);
   parallel::StageClock clock;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1,
-                                     sizing::Fields::several);
+  sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 5e4);
   const SizeField field = sampler.build_field(chosen.options);
   EXPECT_EQ(chosen.field.leaf_count(), field.leaf_count());
@@ -141,8 +140,7 @@ TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
 TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
   const Model model = sphere_in_box(20, 0.001);
   parallel::StageClock clock;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1,
-                                     sizing::Fields::several);
+  sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 100);
   EXPECT_GT(chosen.counts.tetrahedra, 200);
   EXPECT_NEAR(chosen.options.surface_maximum, 0.0004, 0.0001) << "the coarsest it tries, a fifth of the body";
