@@ -1,7 +1,7 @@
 #include "improve/sliding.hpp"
 
 #include "aeroloom/mesh/quality.hpp"
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <limits>

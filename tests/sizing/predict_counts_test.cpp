@@ -1,8 +1,8 @@
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/sizing/choose_sizes.hpp"
 #include "aeroloom/sizing/size_field.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "sizing/facet_integral.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ PredictedCounts predict(const Model& model, const SizingOptions& options,
                         const parallel::Communicator& communicator = parallel::Communicator::world()) {
   parallel::StageClock clock;
   const SizeField field = sizing::build_size_field(communicator, model, options, clock);
-  return sizing::predict_counts(communicator, model, field, clock);
+  return sizing::ModelSampler(communicator, model, clock, 0, sizing::Fields::one).predict(field);
 }
 
 /// The prediction for one size everywhere, with the constants of the integrals.

@@ -1,11 +1,11 @@
 /// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
 #include "aeroloom/mesh/quality.hpp"
 #include "aeroloom/mesh/validity.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "surface/coarse_loops.hpp"
 #include "surface/face_mesher.hpp"
 #include "surface/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>

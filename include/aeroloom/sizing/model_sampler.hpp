@@ -96,7 +96,7 @@ public:
   /// The field under these options. Collective. This and what follows throw std::invalid_argument where the
   /// memory of this node cannot hold a point for each triangle.
   SizeField build_field(const SizingOptions& options);
-  /// As predict_counts. Collective.
+  /// The size of the mesh under a field. Collective.
   PredictedCounts predict(const SizeField& field) const;
   /// The triangles that predict() counts. Collective.
   double count_triangles(const SizeField& field) const;
