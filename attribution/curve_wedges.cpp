@@ -1,7 +1,7 @@
 #include "attribution/curve_wedges.hpp"
 
+#include "aeroloom/mesh/cad_dimension.hpp"
 #include "geometry/angle.hpp"
-#include "mesh/cad_dimension.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,11 +45,12 @@ void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* c = piece.cell(t);
     int curved = 0;
-    for (int k = 0; k < 4; ++k) curved += piece.vertex_dimension[c[k]] <= mesh::on_curve;
+    for (int k = 0; k < 4; ++k) curved += piece.vertex_dimension[c[k]] <= mesh::CadDimension::edge;
     if (curved < 2) continue;
     for (int e = 0; e < 6; ++e) {
       const auto& [a, b] = mesh::tetrahedron_edges[e];
-      if (piece.vertex_dimension[c[a]] > mesh::on_curve || piece.vertex_dimension[c[b]] > mesh::on_curve)
+      if (piece.vertex_dimension[c[a]] > mesh::CadDimension::edge ||
+          piece.vertex_dimension[c[b]] > mesh::CadDimension::edge)
         continue;
       const std::int64_t edge = find_edge(edges, name_edge(piece, names, c[a], c[b]));
       if (edge < 0) continue;
@@ -63,7 +64,9 @@ void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int k = 0; k < 3; ++k) {
       const LocalIndex a = v[k], b = v[(k + 1) % 3];
-      if (piece.vertex_dimension[a] > mesh::on_curve || piece.vertex_dimension[b] > mesh::on_curve) continue;
+      if (piece.vertex_dimension[a] > mesh::CadDimension::edge ||
+          piece.vertex_dimension[b] > mesh::CadDimension::edge)
+        continue;
       const std::int64_t edge = find_edge(edges, name_edge(piece, names, a, b));
       if (edge >= 0) mine.push_back({edge, piece.id, 0, {piece.triangle_face[t], -1}});
     }

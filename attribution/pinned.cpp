@@ -1,12 +1,12 @@
 #include "aeroloom/attribution/pinned.hpp"
 
+#include "aeroloom/mesh/cad_dimension.hpp"
 #include "aeroloom/mesh/quality.hpp"
 #include "attribution/curve_wedges.hpp"
 #include "attribution/sharp_curves.hpp"
 #include "attribution/strip_edges.hpp"
 #include "attribution/wall_pairs.hpp"
 #include "geometry/angle.hpp"
-#include "mesh/cad_dimension.hpp"
 #include "mesh/tet_quality.hpp"
 
 #include <algorithm>
@@ -129,7 +129,8 @@ void PinnedSearch::collect_edges() {
       bad.push_back({t, mesh::dihedral_range(p[0], p[1], p[2], p[3])});
       const LocalIndex* c = piece.cell(t);
       for (const auto& [a, b] : mesh::tetrahedron_edges) {
-        if (piece.vertex_dimension[c[a]] <= mesh::on_curve && piece.vertex_dimension[c[b]] <= mesh::on_curve)
+        if (piece.vertex_dimension[c[a]] <= mesh::CadDimension::edge &&
+            piece.vertex_dimension[c[b]] <= mesh::CadDimension::edge)
           mine.push_back(name(i, c[a], c[b]));
       }
     }
@@ -172,7 +173,8 @@ bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
   PinningEntity entity;
   entity.angle = _target;
   for (const auto& [a, b] : mesh::tetrahedron_edges) {
-    if (piece.vertex_dimension[c[a]] > mesh::on_curve || piece.vertex_dimension[c[b]] > mesh::on_curve)
+    if (piece.vertex_dimension[c[a]] > mesh::CadDimension::edge ||
+        piece.vertex_dimension[c[b]] > mesh::CadDimension::edge)
       continue;
     const std::int64_t edge = find(name(i, c[a], c[b]));
     if (edge < 0 || _wedges[edge].angle >= entity.angle) continue;
@@ -196,8 +198,9 @@ std::vector<std::array<LocalIndex, 4>> PinnedSearch::sharp_corners(const Piece& 
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int k = 0; k < 3; ++k) {
       const LocalIndex tip = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
-      if (piece.vertex_dimension[tip] != 0 || piece.vertex_dimension[a] > mesh::on_curve ||
-          piece.vertex_dimension[b] > mesh::on_curve) {
+      if (piece.vertex_dimension[tip] != mesh::CadDimension::vertex ||
+          piece.vertex_dimension[a] > mesh::CadDimension::edge ||
+          piece.vertex_dimension[b] > mesh::CadDimension::edge) {
         continue;
       }
       if (corner_angle(piece.point(tip), piece.point(a), piece.point(b)) < _target)
@@ -271,8 +274,9 @@ bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
 bool PinnedSearch::is_held(const Piece& piece, const BadTet& bad) const {
   if (_surface_may_change) return false;
   const LocalIndex* c = piece.cell(bad.tet);
-  return std::count_if(c, c + 4, [&](LocalIndex v) { return piece.vertex_dimension[v] <= mesh::on_face; }) >=
-         3;
+  return std::count_if(c, c + 4, [&](LocalIndex v) {
+           return piece.vertex_dimension[v] <= mesh::CadDimension::face;
+         }) >= 3;
 }
 
 void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) {

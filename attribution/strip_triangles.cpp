@@ -1,6 +1,6 @@
 #include "attribution/strip_triangles.hpp"
 
-#include "mesh/cad_dimension.hpp"
+#include "aeroloom/mesh/cad_dimension.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,10 +56,11 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int i = 0; i < 3; ++i) {
       for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
-        if (piece.vertex_dimension[v[i]] != mesh::at_vertex || piece.vertex_dimension[v[k]] > mesh::on_curve)
+        if (piece.vertex_dimension[v[i]] != mesh::CadDimension::vertex ||
+            piece.vertex_dimension[v[k]] > mesh::CadDimension::edge)
           continue;
         const std::int32_t vertex = piece.vertex_entity[v[i]], entity = piece.vertex_entity[v[k]];
-        const bool between_vertices = piece.vertex_dimension[v[k]] == mesh::at_vertex;
+        const bool between_vertices = piece.vertex_dimension[v[k]] == mesh::CadDimension::vertex;
         edges.push_back({vertex, piece.triangle_face[t],
                          between_vertices ? name_of_segment(vertex, entity) : entity, names[v[k]],
                          piece.point(v[k]) - piece.point(v[i])});
@@ -115,7 +116,7 @@ public:
     const Vec3 p = _piece.point(a), q = _piece.point(b), r = _piece.point(c);
     const Vec3 direction = distance(p, r) < distance(q, r) ? q - p : p - q;
     const auto is_apart = [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); };
-    if (_piece.vertex_dimension[c] != mesh::at_vertex)
+    if (_piece.vertex_dimension[c] != mesh::CadDimension::vertex)
       return std::any_of(_at_c.begin(), _at_c.end(), is_apart);
     // A short segment across the end of a curve makes no strip of the curves that it joins.
     const auto curves = curves_at(_piece.vertex_entity[c], face);
@@ -129,7 +130,7 @@ private:
   void list(LocalIndex v, std::int32_t face, std::vector<CurveName>& names) const {
     names.clear();
     const std::int32_t entity = _piece.vertex_entity[v];
-    if (_piece.vertex_dimension[v] != mesh::at_vertex) {
+    if (_piece.vertex_dimension[v] != mesh::CadDimension::vertex) {
       names.push_back(entity);
       return;
     }
@@ -155,7 +156,8 @@ std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<Curve
   StripJudge judge(piece, curves);
   for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const LocalIndex* v = piece.boundary_triangle(t);
-    if (std::any_of(v, v + 3, [&](LocalIndex w) { return piece.vertex_dimension[w] > mesh::on_curve; }))
+    if (std::any_of(v, v + 3,
+                    [&](LocalIndex w) { return piece.vertex_dimension[w] > mesh::CadDimension::edge; }))
       continue;
     for (int i = 0; i < 3; ++i) {
       const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];

@@ -1,6 +1,6 @@
 #include "attribution/wall_pairs.hpp"
 
-#include "mesh/cad_dimension.hpp"
+#include "aeroloom/mesh/cad_dimension.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,8 +51,9 @@ VertexFaces::VertexFaces(const parallel::Communicator& communicator, const mesh:
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       for (int i = 0; i < 3; ++i) {
         const LocalIndex v = piece.boundary_triangle(t)[i];
-        if (piece.vertex_dimension[v] <= mesh::on_curve)
-          mine.push_back({piece.vertex_dimension[v], piece.vertex_entity[v], piece.triangle_face[t]});
+        if (piece.vertex_dimension[v] <= mesh::CadDimension::edge)
+          mine.push_back({static_cast<std::int32_t>(piece.vertex_dimension[v]), piece.vertex_entity[v],
+                          piece.triangle_face[t]});
       }
     }
     sort_out(mine);
@@ -62,13 +63,14 @@ VertexFaces::VertexFaces(const parallel::Communicator& communicator, const mesh:
 }
 
 void VertexFaces::list(const Piece& piece, LocalIndex vertex, std::vector<std::int32_t>& faces) const {
-  const auto dimension = static_cast<std::uint8_t>(piece.vertex_dimension[vertex]);
+  const mesh::CadDimension dimension = piece.vertex_dimension[vertex];
   const std::int32_t entity = piece.vertex_entity[vertex];
-  if (dimension == mesh::on_face) faces.push_back(entity);
-  if (dimension > mesh::on_curve) return;
-  const Classification first{dimension, entity, std::numeric_limits<std::int32_t>::min()};
+  if (dimension == mesh::CadDimension::face) faces.push_back(entity);
+  if (dimension > mesh::CadDimension::edge) return;
+  const Classification first{static_cast<std::int32_t>(dimension), entity,
+                             std::numeric_limits<std::int32_t>::min()};
   for (auto row = std::lower_bound(_rows.begin(), _rows.end(), first);
-       row != _rows.end() && row->dimension == dimension && row->entity == entity; ++row) {
+       row != _rows.end() && row->dimension == first.dimension && row->entity == entity; ++row) {
     faces.push_back(row->face);
   }
 }

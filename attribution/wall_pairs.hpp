@@ -29,7 +29,8 @@ public:
 
 private:
   struct Classification {
-    std::int32_t dimension, entity, face;
+    std::int32_t dimension;  // a mesh::CadDimension; as wide as the ids, so that there is no padding
+    std::int32_t entity, face;
 
     static constexpr auto fields() {
       return std::tuple(&Classification::dimension, &Classification::entity, &Classification::face);

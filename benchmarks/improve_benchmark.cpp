@@ -84,8 +84,6 @@ void run(const Communicator& communicator, const cases::Case& input) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  volume::register_volume_tasks();
-  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2 || world.size() > 1) {

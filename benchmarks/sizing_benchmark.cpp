@@ -58,7 +58,6 @@ void run(const Communicator& communicator, const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2) {

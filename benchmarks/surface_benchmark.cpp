@@ -39,7 +39,8 @@ struct Shape {
 Shape measure(const mesh::Piece& piece, const sizing::SizeField& field) {
   Shape shape;
   std::vector<char> on_cut(piece.vertex_count(), 0);
-  for (const mesh::LocalIndex v : piece.shared_vertices) on_cut[v] = piece.vertex_dimension[v] == 2;
+  for (const mesh::LocalIndex v : piece.shared_vertices)
+    on_cut[v] = piece.vertex_dimension[v] == mesh::CadDimension::face;
   for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const mesh::LocalIndex* v = piece.cell(t);
     const geometry::Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
@@ -150,7 +151,8 @@ Decomposition inspect_pieces(const Communicator& communicator, const mesh::Distr
   std::vector<Row> rows;
   for (const mesh::Piece& piece : surface.pieces) {
     std::int32_t border = 0;
-    for (const mesh::LocalIndex v : piece.shared_vertices) border += piece.vertex_dimension[v] == 2;
+    for (const mesh::LocalIndex v : piece.shared_vertices)
+      border += piece.vertex_dimension[v] == mesh::CadDimension::face;
     rows.push_back({piece.common_face(), piece.id, piece.cell_count(), border});
   }
   rows = communicator.all_gather_items<Row>(rows);
@@ -284,7 +286,6 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
 }  // namespace
 
 int main(int argc, char** argv) {
-  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   const Communicator world = Communicator::world();
   if (argc < 2) {

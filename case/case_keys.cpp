@@ -9,9 +9,11 @@ namespace aeroloom::cases {
 namespace {
 
 void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
-  keys.number("minimum", sizing.minimum, Range::above(0, length_unit),
-              common({"Smallest size where surfaces are curved. At most `maximum` and `surface_maximum`.",
-                      "from the model", "0.01"}));
+  keys.number(
+      "minimum", sizing.minimum, Range::above(0, length_unit),
+      sets("SizingOptions::minimum",
+           common({"Smallest size where surfaces are curved. At most `maximum` and `surface_maximum`.",
+                   "from the model", "0.01"})));
   keys.number("feature_minimum", sizing.feature_minimum, Range::above(0, length_unit),
               {"Smallest size at short CAD edges, in narrow faces (blunt trailing edges) and behind sharp "
                "corners. From the model: as small as they are, within `feature_budget`, a thousandth of the "
@@ -28,11 +30,12 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
   const sizing::SizingOptions preset;
   declare_bounds(keys, sizing);
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
-              common({"How far an element may turn on curved faces and edges: less makes leading edges "
-                      "finer, and where a target is to be met, the rest coarser.",
-                      "15 where sizes are chosen from the model, " + shortest(preset.curvature_angle) +
-                          " where `minimum` and `maximum` are given",
-                      shortest(preset.curvature_angle)}));
+              sets("SizingOptions::curvature_angle",
+                   common({"How far an element may turn on curved faces and edges: less makes leading edges "
+                           "finer, and where a target is to be met, the rest coarser.",
+                           "15 where sizes are chosen from the model, " + shortest(preset.curvature_angle) +
+                               " where `minimum` and `maximum` are given",
+                           shortest(preset.curvature_angle)})));
   keys.number(
       "chordal_deviation", sizing.chordal_deviation, Range::above(0, length_unit),
       {"Distance of triangles from curved faces, at most. Sizes may fall to `feature_minimum` for it.", "any",
@@ -62,9 +65,11 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
 
 void declare_surface(KeyTable& keys, Case& result) {
   using surface::SurfaceDecomposition;
-  keys.integer("piece_triangles", result.surface.piece_triangles, Range::between(100, 1e9, "elements"),
-               "Wanted triangles of a piece of the surface; CAD faces heavier than one and a half pieces are "
-               "cut. Less helps many ranks on small meshes.");
+  keys.integer(
+      "piece_triangles", result.surface.piece_triangles, Range::between(100, 1e9, "elements"),
+      sets("SurfaceOptions::piece_triangles",
+           "Wanted triangles of a piece of the surface; CAD faces heavier than one and a half pieces are "
+           "cut. Less helps many ranks on small meshes."));
   keys.choice<SurfaceDecomposition>(
       "decomposition", result.surface.decomposition,
       {{"faces", SurfaceDecomposition::faces}, {"pieces", SurfaceDecomposition::pieces}},
@@ -76,10 +81,12 @@ void declare_surface(KeyTable& keys, Case& result) {
 }
 
 void declare_volume(KeyTable& keys, Case& result) {
-  keys.integer("piece_tets", result.volume.piece_tets, Range::between(100, 1e9, "elements"),
-               {"Wanted tetrahedra of a piece of the volume; a volume of more than one and a half pieces is "
-                "filled in [zones](volume_decomposition.md).",
-                "a sixty-fourth of all, 40,000 to 170,000", "200000"});
+  keys.integer(
+      "piece_tets", result.volume.piece_tets, Range::between(100, 1e9, "elements"),
+      sets("VolumeOptions::piece_tets",
+           {"Wanted tetrahedra of a piece of the volume; a volume of more than one and a half pieces is "
+            "filled in [zones](volume_decomposition.md).",
+            "a sixty-fourth of all, 40,000 to 170,000", "200000"}));
   keys.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"),
               "Distance of lattice points from the boundary. The default suits nearly every mesh.");
   keys.number("perturbation", result.volume.perturbation,

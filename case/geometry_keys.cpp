@@ -92,8 +92,9 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   keys.choice<DomainKind>(
       "domain", draft.result.domain.kind,
       {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}},
-      common("What the file's solids are. `fluid`: the space to mesh; `body`: bodies in a far field that the "
-             "program adds; `auto` decides and says why. Say it where `auto` is wrong."));
+      sets("DomainOptions::kind",
+           common("What the file's solids are. `fluid`: the space to mesh; `body`: bodies in a far field "
+                  "that the program adds; `auto` decides and says why. Say it where `auto` is wrong.")));
   keys.choice<NarrowFaces>(
       "narrow_faces", draft.result.narrow_faces, {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}},
       "`join`: faces narrower than `sizing.minimum` become part of a neighbour that goes on from them "
@@ -130,12 +131,13 @@ void declare_far_field(KeyTable& keys, CaseDraft& draft) {
        {"x", Symmetry::x},
        {"y", Symmetry::y},
        {"z", Symmetry::z}},
-      common(
-          "`x`, `y`, `z`: a half model, its plane of symmetry normal to this axis. `none`: the whole model. "
-          "`auto`: the hemisphere alone makes a half model "
-          "([Half models](configuration.md#half-models))."));
+      sets("FarFieldOptions::symmetry",
+           common("`x`, `y`, `z`: a half model, its plane of symmetry normal to this axis. `none`: the whole "
+                  "model. `auto`: the hemisphere alone makes a half model "
+                  "([Half models](configuration.md#half-models)).")));
   keys.number("symmetry_position", draft.far_field.symmetry_position, Range::any(length_unit),
-              {"Position of the plane of symmetry on its axis.", "where the body ends, or 0", "0"});
+              sets("FarFieldOptions::symmetry_position",
+                   {"Position of the plane of symmetry on its axis.", "where the body ends, or 0", "0"}));
 }
 
 void declare_patches(KeyTable& root, CaseDraft& draft) {

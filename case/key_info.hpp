@@ -19,12 +19,19 @@ struct KeyDoc {
       : text(text), left_out(std::move(left_out)), example(std::move(example)) {}
 
   std::string text, left_out, example;
+  std::string option;   ///< that it sets, where messages of stages name it: "SizingOptions::minimum"
   bool common = false;  ///< touched by many, and so in the short template
 };
 
 /// The text of a key that many users touch.
 inline KeyDoc common(KeyDoc doc) {
   doc.common = true;
+  return doc;
+}
+
+/// The text of a key that sets an option which messages of stages name.
+inline KeyDoc sets(const char* option, KeyDoc doc) {
+  doc.option = option;
   return doc;
 }
 

@@ -74,7 +74,8 @@ void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& 
   std::vector<char> barred(piece.vertex_count(), 0);
   for (const mesh::LocalIndex v : piece.shared_vertices) barred[v] = 1;
   for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if ((piece.vertex_dimension[v] < 3 && !along_surface) || claims[v] != no_cavity) barred[v] = 1;
+    if ((piece.vertex_dimension[v] < mesh::CadDimension::region && !along_surface) || claims[v] != no_cavity)
+      barred[v] = 1;
   }
   std::vector<CavityId> next(piece.vertex_count(), no_cavity);
   for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {

@@ -45,10 +45,10 @@ void PieceUpdate::number_old() {
   sort_names();
 }
 
-mesh::LocalIndex PieceUpdate::add(Vec3 p, std::int32_t dimension, std::int32_t entity) {
+mesh::LocalIndex PieceUpdate::add(Vec3 p, mesh::CadDimension dimension, std::int32_t entity) {
   const mesh::LocalIndex v = _piece.vertex_count();
   _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
-  _piece.vertex_dimension.push_back(static_cast<std::int8_t>(dimension));
+  _piece.vertex_dimension.push_back(dimension);
   _piece.vertex_entity.push_back(entity);
   return v;
 }
@@ -68,7 +68,7 @@ void PieceUpdate::add_vertices(std::span<const WireTet> tets, const std::vector<
   std::vector<Named> names;
   for (const WireVertex* v : missing) {
     if (!names.empty() && v->vertex_key == names.back().vertex_key) continue;
-    names.push_back({v->vertex_key, add(v->point, v->dimension, v->entity)});
+    names.push_back({v->vertex_key, add(v->point, static_cast<mesh::CadDimension>(v->dimension), v->entity)});
   }
   _names.insert(_names.end(), names.begin(), names.end());
   sort_names();

@@ -22,7 +22,7 @@ struct WireTet {
 struct WireVertex {
   CavityId cavity;
   mesh::PieceId piece;
-  std::int32_t dimension;
+  std::int32_t dimension;  ///< a mesh::CadDimension; as wide as its neighbours, so that there is no padding
   mesh::SharedVertexKey vertex_key;
   geometry::Vec3 point;
   std::int32_t entity;
@@ -67,7 +67,7 @@ private:
   };
 
   void number_old();
-  mesh::LocalIndex add(geometry::Vec3 p, std::int32_t dimension, std::int32_t entity);
+  mesh::LocalIndex add(geometry::Vec3 p, mesh::CadDimension dimension, std::int32_t entity);
   void add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices);
   void append_cells(std::span<const WireTet> tets);
   void append_triangles(const std::vector<WireTriangle>& triangles);

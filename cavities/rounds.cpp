@@ -116,8 +116,8 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const auto& [cavity, v] : used)
-      result.vertices.push_back({cavity, piece.id, piece.vertex_dimension[v], vertex_key[v], piece.point(v),
-                                 piece.vertex_entity[v]});
+      result.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
+                                 vertex_key[v], piece.point(v), piece.vertex_entity[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
@@ -211,7 +211,7 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
       owned.vertex_keys.push_back(vertices[v].vertex_key);
       owned.cavity.entity.push_back(vertices[v].entity);
       owned.cavity.points.push_back(vertices[v].point);
-      owned.cavity.dimension.push_back(static_cast<std::int8_t>(vertices[v].dimension));
+      owned.cavity.dimension.push_back(static_cast<mesh::CadDimension>(vertices[v].dimension));
     }
     const auto local = [&](mesh::SharedVertexKey vertex_key) {
       return static_cast<mesh::LocalIndex>(
@@ -260,12 +260,13 @@ void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added
   uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
   for (const auto& [piece, v] : uses) {
     if (v < known) {
-      out.vertices.push_back({id, piece, owned.cavity.dimension[v], owned.vertex_keys[v],
-                              owned.cavity.points[v], owned.cavity.entity[v]});
+      out.vertices.push_back({id, piece, static_cast<std::int32_t>(owned.cavity.dimension[v]),
+                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v]});
     } else {
       const AddedVertex& added = owned.refilling->added[v - known];
-      out.vertices.push_back({id, piece, added.dimension, vertex_key(v), added.point,
-                              added.dimension == 3 ? owned.cavity.region : added.entity});
+      out.vertices.push_back(
+          {id, piece, static_cast<std::int32_t>(added.dimension), vertex_key(v), added.point,
+           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity});
     }
   }
   const std::vector<CavityTriangle>& triangles = owned.refilling->triangles_of(owned.cavity);

@@ -36,8 +36,8 @@ struct Cavity {
   CavityId id = no_cavity;
   mesh::RegionId region = 0;
   std::vector<geometry::Vec3> points;
-  std::vector<std::int8_t> dimension;  ///< per point: classification
-  std::vector<std::int32_t> entity;    ///< per point
+  std::vector<mesh::CadDimension> dimension;  ///< per point: classification
+  std::vector<std::int32_t> entity;           ///< per point
   std::vector<std::array<mesh::LocalIndex, 4>> tets;
   std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
 };
@@ -45,7 +45,7 @@ struct Cavity {
 /// A vertex that comes with a refilling; inside the region unless it says otherwise.
 struct AddedVertex {
   geometry::Vec3 point;
-  std::int8_t dimension = 3;
+  mesh::CadDimension dimension = mesh::CadDimension::region;
   std::int32_t entity = 0;  ///< of a vertex on the CAD
 };
 

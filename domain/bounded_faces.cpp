@@ -25,7 +25,7 @@ double share_of_body(const std::vector<NamedBound>& faces) {
 
 }  // namespace
 
-std::vector<NamedBound> report_bounded_faces(const sizing::ModelSampler& sampler,
+std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
                                              const sizing::SizingOptions& sizes) {
   const cad::Model& model = sampler.model();
   std::map<std::string, NamedBound> by_name;

@@ -24,10 +24,6 @@ using cad::DomainOptions;
 using parallel::Bytes;
 using parallel::Fault;
 
-const char* const prepare_task_name = "geometry.prepare";
-const char* const diagnose_task_name = "geometry.diagnose";
-const char* const look_task_name = "geometry.look";
-
 // Limits of a child, from the size of the file. Real files take up to 13 s per megabyte (an assembly of 222
 // solids) and less than a gigabyte; what takes several times as long is stuck.
 constexpr double base_cpu_seconds = 30, cpu_seconds_per_megabyte = 60;
@@ -91,20 +87,24 @@ Bytes answer(std::span<const std::byte> input, Work work) {
   return parallel::hand_over_to_wire(std::move(answer));
 }
 
-Bytes prepare_task(std::span<const std::byte> input) {
+Bytes prepare_domain(std::span<const std::byte> input) {
   return answer(input,
                 [](const DomainOptions& options) { return pack_domain(cad::prepare_domain(options)); });
 }
 
-Bytes diagnose_task(std::span<const std::byte> input) {
+Bytes diagnose_domain(std::span<const std::byte> input) {
   return answer(input, [](const DomainOptions& options) { return pack_diagnosis(cad::diagnose(options)); });
 }
 
-Bytes look_task(std::span<const std::byte> input) {
+Bytes look_at_file(std::span<const std::byte> input) {
   return answer(input, [](const DomainOptions& options) {
     return parallel::to_wire(cad::look_at_cad_file(options.file));
   });
 }
+
+const parallel::NamedTask prepare_task("geometry.prepare", prepare_domain);
+const parallel::NamedTask diagnose_task("geometry.diagnose", diagnose_domain);
+const parallel::NamedTask look_task("geometry.look", look_at_file);
 
 double file_bytes(const DomainOptions& options) {
   std::error_code ignored;  // a file that is not there is reported by who reads it
@@ -139,11 +139,12 @@ std::string source_of(const DomainOptions& options) {
 }
 
 /// Runs a task on the options; its result where it ended well.
-Bytes run_task(const char* task, const DomainOptions& options, parallel::StageClock& clock, Fault fault) {
+Bytes run_task(const parallel::NamedTask& task, const DomainOptions& options, parallel::StageClock& clock,
+               Fault fault) {
   const parallel::SandboxLimits limits = limits_for(options);
   const parallel::CrashNote note(fmt::format("stage geometry, {}", source_of(options)));
   const parallel::SandboxResult result =
-      parallel::run_sandboxed(task, parallel::to_wire(std::tie(fault, options)), limits);
+      parallel::run_sandboxed(task.name(), parallel::to_wire(std::tie(fault, options)), limits);
   clock.add_task_cpu(result.cpu_seconds);
   clock.add_serial_cpu(result.cpu_seconds);
   clock.note_child_memory(result.peak_resident_bytes);
@@ -163,27 +164,19 @@ Bytes run_task(const char* task, const DomainOptions& options, parallel::StageCl
 
 }  // namespace
 
-void register_geometry_tasks() {
-  parallel::register_sandbox_task(prepare_task_name, prepare_task);
-  parallel::register_sandbox_task(diagnose_task_name, diagnose_task);
-  parallel::register_sandbox_task(look_task_name, look_task);
-}
-
 cad::Domain prepare_sandboxed(const DomainOptions& options, parallel::StageClock& clock) {
-  return unpack_domain(
-      run_task(prepare_task_name, options, clock, parallel::requested_fault("domain").fault));
+  return unpack_domain(run_task(prepare_task, options, clock, parallel::requested_fault("domain").fault));
 }
 
 cad::Diagnosis diagnose_sandboxed(const DomainOptions& options, parallel::StageClock& clock) {
-  return unpack_diagnosis(
-      run_task(diagnose_task_name, options, clock, parallel::requested_fault("domain").fault));
+  return unpack_diagnosis(run_task(diagnose_task, options, clock, parallel::requested_fault("domain").fault));
 }
 
 cad::CadFacts look_sandboxed(const std::string& file) {
   DomainOptions options;
   options.file = file;
   parallel::StageClock clock;
-  return parallel::from_wire<cad::CadFacts>(run_task(look_task_name, options, clock, Fault::none));
+  return parallel::from_wire<cad::CadFacts>(run_task(look_task, options, clock, Fault::none));
 }
 
 cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,

@@ -88,7 +88,7 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
 }
 
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
-void tell_missed_target(const sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
+void tell_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
                         const cases::SizingRequest& request, double target) {
   const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
   if (ratio < missed_target && ratio > 1 / missed_target) return;
@@ -114,7 +114,7 @@ struct Trial {
 };
 
 /// What trailing edges are judged by. Its functions refer to the sampler.
-TrialSizes tell(const sizing::ModelSampler& sampler, const Trial& trial) {
+TrialSizes tell(sizing::ModelSampler& sampler, const Trial& trial) {
   const sizing::SizingOptions options = trial.options();
   return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
           [&sampler, options](const std::vector<geometry::Vec3>& places) {
@@ -122,7 +122,7 @@ TrialSizes tell(const sizing::ModelSampler& sampler, const Trial& trial) {
           }};
 }
 
-Trial try_sizes(const sizing::ModelSampler& sampler, const cases::SizingRequest& request,
+Trial try_sizes(sizing::ModelSampler& sampler, const cases::SizingRequest& request,
                 const std::optional<sizing::SizingOptions>& near) {
   const std::optional<double> target = target_of(request);
   if (!target) return {sizing::with_given({}, request), {}};
@@ -130,8 +130,8 @@ Trial try_sizes(const sizing::ModelSampler& sampler, const cases::SizingRequest&
 }
 
 /// The sized domain of the sampler's model, which stays as it is.
-SizedDomain finish(const sizing::ModelSampler& sampler, const cases::SizingRequest& request,
-                   const Trial& trial, JoinedFaces joined, sizing::FieldFor purpose) {
+SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& request, const Trial& trial,
+                   JoinedFaces joined, sizing::FieldFor purpose) {
   if (!trial.prospect) {
     sizing::ChosenSizes applied = sizing::apply_sizes(sampler, trial.sizes, purpose);
     return {sampler.model(),

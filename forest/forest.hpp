@@ -34,11 +34,6 @@ public:
   parallel::Rank owner_of(std::uint64_t key) const {
     return static_cast<parallel::Rank>(std::upper_bound(_keys.begin(), _keys.end(), key) - _keys.begin() - 1);
   }
-  /// The rank that has the leaf with this number.
-  parallel::Rank owner_of_number(std::int64_t number) const {
-    return static_cast<parallel::Rank>(std::upper_bound(_firsts.begin(), _firsts.end(), number) -
-                                       _firsts.begin() - 1);
-  }
 
 private:
   friend class Brick;

@@ -24,7 +24,8 @@ LastWords& last_words() {
   return words;
 }
 
-/// Keeps what is said of an error; of the stack that follows only that it was said before.
+/// Keeps what is said of an error; of the stack that follows only that it was said before. The parameters are
+/// those of libsc's sc_log_handler_t.
 void keep_error(FILE*, const char*, int, int, int, int priority, const char* text) {
   if (priority < SC_LP_ERROR || std::strstr(text, "stack frames") || std::strncmp(text, "Stack", 5) == 0)
     return;

@@ -66,10 +66,6 @@ int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return CGAL::side_of_oriented_circle(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d));
 }
 
-int in_sphere(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 e) {
-  return CGAL::side_of_oriented_sphere(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d), to_cgal(e));
-}
-
 bool triangles_intersect(const Vec3 (&a)[3], const Vec3 (&b)[3]) {
   return meet(make_simplex(a), make_simplex(b));
 }

@@ -21,8 +21,6 @@ inline bool has_positive_volume(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 }
 /// For (a,b,c) counter-clockwise: 1 when d is inside their circumcircle, 0 on it, -1 outside.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
-/// For (a,b,c,d) of positive orientation: 1 when e is inside their circumsphere, 0 on it, -1 outside.
-int in_sphere(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 e);
 /// Whether the closed triangles share a point, coplanar and degenerate ones (segments, points) included.
 /// Exact.
 bool triangles_intersect(const Vec3 (&a)[3], const Vec3 (&b)[3]);

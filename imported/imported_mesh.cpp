@@ -39,10 +39,10 @@ void classify_vertices(const parallel::Communicator& communicator, mesh::Distrib
   shared.for_each(
       [&](std::size_t p, LocalIndex v, std::size_t copy) { mesh.pieces[p].vertex_entity[v] = faces[copy]; });
   for (mesh::Piece& piece : mesh.pieces) {
-    piece.vertex_dimension.assign(piece.vertex_count(), 2);
+    piece.vertex_dimension.assign(piece.vertex_count(), mesh::CadDimension::face);
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (piece.vertex_entity[v] != none) continue;
-      piece.vertex_dimension[v] = 3;
+      piece.vertex_dimension[v] = mesh::CadDimension::region;
       piece.vertex_entity[v] = piece.region;
     }
   }

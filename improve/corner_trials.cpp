@@ -1,9 +1,9 @@
 #include "improve/corner_trials.hpp"
 
+#include "aeroloom/mesh/cad_dimension.hpp"
 #include "improve/corner_relief.hpp"
 #include "improve/reach.hpp"
 #include "improve/schedule.hpp"
-#include "mesh/cad_dimension.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -139,7 +139,7 @@ mesh::Piece CornerTrials::copy(const TetMesh& mesh) const {
     const LocalIndex v = _vertices[i];
     const Vec3 p = mesh.point(v);
     piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-    piece.vertex_dimension.push_back(static_cast<std::int8_t>(mesh.dimension(v)));
+    piece.vertex_dimension.push_back(mesh.dimension(v));
     piece.vertex_entity.push_back(mesh.entity(v));
     if (_inside[i]) continue;
     piece.shared_vertices.push_back(static_cast<LocalIndex>(i));

@@ -1,6 +1,6 @@
 #include "improve/edge_contraction.hpp"
 
-#include "mesh/cad_dimension.hpp"
+#include "aeroloom/mesh/cad_dimension.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,7 @@ bool has(const TriangleCorners& corners, LocalIndex v) {
 }  // namespace
 
 bool EdgeContraction::may_vanish(const TetMesh& mesh, LocalIndex from, LocalIndex to) {
-  if (mesh.is_shared(from) || mesh.dimension(from) < mesh::on_face) return false;
+  if (mesh.is_shared(from) || mesh.dimension(from) < mesh::CadDimension::face) return false;
   _triangles.clear();
   for (const LocalIndex t : _star) {
     for (int f = 0; f < 4; ++f) {
@@ -25,7 +25,7 @@ bool EdgeContraction::may_vanish(const TetMesh& mesh, LocalIndex from, LocalInde
       _triangles.push_back(triangle_of(other));
     }
   }
-  if (_triangles.empty()) return mesh.dimension(from) == mesh::in_region;
+  if (_triangles.empty()) return mesh.dimension(from) == mesh::CadDimension::region;
   // One fan of triangles of one face, two of which have the edge.
   std::size_t at_edge = 0;
   for (const LocalIndex i : _triangles) {
@@ -74,7 +74,7 @@ bool EdgeContraction::keeps_boundary(TetMesh& mesh, LocalIndex from, LocalIndex 
 
 bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor,
                               Replacement& cavity) {
-  if (mesh.is_shared(from) || mesh.dimension(from) < mesh::on_face) return false;
+  if (mesh.is_shared(from) || mesh.dimension(from) < mesh::CadDimension::face) return false;
   mesh.collect_star(from, _star);
   cavity.clear();
   cavity.before = std::numeric_limits<double>::max();

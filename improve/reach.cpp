@@ -1,6 +1,6 @@
 #include "improve/reach.hpp"
 
-#include "mesh/cad_dimension.hpp"
+#include "aeroloom/mesh/cad_dimension.hpp"
 
 #include <cmath>
 
@@ -33,7 +33,8 @@ double width_to_length(Vec3 a, Vec3 b, Vec3 c) {
 Reach::Reach(const mesh::Piece& piece, const mesh::TetQuality& measure) : _target(measure.target()) {
   for (LocalIndex i = 0; i < piece.boundary_count(); ++i) {
     const LocalIndex* v = piece.boundary_triangle(i);
-    if (std::any_of(v, v + 3, [&](LocalIndex k) { return piece.vertex_dimension[k] > mesh::on_curve; }))
+    if (std::any_of(v, v + 3,
+                    [&](LocalIndex k) { return piece.vertex_dimension[k] > mesh::CadDimension::edge; }))
       continue;
     const double least = std::sqrt(width_to_length(piece.point(v[0]), piece.point(v[1]), piece.point(v[2])));
     if (!(least < narrow * _target)) continue;

@@ -1,6 +1,6 @@
 #include "improve/sliding.hpp"
 
-#include "mesh/cad_dimension.hpp"
+#include "aeroloom/mesh/cad_dimension.hpp"
 
 #include <algorithm>
 
@@ -111,8 +111,10 @@ double Sliding::mean_distance(const TetMesh& mesh, LocalIndex vertex) const {
 }
 
 bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star) {
-  const int dimension = mesh.dimension(vertex);
-  if (mesh.is_shared(vertex) || (dimension != mesh::on_face && dimension != mesh::on_curve)) return false;
+  const auto dimension = mesh.dimension(vertex);
+  if (mesh.is_shared(vertex) ||
+      (dimension != mesh::CadDimension::face && dimension != mesh::CadDimension::edge))
+    return false;
   mesh.collect_star(vertex, star);
   if (!collect_triangles(mesh, vertex, star)) return false;
   const cad::Model& model = _locator.model();
@@ -120,7 +122,7 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
   const double tolerance = nearness * mean_distance(mesh, vertex);
   const GentleTriangles gentle(_triangles);
   bool moved = false;
-  if (dimension == mesh::on_face) {
+  if (dimension == mesh::CadDimension::face) {
     // The CAD is asked only where the tangent plane promises something.
     TangentPlane plane(_triangles, gentle);
     if (!_smoothing.promises(mesh, vertex, star, plane, Smoothing::least_gain)) return false;

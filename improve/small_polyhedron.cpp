@@ -65,7 +65,9 @@ bool SmallPolyhedron::open_front(const TetMesh& mesh) {
     }
   }
   for (std::size_t v = 0; v < _vertices.size(); ++v) {
-    if (!outer[v] && (mesh.is_fixed(_vertices[v]) || mesh.dimension(_vertices[v]) < 3)) return false;
+    if (!outer[v] &&
+        (mesh.is_fixed(_vertices[v]) || mesh.dimension(_vertices[v]) < mesh::CadDimension::region))
+      return false;
   }
   return true;
 }

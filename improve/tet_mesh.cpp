@@ -71,7 +71,7 @@ void TetMesh::match_all_faces() {
 void TetMesh::fix_vertices() {
   _fixed.assign(_incident.size(), 0);
   for (std::size_t v = 0; v < _fixed.size(); ++v)
-    _fixed[v] = _piece.vertex_dimension[v] < 3 || _incident[v] < 0;
+    _fixed[v] = _piece.vertex_dimension[v] < mesh::CadDimension::region || _incident[v] < 0;
   _shared.assign(_incident.size(), 0);
   for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = _shared[v] = 1;
   for (const LocalIndex v : _piece.boundary) _fixed[v] = 1;
@@ -202,8 +202,9 @@ void TetMesh::move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star
 LocalIndex TetMesh::add_vertex(Vec3 p, LocalIndex like) {
   const LocalIndex v = vertex_count();
   _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
-  _piece.vertex_dimension.push_back(3);
-  _piece.vertex_entity.push_back(_piece.vertex_dimension[like] == 3 ? _piece.vertex_entity[like] : 0);
+  _piece.vertex_dimension.push_back(mesh::CadDimension::region);
+  _piece.vertex_entity.push_back(
+      _piece.vertex_dimension[like] == mesh::CadDimension::region ? _piece.vertex_entity[like] : 0);
   _incident.push_back(-1);
   _fixed.push_back(0);
   _shared.push_back(0);

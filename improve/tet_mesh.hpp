@@ -119,7 +119,7 @@ public:
   bool on_same_face(LocalIndex i, LocalIndex k) const;
   /// The CAD face of a boundary triangle.
   std::int32_t face_of(LocalIndex i) const { return _piece.triangle_face[i]; }
-  int dimension(LocalIndex v) const { return _piece.vertex_dimension[v]; }
+  mesh::CadDimension dimension(LocalIndex v) const { return _piece.vertex_dimension[v]; }
   /// The CAD entity of that dimension the vertex lies on.
   std::int32_t entity(LocalIndex v) const { return _piece.vertex_entity[v]; }
   bool is_shared(LocalIndex v) const { return _shared[v] != 0; }

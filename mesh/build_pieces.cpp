@@ -120,7 +120,7 @@ void fetch_vertices(const VertexTables& tables, const std::vector<std::vector<Gl
   if (tables.classes == nullptr) return;
   const VertexClassTable::Fetched found = tables.classes->fetch(keys);
   for_each_vertex([&](Piece& piece, std::size_t at) {
-    piece.vertex_dimension.push_back(static_cast<std::int8_t>(found.values[at].dimension));
+    piece.vertex_dimension.push_back(static_cast<CadDimension>(found.values[at].dimension));
     piece.vertex_entity.push_back(found.values[at].entity);
   });
 }

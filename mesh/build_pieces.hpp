@@ -67,7 +67,8 @@ enum class Ownership : std::uint8_t {
 /// What lies under the numbers of vertices.
 using PointTable = DistributedTable<std::array<double, 3>>;
 struct VertexClass {
-  std::int32_t dimension, entity;
+  std::int32_t dimension;  ///< a CadDimension; as wide as the entity, so that there is no padding
+  std::int32_t entity;
 
   static constexpr auto fields() { return std::tuple(&VertexClass::dimension, &VertexClass::entity); }
 };

@@ -70,7 +70,7 @@ void add_vertices(const Piece& piece, const std::vector<GlobalIndex>& numbers,
     ItemHash item(ItemKind::vertex, numbers[v]);
     for (int axis = 0; axis < 3; ++axis) item.add(piece.coordinates[3 * static_cast<std::size_t>(v) + axis]);
     if (!piece.vertex_dimension.empty()) {
-      item.add_signed(piece.vertex_dimension[v]);
+      item.add_signed(static_cast<std::int64_t>(piece.vertex_dimension[v]));
       item.add_signed(piece.vertex_entity[v]);
     }
     sum.add(item.digest());

@@ -284,7 +284,8 @@ NumberedMesh repartition(const parallel::Communicator& communicator, const Distr
     if (piece.vertex_dimension.empty()) {
       is_classified = false;
     } else {
-      classes.push_back({number, {piece.vertex_dimension[v], piece.vertex_entity[v]}});
+      classes.push_back(
+          {number, {static_cast<std::int32_t>(piece.vertex_dimension[v]), piece.vertex_entity[v]}});
     }
   });
   const PointTable point_table(communicator, ranges, std::move(points));

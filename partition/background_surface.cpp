@@ -1,4 +1,4 @@
-#include "aeroloom/partition/background_surface.hpp"
+#include "partition/background_surface.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 /// From clusters of background triangles to parts of equal load.
 #pragma once
 
-#include "aeroloom/partition/background_surface.hpp"
+#include "partition/background_surface.hpp"
 #include "partition/simplify_dual_graph.hpp"
 
 #include <vector>

@@ -1,5 +1,7 @@
 #include "partition/repair_parts.hpp"
 
+#include "partition/wedges.hpp"
+
 #include <algorithm>
 #include <map>
 
@@ -7,36 +9,6 @@ namespace aeroloom::partition {
 namespace {
 
 constexpr int repair_rounds = 6;
-
-bool is_feature(const BackgroundSurface& surface, geometry::HalfEdge h) {
-  return surface.twins[h] < 0;
-}
-
-bool is_border(const BackgroundSurface& surface, const std::vector<PartIndex>& part, geometry::HalfEdge h) {
-  return is_feature(surface, h) || part[h / 3] != part[surface.twins[h] / 3];
-}
-
-/// Calls visit(wedge) for each stretch between neighbouring borders of one fan.
-template <class Visit>
-void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
-                  const std::vector<PartIndex>& part, FanIndex fan, Visit visit) {
-  const std::int32_t size = fans.size(fan), edges = fans.edge_count(fan);
-  std::int32_t start = 0;
-  while (start < edges && !is_border(surface, part, fans.edge(fan, start))) ++start;
-  if (start == edges) return;
-  const std::int32_t steps = fans.closed[fan] ? size : size - start;
-  std::int32_t from = start;
-  double angle = 0;
-  for (std::int32_t k = 0; k < steps; ++k) {
-    angle += fans.angles[fans.first[fan] + (start + k) % size];
-    const std::int32_t to = fans.closed[fan] ? (start + k + 1) % size : start + k + 1;
-    if (!is_border(surface, part, fans.edge(fan, to))) continue;
-    const bool forced = is_feature(surface, fans.edge(fan, from)) && is_feature(surface, fans.edge(fan, to));
-    if (!forced && !(from == to)) visit(Wedge{fan, from, to, angle});
-    from = to;
-    angle = 0;
-  }
-}
 
 class Widener {
 public:
@@ -129,15 +101,6 @@ PartIndex number_parts(std::vector<PartIndex>& part) {
 }
 
 }  // namespace
-
-std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans& fans,
-                              const std::vector<PartIndex>& part) {
-  std::vector<Wedge> wedges;
-  for (std::int32_t fan = 0; fan < fans.count(); ++fan) {
-    visit_wedges(surface, fans, part, fan, [&](const Wedge& wedge) { wedges.push_back(wedge); });
-  }
-  return wedges;
-}
 
 void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& part) {
   const auto count = static_cast<std::int32_t>(surface.triangles.size());

@@ -1,17 +1,12 @@
 /// What METIS leaves to be done: connected parts whose borders meet at good angles.
 #pragma once
 
-#include "aeroloom/partition/background_surface.hpp"
+#include "partition/background_surface.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace aeroloom::partition {
-
-/// Neighbouring wedges between cuts, or a cut and a feature curve, around all vertices, in the order of fans.
-/// Wedges between two feature curves are not listed: no decomposition changes them.
-std::vector<Wedge> cut_wedges(const BackgroundSurface& surface, const VertexFans& fans,
-                              const std::vector<PartIndex>& part);
 
 /// Gives all but the heaviest component of each part to the neighbour it shares the longest border with.
 void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& part);

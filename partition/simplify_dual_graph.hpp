@@ -6,7 +6,7 @@
 /// Roundtable, 2013, doi:10.1007/978-3-319-02335-9_31). docs/decomposition.md draws the operations.
 #pragma once
 
-#include "aeroloom/partition/background_surface.hpp"
+#include "partition/background_surface.hpp"
 
 #include <cstdint>
 #include <vector>

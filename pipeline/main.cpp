@@ -1,8 +1,6 @@
 /// The program aeroloom.
-#include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/report/exit_code.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "parallel/communication/environment.hpp"
 #include "parallel/communication/termination.hpp"
 #include "pipeline/command_line.hpp"
@@ -24,8 +22,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  volume::register_volume_tasks();
-  domain::register_geometry_tasks();
   // A file that may not grow further is an error where it is written.
   std::signal(SIGXFSZ, SIG_IGN);
   parallel::hold_termination_signals();

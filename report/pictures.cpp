@@ -360,15 +360,6 @@ std::vector<Picture> make_all(const Communicator& communicator, const PictureSou
 
 }  // namespace
 
-std::vector<Picture> make_pictures(const Communicator& communicator, const mesh::DistributedMesh& volume,
-                                   const PictureSource& source) {
-  return make_all(communicator, source, &volume);
-}
-
-std::vector<Picture> make_surface_pictures(const Communicator& communicator, const PictureSource& source) {
-  return make_all(communicator, source, nullptr);
-}
-
 std::vector<Picture> pictures_or_warning(const Communicator& communicator,
                                          const mesh::DistributedMesh* volume, const PictureSource& source) {
   std::string problem;

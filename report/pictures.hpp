@@ -31,17 +31,8 @@ struct PictureSource {
   std::string unit;  ///< of lengths, may be empty
 };
 
-/// The pictures on rank 0, the same bytes for any number of ranks; nothing elsewhere. Collective. Throws
-/// CollectiveError.
-std::vector<Picture> make_pictures(const parallel::Communicator& communicator,
-                                   const mesh::DistributedMesh& volume, const PictureSource& source);
-
-/// Pictures of the surface alone, where there is no volume.
-std::vector<Picture> make_surface_pictures(const parallel::Communicator& communicator,
-                                           const PictureSource& source);
-
-/// Pictures of the volume, or of the surface alone where `volume` is null; a failure is a warning, and there
-/// are no pictures. Collective.
+/// Pictures of the volume, or of the surface alone where `volume` is null, on rank 0, the same bytes for any
+/// number of ranks; nothing elsewhere. A failure is a warning, and there are no pictures. Collective.
 std::vector<Picture> pictures_or_warning(const parallel::Communicator& communicator,
                                          const mesh::DistributedMesh* volume, const PictureSource& source);
 

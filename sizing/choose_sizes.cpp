@@ -98,7 +98,7 @@ double first_size(const ModelSampler& sampler) {
 /// `share` times the elements that there would be without them.
 class Search {
 public:
-  Search(const ModelSampler& sampler, double target_tetrahedra, double coarser, const FeatureShare& features,
+  Search(ModelSampler& sampler, double target_tetrahedra, double coarser, const FeatureShare& features,
          const GivenSizes& given)
       : _sampler(sampler),
         _given(given),
@@ -182,7 +182,7 @@ private:
     return error;
   }
 
-  const ModelSampler& _sampler;
+  ModelSampler& _sampler;
   const GivenSizes& _given;
   double _coarser;
   FeatureShare _features;
@@ -228,7 +228,7 @@ SizingOptions with_given(const SizingOptions& options, const GivenSizes& given) 
   return sizes;
 }
 
-SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given) {
+SizingOptions estimate_sizes(ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given) {
   check_target(target_tetrahedra);
   Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra), {}, given);
   search.run(first_size(sampler), good_enough_to_start, most_rounds);
@@ -241,7 +241,7 @@ SizingOptions Prospect::with_features() const {
   return sizes;
 }
 
-Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+Prospect prospect_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
   const double coarser = coarsening(target_tetrahedra);
@@ -256,7 +256,7 @@ Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, d
   return prospect;
 }
 
-ChosenSizes apply_sizes(const ModelSampler& sampler, const SizingOptions& options, FieldFor purpose) {
+ChosenSizes apply_sizes(ModelSampler& sampler, const SizingOptions& options, FieldFor purpose) {
   if (sampler.has_more_parts(options, most_parts_unasked)) {
     RoughField rough = sampler.build_rough_field(options);
     const bool is_large = rough.counts.tetrahedra > least_rough;
@@ -269,7 +269,7 @@ ChosenSizes apply_sizes(const ModelSampler& sampler, const SizingOptions& option
   return {options, std::move(field), counts, {}, 0};
 }
 
-ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
+ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
                          const GivenSizes& given, FieldFor purpose) {
   if (prospect.is_hopeless && purpose == FieldFor::forecast) {
     ChosenSizes applied = apply_sizes(sampler, prospect.with_features(), purpose);
@@ -284,13 +284,13 @@ ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, 
   return search.best(purpose);
 }
 
-ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                          const std::optional<SizingOptions>& near, const GivenSizes& given) {
   return choose_sizes(sampler, target_tetrahedra,
                       prospect_sizes(sampler, target_tetrahedra, feature_budget, near, given), given);
 }
 
-std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenSizes& chosen,
+std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& chosen,
                                       const GivenSizes& given) {
   using Bound = std::optional<double> GivenSizes::*;
   static constexpr std::array<std::pair<const char*, Bound>, 8> bounds{{
@@ -337,7 +337,7 @@ std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenS
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra, parallel::StageClock& clock) {
-  const ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity, Fields::several);
+  ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity, Fields::several);
   return choose_sizes(sampler, target_tetrahedra).options;
 }
 

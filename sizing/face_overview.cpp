@@ -23,8 +23,7 @@ constexpr double bytes_per_triangle = 200;
 
 }  // namespace
 
-std::vector<std::pair<FaceId, FaceSamples::Overview>> ModelSampler::look_over(
-    const SizingOptions& options) const {
+std::vector<std::pair<FaceId, FaceSamples::Overview>> ModelSampler::look_over(const SizingOptions& options) {
   const ScopedCpu cpu(_clock, ScopedCpu::As::task);
   std::vector<std::pair<FaceId, FaceSamples::Overview>> seen;
   for (OwnFace& face : _faces) {
@@ -35,7 +34,7 @@ std::vector<std::pair<FaceId, FaceSamples::Overview>> ModelSampler::look_over(
   return seen;
 }
 
-std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOptions& options) const {
+std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOptions& options) {
   std::vector<BoundedFace> mine;
   parallel::agree(_communicator, [&] {
     for (const auto& [face, seen] : look_over(options)) {
@@ -48,7 +47,7 @@ std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOpti
   return all;
 }
 
-bool ModelSampler::has_more_parts(const SizingOptions& options, double most) const {
+bool ModelSampler::has_more_parts(const SizingOptions& options, double most) {
   constexpr double most_of_face = 1e15;
   std::int64_t parts = 0;
   parallel::agree(_communicator, [&] {
@@ -58,7 +57,7 @@ bool ModelSampler::has_more_parts(const SizingOptions& options, double most) con
   return static_cast<double>(_communicator.sum(parts)) > most;
 }
 
-void ModelSampler::require_possible(const SizingOptions& options) const {
+void ModelSampler::require_possible(const SizingOptions& options) {
   const geometry::Vec3 extents = _body_box.size();
   const double length = std::max({extents.x, extents.y, extents.z});
   if (options.minimum > length) {

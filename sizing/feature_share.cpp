@@ -111,7 +111,7 @@ private:
 /// Predicts tetrahedra, and tells of it.
 class Counter {
 public:
-  Counter(const ModelSampler& sampler, double coarser, std::int64_t most_leaves)
+  Counter(ModelSampler& sampler, double coarser, std::int64_t most_leaves)
       : _sampler(sampler), _coarser(coarser), _most_leaves(most_leaves) {}
 
   std::optional<double> operator()(const SizingOptions& options, const char* what, double value) const {
@@ -124,14 +124,14 @@ public:
   }
 
 private:
-  const ModelSampler& _sampler;
+  ModelSampler& _sampler;
   double _coarser;
   std::int64_t _most_leaves;
 };
 
 /// Fills in what strips, short edges and sharp corners may ask for; returns what is predicted with that.
-std::optional<double> share_among_strips(const ModelSampler& sampler, const SizingOptions& options,
-                                         double budget, const Counter& count, FeatureShare& found) {
+std::optional<double> share_among_strips(ModelSampler& sampler, const SizingOptions& options, double budget,
+                                         const Counter& count, FeatureShare& found) {
   const std::optional<double> base = count(options, "features down to", options.minimum);
   found.limited = !base;
   if (!base) return base;
@@ -201,7 +201,7 @@ void set_features(SizingOptions& options, const FeatureShare& features) {
   if (features.gap_floor > 0) set_gap_floor(options, features.gap_floor);
 }
 
-FeatureShare share_of_features(const ModelSampler& sampler, const SizingOptions& options, double budget,
+FeatureShare share_of_features(ModelSampler& sampler, const SizingOptions& options, double budget,
                                double coarser, std::int64_t most_leaves) {
   if (!(budget >= 1)) {
     throw std::invalid_argument(

@@ -199,7 +199,7 @@ void ModelSampler::gather_triangles() {
   if (_body_box.empty()) _body_box = _model.bounds();
 }
 
-std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options, double coarser) const {
+std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options, double coarser) {
   std::vector<SizeSource> mine;
   const auto keep = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
@@ -257,7 +257,7 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
   return mine;
 }
 
-std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, double coarser) const {
+std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, double coarser) {
   check_options(options);
   require_possible(options);
   std::vector<SizeSource> mine;
@@ -338,7 +338,7 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
 }
 
 std::vector<double> ModelSampler::sizes_without_features(std::span<const geometry::Vec3> places,
-                                                         const SizingOptions& options) const {
+                                                         const SizingOptions& options) {
   SizingOptions without = options;
   without.feature_minimum = without.strip_minimum = options.maximum;
   std::vector<double> sizes = sizes_at(places, sample(without, 1), options);

@@ -237,9 +237,4 @@ PredictedCounts ModelSampler::predict(const SizeField& field) const {
   return {count_triangles(field), count_tetrahedra(field)};
 }
 
-PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,
-                               const SizeField& field, parallel::StageClock& clock) {
-  return ModelSampler(communicator, model, clock, 0, Fields::one).predict(field);
-}
-
 }  // namespace aeroloom::sizing

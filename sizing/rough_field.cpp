@@ -28,7 +28,7 @@ double bias_of(double coarser, double growth) {
 
 }  // namespace
 
-RoughField ModelSampler::build_rough_field(const SizingOptions& options) const {
+RoughField ModelSampler::build_rough_field(const SizingOptions& options) {
   for (double coarser = 4;; coarser *= 2) {
     const bool last = coarser >= coarsest;
     const double most_parts = parts_per_leaf * coarser * coarser * static_cast<double>(most_leaves);

@@ -27,12 +27,12 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
 
 }  // namespace
 
-SizeField ModelSampler::build_field(const SizingOptions& options) const {
+SizeField ModelSampler::build_field(const SizingOptions& options) {
   return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
 }
 
 std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& options, double coarser,
-                                                     std::int64_t most_leaves) const {
+                                                     std::int64_t most_leaves) {
   SizingOptions coarse = options;
   for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum, &coarse.gap_minimum,
                        &coarse.surface_maximum, &coarse.maximum})
@@ -42,7 +42,7 @@ std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& option
       .build_within(sample(options, coarser), most_leaves);
 }
 
-std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, std::int64_t most_leaves) const {
+std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, std::int64_t most_leaves) {
   std::optional<SizeField> field = build_coarser(options, 1, most_leaves);
   if (!field) return std::nullopt;
   const double tetrahedra = count_tetrahedra(*field);
@@ -50,7 +50,7 @@ std::optional<Trial> ModelSampler::try_sizes(const SizingOptions& options, std::
 }
 
 std::optional<double> ModelSampler::estimate_tetrahedra(const SizingOptions& options, double coarser,
-                                                        std::int64_t most_leaves) const {
+                                                        std::int64_t most_leaves) {
   const auto known = std::find_if(_estimates.begin(), _estimates.end(), [&](const Estimate& each) {
     return each.coarser == coarser && are_same_sizes(each.options, options);
   });

@@ -169,7 +169,7 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
     const bool moves = on_curve[v] >= 0 && closed.contains(on_curve[v]);
     const Vec3 p = moves ? closed.point(on_curve[v]) : piece.point(v);
     result.coordinates.insert(result.coordinates.end(), {p.x, p.y, p.z});
-    result.vertex_dimension.push_back(moves ? std::int8_t{0} : piece.vertex_dimension[v]);
+    result.vertex_dimension.push_back(moves ? mesh::CadDimension::vertex : piece.vertex_dimension[v]);
     result.vertex_entity.push_back(moves ? closed.tip_of(on_curve[v]) : piece.vertex_entity[v]);
     if (!shared) continue;
     result.shared_vertices.push_back(number[v]);

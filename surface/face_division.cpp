@@ -114,7 +114,7 @@ struct DivisionRequest {
   const Subface& subface;
   std::int32_t group;
   partition::PartIndex parts;
-  const SurfaceOptions& options;
+  const CutOptions& options;
 };
 
 /// The method of Chen, Zhao, Zheng et al., a verb each. Nothing where there is no background mesh as coarse
@@ -171,7 +171,7 @@ bool is_heavy(double load, const SurfaceOptions& options) {
 }
 
 SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,
-                            const SurfaceOptions& options) {
+                            const CutOptions& options) {
   const double parts = count_parts(subface.load, group, options);
   const double factor = std::sqrt(subface.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));

@@ -7,8 +7,8 @@
 /// rank has more to do with a single face than a small part of it.
 #pragma once
 
-#include "aeroloom/surface/surface_options.hpp"
 #include "aeroloom/surface/surface_report.hpp"
+#include "surface/imposed_cuts.hpp"
 #include "surface/subface.hpp"
 
 #include <deque>
@@ -40,13 +40,13 @@ struct SubfaceParts {
 /// Whether a subface of this load is to be divided.
 bool is_heavy(double load, const SurfaceOptions& options);
 
-/// Divides a heavy subface, or any by options.divider. Cuts are straightened, discretised once under the
+/// Divides a heavy subface, or any by a divider. Cuts are straightened, discretised once under the
 /// field, and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other
 /// divisions of the same face: 0 for a face, which may be cut into large parts, others for its parts, which
 /// are cut into pieces. Where no background mesh can be had, the subface stays whole. A function of the
 /// arguments alone. Not collective. Throws SurfaceError, cad::CadError, or std::runtime_error where METIS
 /// fails or there are more cuts than can be named.
 SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,
-                            const SurfaceOptions& options);
+                            const CutOptions& options);
 
 }  // namespace aeroloom::surface

@@ -15,7 +15,9 @@ using geometry::Vec3;
 void classify_border_vertex(cad::FaceId face, mesh::SharedVertexKey vertex_key, mesh::Piece& piece) {
   const cad::EdgeId edge = mesh::edge_of_vertex_key(vertex_key);
   const bool on_cut = mesh::is_cut_vertex_key(vertex_key), on_edge = edge != cad::no_entity;
-  piece.vertex_dimension.push_back(on_cut ? 2 : on_edge ? 1 : 0);
+  piece.vertex_dimension.push_back(on_cut    ? mesh::CadDimension::face
+                                   : on_edge ? mesh::CadDimension::edge
+                                             : mesh::CadDimension::vertex);
   piece.vertex_entity.push_back(on_cut ? face : on_edge ? edge : static_cast<std::int32_t>(vertex_key));
 }
 
@@ -30,7 +32,7 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
     piece.shared_vertices.push_back(v);
   }
   piece.shared_keys = vertices.vertex_keys;
-  piece.vertex_dimension.resize(mesh.points.size(), 2);
+  piece.vertex_dimension.resize(mesh.points.size(), mesh::CadDimension::face);
   piece.vertex_entity.resize(mesh.points.size(), mesh.face);
   piece.triangle_face.assign(mesh.triangles.size(), mesh.face);
   piece.triangle_patch.assign(mesh.triangles.size(), model.face(mesh.face).patch);

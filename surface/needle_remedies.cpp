@@ -8,6 +8,7 @@ namespace aeroloom::surface {
 namespace {
 
 using geometry::Vec3;
+using mesh::CadDimension;
 using mesh::LocalIndex;
 using mesh::Piece;
 using sizing::SizeSource;
@@ -30,11 +31,12 @@ void add_long_legs(const Piece& piece, const LocalIndex* v, const sizing::SizeFi
                    std::vector<cad::VertexId>& vertices) {
   for (int i = 0; i < 3; ++i) {
     const LocalIndex a = v[i], b = v[(i + 1) % 3];
-    if (piece.vertex_dimension[a] + piece.vertex_dimension[b] > 1) continue;
+    const auto [lower, higher] = std::minmax(piece.vertex_dimension[a], piece.vertex_dimension[b]);
+    if (lower != CadDimension::vertex || higher > CadDimension::edge) continue;
     const Vec3 p = piece.point(a), q = piece.point(b);
     if (distance(p, q) < 1.1 * longest_short_leg * field(0.5 * (p + q))) continue;
     for (const LocalIndex end : {a, b}) {
-      if (piece.vertex_dimension[end] == 0) vertices.push_back(piece.vertex_entity[end]);
+      if (piece.vertex_dimension[end] == CadDimension::vertex) vertices.push_back(piece.vertex_entity[end]);
     }
   }
 }

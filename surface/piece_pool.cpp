@@ -38,7 +38,7 @@ std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece&
 }  // namespace
 
 PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
-                     const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
+                     const CutOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
     : _communicator(communicator),
       _model(model),
       _options(options),

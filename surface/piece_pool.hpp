@@ -4,10 +4,10 @@
 
 #include "aeroloom/mesh/distributed_mesh.hpp"
 #include "aeroloom/parallel/storage/task_store.hpp"
-#include "aeroloom/surface/surface_options.hpp"
 #include "aeroloom/surface/surface_report.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_division.hpp"
+#include "surface/imposed_cuts.hpp"
 
 #include <array>
 #include <map>
@@ -29,7 +29,7 @@ struct Conflicts {
 class PiecePool {
 public:
   PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
-            const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
+            const CutOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
 
   /// Meshes every face whose curves or sizes are not those of the round before, unless the whole surface is
   /// predicted to have more triangles than rounds may come to (SurfaceOptions::most_growth). Collective.
@@ -100,7 +100,7 @@ private:
 
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
-  const SurfaceOptions& _options;
+  const CutOptions& _options;
   parallel::StageClock& _clock;
   parallel::TaskStore* _tasks;  // may be null
   bool _started = false;

@@ -6,6 +6,7 @@
 #include "sizing/closed_corners.hpp"
 #include "surface/curves.hpp"
 #include "surface/cusp_tips.hpp"
+#include "surface/imposed_cuts.hpp"
 #include "surface/intersection.hpp"
 #include "surface/needle_remedies.hpp"
 #include "surface/piece_pool.hpp"
@@ -152,7 +153,7 @@ std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh&
 class SurfaceRounds {
 public:
   SurfaceRounds(const parallel::Communicator& communicator, const cad::Model& model, const SizeField& field,
-                const SurfaceOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
+                const CutOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
       : _communicator(communicator),
         _model(model),
         _options(options),
@@ -266,7 +267,7 @@ private:
 
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
-  const SurfaceOptions& _options;
+  const CutOptions& _options;
   parallel::StageClock& _clock;
   PiecePool _pool;
   SizeField _field;
@@ -282,6 +283,12 @@ private:
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
                          const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock,
                          parallel::TaskStore* tasks) {
+  return mesh_surface_with_cuts(communicator, model, field, {options}, clock, tasks);
+}
+
+SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, const cad::Model& model,
+                                   const SizeField& field, const CutOptions& options,
+                                   parallel::StageClock& clock, parallel::TaskStore* tasks) {
   SurfaceMesh result = SurfaceRounds(communicator, model, field, options, clock, tasks).run();
   clock.add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
   return result;

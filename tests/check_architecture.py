@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the architecture: includes point down, third-party headers stay in their room.
+"""Checks the architecture: includes point down, third-party headers stay in their room, no function has more than
+six parameters.
 
 usage: check_architecture.py SOURCE_DIR | check_architecture.py --self-test
 """
@@ -57,6 +58,20 @@ MPI_NAME = re.compile(r"\bMPI_[A-Z]\w*")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 CONCEPT_FREE = {"utils", "util", "common", "core", "misc", "helpers"}
 
+MOST_PARAMETERS = 6
+# Functions whose parameters a library dictates: libsc's sc_log_handler_t.
+DICTATED = {("forest/library.cpp", "keep_error"), ("tests/forest/host.cpp", "count_words")}
+# Comments, and literals with the brackets and commas in them.
+COMMENT_OR_LITERAL = re.compile(
+    r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])\'', re.DOTALL)
+# What stands before a list in brackets: a name or the captures of a lambda.
+OPENING = re.compile(r"([\w:~]+|\])\s*\(")
+# A type and a name, with or without a default; or a type that is none but one.
+PARAMETER = re.compile(r"(?:const\s+)?(?!return\b|new\b|sizeof\b|not\b)[\w:]+(?:<.*>)?(?:\s*[&*]+\s*|\s+(?:const\s*[&*]\s*)?)"
+                       r"(?!const\b)\w+(?:\[\w*\])?(?:\s*=.*)?$|const\s|.*[&*]$", re.DOTALL)
+# Before a name they tell that it is called.
+CALLING = {"return", "new", "throw", "else", "do", "co_return", "case"}
+
 
 PUBLIC = "include/aeroloom"
 
@@ -69,12 +84,50 @@ def sources(root):
                 yield folder, path
 
 
+def split_list(text, begin):
+    """The items between the bracket at `begin` and its twin."""
+    items, depth, angles, start = [], 0, 0, begin + 1
+    for i in range(begin, len(text)):
+        c = text[i]
+        if c in "([{":
+            depth += 1
+        elif c in ")]}":
+            depth -= 1
+        elif c == "<":
+            angles += 1
+        elif c == ">" and text[i - 1] != "-":
+            angles -= 1
+        if depth == 0 or (c == "," and depth == 1 and angles <= 0):
+            items.append(text[start:i].strip())
+            start = i + 1
+        if depth == 0:
+            return items
+    return []
+
+
+def long_parameter_lists(text):
+    """Line, name and number of parameters of each function that is declared with too many."""
+    plain = COMMENT_OR_LITERAL.sub(lambda match: '""' + "\n" * match.group().count("\n"), text)
+    for match in OPENING.finditer(plain):
+        items = split_list(plain, match.end() - 1)
+        if len(items) <= MOST_PARAMETERS or not any(PARAMETER.match(item) for item in items):
+            continue
+        before = re.search(r"(\S*)\s*$", plain[max(0, match.start() - 200):match.start()]).group(1)
+        if match.group(1) != "]" and (before in CALLING or re.search(r"[=(,.?!|+-]$|&&$|<<$", before)):
+            continue
+        yield plain.count("\n", 0, match.start()) + 1, match.group(1), len(items)
+
+
 def violations(root):
     found = []
     uses = {pattern: set() for pattern, _, _ in ROOMS}
     for folder, path in sources(root):
         name = path.relative_to(root)
-        for number, line in enumerate(path.read_text().splitlines(), 1):
+        text = path.read_text()
+        for number, function, count in long_parameter_lists(text):
+            if (str(name), function) not in DICTATED:
+                found.append(f"{name}:{number}: {count} parameters, at most {MOST_PARAMETERS}: group what belongs together")
+        for number, line in enumerate(text.splitlines(), 1):
             where = f"{name}:{number}"
             if folder not in {"parallel", "tests"} and MPI_NAME.search(line):
                 found.append(f"{where}: names MPI outside parallel/")
@@ -122,8 +175,17 @@ def self_test():
         "io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
         "include/aeroloom/mesh/inner.hpp": '#include "mesh/inner.hpp"\n',
         "include/aeroloom/mesh/up.hpp": '#include "aeroloom/surface/front.hpp"\n',
+        "mesh/long.hpp": "void seven(int a, int b, int c, int d, int e,\n           const std::map<int, int>& f, int);\n",
+        "mesh/long_constructor.hpp": "class A {\n  A(int a, int b, int c, B d, B& e, B* f, const char* g = \"\");\n};\n",
+        "mesh/long_lambda.cpp": "const auto f = [&](int a, int b, int c, int d, int e, int f, int g) {};\n",
     }
-    clean = {"mesh/down.cpp": '#include "geometry/vec.hpp"\n', "cad/model/occ.cpp": "#include <gp_Pnt.hxx>\n"}
+    clean = {
+        "mesh/down.cpp": '#include "geometry/vec.hpp"\n',
+        "cad/model/occ.cpp": "#include <gp_Pnt.hxx>\n",
+        "mesh/six.hpp": "void six(const std::map<int, int>& a, int b, int c, int d, int e, int f);  // of (a, b, c, d, e, f, g)\n",
+        "mesh/calls.cpp": 'auto s = fmt::format("{}, {}", a, b, c, d, e, f * g);\nreturn std::tuple(&A::a, a, b, c, d, e, f);\n',
+        "forest/library.cpp": "void keep_error(FILE*, const char*, int, int, int, int priority, const char* text) {}\n",
+    }
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
         for file, text in clean.items():

@@ -66,7 +66,7 @@ public:
   void add_vertex(std::int64_t number, mesh::RegionId region, mesh::Piece& piece) const {
     const geometry::Vec3 p = place(number);
     piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-    piece.vertex_dimension.push_back(3);
+    piece.vertex_dimension.push_back(mesh::CadDimension::region);
     piece.vertex_entity.push_back(region);
   }
   mesh::SharedVertexKey vertex_key(std::int64_t number) const { return _source.finder.vertex_key_of(number); }

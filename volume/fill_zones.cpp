@@ -187,7 +187,6 @@ private:
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report) {
-  register_volume_tasks();  // where the host program has not; too late where it runs a server without them
   return ZoneFiller(communicator, input, decomposition.data(), clock, report).run();
 }
 

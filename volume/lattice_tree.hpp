@@ -164,9 +164,14 @@ private:
     };
     return {clamp(place.x), clamp(place.y), clamp(place.z)};
   }
+  /// A cube by its Morton key and level, and the blocks that fill it: from `first` to before `last`.
+  struct Subtree {
+    std::uint64_t key;
+    int level;
+    BlockIndex first, last;
+  };
   template <class Holds, class Skips>
-  bool any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first, BlockIndex last,
-                 const Holds& holds, const Skips& skips) const;
+  bool any_below(const GridBox& box, const Subtree& tree, const Holds& holds, const Skips& skips) const;
 
   BlockIndex required(BlockIndex b) const {
     if (b < 0 || !is_known(b)) throw_unknown();
@@ -200,12 +205,14 @@ bool LatticeTree::any_block_in(const GridBox& box, const Holds& holds, const Ski
   const std::uint64_t next = key + (1ULL << 3 * (sizing::finest_level - around.level));
   const BlockIndex last = next >> 3 * sizing::finest_level != 0 ? end : _table.find(next);
   if (last <= first) return !skips(first, first + 1, cube(first)) && holds(required(first));
-  return any_below(box, key, around.level, first, last, holds, skips);
+  return any_below(box, {key, around.level, first, last}, holds, skips);
 }
 
 template <class Holds, class Skips>
-bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, BlockIndex first,
-                            BlockIndex last, const Holds& holds, const Skips& skips) const {
+bool LatticeTree::any_below(const GridBox& box, const Subtree& tree, const Holds& holds,
+                            const Skips& skips) const {
+  const auto [key, level, begin, last] = tree;
+  BlockIndex first = begin;  // where the next child begins
   const GridCube here{sizing::grid_point(key), level};
   if (skips(first, last, here)) return false;
   if (last - first == 1) return GridBox::of(cube(first)).overlaps(box) && holds(required(first));
@@ -222,7 +229,7 @@ bool LatticeTree::any_below(const GridBox& box, std::uint64_t key, int level, Bl
     if (!touched[0][child & 1] || !touched[1][child >> 1 & 1] || !touched[2][child >> 2]) continue;
     if (child != found) first = _table.find(key + (child << shift));
     const BlockIndex end = child == 7 ? last : _table.find(key + ((child + 1) << shift));
-    if (any_below(box, key + (child << shift), level + 1, first, end, holds, skips)) return true;
+    if (any_below(box, {key + (child << shift), level + 1, first, end}, holds, skips)) return true;
     first = end;
     found = child + 1;
   }

@@ -22,7 +22,7 @@ struct SurfaceTriangle {
   std::array<mesh::GlobalIndex, 3> vertices;  ///< by number in the surface mesh
   std::array<geometry::Vec3, 3> points;
   std::array<std::int32_t, 3> entity;  ///< classification of the vertices
-  std::array<std::int8_t, 3> dimension;
+  std::array<mesh::CadDimension, 3> dimension;
   std::int32_t face, patch;
   mesh::RegionId front, back;  ///< regions on either side; counter-clockwise seen from outside the front one
 

@@ -18,8 +18,6 @@ using parallel::Bytes;
 
 namespace {
 
-const char* const task_name = "volume.zone";
-
 // Limits of a child. TetGen takes about 1 us and 350 bytes per tetrahedron; what takes forty times as long is
 // stuck.
 constexpr double cpu_seconds_per_tetrahedron = 40e-6;
@@ -74,7 +72,7 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
 }
 
 /// Runs in the child.
-Bytes fill_task(std::span<const std::byte> input) {
+Bytes fill_in_child(std::span<const std::byte> input) {
   const auto [fault, problem] = parallel::from_wire<std::tuple<parallel::Fault, ZoneProblem>>(input);
   parallel::inject_fault(fault);
   const UnitFrame frame(problem.points);
@@ -99,6 +97,8 @@ Bytes fill_task(std::span<const std::byte> input) {
   if (owned.missing_borders.empty()) sort_cells(points, owned);
   return parallel::to_wire(std::tie(owned, added));
 }
+
+const parallel::NamedTask fill_task("volume.zone", fill_in_child);
 
 void unpack_filling(std::span<const std::byte> bytes, ZoneFilling& filling) {
   auto result = std::tie(filling.owned, filling.added);
@@ -144,7 +144,7 @@ ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Fault fault, paralle
   const parallel::SandboxLimits limits{
       base_cpu_seconds + cpu_seconds_per_tetrahedron * static_cast<double>(predicted),
       base_bytes + bytes_per_tetrahedron * predicted};
-  const auto result = parallel::run_sandboxed(task_name, packed, limits);
+  const auto result = parallel::run_sandboxed(fill_task.name(), packed, limits);
   filling.cpu_seconds = result.cpu_seconds;
   filling.child_peak_bytes = result.peak_resident_bytes;
   if (result.status != parallel::SandboxStatus::ok) {
@@ -154,10 +154,6 @@ ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Fault fault, paralle
   if (tasks != nullptr) tasks->keep(key, result.output);
   unpack_filling(result.output, filling);
   return filling;
-}
-
-void register_volume_tasks() {
-  parallel::register_sandbox_task(task_name, fill_task);
 }
 
 }  // namespace aeroloom::volume

@@ -132,7 +132,7 @@ private:
       const Vec3 p = v < given() ? _content.problem.points[v] : _filling.added[v - given()];
       piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
       const bool on_surface = v < surface_points;
-      piece.vertex_dimension.push_back(on_surface ? _content.dimension[v] : std::int8_t{3});
+      piece.vertex_dimension.push_back(on_surface ? _content.dimension[v] : mesh::CadDimension::region);
       piece.vertex_entity.push_back(on_surface ? _content.entity[v] : region);
       if (v >= given() || !_shared[v]) continue;
       piece.shared_vertices.push_back(number[v]);

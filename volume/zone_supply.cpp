@@ -162,7 +162,7 @@ private:
   struct Corner {
     mesh::GlobalIndex number;
     Vec3 point;
-    std::int8_t dimension;
+    mesh::CadDimension dimension;
     std::int32_t entity;
     LeafNumber leaf;
     ZoneIndex owner;

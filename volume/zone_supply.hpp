@@ -23,12 +23,12 @@ struct ZoneContent {
   ZoneProblem problem;
   std::vector<mesh::SharedVertexKey>
       vertex_keys;  ///< per point, ascending: number in the surface, then lattice points
-  mesh::GlobalIndex surface_vertices = 0;  ///< before the first lattice point
-  std::vector<LeafNumber> leaves;          ///< per point: that it belongs to
-  std::vector<std::int8_t> dimension;      ///< per surface point
-  std::vector<std::int32_t> entity;        ///< per surface point
-  std::vector<std::int32_t> face, patch;   ///< per triangle
-  std::vector<LeafNumber> border_leaves;   ///< per triangle of the core's border: the core leaf beside it
+  mesh::GlobalIndex surface_vertices = 0;     ///< before the first lattice point
+  std::vector<LeafNumber> leaves;             ///< per point: that it belongs to
+  std::vector<mesh::CadDimension> dimension;  ///< per surface point
+  std::vector<std::int32_t> entity;           ///< per surface point
+  std::vector<std::int32_t> face, patch;      ///< per triangle
+  std::vector<LeafNumber> border_leaves;      ///< per triangle of the core's border: the core leaf beside it
 };
 
 /// Where places and points of the lattice belong. Refers to all it is made from.

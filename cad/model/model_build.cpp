@@ -1,3 +1,4 @@
+#include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/step_trace.hpp"
@@ -201,6 +202,7 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
     if (data->shape.IsNull()) throw CadError("the model's bytes hold no shape");
     index_topology(*data);
     apply_tags(tags, *data);
+    data->cache = std::make_shared<FaceCache>(data->faces.size());
     std::vector<FaceId> strips(reader.get<std::uint64_t>());
     for (FaceId& strip : strips) strip = reader.get<FaceId>();
     if (strips.empty()) {

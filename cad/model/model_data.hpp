@@ -1,4 +1,4 @@
-/// What is behind a Model: shapes of the CAD library and cached evaluators. Seen by this folder only.
+/// What is behind a Model: shapes of the CAD library and evaluators. Seen by this folder only.
 #pragma once
 
 #include "aeroloom/cad/model/model.hpp"
@@ -79,12 +79,6 @@ struct ParameterRange {
   }
 };
 
-/// A triangulation that will be asked for again.
-struct KeptFacets {
-  double deflection, angle;
-  Facets facets;
-};
-
 struct FaceEvaluator {
   TopoDS_Face shape;      ///< oriented forward
   bool reversed = false;  ///< the normal out of the front region is opposite to du x dv
@@ -93,10 +87,6 @@ struct FaceEvaluator {
   ParameterRange u, v;
   Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
   std::vector<UseCurve> uses;  ///< by (edge, use)
-  mutable double area = -1;    ///< computed on demand, and with it
-  mutable double flux = 0;     ///< what it adds to a volume it bounds, seen from the middle of the model
-  mutable Vec3 area_vector, moment;  ///< FaceIntegrals, likewise
-  mutable std::shared_ptr<const KeptFacets> kept;
 
   const UseCurve& use(const EdgeUse& wanted) const;
 };
@@ -122,12 +112,14 @@ struct Snap {
   }
 };
 
+class FaceCache;
 struct ClosedEdges;
+struct FaceIntegrals;
 struct JoinedFaces;
 
 struct Model::Data {
-  /// The face with its area and flux, computed once.
-  const FaceEvaluator& integrated(FaceId id) const;
+  /// Over a face, seen from the middle of the model; its area is positive.
+  const FaceIntegrals& integrals(FaceId id) const;
 
   std::vector<std::byte> bytes;
   TopoDS_Shape shape;
@@ -144,6 +136,7 @@ struct Model::Data {
   std::string unit_name;
   double unit_in_metres = 1;
   double gap = 0;
+  std::shared_ptr<FaceCache> cache;           ///< of what is computed on demand; none where faces are joined
   std::shared_ptr<const ClosedEdges> closed;  ///< where strips are closed: edges that the shape does not have
   std::shared_ptr<const JoinedFaces> joined;  ///< where faces are joined: evaluators and snaps are its base's
 

@@ -88,8 +88,6 @@ void solve(MPI_Comm solver_ranks, const std::string& file) {
 int main(int argc, char** argv) {
   // Before MPI, so that a crash in the CAD library or in the mesher of a piece stays there; without it
   // everything works but that.
-  domain::register_geometry_tasks();
-  volume::register_volume_tasks();
   const parallel::SandboxServer server;
 
   MPI_Init(&argc, &argv);

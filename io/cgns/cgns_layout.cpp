@@ -17,9 +17,21 @@ struct ShapeName {
   std::int32_t type;
   const char* ending;
 };
-constexpr std::array<ShapeName, cell_shape_count> cell_names = {
-    {{10, "_TETRA_4"}, {12, "_PYRA_5"}, {14, "_PENTA_6"}}};
-constexpr std::array<ShapeName, face_shape_count> face_names = {{{5, "_TRI_3"}, {7, "_QUAD_4"}}};
+/// What the sections of regions, or of patches, have in common.
+template <std::size_t N>
+struct SectionKind {
+  const char* stand_in;  ///< for names that are not fit
+  bool is_taken;         ///< names are among the nodes' already
+  int fewest_corners;    ///< of the first shape; one more of each that follows
+  std::array<ShapeName, N> shapes;
+};
+const SectionKind<cell_shape_count> region_sections = {
+    "Region",
+    false,
+    corners_of(CellShape::tetrahedron),
+    {{{10, "_TETRA_4"}, {12, "_PYRA_5"}, {14, "_PENTA_6"}}}};
+const SectionKind<face_shape_count> patch_sections = {
+    "Patch", true, corners_of(FaceShape::triangle), {{{5, "_TRI_3"}, {7, "_QUAD_4"}}}};
 
 /// Of mass, length, time, temperature and angle.
 constexpr std::array<float, 5> exponents_of_length = {0, 1, 0, 0, 0};
@@ -46,19 +58,20 @@ const char* condition_of(mesh::PatchType type) {
 
 /// Adds the sections of one region or patch, called `name`; with the shape's ending where there are two.
 template <std::size_t N>
-std::array<std::int32_t, N> add_sections(Plan& plan, NodeNames& names, const std::string& name, bool is_taken,
-                                         const char* stand_in, const std::array<ShapeName, N>& shapes,
-                                         const std::array<mesh::GlobalIndex, N>& counts, int fewest_corners) {
+std::array<std::int32_t, N> add_sections(Plan& plan, NodeNames& names, const SectionKind<N>& kind,
+                                         const std::string& name,
+                                         const std::array<mesh::GlobalIndex, N>& counts) {
   std::array<std::int32_t, N> places{};
   const bool single = std::count_if(counts.begin(), counts.end(), [](auto n) { return n > 0; }) == 1;
   for (std::size_t s = 0; s < N; ++s) {
     places[s] = -1;
     if (counts[s] == 0) continue;
+    const char* const ending = single ? "" : kind.shapes[s].ending;
     Section section;
-    section.name = single && is_taken ? name : names.take(name, stand_in, single ? "" : shapes[s].ending);
-    if (!is_taken && section.name != name + (single ? "" : shapes[s].ending)) section.full_name = name;
-    section.type = shapes[s].type;
-    section.corners = fewest_corners + static_cast<int>(s);
+    section.name = single && kind.is_taken ? name : names.take(name, kind.stand_in, ending);
+    if (!kind.is_taken && section.name != name + ending) section.full_name = name;
+    section.type = kind.shapes[s].type;
+    section.corners = kind.fewest_corners + static_cast<int>(s);
     section.first = plan.sections.empty() ? 1 : plan.sections.back().first + plan.sections.back().count;
     section.count = counts[s];
     places[s] = static_cast<std::int32_t>(plan.sections.size());
@@ -226,17 +239,16 @@ Plan plan_file(const Totals& totals) {
   const std::vector<std::string> patch_names = names_of_patches(totals, names);
   for (std::size_t r = 0; r < totals.regions.size(); ++r) {
     const std::size_t before = plan.sections.size();
-    plan.section_of_region.push_back(add_sections(plan, names, totals.regions[r], false, "Region", cell_names,
-                                                  totals.region_cells[r],
-                                                  corners_of(CellShape::tetrahedron)));
+    plan.section_of_region.push_back(
+        add_sections(plan, names, region_sections, totals.regions[r], totals.region_cells[r]));
     for (std::size_t s = before; s < plan.sections.size(); ++s) plan.cells += plan.sections[s].count;
   }
   for (std::size_t p = 0; p < totals.patches.size(); ++p) {
     plan.section_of_patch.push_back({-1, -1});
     if (patch_names[p].empty()) continue;
     const std::size_t before = plan.sections.size();
-    plan.section_of_patch[p] = add_sections(plan, names, patch_names[p], true, "Patch", face_names,
-                                            totals.patch_faces[p], corners_of(FaceShape::triangle));
+    plan.section_of_patch[p] =
+        add_sections(plan, names, patch_sections, patch_names[p], totals.patch_faces[p]);
     const Section& last = plan.sections.back();
     plan.boundaries.push_back(
         {patch_names[p], patch_names[p] == totals.patches[p].name ? "" : totals.patches[p].name,

@@ -43,8 +43,7 @@ struct Source {
 
 /// Items begin ... end of a block with `count` items, the first of which is number `before` of `total`, that
 /// belong to a share.
-std::pair<std::int64_t, std::int64_t> share_of(const Source& source, std::int64_t before, std::int64_t count,
-                                               std::int64_t total) {
+Share share_of(const Source& source, std::int64_t before, std::int64_t count, std::int64_t total) {
   const Share share = Share::of(total, source.share, source.shares);
   return {std::clamp(share.begin - before, std::int64_t{0}, count),
           std::clamp(share.end - before, std::int64_t{0}, count)};
@@ -214,15 +213,15 @@ void read_nodes(Source& source, RawMesh& raw) {
   }
 }
 
-/// Appends elements begin ... end of a block, without ghosts, to ids and groups.
-void read_block(Source& source, const MshElementBlock& block, std::int64_t begin, std::int64_t end,
-                std::int32_t id, std::vector<mesh::GlobalIndex>& corners, std::vector<std::int32_t>& ids) {
+/// Appends a share of a block's elements, without ghosts, to corners and ids.
+void read_block(Source& source, const MshElementBlock& block, const Share& share, std::int32_t id,
+                std::vector<mesh::GlobalIndex>& corners, std::vector<std::int32_t>& ids) {
   const std::int64_t width = 1 + block.corners, step = integers_at_once / width;
   const std::vector<std::int64_t>& ghosts = source.tables.ghosts;
   std::vector<std::int64_t> records;
-  source.scanner.seek(block.place + 8 * width * begin);
-  for (std::int64_t i = begin; i < end; i += step) {
-    const std::int64_t taken = std::min(step, end - i);
+  source.scanner.seek(block.place + 8 * width * share.begin);
+  for (std::int64_t i = share.begin; i < share.end; i += step) {
+    const std::int64_t taken = std::min(step, share.end - i);
     records.resize(static_cast<std::size_t>(taken * width));
     source.scanner.int64s(records.data(), taken * width);
     for (auto record = records.begin(); record != records.end(); record += width) {
@@ -246,11 +245,11 @@ void read_elements(Source& source, const GroupIds& groups, RawMesh& raw) {
     for (const MshElementBlock& block : source.tables.elements) total += block.type == type ? block.count : 0;
     for (const MshElementBlock& block : source.tables.elements) {
       if (block.type != type) continue;
-      const auto [begin, end] = share_of(source, before, block.count, total);
+      const Share share = share_of(source, before, block.count, total);
       before += block.count;
       const auto group = groups.find(group_of(source.tables, block));
-      if (begin < end && group != groups.end())
-        read_block(source, block, begin, end, group->second, corners, ids);
+      if (share.begin < share.end && group != groups.end())
+        read_block(source, block, share, group->second, corners, ids);
     }
   };
   for (std::size_t s = 0; s < cell_shape_count; ++s)

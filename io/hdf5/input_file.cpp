@@ -27,7 +27,7 @@ parallel::Bytes read_sandboxed(const ReadingRequest& request) {
   limits.address_space_bytes = std::int64_t{2} << 30;
   const parallel::CrashNote note(fmt::format("reading '{}'", path));
   parallel::SandboxResult result =
-      parallel::run_sandboxed(reading_task(), parallel::to_wire(request), limits);
+      parallel::run_sandboxed(reading_task.name(), parallel::to_wire(request), limits);
   switch (result.status) {
     case parallel::SandboxStatus::ok:
       return std::move(result.output);

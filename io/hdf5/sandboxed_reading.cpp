@@ -238,18 +238,8 @@ Bytes run(std::span<const std::byte> input) {
   }
 }
 
-std::string register_reading() {
-  std::string name = "reading HDF5";
-  parallel::register_sandbox_task(name, run);
-  return name;
-}
-
-const std::string registered_name = register_reading();
-
 }  // namespace
 
-const std::string& reading_task() {
-  return registered_name;
-}
+const parallel::NamedTask reading_task("reading HDF5", run);
 
 }  // namespace aeroloom::io::hdf5

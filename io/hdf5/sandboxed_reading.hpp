@@ -2,6 +2,7 @@
 #pragma once
 
 #include "aeroloom/parallel/communication/packer.hpp"
+#include "aeroloom/parallel/sandbox/sandbox.hpp"
 
 #include <cstdint>
 #include <string>
@@ -30,7 +31,7 @@ struct RowRange {
   static constexpr auto fields() { return std::tuple(&RowRange::array, &RowRange::begin, &RowRange::count); }
 };
 
-/// The name of the sandboxed task, which is known before main() begins.
-const std::string& reading_task();
+/// From a ReadingRequest to the bytes of what was read.
+extern const parallel::NamedTask reading_task;
 
 }  // namespace aeroloom::io::hdf5

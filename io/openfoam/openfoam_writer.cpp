@@ -26,6 +26,14 @@ struct Names {
   std::vector<std::string> regions;
 };
 
+/// What the files of all parts go by.
+struct FoamMesh {
+  const FileMesh& mesh;
+  const FoamPlan& plan;
+  Names names;
+  FoamFormat format;
+};
+
 const char* type_of(mesh::PatchType type) {
   switch (type) {
     case mesh::PatchType::wall:
@@ -44,14 +52,13 @@ bool is_boundary(const mesh::Patch& patch) {
 /// Writes the files of one part.
 class FoamPartWriter {
 public:
-  FoamPartWriter(const FileMesh& mesh, const FilePart& part, const FoamPlan& plan, const FoamFaces& order,
-                 const Names& names, const FoamFormat& format, fs::path folder)
-      : _mesh(mesh),
+  FoamPartWriter(const FoamMesh& whole, const FilePart& part, const FoamFaces& order, fs::path folder)
+      : _mesh(whole.mesh),
         _part(part),
-        _plan(plan),
+        _plan(whole.plan),
         _order(order),
-        _names(names),
-        _format(format),
+        _names(whole.names),
+        _format(whole.format),
         _folder(std::move(folder)) {}
 
   void write() {
@@ -287,9 +294,11 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
                     const std::string& folder, const OpenFoamOptions& options) {
   const mesh::FaceLinks links = mesh::link_faces(communicator, *mesh.pieces, *mesh.numbering);
   const FoamPlan plan = plan_faces(communicator, mesh, links);
-  const FoamFormat format = format_of(communicator, mesh, plan, options);
+  const FoamMesh whole{mesh,
+                       plan,
+                       {foam_patches(mesh.patches), foam_words(mesh.regions)},
+                       format_of(communicator, mesh, plan, options)};
   const FoamCase foam_case{folder, mesh.part_count};
-  const Names names{foam_patches(mesh.patches), foam_words(mesh.regions)};
   const bool is_external =
       std::any_of(mesh.patches.begin(), mesh.patches.end(),
                   [](const mesh::Patch& patch) { return patch.type == mesh::PatchType::farfield; });
@@ -302,7 +311,7 @@ void write_openfoam(const parallel::Communicator& communicator, const FileMesh& 
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const FilePart& part = mesh.parts[i];
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
-        FoamPartWriter(mesh, part, plan, order, names, format, foam_case.unfinished(part.id)).write();
+        FoamPartWriter(whole, part, order, foam_case.unfinished(part.id)).write();
       }
       if (communicator.is_root()) has_fields = write_settings(foam_case, is_external);
     });

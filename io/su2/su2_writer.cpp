@@ -55,16 +55,22 @@ void for_each_point_line(const FilePart& part, const Line& line) {
   }
 }
 
-/// Calls line(text) for each element from `begin` to `end` of a block: VTK's type and the points; corner k of
-/// the file is corner order(k).
+/// Elements of one shape, from `begin` to before `end` of a block.
+struct ElementRange {
+  const Block& block;
+  LocalIndex begin, end;
+  int type;  ///< VTK's number of the shape
+};
+
+/// Calls line(text) for each element: VTK's type and the points; corner k of the file is corner order(k).
 template <class Order, class Line>
-void for_each_element_line(const FilePart& part, const Block& block, LocalIndex begin, LocalIndex end,
-                           int type, const Order& order, const Line& line) {
+void for_each_element_line(const FilePart& part, const ElementRange& elements, const Order& order,
+                           const Line& line) {
   std::array<char, 160> text;
-  for (LocalIndex i = begin; i < end; ++i) {
-    char* at = fmt::format_to(text.data(), FMT_COMPILE("{}"), type);
-    for (int k = 0; k < block.corners; ++k)
-      at = fmt::format_to(at, FMT_COMPILE(" {}"), part.numbers[block.item(i)[order(k)]]);
+  for (LocalIndex i = elements.begin; i < elements.end; ++i) {
+    char* at = fmt::format_to(text.data(), FMT_COMPILE("{}"), elements.type);
+    for (int k = 0; k < elements.block.corners; ++k)
+      at = fmt::format_to(at, FMT_COMPILE(" {}"), part.numbers[elements.block.item(i)[order(k)]]);
     *at++ = '\n';
     line(std::string_view(text.data(), static_cast<std::size_t>(at - text.data())));
   }
@@ -80,7 +86,7 @@ void for_each_line(const FilePart& part, const BoundaryPatches& patches, const B
     begin(first_cells + static_cast<std::int32_t>(s));
     const Block& block = part.cells[s];
     for_each_element_line(
-        part, block, 0, block.count(), vtk_cell_type[s],
+        part, {block, 0, block.count(), vtk_cell_type[s]},
         [&](int k) { return to_vtk[s][static_cast<std::size_t>(k)]; }, line);
   }
   for (std::size_t s = 0; s < face_shape_count; ++s) {
@@ -90,7 +96,7 @@ void for_each_line(const FilePart& part, const BoundaryPatches& patches, const B
       if (place < 0) continue;
       begin(first_faces + face_shape_count * place + static_cast<std::int32_t>(s));
       for_each_element_line(
-          part, block, run.begin, run.end, vtk_face_type[s],
+          part, {block, run.begin, run.end, vtk_face_type[s]},
           [&](int k) { return (block.corners - k) % block.corners; }, line);
     }
   }

@@ -17,9 +17,6 @@ namespace aeroloom::io {
 
 namespace {
 
-constexpr const char* part_task = "read a VTK file";
-constexpr const char* sources_task = "read an index of VTK files";
-
 /// Compressed arrays and text grow in memory, but not beyond measure.
 parallel::SandboxLimits limits_of(std::int64_t file_bytes) {
   parallel::SandboxLimits limits;
@@ -40,18 +37,14 @@ parallel::Bytes run_sources_task(std::span<const std::byte> input) {
   return parallel::to_wire(extract_vtk_sources(text_of(input)));
 }
 
-/// Before any server of sandboxed runs starts.
-const bool tasks_are_known = [] {
-  parallel::register_sandbox_task(part_task, run_part_task);
-  parallel::register_sandbox_task(sources_task, run_sources_task);
-  return true;
-}();
+const parallel::NamedTask part_task("read a VTK file", run_part_task);
+const parallel::NamedTask sources_task("read an index of VTK files", run_sources_task);
 
-parallel::Bytes run(const char* task, const std::string& path) {
-  if (!tasks_are_known) throw std::logic_error("the tasks of VTK files are not registered");
+parallel::Bytes run(const parallel::NamedTask& task, const std::string& path) {
   const parallel::SandboxLimits limits = limits_of(readable_bytes(path));
   const parallel::CrashNote note(fmt::format("reading '{}'", path));
-  parallel::SandboxResult result = parallel::run_sandboxed(task, std::as_bytes(std::span(path)), limits);
+  parallel::SandboxResult result =
+      parallel::run_sandboxed(task.name(), std::as_bytes(std::span(path)), limits);
   switch (result.status) {
     case parallel::SandboxStatus::ok:
       return std::move(result.output);

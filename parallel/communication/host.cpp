@@ -23,8 +23,4 @@ MPI_Comm host_communicator(const Communicator& communicator) {
   return HostAccess::handle_of(communicator);
 }
 
-MPI_Info no_hints() {
-  return MPI_INFO_NULL;
-}
-
 }  // namespace aeroloom::parallel

@@ -30,11 +30,8 @@ public:
     return NeighbourExchange(communicator);
   }
 
-  std::size_t sent_items() const { return _sent_items; }
-  std::size_t received_items() const { return _received_items; }
-
   /// Sends `out` and fills `in`. Items are of one size, the same on all ranks: `out` and `in` hold whole
-  /// ones, sent_items() and received_items() of them, else std::logic_error is thrown. Collective.
+  /// ones, as many as this rank sends and receives, else std::logic_error is thrown. Collective.
   void exchange(std::span<const std::byte> out, std::span<std::byte> in) const;
   template <Flat T>
   void exchange(std::span<const T> out, std::span<T> in) const {

@@ -10,13 +10,14 @@
 namespace aeroloom::attribution {
 namespace {
 
+using mesh::CadDimension;
 using mesh::DistributedMesh;
 using mesh::Piece;
 
 /// Tetrahedra around the z axis that together fill a wedge of `angle` degrees between the faces 0 and 1, one
 /// piece for each; the other sides belong to face 2.
 DistributedMesh make_wedge(const parallel::Communicator& communicator, double angle, int tets,
-                           int dimension) {
+                           CadDimension on_axis) {
   DistributedMesh mesh;
   mesh.piece_count = tets;
   mesh.patches = mesh.faces = {"upper", "lower", "outer"};
@@ -29,8 +30,7 @@ DistributedMesh make_wedge(const parallel::Communicator& communicator, double an
       const double turn = angle * k / tets * std::numbers::pi / 180;
       piece.coordinates.insert(piece.coordinates.end(), {std::cos(turn), std::sin(turn), 0});
     }
-    const auto on_axis = static_cast<std::int8_t>(dimension);
-    piece.vertex_dimension = {on_axis, on_axis, 2, 2};
+    piece.vertex_dimension = {on_axis, on_axis, CadDimension::face, CadDimension::face};
     piece.vertex_entity = {7, 7, 2, 2};
     piece.cells = {0, 1, 2, 3};
     const auto add = [&](std::array<int, 3> corners, int face) {
@@ -68,7 +68,8 @@ DistributedMesh make_strip(const parallel::Communicator& communicator, double wi
     piece.id = i;
     const double x = i;
     piece.coordinates = {x, 0, 0, x + 1, 0, 0, x, width, 0, x + 1, width, 0, x + 0.5, width / 2, 1};
-    piece.vertex_dimension = {1, 1, 1, 1, 3};
+    piece.vertex_dimension = {CadDimension::edge, CadDimension::edge, CadDimension::edge, CadDimension::edge,
+                              CadDimension::region};
     piece.vertex_entity = {1, 1, upper_curve, upper_curve, 0};
     piece.cells = {0, 1, 2, 4, 1, 3, 2, 4};
     add_triangle(piece, {0, 2, 1}, 0);
@@ -90,7 +91,7 @@ DistributedMesh make_corner(const parallel::Communicator& communicator, bool end
   if (!communicator.is_root()) return mesh;
   Piece piece;
   piece.coordinates = {0, 0, 0, 1, 0, 0, 0, 0.1, 0, 0.2, 0.1, 1};
-  piece.vertex_dimension = {0, 1, 1, 2};
+  piece.vertex_dimension = {CadDimension::vertex, CadDimension::edge, CadDimension::edge, CadDimension::face};
   piece.vertex_entity = {5, 1, 2, 1};
   piece.cells = {0, 1, 2, 3};
   add_triangle(piece, {0, 2, 1}, 0);
@@ -115,14 +116,16 @@ DistributedMesh make_walls(const parallel::Communicator& communicator, double an
     piece.id = i;
     if (i == 0 && with_curve) {
       piece.coordinates = {0, 0, 0, 0, 1, 0, 1, 0.5, 0, 1, 0.5, slope};
-      piece.vertex_dimension = {1, 1, 2, 2};
+      piece.vertex_dimension = {CadDimension::edge, CadDimension::edge, CadDimension::face,
+                                CadDimension::face};
       piece.vertex_entity = {1, 1, 0, 1};
       piece.cells = {0, 2, 1, 3};
       add_triangle(piece, {0, 1, 2}, 0);
       add_triangle(piece, {0, 3, 1}, 1);
     } else if (i == 1) {
       piece.coordinates = {1.6, 0, 0, 2.4, 0.5, 0, 1.6, 1, 0, 1.9, 0.5, 1.9 * slope * part};
-      piece.vertex_dimension = {2, 2, 2, 2};
+      piece.vertex_dimension = {CadDimension::face, CadDimension::face, CadDimension::face,
+                                CadDimension::face};
       piece.vertex_entity = {0, 0, 0, upper};
       piece.cells = {0, 1, 2, 3};
       add_triangle(piece, {0, 2, 1}, 0);
@@ -140,12 +143,12 @@ PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_c
   return find_pinned(world, mesh, numbering, target, suspects, surface_may_change);
 }
 
-PinnedReport find(double angle, int tets, int dimension, double target) {
-  return find(make_wedge(parallel::Communicator::world(), angle, tets, dimension), target);
+PinnedReport find(double angle, int tets, CadDimension on_axis, double target) {
+  return find(make_wedge(parallel::Communicator::world(), angle, tets, on_axis), target);
 }
 
 TEST(Pinned, FindsTheFacesThatForceAnAngle) {
-  const PinnedReport report = find(12, 3, 1, 15);
+  const PinnedReport report = find(12, 3, CadDimension::edge, 15);
   ASSERT_EQ(report.entities.size(), 1u);
   const PinningEntity& entity = report.entities[0];
   EXPECT_EQ(entity.kind, PinningEntity::Kind::faces);
@@ -161,12 +164,12 @@ TEST(Pinned, FindsTheFacesThatForceAnAngle) {
 
 TEST(Pinned, DoesNotExcuseWhatTheCadAllows) {
   // Enough room for one tetrahedron, filled with four.
-  const PinnedReport roomy = find(24, 4, 1, 15);
+  const PinnedReport roomy = find(24, 4, CadDimension::edge, 15);
   EXPECT_TRUE(roomy.entities.empty());
   EXPECT_EQ(roomy.others, 4);
   EXPECT_NEAR(roomy.smallest_angle, 6, 1e-6);
   // No curve there.
-  const PinnedReport smooth = find(12, 3, 2, 15);
+  const PinnedReport smooth = find(12, 3, CadDimension::face, 15);
   EXPECT_TRUE(smooth.entities.empty());
   EXPECT_EQ(smooth.others, 3);
 }
@@ -229,11 +232,11 @@ TEST(Pinned, TellsShortEdgesFromStrips) {
     DistributedMesh mesh = make_corner(world, true);
     if (world.is_root()) {
       Piece& piece = mesh.pieces.front();
-      piece.vertex_dimension[2] = 0;
+      piece.vertex_dimension[2] = CadDimension::vertex;
       piece.vertex_entity[2] = 6;
       // A vertex of curve 4 beyond, with triangles of faces 0 and 1 at the edge to it.
       piece.coordinates.insert(piece.coordinates.end(), {along ? 1 : -0.1, along ? 0.15 : 1.1, 0});
-      piece.vertex_dimension.push_back(1);
+      piece.vertex_dimension.push_back(CadDimension::edge);
       piece.vertex_entity.push_back(4);
       add_triangle(piece, {1, 2, 4}, 0);
       add_triangle(piece, {2, 3, 4}, 1);
@@ -284,7 +287,7 @@ TEST(Pinned, DoesNotExcuseFlatTetrahedraThatReachAcrossNothing) {
 }
 
 TEST(Pinned, ListsNothingOfAGoodMesh) {
-  const PinnedReport report = find(60, 1, 1, 15);
+  const PinnedReport report = find(60, 1, CadDimension::edge, 15);
   EXPECT_TRUE(report.entities.empty());
   EXPECT_EQ(report.tetrahedra + report.others, 0);
 }

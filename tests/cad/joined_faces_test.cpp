@@ -1,7 +1,7 @@
 #include "cad/model/topology/joined_faces.hpp"
 
-#include "cad/builtin/primitives.hpp"
 #include "cad/model/evaluation/face_width.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "aeroloom/cad/model/model.hpp"
 
-#include "cad/builtin/primitives.hpp"
 #include "tests/cad/model_checks.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include <numbers>
 #include <set>

@@ -1,6 +1,6 @@
 #include "aeroloom/cad/model/evaluation/point_locator.hpp"
 
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include <random>
 

@@ -20,7 +20,8 @@ CavityClaims claim_for_shared(const mesh::DistributedMesh& mesh, int shift, doub
   for (const mesh::Piece& piece : mesh.pieces) {
     auto& mine = claims.emplace_back(piece.vertex_count(), no_cavity);
     for (const mesh::LocalIndex v : piece.shared_vertices) {
-      if (piece.vertex_dimension[v] == 3) mine[v] = cavity_at(piece.point(v), size, 1, shift);
+      if (piece.vertex_dimension[v] == mesh::CadDimension::region)
+        mine[v] = cavity_at(piece.point(v), size, 1, shift);
     }
   }
   return claims;
@@ -65,7 +66,7 @@ std::optional<Refilling> slid(const Cavity& cavity) {
   std::vector<mesh::LocalIndex> named(cavity.points.size());
   for (std::size_t v = 0; v < named.size(); ++v) {
     named[v] = static_cast<mesh::LocalIndex>(v);
-    if (stays[v] || cavity.dimension[v] != 2) continue;
+    if (stays[v] || cavity.dimension[v] != mesh::CadDimension::face) continue;
     geometry::Vec3 p = cavity.points[v];
     for (int axis = 0; axis < 3; ++axis) p[axis] += p[axis] > 0 && p[axis] < 1 ? 0.01 : 0;
     named[v] = static_cast<mesh::LocalIndex>(cavity.points.size() + result.added.size());
@@ -211,7 +212,7 @@ std::int64_t count_moved(const Communicator& communicator, const mesh::Distribut
   for (const mesh::Piece& piece : mesh.pieces) {
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const double x = squares * piece.point(v).x, y = squares * piece.point(v).y;
-      moved += piece.vertex_dimension[v] == 2 &&
+      moved += piece.vertex_dimension[v] == mesh::CadDimension::face &&
                (std::abs(x - std::round(x)) > 0.01 || std::abs(y - std::round(y)) > 0.01);
     }
   }

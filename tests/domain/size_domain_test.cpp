@@ -55,7 +55,8 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   const auto world = parallel::Communicator::world();
   const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join}, clock);
   ASSERT_EQ(sized.joined.changes.size(), 1u);
-  const double predicted = sizing::predict_counts(world, sized.model, sized.field, clock).tetrahedra;
+  const sizing::ModelSampler sampler(world, sized.model, clock, 0, sizing::Fields::one);
+  const double predicted = sampler.predict(sized.field).tetrahedra;
   EXPECT_GT(predicted, 14'000);
   EXPECT_LT(predicted, 28'000);
 }

@@ -43,14 +43,6 @@ TEST(Predicates, Circles) {
   EXPECT_EQ(in_circle({0, 0}, {1, 0}, {0, 1}, {1, 1 - tiny}), 1);
 }
 
-TEST(Predicates, Spheres) {
-  const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1};
-  ASSERT_EQ(orient3d(a, b, c, d), 1);
-  EXPECT_EQ(in_sphere(a, b, c, d, {0.5, 0.5, 0.5}), 1);
-  EXPECT_EQ(in_sphere(a, b, c, d, {1, 1, 1}), 0);
-  EXPECT_EQ(in_sphere(a, b, c, d, {1, 1, 1 + tiny}), -1);
-}
-
 struct Pair {
   const char* name;
   Vec3 a[3], b[3];

@@ -78,7 +78,7 @@ TEST(BorderSmoothing, MovesVerticesThatPiecesShareAndNoOthers) {
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (piece.point(v) == before[p].point(v)) continue;
       ++moved;
-      EXPECT_EQ(piece.vertex_dimension[v], 3);
+      EXPECT_EQ(piece.vertex_dimension[v], mesh::CadDimension::region);
       EXPECT_TRUE(std::find(piece.shared_vertices.begin(), piece.shared_vertices.end(), v) !=
                   piece.shared_vertices.end());
     }
@@ -115,7 +115,8 @@ TEST(Scatter, MovesVerticesInsideALittleAndInvertsNothing) {
   examples::expect_valid(self, mesh);
   int moved = 0, inside = 0;
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    const bool free = piece.vertex_dimension[v] == 3 && v != piece.vertex_count() - 1;
+    const bool free =
+        piece.vertex_dimension[v] == mesh::CadDimension::region && v != piece.vertex_count() - 1;
     inside += free;
     moved += piece.point(v) != before.point(v);
     if (!free) EXPECT_EQ(piece.point(v), before.point(v));

@@ -1,6 +1,6 @@
 #include "aeroloom/cad/model/evaluation/point_locator.hpp"
 #include "aeroloom/improve/improver.hpp"
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <map>
@@ -53,10 +53,10 @@ mesh::examples::WholeMesh shaken_on_cad(const cad::Model& model, int pieces, std
   for (std::size_t v = 0; v < whole.points.size(); ++v) {
     whole.points[v] -= Vec3{0.5, 0.5, 0.5};
     const Sides sides = sides_of(whole.points[v]);
-    const auto& table = whole.dimensions[v] == 2   ? entities.faces
-                        : whole.dimensions[v] == 1 ? entities.edges
-                                                   : entities.vertices;
-    if (whole.dimensions[v] < 3) whole.entities[v] = table.at(sides);
+    const auto& table = whole.dimensions[v] == mesh::CadDimension::face   ? entities.faces
+                        : whole.dimensions[v] == mesh::CadDimension::edge ? entities.edges
+                                                                          : entities.vertices;
+    if (whole.dimensions[v] < mesh::CadDimension::region) whole.entities[v] = table.at(sides);
   }
   for (std::size_t t = 0; t < whole.boundary.size(); ++t) {
     Sides side{};
@@ -69,7 +69,7 @@ mesh::examples::WholeMesh shaken_on_cad(const cad::Model& model, int pieces, std
     for (const int v : whole.cells[c]) cells_of[v].push_back(static_cast<int>(c));
   }
   for (std::size_t v = 0; v < whole.points.size(); ++v) {
-    if (whole.dimensions[v] == 3) continue;
+    if (whole.dimensions[v] == mesh::CadDimension::region) continue;
     const Vec3 origin = whole.points[v];
     const Sides sides = sides_of(origin);
     for (int axis = 0; axis < 3; ++axis)
@@ -87,7 +87,7 @@ void expect_on_cad(const cad::Model& model, const std::vector<mesh::Piece>& piec
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const Sides sides = sides_of(piece.point(v));
       const auto on = std::count_if(sides.begin(), sides.end(), [](int s) { return s != 0; });
-      ASSERT_EQ(3 - on, piece.vertex_dimension[v]);
+      ASSERT_EQ(static_cast<mesh::CadDimension>(3 - on), piece.vertex_dimension[v]);
       if (on == 1) {
         EXPECT_EQ(entities.faces.at(sides), piece.vertex_entity[v]);
       }

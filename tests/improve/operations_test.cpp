@@ -78,7 +78,9 @@ TEST(TetMesh, RemovesSwallowedVerticesFromAllArrays) {
   mesh::Piece piece = make_piece({{0.2, 0.2, 0.2}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                  {0, 2, 3, 4, 1, 0, 3, 4, 1, 2, 0, 4, 1, 2, 3, 0});
   piece.vertex_entity = {7, 1, 2, 3, 4};
-  piece.vertex_dimension = {3, 0, 0, 0, 0};
+  piece.vertex_dimension = {mesh::CadDimension::region, mesh::CadDimension::vertex,
+                            mesh::CadDimension::vertex, mesh::CadDimension::vertex,
+                            mesh::CadDimension::vertex};
   piece.boundary = {1, 3, 2};
   piece.shared_vertices = {2, 4};
   TetMesh mesh(piece, measure);

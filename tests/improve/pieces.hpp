@@ -16,7 +16,7 @@ namespace aeroloom::improve::examples {
 inline mesh::Piece make_piece(const std::vector<Vec3>& points, std::vector<LocalIndex> cells) {
   mesh::Piece piece;
   for (const Vec3 p : points) piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-  piece.vertex_dimension.assign(points.size(), 3);
+  piece.vertex_dimension.assign(points.size(), mesh::CadDimension::region);
   piece.vertex_entity.assign(points.size(), 0);
   piece.cells = std::move(cells);
   return piece;
@@ -54,7 +54,7 @@ inline void close_boundary(mesh::Piece& piece) {
     piece.boundary.insert(piece.boundary.end(), sides[0].begin(), sides[0].end());
     piece.triangle_face.push_back(0);
     piece.triangle_patch.push_back(0);
-    for (const LocalIndex v : key) piece.vertex_dimension[v] = 2;
+    for (const LocalIndex v : key) piece.vertex_dimension[v] = mesh::CadDimension::face;
   }
 }
 

@@ -128,11 +128,13 @@ mesh::Piece cube_with_strip(std::uint32_t seed) {
   Piece piece = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 0, seed), 1).pieces[0];
   for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const LocalIndex* v = piece.boundary_triangle(t);
-    if (std::any_of(v, v + 3, [&](LocalIndex k) { return piece.vertex_dimension[k] != 2; })) continue;
+    if (std::any_of(v, v + 3,
+                    [&](LocalIndex k) { return piece.vertex_dimension[k] != mesh::CadDimension::face; }))
+      continue;
     const Vec3 middle = 0.5 * (piece.point(v[0]) + piece.point(v[1]));
     const Vec3 apex = middle + 0.12 * (piece.point(v[2]) - middle);
     for (int axis = 0; axis < 3; ++axis) piece.coordinates[3 * v[2] + axis] = apex[axis];
-    for (int k = 0; k < 3; ++k) piece.vertex_dimension[v[k]] = 1;
+    for (int k = 0; k < 3; ++k) piece.vertex_dimension[v[k]] = mesh::CadDimension::edge;
     return piece;
   }
   throw std::logic_error("no triangle inside a face");

@@ -13,9 +13,9 @@ namespace {
 const mesh::TetQuality measure(28);
 constexpr double width = 0.04;
 
-/// A triangle of length 1 between two curves, if `dimension` is 1, and apexes over it at the given heights,
-/// from vertex 3 on; one tetrahedron for each.
-mesh::Piece make_strip(const std::vector<double>& heights, std::uint8_t dimension) {
+/// A triangle of length 1 between two curves, where `corners_on` is an edge, and apexes over it at the
+/// given heights, from vertex 3 on; one tetrahedron for each.
+mesh::Piece make_strip(const std::vector<double>& heights, mesh::CadDimension corners_on) {
   std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0.5, width, 0}};
   std::vector<LocalIndex> cells;
   for (const double height : heights) {
@@ -23,14 +23,14 @@ mesh::Piece make_strip(const std::vector<double>& heights, std::uint8_t dimensio
     points.push_back({0.5, 0.5 * width, height});
   }
   mesh::Piece piece = examples::make_piece(points, cells);
-  std::fill_n(piece.vertex_dimension.begin(), 3, dimension);
+  std::fill_n(piece.vertex_dimension.begin(), 3, corners_on);
   piece.boundary = {0, 2, 1};
   piece.triangle_face = piece.triangle_patch = {0};
   return piece;
 }
 
 TEST(Reach, FallsWithTheWidthOfAStrip) {
-  const Reach reach(make_strip({1}, 1), measure);
+  const Reach reach(make_strip({1}, mesh::CadDimension::edge), measure);
   const double least = std::sqrt(width), target = measure.target();
   EXPECT_NEAR(reach(Corners{0, 1, 2, 3}), least, 1e-6);
   EXPECT_NEAR(reach(Corners{0, 1, 3, 4}), std::cbrt(least * least * target), 1e-6);
@@ -41,12 +41,12 @@ TEST(Reach, FallsWithTheWidthOfAStrip) {
 }
 
 TEST(Reach, IsTheTargetWhereTrianglesMayBecomeOthers) {
-  const Reach reach(make_strip({1}, 2), measure);
+  const Reach reach(make_strip({1}, mesh::CadDimension::face), measure);
   EXPECT_EQ(reach(Corners{0, 1, 2, 3}), measure.target());
 }
 
 TEST(Reach, IsTheTargetBesideWiderStrips) {
-  mesh::Piece piece = make_strip({1}, 1);
+  mesh::Piece piece = make_strip({1}, mesh::CadDimension::edge);
   piece.coordinates[3 * 2 + 1] = 0.2;
   EXPECT_EQ(Reach(piece, measure)(Corners{0, 1, 2, 3}), measure.target());
 }
@@ -62,7 +62,7 @@ Replacement replace_first(const TetMesh& mesh, std::size_t count) {
 }
 
 TEST(Reach, RefusesWhatLeavesMoreToMend) {
-  mesh::Piece piece = make_strip({0.65, 0.5}, 1);
+  mesh::Piece piece = make_strip({0.65, 0.5}, mesh::CadDimension::edge);
   const Reach reach(piece, measure);
   TetMesh mesh(piece, measure, false);
   ASSERT_FALSE(reach.is_severe(mesh.quality(0)));
@@ -71,14 +71,14 @@ TEST(Reach, RefusesWhatLeavesMoreToMend) {
   EXPECT_TRUE(reach.pays(mesh, replace_first(mesh, 1)));
   EXPECT_FALSE(reach.pays(mesh, replace_first(mesh, 5)));
 
-  mesh::Piece elsewhere = make_strip({0.65, 0.5}, 2);
+  mesh::Piece elsewhere = make_strip({0.65, 0.5}, mesh::CadDimension::face);
   const Reach target(elsewhere, measure);
   TetMesh other(elsewhere, measure, false);
   EXPECT_TRUE(target.pays(other, replace_first(other, 5))) << "away from strips the worst alone counts";
 }
 
 TEST(Reach, LetsSevereCasesCostOthers) {
-  mesh::Piece piece = make_strip({2, 0.5}, 1);
+  mesh::Piece piece = make_strip({2, 0.5}, mesh::CadDimension::edge);
   const Reach reach(piece, measure);
   TetMesh mesh(piece, measure, false);
   ASSERT_TRUE(reach.is_severe(mesh.quality(0)));
@@ -87,7 +87,7 @@ TEST(Reach, LetsSevereCasesCostOthers) {
 
 /// Whether a tetrahedron of the first height may become one of the second.
 bool may_get_flatter(double from, double to, bool severe, Effort effort) {
-  mesh::Piece piece = make_strip({from, to}, 1);
+  mesh::Piece piece = make_strip({from, to}, mesh::CadDimension::edge);
   const Reach reach(piece, measure);
   TetMesh mesh(piece, measure, false);
   const Replacement cavity = replace_first(mesh, 1);
@@ -112,7 +112,7 @@ TEST(Reach, IsTheTargetEverywhereWhereNothingIsSpared) {
 }
 
 TEST(Reach, LetsSevereCasesGetFlatterByMoves) {
-  mesh::Piece piece = make_strip({0.9}, 1);
+  mesh::Piece piece = make_strip({0.9}, mesh::CadDimension::edge);
   const Reach reach(piece, measure);
   TetMesh mesh(piece, measure, false);
   const std::vector<LocalIndex> star{0};

@@ -1,7 +1,7 @@
 #include "improve/sliding.hpp"
 
 #include "aeroloom/mesh/quality.hpp"
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <limits>
@@ -87,7 +87,7 @@ TEST(Sliding, LeavesWhatOthersKnow) {
   EXPECT_FALSE(slide_first_vertex(shared, model)) << "another piece knows the vertex";
   elsewhere.vertex_entity[0] = 1;
   EXPECT_FALSE(slide_first_vertex(elsewhere, model)) << "the vertex does not lie on the face it names";
-  corner.vertex_dimension[0] = 0;
+  corner.vertex_dimension[0] = mesh::CadDimension::vertex;
   EXPECT_FALSE(slide_first_vertex(corner, model)) << "CAD vertices stay";
 }
 
@@ -108,7 +108,7 @@ TEST(Sliding, KeepsToTheCurve) {
                                  {0, 1, 3, 5, 0, 2, 3, 5, 0, 1, 4, 5, 0, 2, 4, 5});
   close_boundary(piece);
   for (LocalIndex v = 0; v < 3; ++v) {
-    piece.vertex_dimension[v] = 1;
+    piece.vertex_dimension[v] = mesh::CadDimension::edge;
     piece.vertex_entity[v] = rim;
   }
   const double before = least_quality(piece);

@@ -144,7 +144,7 @@ TEST(MeanRatioSmoothing, LiftsTheAverageAndNeverTheWorst) {
   mesh::Piece piece = make_lattice(5);
   std::mt19937 random(7);
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (piece.vertex_dimension[v] < 3) continue;
+    if (piece.vertex_dimension[v] < mesh::CadDimension::region) continue;
     Vec3 p = piece.point(v);
     for (int axis = 0; axis < 3; ++axis) p[axis] += 0.2 * (random() / 2147483648.0 - 1);
     piece.set_point(v, p);
@@ -193,7 +193,7 @@ TEST(EdgeContraction, RemovesAVertexInsideButNeverOneOnACurve) {
   mesh::Piece curved = make_lattice(4);
   const LocalIndex stays = vertex_at(curved, {1.5, 1.5, 1.5});
   curved.set_point(stays, {1.93, 1.93, 1.93});
-  curved.vertex_dimension[stays] = 1;
+  curved.vertex_dimension[stays] = mesh::CadDimension::edge;
   TetMesh fixed(curved, measure);
   EXPECT_FALSE(contraction.propose(fixed, stays, vertex_at(curved, {2, 2, 2}), -1, cavity));
 }
@@ -221,7 +221,7 @@ mesh::Piece make_icosahedron(geometry::Vec3 inside) {
   }
   mesh::Piece piece = make_piece(points, cells);
   close_boundary(piece);
-  piece.vertex_dimension[12] = 3;
+  piece.vertex_dimension[12] = mesh::CadDimension::region;
   return piece;
 }
 

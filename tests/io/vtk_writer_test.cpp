@@ -189,7 +189,7 @@ mesh::Piece sheet(mesh::PieceId id, int n) {
       piece.cells.insert(piece.cells.end(), {a, b, b + 1, a, b + 1, a + 1});
     }
   }
-  piece.vertex_dimension.assign(piece.vertex_count(), 2);
+  piece.vertex_dimension.assign(piece.vertex_count(), mesh::CadDimension::face);
   piece.vertex_entity.assign(piece.vertex_count(), 0);
   piece.triangle_face.assign(piece.cell_count(), id);
   piece.triangle_patch.assign(piece.cell_count(), 0);
@@ -225,7 +225,7 @@ TEST_F(VtkWriter, LeavesOrphansOut) {
   auto mesh = mesh::examples::two_tets(world);
   for (auto& piece : mesh.pieces) {
     piece.coordinates.insert(piece.coordinates.end(), {9, 9, 9});
-    piece.vertex_dimension.push_back(3);
+    piece.vertex_dimension.push_back(mesh::CadDimension::region);
     piece.vertex_entity.push_back(0);
   }
   write_volume(world, mesh, mesh::number_mesh(world, mesh), folder, "mesh");

@@ -19,7 +19,7 @@ namespace aeroloom::mesh::examples {
 struct WholeMesh {
   CellKind kind = CellKind::tetrahedron;
   std::vector<geometry::Vec3> points;
-  std::vector<std::int8_t> dimensions;
+  std::vector<CadDimension> dimensions;
   std::vector<std::int32_t> entities;
   std::vector<std::vector<int>> cells;
   std::vector<int> piece_of_cell;
@@ -127,7 +127,7 @@ void add_boundary(WholeMesh& whole, const Label& label) {
 inline DistributedMesh two_tets(const parallel::Communicator& communicator) {
   WholeMesh whole;
   whole.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.2, -1}};
-  whole.dimensions.assign(5, 0);
+  whole.dimensions.assign(5, CadDimension::vertex);
   whole.entities = {0, 1, 2, 3, 4};
   whole.cells = {{0, 1, 2, 3}, {0, 2, 1, 4}};
   whole.piece_of_cell = {0, 1};
@@ -148,7 +148,7 @@ inline DistributedMesh fan(const parallel::Communicator& communicator, int count
     whole.cells.push_back({0, 2 + i, 2 + (i + 1) % count, 1});
     whole.piece_of_cell.push_back(i);
   }
-  whole.dimensions.assign(whole.points.size(), 2);
+  whole.dimensions.assign(whole.points.size(), CadDimension::face);
   whole.entities.assign(whole.points.size(), 0);
   whole.face_names = {"rim"};
   whole.patch_names = {"wall"};
@@ -172,7 +172,7 @@ inline WholeMesh whole_cube(int n, int pieces) {
     geometry::Vec3 p;
     for (int axis = 0; axis < 3; ++axis) p[axis] = (at[axis] + (on_side == 0 ? jitter(v, axis) : 0)) / n;
     whole.points.push_back(p);
-    whole.dimensions.push_back(static_cast<std::int8_t>(3 - on_side));
+    whole.dimensions.push_back(static_cast<CadDimension>(3 - on_side));
     int face = 0;
     for (int axis = 2; axis >= 0; --axis)
       face = at[axis] == 0 ? 2 * axis : at[axis] == n ? 2 * axis + 1 : face;

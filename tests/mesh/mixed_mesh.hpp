@@ -287,7 +287,7 @@ private:
       local[v] = place;
       const geometry::Vec3 p = _whole.points[v];
       piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-      piece.vertex_dimension.push_back(_entity[v] < 0 ? 3 : 2);
+      piece.vertex_dimension.push_back(_entity[v] < 0 ? CadDimension::region : CadDimension::face);
       piece.vertex_entity.push_back(std::max(_entity[v], 0));
       if (_known_by[v].size() < 2) continue;
       piece.shared_vertices.push_back(place);

@@ -215,7 +215,7 @@ TEST(MixedMesh, EveryBrokenMeshIsFoundOut) {
   });
   expect_found("orphan vertices", [](Piece& piece) {
     piece.coordinates.insert(piece.coordinates.end(), {7, 7, 7});
-    piece.vertex_dimension.push_back(3), piece.vertex_entity.push_back(0);
+    piece.vertex_dimension.push_back(CadDimension::region), piece.vertex_entity.push_back(0);
   });
   expect_found("coordinate that is no finite number",
                [](Piece& piece) { piece.coordinates.back() = std::numeric_limits<double>::infinity(); });

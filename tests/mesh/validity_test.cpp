@@ -85,7 +85,7 @@ void repeat_triangle(Piece& piece, std::size_t t) {
 
 LocalIndex add_vertex(Piece& piece, geometry::Vec3 p) {
   piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
-  piece.vertex_dimension.push_back(3);
+  piece.vertex_dimension.push_back(CadDimension::region);
   piece.vertex_entity.push_back(0);
   return piece.vertex_count() - 1;
 }
@@ -363,7 +363,7 @@ TEST(SurfaceValidity, AcceptsSheetsThatTouchAlongAnEdge) {
   examples::WholeMesh whole;
   whole.kind = CellKind::triangle;
   whole.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
-  whole.dimensions.assign(6, 2);
+  whole.dimensions.assign(6, CadDimension::face);
   whole.entities.assign(6, 0);
   whole.face_names = whole.patch_names = {"all"};
   for (const auto& tet : {std::array{0, 2, 3, 1}, std::array{0, 4, 5, 1}}) {

@@ -48,8 +48,6 @@ protected:
 
 TEST_F(NeighbourExchangeTest, ReceivesWhatOthersSentByPartner) {
   const NeighbourExchange exchange(world, sends, receives);
-  EXPECT_EQ(exchange.sent_items(), out.size());
-  EXPECT_EQ(exchange.received_items(), expected.size());
   for (int round = 0; round < 3; ++round) {
     std::vector<Letter> in(expected.size());
     exchange.exchange(std::span<const Letter>(out), std::span<Letter>(in));

@@ -3,6 +3,7 @@
 #include "partition/partition_clusters.hpp"
 #include "partition/repair_parts.hpp"
 #include "partition/simplify_dual_graph.hpp"
+#include "partition/wedges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,8 +129,9 @@ std::size_t reachable(const BackgroundSurface& surface, const std::vector<std::i
 
 double sharpest(const BackgroundSurface& surface, const std::vector<std::int32_t>& part) {
   double least = 360;
-  for (const Wedge& wedge : cut_wedges(surface, gather_fans(surface), part)) {
-    least = std::min(least, wedge.angle);
+  const VertexFans fans = gather_fans(surface);
+  for (FanIndex fan = 0; fan < fans.count(); ++fan) {
+    visit_wedges(surface, fans, part, fan, [&](const Wedge& wedge) { least = std::min(least, wedge.angle); });
   }
   return least;
 }

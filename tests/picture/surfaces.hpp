@@ -57,7 +57,7 @@ public:
   mesh::DistributedMesh distribute(const parallel::Communicator& communicator,
                                    std::vector<std::string> patches) {
     _whole.kind = mesh::CellKind::triangle;
-    _whole.dimensions.assign(_whole.points.size(), 2);
+    _whole.dimensions.assign(_whole.points.size(), mesh::CadDimension::face);
     _whole.entities.assign(_whole.points.size(), 0);
     _whole.patch_names = std::move(patches);
     for (int f = 0; f < _faces; ++f) _whole.face_names.push_back("face_" + std::to_string(f));

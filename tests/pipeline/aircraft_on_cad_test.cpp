@@ -19,9 +19,6 @@ namespace {
 
 using geometry::Vec3;
 
-/// Before the server of sandboxed runs starts.
-[[maybe_unused]] const bool registered = (volume::register_volume_tasks(), true);
-
 struct Aircraft {
   cad::Model model;
   surface::SurfaceMesh surface;
@@ -65,12 +62,12 @@ double largest_distance(const cad::Model& model, const mesh::DistributedMesh& me
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const Vec3 p = piece.point(v);
       const std::int32_t entity = piece.vertex_entity[v];
-      if (piece.vertex_dimension[v] == 0) {
+      if (piece.vertex_dimension[v] == mesh::CadDimension::vertex) {
         largest = std::max(largest, distance(p, model.vertex(entity)));
-      } else if (piece.vertex_dimension[v] == 1) {
+      } else if (piece.vertex_dimension[v] == mesh::CadDimension::edge) {
         const auto t = locator.on_edge(entity, p, tolerance);
         largest = std::max(largest, t ? distance(p, model.edge_point(entity, *t)) : 1e300);
-      } else if (piece.vertex_dimension[v] == 2) {
+      } else if (piece.vertex_dimension[v] == mesh::CadDimension::face) {
         const auto uv = locator.on_face(entity, p, tolerance);
         largest = std::max(largest, uv ? distance(p, model.face_point(entity, *uv)) : 1e300);
       }

@@ -1,10 +1,8 @@
 // Cases on shapes of the CAD library, for tests of the whole program in one process.
 #pragma once
 
-#include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "pipeline/run.hpp"
 #include "tests/references.hpp"
 
@@ -16,13 +14,6 @@
 #include <unistd.h>
 
 namespace aeroloom::pipeline::cad_cases {
-
-/// Sandboxed tasks must be known before the environment starts.
-inline const bool registered = [] {
-  volume::register_volume_tasks();
-  domain::register_geometry_tasks();
-  return true;
-}();
 
 /// A folder that all ranks of this test share and that goes with it.
 class Folder {

@@ -32,8 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const bool registered = (domain::register_geometry_tasks(), true);
-
 struct Variant {
   std::string name;
   std::string content;

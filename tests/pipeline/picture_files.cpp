@@ -1,8 +1,6 @@
 // picture_files CASE.yaml|MESH FOLDER [section.key=value ...]: the pictures of a run, or of a mesh as it is,
 // as files in a folder, for who wants to look at them.
-#include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/parallel/sandbox/sandbox.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "imported/imported_mesh.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "parallel/communication/environment.hpp"
@@ -26,7 +24,7 @@ std::vector<report::Picture> pictures_of_mesh(const parallel::Communicator& worl
   const mesh::Numbering numbering = mesh::number_mesh(world, surface);
   const std::clock_t begin = std::clock();
   std::vector<report::Picture> pictures =
-      report::make_pictures(world, volume, {surface, numbering, volume.patch_types, ""});
+      report::pictures_or_warning(world, &volume, {surface, numbering, volume.patch_types, ""});
   if (world.is_root())
     std::printf("pictures: %.2f s of CPU\n", double(std::clock() - begin) / CLOCKS_PER_SEC);
   return pictures;
@@ -57,8 +55,6 @@ void write_pictures(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   using namespace aeroloom;
-  volume::register_volume_tasks();
-  domain::register_geometry_tasks();
   const parallel::Environment environment(argc, argv);
   try {
     pipeline::write_pictures({argv, argv + argc});

@@ -2,9 +2,7 @@
 // them when the volume fails.
 #include "report/pictures.hpp"
 
-#include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "pipeline/run.hpp"
 #include "tests/references.hpp"
 #include "tests/scoped_fault.hpp"
@@ -22,13 +20,6 @@ namespace aeroloom::report {
 namespace {
 
 using parallel::Communicator;
-
-/// Sandboxed tasks must be known before the environment starts.
-[[maybe_unused]] const bool registered = [] {
-  volume::register_volume_tasks();
-  domain::register_geometry_tasks();
-  return true;
-}();
 
 /// A coarse mesh of the built-in aircraft, in a folder of its own.
 cases::Case coarse_aircraft(const std::string& name) {

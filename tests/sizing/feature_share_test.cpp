@@ -1,5 +1,5 @@
 #include "aeroloom/sizing/choose_sizes.hpp"
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "aeroloom/sizing/face_samples.hpp"
 #include "aeroloom/sizing/model_sources.hpp"
 #include "aeroloom/sizing/size_field.hpp"
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/wall_bodies.hpp"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ void expect_same(const Model& model, const Model& joined, const SizingOptions& o
   const auto world = parallel::Communicator::world();
   ModelSampler before(world, model, clock, options.proximity, fields);
   before.build_field(options);
-  const ModelSampler after(std::move(before), joined), anew(world, joined, clock, options.proximity, fields);
+  ModelSampler after(std::move(before), joined), anew(world, joined, clock, options.proximity, fields);
   const SizeField field = after.build_field(options), expected = anew.build_field(options);
   ASSERT_EQ(field.leaf_count(), expected.leaf_count());
   for (std::int64_t leaf = 0; leaf < field.leaf_count(); ++leaf)
@@ -67,7 +67,7 @@ TEST(ModelSampler, TellsSizesWithoutFeatures) {
   constexpr double width = 0.002, surface = 0.1;
   parallel::StageClock clock;
   const Model model = cad::shapes::blunt_wedge(width);
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
   SizingOptions options;
   options.minimum = 0.02, options.maximum = 0.5, options.surface_maximum = surface;
   options.feature_minimum = 0.001;
@@ -96,7 +96,7 @@ TEST(ModelSampler, TellsOnWhichFacesTheMinimumWins) {
   const Model model = cad::shapes::split_cylinder(3, 2);
   SizingOptions options{0.5, 1, 5, 1.3, 0};
   options.proximity = 0;
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::several);
+  ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::several);
   const std::vector<BoundedFace> bounded = sampler.faces_bounded_by_minimum(options);
   ASSERT_FALSE(bounded.empty());
   for (const BoundedFace& each : bounded) {
@@ -112,7 +112,7 @@ TEST(ModelSampler, RefusesSizesThatNoMachineHolds) {
   parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
   for (const Fields fields : {Fields::one, Fields::several}) {
-    const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, fields);
+    ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, fields);
     const auto refusal = [&](const SizingOptions& options) -> std::string {
       try {
         sampler.build_field(options);
@@ -142,8 +142,7 @@ TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
   parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
   const SizingOptions options{0.05, 0.5, 15, 1.3, 0};
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, options.proximity,
-                             Fields::several);
+  ModelSampler sampler(parallel::Communicator::world(), model, clock, options.proximity, Fields::several);
   constexpr std::int64_t many = 1'000'000'000;
   const auto exact = sampler.try_sizes(options, many);
   const auto estimate = sampler.estimate_tetrahedra(options, 1, many);
@@ -163,7 +162,7 @@ TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
 TEST(ModelSampler, RoughFieldsTellAboutAsManyAndDoSoForAnySizes) {
   parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, Fields::several);
+  ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, Fields::several);
   const SizingOptions options{0.02, 0.3, 15, 1.3, 0};
   const PredictedCounts exact = sampler.predict(sampler.build_field(options));
   const RoughField rough = sampler.build_rough_field(options);

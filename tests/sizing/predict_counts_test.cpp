@@ -1,8 +1,8 @@
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/sizing/choose_sizes.hpp"
 #include "aeroloom/sizing/size_field.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "sizing/facet_integral.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ PredictedCounts predict(const Model& model, const SizingOptions& options,
                         const parallel::Communicator& communicator = parallel::Communicator::world()) {
   parallel::StageClock clock;
   const SizeField field = sizing::build_size_field(communicator, model, options, clock);
-  return sizing::predict_counts(communicator, model, field, clock);
+  return sizing::ModelSampler(communicator, model, clock, 0, sizing::Fields::one).predict(field);
 }
 
 /// The prediction for one size everywhere, with the constants of the integrals.
@@ -125,8 +125,7 @@ TEST(ChooseSizes, HitsTheTarget) {
 TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
   const Model model = sphere_in_box(20, 0.5);
   parallel::StageClock clock;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1,
-                                     sizing::Fields::several);
+  sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 5e4);
   const SizeField field = sampler.build_field(chosen.options);
   EXPECT_EQ(chosen.field.leaf_count(), field.leaf_count());
@@ -141,8 +140,7 @@ TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
 TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
   const Model model = sphere_in_box(20, 0.001);
   parallel::StageClock clock;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1,
-                                     sizing::Fields::several);
+  sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 100);
   EXPECT_GT(chosen.counts.tetrahedra, 200);
   EXPECT_NEAR(chosen.options.surface_maximum, 0.0004, 0.0001) << "the coarsest it tries, a fifth of the body";

@@ -1,10 +1,10 @@
 #include "surface/chart.hpp"
 
 #include "aeroloom/cad/domain/domain.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "geometry/predicates.hpp"
 #include "surface/conformal_map.hpp"
 #include "surface/support_topology.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <map>

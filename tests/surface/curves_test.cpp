@@ -1,7 +1,7 @@
 #include "surface/curves.hpp"
 
-#include "cad/builtin/primitives.hpp"
 #include "surface/curve_metric.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>

@@ -1,11 +1,11 @@
 /// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
 #include "aeroloom/mesh/quality.hpp"
 #include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "surface/coarse_loops.hpp"
 #include "surface/face_mesher.hpp"
+#include "surface/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>
@@ -30,9 +30,9 @@ struct Meshed {
 };
 
 Meshed mesh_model(const Communicator& communicator, const cad::Model& model, const sizing::SizeField& field,
-                  const SurfaceOptions& options) {
+                  const SurfaceOptions& options, const FaceDivider& divider = {}) {
   parallel::StageClock clock;
-  SurfaceMesh surface = mesh_surface(communicator, model, field, options, clock);
+  SurfaceMesh surface = mesh_surface_with_cuts(communicator, model, field, {options, divider}, clock);
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   return {std::move(surface), std::move(numbering)};
 }
@@ -183,21 +183,21 @@ TEST(ImposedCuts, FollowABox) {
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::torus, PrimitiveKind::cylinder}) {
     const cad::Model model = make_primitive_domain(kind);
     const sizing::SizeField field = uniform_field(model, 0.03);
-    SurfaceOptions options{.piece_triangles = 1'000'000};
+    const SurfaceOptions options{.piece_triangles = 1'000'000};
     const auto is_inside = [](Vec3 p) { return p.x > -0.1 && p.y > -0.05 && p.z > -0.12; };
-    options.divider = [&](cad::FaceId, const partition::BackgroundSurface& surface) {
+    const FaceDivider divider = [&](cad::FaceId, const partition::BackgroundSurface& surface) {
       std::vector<std::int32_t> part;
       for (const auto& [a, b, c] : surface.triangles) {
         part.push_back(is_inside((surface.points[a] + surface.points[b] + surface.points[c]) / 3.0) ? 1 : 0);
       }
       return part;
     };
-    const Meshed meshed = mesh_model(world, model, field, options);
+    const Meshed meshed = mesh_model(world, model, field, options, divider);
     expect_valid(world, meshed);
     EXPECT_GT(meshed.surface.mesh.piece_count, model.face_count());
     EXPECT_GT(meshed.surface.report.divided_faces, 0);
     EXPECT_GT(measure_seam(world, meshed.surface.mesh).count[1], 50);
-    EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options)));
+    EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options, divider)));
   }
 }
 

@@ -1,8 +1,8 @@
 #include "surface/remesh.hpp"
 
 #include "aeroloom/mesh/quality.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "surface/face_remesher.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "surface/support.hpp"
 
-#include "cad/builtin/primitives.hpp"
 #include "surface/support_topology.hpp"
+#include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <set>

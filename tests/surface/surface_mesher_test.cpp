@@ -4,9 +4,9 @@
 #include "aeroloom/cad/domain/domain.hpp"
 #include "aeroloom/mesh/quality.hpp"
 #include "aeroloom/mesh/validity.hpp"
-#include "cad/builtin/primitives.hpp"
 #include "surface/curves.hpp"
 #include "surface/face_mesher.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include <cmath>
 #include <numbers>

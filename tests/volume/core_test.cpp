@@ -13,8 +13,6 @@ namespace {
 using geometry::Vec3;
 using parallel::Communicator;
 
-const bool tasks_are_known = (register_volume_tasks(), true);
-
 // --- the squares
 
 class Squares : public OnOneRank {};

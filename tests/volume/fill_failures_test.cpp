@@ -20,8 +20,6 @@ using geometry::Vec3;
 using parallel::Communicator;
 using Fault = parallel::Fault;
 
-const bool tasks_are_known = (register_volume_tasks(), true);
-
 const surfaces::Surface& body() {
   static const surfaces::Surface surface = surfaces::shaken(surfaces::cube_with_ball(8, 5), 0.03);
   return surface;

@@ -21,8 +21,6 @@ using mesh::LocalIndex;
 using mesh::no_region;
 using parallel::Communicator;
 
-const bool tasks_are_known = (register_volume_tasks(), true);
-
 VolumeOptions in_zones_of(std::int64_t tets) {
   VolumeOptions options;
   options.piece_tets = tets;

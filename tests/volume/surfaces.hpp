@@ -314,7 +314,9 @@ inline mesh::DistributedMesh spread(const parallel::Communicator& communicator, 
         const Vec3 x = surface.points[v];
         piece.coordinates.insert(piece.coordinates.end(), {x.x, x.y, x.z});
         const auto& faces = faces_at[v];
-        piece.vertex_dimension.push_back(faces.size() == 1 ? 2 : faces.size() == 2 ? 1 : 0);
+        piece.vertex_dimension.push_back(faces.size() == 1   ? mesh::CadDimension::face
+                                         : faces.size() == 2 ? mesh::CadDimension::edge
+                                                             : mesh::CadDimension::vertex);
         piece.vertex_entity.push_back(faces.size() == 1   ? *faces.begin()
                                       : faces.size() == 2 ? curves.at(faces)
                                                           : v);

@@ -14,6 +14,14 @@
 namespace aeroloom::volume {
 namespace {
 
+/// Above zero, but for rounding, where p is inside the sphere through the corners of a positive tetrahedron.
+double within_sphere(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 p) {
+  a -= p, b -= p, c -= p, d -= p;
+  const auto determinant = [](Vec3 u, Vec3 v, Vec3 w) { return dot(u, cross(v, w)); };
+  return dot(a, a) * determinant(b, c, d) - dot(b, b) * determinant(a, c, d) +
+         dot(c, c) * determinant(a, b, d) - dot(d, d) * determinant(a, b, c);
+}
+
 TEST(RunTetgen, gives_positive_cells_that_know_their_neighbours) {
   const ZoneProblem problem = cube_problem();
   const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
@@ -56,7 +64,7 @@ TEST(RunTetgen, gives_the_delaunay_mesh_of_points_alone_with_their_hull) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const LocalCell& v = mesh.cells[c];
     for (const Vec3& p : points)
-      EXPECT_LE(geometry::in_sphere(points[v[0]], points[v[1]], points[v[2]], points[v[3]], p), 0);
+      EXPECT_LE(within_sphere(points[v[0]], points[v[1]], points[v[2]], points[v[3]], p), 1e-12);
     for (int face = 0; face < 4; ++face) {
       if (mesh.neighbours[c][face] != -1) continue;
       const LocalTriangle t = face_of(v, face);

@@ -20,8 +20,6 @@ using geometry::Vec3;
 using parallel::Communicator;
 using Fault = parallel::Fault;
 
-const bool tasks_are_known = (register_volume_tasks(), true);
-
 /// A cube of edge 2 with random points inside, moved and scaled.
 ZoneProblem cube_problem(int points = 300, double scale = 1, Vec3 move = {}) {
   const surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1, 5);

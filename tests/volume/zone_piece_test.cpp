@@ -21,8 +21,6 @@ using mesh::RegionId;
 using mesh::SharedVertexKey;
 using parallel::Communicator;
 
-const bool tasks_are_known = (register_volume_tasks(), true);
-
 struct Zone {
   ZoneContent content;
   ZoneFilling filling;
@@ -135,7 +133,8 @@ TEST_F(ZonePieces, classify_their_vertices) {
         const Vec3 p = piece.point(v);
         const std::size_t w = known.at({p.x, p.y, p.z});
         const bool on_surface = w < zone.content.problem.surface_points();
-        EXPECT_EQ(piece.vertex_dimension[v], on_surface ? zone.content.dimension[w] : 3);
+        EXPECT_EQ(piece.vertex_dimension[v],
+                  on_surface ? zone.content.dimension[w] : mesh::CadDimension::region);
         EXPECT_EQ(piece.vertex_entity[v], on_surface ? zone.content.entity[w] : piece.region);
       }
     }
@@ -217,7 +216,7 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   content.zone = 5;
   content.problem.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
   content.problem.regions.assign(3, 2);
-  content.dimension = {2};
+  content.dimension = {mesh::CadDimension::face};
   content.entity = {7};
   content.problem.owners.assign(4, Owner::mine);
   content.vertex_keys = {0, 101, 102, 103};
@@ -236,8 +235,8 @@ TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   EXPECT_EQ(piece.region, 2);
   EXPECT_EQ(piece.vertex_count(), 5);
   EXPECT_EQ(piece.point(4), filling.added[0]);
-  EXPECT_EQ(piece.vertex_dimension[4], 3);
-  EXPECT_EQ(piece.vertex_dimension[0], 2);
+  EXPECT_EQ(piece.vertex_dimension[4], mesh::CadDimension::region);
+  EXPECT_EQ(piece.vertex_dimension[0], mesh::CadDimension::face);
   EXPECT_EQ(piece.vertex_entity[0], 7);
   // The first is touched by others, three are on faces to them; the added one is nobody else's.
   EXPECT_EQ(piece.shared_keys, (std::vector<SharedVertexKey>{0, 101, 102, 103}));

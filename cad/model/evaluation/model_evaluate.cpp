@@ -1,4 +1,4 @@
-#include "cad/model/evaluation/face_integrals.hpp"
+#include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/to_vec.hpp"
@@ -269,7 +269,7 @@ double Model::face_area(FaceId id) const {
     for (const Sheet& sheet : joined->faces.at(id).sheets) area += joined->base.face_area(sheet.face);
     return area;
   }
-  return _data->integrated(id).area;
+  return _data->integrals(id).area;
 }
 
 double Model::region_volume(RegionId id) const {
@@ -281,36 +281,35 @@ double Model::region_volume(RegionId id) const {
   for (FaceId f = 0; f < face_count(); ++f) {
     const Face& face = _data->faces[f];
     if (face.front != id && face.back != id) continue;
-    const FaceEvaluator& evaluator = _data->integrated(f);
-    middle += evaluator.moment;
-    area += evaluator.area;
+    const FaceIntegrals& sums = _data->integrals(f);
+    middle += sums.moment;
+    area += sums.area;
   }
   if (area > 0) middle = middle / area;
   double volume = 0;
   for (FaceId f = 0; f < face_count(); ++f) {
     const Face& face = _data->faces[f];
     if (face.front != id && face.back != id) continue;
-    const FaceEvaluator& evaluator = _data->integrated(f);
-    const double flux = evaluator.flux - dot(middle, evaluator.area_vector) / 3;
+    const FaceIntegrals& sums = _data->integrals(f);
+    const double flux = sums.flux - dot(middle, sums.area_vector) / 3;
     // The flux is along du x dv; the normal points out of the front region.
-    const double out_of_front = evaluator.reversed ? -flux : flux;
+    const double out_of_front = _data->face_evaluators[f].reversed ? -flux : flux;
     if (face.front == id) volume += out_of_front;
     if (face.back == id) volume -= out_of_front;
   }
   return volume;
 }
 
-const FaceEvaluator& Model::Data::integrated(FaceId id) const {
+const FaceIntegrals& Model::Data::integrals(FaceId id) const {
   const FaceEvaluator& face = face_evaluators.at(id);
-  if (face.area >= 0) return face;
-  guarded("integrating the area of " + describe_face(id), [&] {
-    const FaceIntegrals found = integrate_face(face.shape, face.surface, bounds.center());
-    face.flux = found.flux;
-    face.area_vector = found.area_vector;
-    face.moment = (found.area < 0 ? -1.0 : 1.0) * found.moment;
-    face.area = std::abs(found.area);
+  return cache->integrals(id, [&] {
+    return guarded("integrating the area of " + describe_face(id), [&] {
+      FaceIntegrals found = integrate_face(face.shape, face.surface, bounds.center());
+      found.moment = (found.area < 0 ? -1.0 : 1.0) * found.moment;
+      found.area = std::abs(found.area);
+      return found;
+    });
   });
-  return face;
 }
 
 }  // namespace aeroloom::cad

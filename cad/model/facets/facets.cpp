@@ -1,3 +1,4 @@
+#include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/facets/pole_facets.hpp"
 #include "cad/model/model_data.hpp"
@@ -194,17 +195,14 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
 
 Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) const {
   if (_data->joined) return _data->joined->facets(id, deflection, angle, keep);
-  const FaceEvaluator& evaluator = _data->face_evaluators.at(id);
-  const KeptFacets* kept = evaluator.kept.get();
-  if (kept && kept->deflection == deflection && kept->angle == angle) return kept->facets;
+  FaceCache& cache = *_data->cache;
+  if (const Facets* kept = cache.facets(id, deflection, angle)) return *kept;
   const std::string doing = "triangulating " + _data->describe_face(id);
   tell_step(doing);
   const ClosedEdges* closed = _data->closed.get();
   Facets facets = closed ? closed->facets(*this, id, deflection, angle)
                          : guarded(doing, [&] { return make_facets(*this, id, deflection, angle, doing); });
-  if (keep == Keep::yes) {
-    evaluator.kept = std::make_shared<const KeptFacets>(KeptFacets{deflection, angle, facets});
-  }
+  if (keep == Keep::yes) cache.keep(id, deflection, angle, facets);
   return facets;
 }
 

@@ -1,6 +1,7 @@
 #include "cad/model/topology/closed_edges.hpp"
 
 #include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/evaluation/plane_snap.hpp"
 #include "cad/model/model_data.hpp"
@@ -158,11 +159,11 @@ private:
       if (found == to.patches.end()) to.patches.push_back(patch);
       to.faces.push_back(std::move(face));
       to.face_evaluators.push_back(from.face_evaluators[id]);
-      to.face_evaluators.back().kept.reset();
       to.face_snaps.push_back(from.face_snaps[id]);
       to.far_field.push_back(from.far_field[id]);
       _closed.base_faces.push_back(id);
     }
+    to.cache = std::make_shared<FaceCache>(*from.cache, _closed.base_faces);
   }
 
   /// A face that runs out to a point at a vertex, narrower than the vertex moves, cannot follow it.

@@ -114,6 +114,7 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
   }
   auto data = std::make_shared<Model::Data>(model.data());
   data->face_evaluators.clear();
+  data->cache.reset();
   data->faces.clear();
   data->far_field.clear();
   JoinedFaces joined{model, {}};

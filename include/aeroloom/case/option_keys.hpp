@@ -5,8 +5,8 @@
 
 namespace aeroloom::cases {
 
-/// The message with `VolumeOptions::piece_tets` and the like replaced by the key that sets the option:
-/// `volume.piece_tets`.
+/// The message with `VolumeOptions::piece_tets` and the like replaced by the key that is declared to set the
+/// option: `volume.piece_tets`. Others stay as they are.
 std::string with_keys(std::string message);
 
 }  // namespace aeroloom::cases

@@ -23,7 +23,7 @@ struct NamedBound {
 };
 
 /// The bounded faces of a model, the largest fractions first. Collective.
-std::vector<NamedBound> report_bounded_faces(const sizing::ModelSampler& sampler,
+std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
                                              const sizing::SizingOptions& sizes);
 
 /// One line of a few of them; empty where there are none of any extent.

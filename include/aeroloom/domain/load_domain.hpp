@@ -10,9 +10,6 @@
 
 namespace aeroloom::domain {
 
-/// Makes the sandboxed tasks known; call before parallel::Environment is constructed.
-void register_geometry_tasks();
-
 /// Prepares the domain in a child of this rank. Not collective. Throws what cad::prepare_domain throws;
 /// cad::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
 cad::Domain prepare_sandboxed(const cad::DomainOptions& options, parallel::StageClock& clock);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"
+#include "aeroloom/mesh/cad_dimension.hpp"
 #include "aeroloom/mesh/shapes.hpp"
 
 #include <algorithm>
@@ -48,13 +49,13 @@ struct Piece {
   RegionId region = 0;              ///< that the cells of a volume piece lie in, unless `runs` tells
   std::vector<double> coordinates;  ///< (n,3) in the unit of the CAD model
   std::vector<LocalIndex> cells;    ///< (m,3) or (m,4)
-  std::vector<std::int8_t> vertex_dimension;  ///< (n) 0 CAD vertex, 1 edge, 2 face, 3 region; empty: unknown
-  std::vector<std::int32_t> vertex_entity;    ///< (n) id of that CAD entity; empty: unknown
-  std::vector<LocalIndex> boundary;           ///< (b,3)
-  std::vector<std::int32_t> triangle_face;    ///< (b) or (m) CAD face
-  std::vector<std::int32_t> triangle_patch;   ///< (b) or (m) patch
-  std::vector<LocalIndex> shared_vertices;    ///< (s) ascending: vertices that other pieces may know too
-  std::vector<SharedVertexKey> shared_keys;   ///< (s)
+  std::vector<CadDimension> vertex_dimension;  ///< (n) of the CAD entity each lies on; empty: unknown
+  std::vector<std::int32_t> vertex_entity;     ///< (n) id of that CAD entity; empty: unknown
+  std::vector<LocalIndex> boundary;            ///< (b,3)
+  std::vector<std::int32_t> triangle_face;     ///< (b) or (m) CAD face
+  std::vector<std::int32_t> triangle_patch;    ///< (b) or (m) patch
+  std::vector<LocalIndex> shared_vertices;     ///< (s) ascending: vertices that other pieces may know too
+  std::vector<SharedVertexKey> shared_keys;    ///< (s)
 
   std::vector<LocalIndex> pyramids, prisms;  ///< (k,5), (l,6), corners as in mesh/shapes.hpp
   std::vector<LocalIndex> quads;             ///< (q,4)

@@ -43,8 +43,7 @@ struct ChosenSizes {
 /// Sizes that give the target within some twenty percent, by estimates alone
 /// (ModelSampler::estimate_tetrahedra), where no feature is finer than their minimum. Collective. Throws as
 /// choose_sizes().
-SizingOptions estimate_sizes(const ModelSampler& sampler, double target_tetrahedra,
-                             const GivenSizes& given = {});
+SizingOptions estimate_sizes(ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given = {});
 
 /// What coarse fields tell of the sizes to choose, before any is built that is as fine as asked for.
 struct Prospect {
@@ -64,12 +63,12 @@ struct Prospect {
 /// chosen where the target is out of reach. The search starts at `near`, sizes for a model that is almost the
 /// same, where there are such. The sampler must look for gaps as closely as the options ask, or not at all.
 /// Collective. Throws std::invalid_argument for a target below one.
-ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra,
+ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
 
 /// The first half of that. Collective.
-Prospect prospect_sizes(const ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+Prospect prospect_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given);
 
 /// What a field is for: to make a mesh, or to tell what mesh that would be. For that alone it is a rough one
@@ -78,12 +77,12 @@ enum class FieldFor : bool { mesh, forecast };
 inline constexpr double least_rough = 3e7;
 
 /// The second half. Collective.
-ChosenSizes choose_sizes(const ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
+ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
                          const GivenSizes& given, FieldFor purpose = FieldFor::mesh);
 
 /// The field of given sizes and what it predicts. Where it is for a mesh of so many elements that it takes
 /// long, the log says first how many. Collective.
-ChosenSizes apply_sizes(const ModelSampler& sampler, const SizingOptions& options, FieldFor purpose);
+ChosenSizes apply_sizes(ModelSampler& sampler, const SizingOptions& options, FieldFor purpose);
 
 /// Where the minimum is given and does not bind them.
 inline constexpr const char* of_features = "features";
@@ -96,7 +95,7 @@ struct BoundCost {
 };
 
 /// Of each that is given, by coarse fields. Collective.
-std::vector<BoundCost> costs_of_given(const ModelSampler& sampler, const ChosenSizes& chosen,
+std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& chosen,
                                       const GivenSizes& given);
 
 }  // namespace aeroloom::sizing

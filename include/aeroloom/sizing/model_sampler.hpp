@@ -77,7 +77,8 @@ struct CoincidentFaces {
 enum class Fields : bool { one, several };
 
 /// Faces are assigned to ranks by area, edges one by one; each rank triangulates its faces. Whatever comes
-/// out is the same for any number of ranks.
+/// out is the same for any number of ranks. What samples faces remembers what it found, for sizes to come:
+/// answers do not depend on what was asked before.
 class ModelSampler {
 public:
   /// `layers`: elements across a gap that the fields to come may ask for, at most; `fields`: how many those
@@ -90,29 +91,29 @@ public:
 
   /// Whether sampling the faces cuts them into more parts than that, about, as their facets tell before it is
   /// done. Collective.
-  bool has_more_parts(const SizingOptions& options, double most) const;
+  bool has_more_parts(const SizingOptions& options, double most);
 
   /// The field under these options. Collective. This and what follows throw std::invalid_argument where the
   /// memory of this node cannot hold a point for each triangle.
-  SizeField build_field(const SizingOptions& options) const;
-  /// As predict_counts. Collective.
+  SizeField build_field(const SizingOptions& options);
+  /// The size of the mesh under a field. Collective.
   PredictedCounts predict(const SizeField& field) const;
   /// The triangles that predict() counts. Collective.
   double count_triangles(const SizeField& field) const;
   /// The field under these options with the tetrahedra that it predicts; nothing where it has clearly more
   /// leaves. Collective.
-  std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves) const;
+  std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves);
   /// By a field of at most 300,000 leaves, or one whose sizes are 4096 times as large. Collective.
-  RoughField build_rough_field(const SizingOptions& options) const;
+  RoughField build_rough_field(const SizingOptions& options);
   /// About what they would predict, by a field whose sizes are all `coarser` times as large; with one,
   /// exactly. Nothing where that has clearly more leaves. Remembered for sizes that are asked for again.
   /// Collective.
   std::optional<double> estimate_tetrahedra(const SizingOptions& options, double coarser,
-                                            std::int64_t most_leaves) const;
+                                            std::int64_t most_leaves);
 
   /// Faces on which the smallest size keeps elements from turning as little, or being as near, as is asked
   /// for; in the order of faces. Collective.
-  std::vector<BoundedFace> faces_bounded_by_minimum(const SizingOptions& options) const;
+  std::vector<BoundedFace> faces_bounded_by_minimum(const SizingOptions& options);
 
   /// Of the face, as its facets have it.
   double area(cad::FaceId face) const { return _areas[face]; }
@@ -129,7 +130,7 @@ public:
                                             const SizingOptions& options) const;
   /// The sizes at some places where short edges, narrow faces and sharp corners ask for nothing. Collective.
   std::vector<double> sizes_without_features(std::span<const geometry::Vec3> places,
-                                             const SizingOptions& options) const;
+                                             const SizingOptions& options);
   /// The width of the narrowest gap that sizes below the minimum resolve; infinite where there is none, or
   /// none were looked for. The same on every rank.
   double narrowest_gap() const { return _narrowest_gap; }
@@ -169,7 +170,7 @@ private:
   };
   /// A field whose sizes are `coarser` times as large as those under these options.
   std::optional<SizeField> build_coarser(const SizingOptions& options, double coarser,
-                                         std::int64_t most_leaves) const;
+                                         std::int64_t most_leaves);
   /// Takes the faces sampled of the model before; `number` tells which face has become of each.
   void take_faces(std::vector<OwnFace> before, const std::vector<cad::FaceId>& number);
   void add_face(cad::FaceId id);
@@ -177,18 +178,18 @@ private:
   void gather_triangles();
   /// Before anything is sampled as finely as that: sizes of which no machine could hold the points are a
   /// mistake. Collective. Throws std::invalid_argument.
-  void require_possible(const SizingOptions& options) const;
+  void require_possible(const SizingOptions& options);
   /// Of each face of this rank, by curvature.
-  std::vector<std::pair<cad::FaceId, FaceSamples::Overview>> look_over(const SizingOptions& options) const;
+  std::vector<std::pair<cad::FaceId, FaceSamples::Overview>> look_over(const SizingOptions& options);
   enum class Notes { tell, were_told };
   void measure_gaps(Notes notes);
   /// What all ranks have found. Collective.
   void gather_gaps();
   /// What the faces and edges of this rank ask for.
-  std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser) const;
+  std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser);
   /// What the faces, edges and corners of this rank ask for, all sizes `coarser` times as large. Collective,
   /// as what follows.
-  std::vector<SizeSource> sample(const SizingOptions& options, double coarser) const;
+  std::vector<SizeSource> sample(const SizingOptions& options, double coarser);
   /// What corners ask for, whose sides are as long as the sources of all ranks make them.
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> own, const SizingOptions& options) const;
   /// The sizes under the sources of all ranks, at points that are the same on each.
@@ -206,14 +207,13 @@ private:
   RootCube _root;
   std::vector<bool> _far_field;
   std::vector<double> _areas;
-  std::vector<int> _owners;  // ranks, by face
-  mutable std::vector<OwnFace>
-      _faces;  // ascending; their samples grow with what is asked for, answers do not change
+  std::vector<int> _owners;                       // ranks, by face
+  std::vector<OwnFace> _faces;                    // ascending
   std::vector<cad::FaceCorner> _corners;          // of those, where may_be_sharp
   std::optional<TriangleTree> _part_on_boundary;  // facets that bound the domain, where not all do
   std::optional<Walls> _walls;                    // facets of all faces
   geometry::Box _body_box;
-  mutable std::vector<Estimate> _estimates;
+  std::vector<Estimate> _estimates;
   std::vector<UnseenGaps> _unseen_gaps;
   double _narrowest_gap = std::numeric_limits<double>::infinity();
 };

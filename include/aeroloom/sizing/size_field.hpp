@@ -159,9 +159,6 @@ struct PredictedCounts {
     return std::tuple(&PredictedCounts::triangles, &PredictedCounts::tetrahedra);
   }
 };
-/// Collective.
-PredictedCounts predict_counts(const parallel::Communicator& communicator, const cad::Model& model,
-                               const SizeField& field, parallel::StageClock& clock);
 
 /// Sizes for the impatient: those of a field that gives about `target_tetrahedra`, with bounds taken from the
 /// model (choose_sizes.hpp has the field with them). Collective.

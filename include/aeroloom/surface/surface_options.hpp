@@ -1,22 +1,12 @@
 /// What the user may ask of the surface stage.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/partition/background_surface.hpp"
-
 #include <cstdint>
-#include <functional>
-#include <vector>
 
 namespace aeroloom::surface {
 
 /// How a surface is cut into pieces: one per CAD face, or as many as their size asks for.
 enum class SurfaceDecomposition : std::int8_t { faces, pieces };
-
-/// Divides the background mesh of a face: the part of each of its triangles, from 0. The borders between
-/// parts become cuts. Must be a function of its arguments alone.
-using FaceDivider =
-    std::function<std::vector<std::int32_t>(cad::FaceId, const partition::BackgroundSurface&)>;
 
 /// The steps that make the cuts of a face good. All are done; benchmarks leave one out to see what it is
 /// worth.
@@ -32,7 +22,6 @@ struct SurfaceOptions {
   std::int64_t piece_triangles = 10'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
   DivisionSteps division = {};
-  FaceDivider divider = {};   ///< cuts every face this way instead; empty: by load
   double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
   double chart_spread =
       60;  ///< degrees normals of one chart may spread from their axis before the chart is split

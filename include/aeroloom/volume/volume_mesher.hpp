@@ -57,8 +57,4 @@ mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, con
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report);
 
-/// Makes the sandboxed task known; call before parallel::Environment or parallel::SandboxServer is
-/// constructed: afterwards fill_zones() throws std::logic_error.
-void register_volume_tasks();
-
 }  // namespace aeroloom::volume

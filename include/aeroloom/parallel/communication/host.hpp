@@ -14,9 +14,8 @@ namespace aeroloom::parallel {
 /// or `host` is no communicator.
 Communicator communicator_of(MPI_Comm host);
 
-/// The other way round, for libraries that take a communicator and hints. It stays ours and lives as long as
+/// The other way round, for libraries that take a communicator. It stays ours and lives as long as
 /// `communicator` does; messages on it must not be under way when the library returns. Not collective.
 MPI_Comm host_communicator(const Communicator& communicator);
-MPI_Info no_hints();
 
 }  // namespace aeroloom::parallel

@@ -13,15 +13,29 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace aeroloom::parallel {
 
 /// A task that runs in the child: bytes in, bytes out. It may throw (the message comes back), abort or hang.
 using SandboxTask = Bytes (*)(std::span<const std::byte> input);
 
-/// Makes `task` known under `name`. Call before the server is started (or at static initialisation);
-/// afterwards a new name throws std::logic_error. Registering a name twice with another task throws too.
+/// Makes `task` known under `name`. Call before the server is started; afterwards a new name throws
+/// std::logic_error. Registering a name twice with another task throws too.
 void register_sandbox_task(const std::string& name, SandboxTask task);
+
+/// A task of the library: defined at namespace scope of a source, it is known before main() begins in every
+/// program that can ask for it, so that no program has to register any.
+class NamedTask {
+public:
+  NamedTask(std::string name, SandboxTask task) : _name(std::move(name)) {
+    register_sandbox_task(_name, task);
+  }
+  const std::string& name() const { return _name; }
+
+private:
+  std::string _name;
+};
 
 /// Where sandboxed tasks run.
 enum class Sandbox {

@@ -1,4 +1,4 @@
-/// Analytic shapes for tests and benchmarks: small models with known areas, volumes and curvatures.
+/// Analytic shapes: small models with known areas, volumes and curvatures.
 #pragma once
 
 #include "aeroloom/cad/model/model.hpp"

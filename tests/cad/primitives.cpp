@@ -1,4 +1,4 @@
-#include "cad/builtin/primitives.hpp"
+#include "tests/cad/primitives.hpp"
 
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
