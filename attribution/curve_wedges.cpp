@@ -16,7 +16,7 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// What one piece knows of an edge.
+/// The share of one piece in what is known of an edge.
 struct EdgeShare {
   std::int64_t edge, piece;
   double angle;                       ///< degrees that its tetrahedra enclose

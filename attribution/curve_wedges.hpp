@@ -11,7 +11,7 @@
 
 namespace aeroloom::attribution {
 
-/// What encloses an edge.
+/// The angle of a region's tetrahedra around an edge, and the CAD faces on either side.
 struct Wedge {
   double angle = 0;                           ///< degrees, of all tetrahedra of the region there
   std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces of the region's boundary triangles; -1: unknown

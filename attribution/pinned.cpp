@@ -23,13 +23,15 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// What is said of wedges holds up to this factor: curves are no lines, faces no planes.
+/// Estimates for wedges hold up to this factor: curves are no lines, faces no planes. Chosen, not measured.
 constexpr double wedge_slack = 2;
 /// Degrees by which rounding may set the two measures of an angle apart, at most.
 constexpr double angle_slack = 1e-6;
 
+/// The largest angle that goes with a target for the smallest one, 138 degrees with 28 (docs/improvement.md).
 double largest_allowed(double target) {
-  return 180 - 1.5 * target;
+  constexpr double straight = 180, weight = 1.5;
+  return straight - weight * target;
 }
 
 double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {

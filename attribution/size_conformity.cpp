@@ -11,6 +11,7 @@ using mesh::LocalIndex;
 
 SizeConformity measure_conformity(const parallel::Communicator& communicator,
                                   const mesh::DistributedMesh& mesh, const sizing::SizeField& field) {
+  // In sizes: an edge halved at the longest is as long as the shortest. What lies between conforms.
   constexpr double shortest = 0.7, longest = 1.4;
   constexpr LocalIndex most_looked_at = 200;  // vertices of a piece, about
   std::int64_t edges = 0, good = 0, bytes = 0, cells = 0;

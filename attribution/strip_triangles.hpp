@@ -11,6 +11,7 @@
 namespace aeroloom::attribution {
 
 /// A triangle is one of a strip when its height over a side on one curve is at most this part of that side.
+/// Chosen, not measured.
 inline constexpr double strip_part = 0.4;
 
 struct StripTriangle {

@@ -14,7 +14,8 @@
 
 namespace aeroloom::attribution {
 
-/// A tetrahedron reaches between walls where they are apart by at most this part of its longest edge.
+/// A tetrahedron reaches between walls where they are apart by at most this part of its longest edge. Chosen,
+/// not measured.
 inline constexpr double gap_part = 0.4;
 
 /// Which CAD faces the vertices of a mesh lie on. Those of CAD vertices and curves are read off the boundary

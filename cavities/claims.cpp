@@ -32,7 +32,8 @@ std::vector<char> find_contested(const mesh::Piece& piece, const std::vector<Cav
 }  // namespace
 
 CavityId cavity_at(Vec3 p, double size, double width, int shift) {
-  // Far from each other in every direction, so that few places are at borders twice.
+  // Shares of a cell: far from each other in every direction, so that few places are at borders twice. Half a
+  // cell, and what the golden section makes of one.
   constexpr double step[3] = {0.5, 0.382, 0.618}, level_step = 0.38;
   const double level = std::floor(std::log2(width * size) / 3 + level_step * shift);
   const double edge = std::exp2(3 * (level + 1 - level_step * shift));

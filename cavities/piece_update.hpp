@@ -8,7 +8,7 @@
 
 namespace aeroloom::cavities {
 
-// What travels between pieces and cavities, its vertices by shared-vertex key.
+// A tetrahedron as it travels between pieces and cavities, its vertices by shared-vertex key.
 struct WireTet {
   CavityId cavity;
   mesh::PieceId piece;

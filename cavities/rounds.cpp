@@ -20,7 +20,7 @@
 namespace aeroloom::cavities {
 namespace {
 
-/// What became of a cavity; the same on every rank.
+/// The fate of a cavity, the same on every rank.
 struct Outcome {
   CavityId cavity;
   std::int32_t refilled;  ///< 0: it stays as it was
@@ -49,7 +49,7 @@ std::array<mesh::LocalIndex, 3> sorted(std::array<mesh::LocalIndex, 3> v) {
   return v;
 }
 
-/// What this rank's pieces give to cavities.
+/// The tetrahedra that this rank's pieces give to cavities.
 struct Contribution {
   std::vector<WireTet> tets;
   std::vector<WireVertex> vertices;

@@ -49,7 +49,7 @@ struct AddedVertex {
   std::int32_t entity = 0;  ///< of a vertex on the CAD
 };
 
-/// What takes the place of a cavity's tetrahedra. They cover the same region with the same boundary faces,
+/// Tetrahedra that take the place of a cavity's. They cover the same region with the same boundary faces,
 /// but for those on the surface mesh where `triangles` says so: the faces they leave open there.
 struct Refilling {
   std::vector<AddedVertex> added;  ///< numbered behind those of the cavity
@@ -68,7 +68,8 @@ using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
 /// piece claims a shared vertex, the others do too; where they differ the higher number counts.
 using CavityClaims = std::vector<std::vector<CavityId>>;
 
-/// What a round did to a piece: the cells that are left kept their order, and what came stands behind them.
+/// The effect of a round on a piece: the cells that are left kept their order, and new ones stand behind
+/// them.
 struct PieceChange {
   std::vector<mesh::LocalIndex> left;  ///< cells that went, ascending, as they were numbered before
   mesh::LocalIndex first_new = 0;      ///< the first cell that came
@@ -87,7 +88,7 @@ struct CavityExtent {
   bool along_surface = false;
 };
 
-/// What a round takes out of the pieces, and what refills it.
+/// The cavities that a round takes out of the pieces, and how they are refilled.
 struct RefillRequest {
   const CavityClaims& claims;
   CavityExtent extent;

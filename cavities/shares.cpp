@@ -30,7 +30,7 @@ CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& d
   mesh::for_each_face(
       mesh::sorted_faces(refilling.tets), [&](std::int32_t a, std::int32_t b) { link(a, b), link(b, a); },
       [&](const mesh::TetFace& face) { taken.push_back(face); });
-  // What differs are triangles of the surface mesh, on either side.
+  // Faces that differ are triangles of the surface mesh, on either side.
   std::size_t kept = 0;
   CavityShares shares;
   shares.of_tet.assign(refilling.tets.size(), -1);

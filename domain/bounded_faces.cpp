@@ -8,13 +8,15 @@
 namespace aeroloom::domain {
 namespace {
 
-constexpr std::size_t shown_faces = 4;
+constexpr std::size_t shown_faces = 4;   // in a line of the log; the report has all
 constexpr double least_fraction = 0.01;  // of a face's area, to be told in a line
+constexpr double half_turn = 180;        // degrees: an element that turns by it follows no curvature at all
+constexpr double few_degrees = 10;       // told with a digit more
 
 std::string degrees_text(double degrees) {
-  if (degrees >= 180) return "180 degrees and more";
-  return degrees < 10 ? fmt::format("up to {:.2g} degrees", degrees)
-                      : fmt::format("up to {:.0f} degrees", degrees);
+  if (degrees >= half_turn) return "180 degrees and more";
+  return degrees < few_degrees ? fmt::format("up to {:.2g} degrees", degrees)
+                               : fmt::format("up to {:.0f} degrees", degrees);
 }
 
 double share_of_body(const std::vector<NamedBound>& faces) {
@@ -32,7 +34,7 @@ std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
   for (const sizing::BoundedFace& each : sampler.faces_bounded_by_minimum(sizes)) {
     NamedBound& bound = by_name[model.face(each.face).name];
     bound.share_of_body += each.fraction * sampler.area(each.face);
-    bound.degrees = std::max(bound.degrees, std::min(each.degrees, 180.0));
+    bound.degrees = std::max(bound.degrees, std::min(each.degrees, half_turn));
   }
   std::map<std::string, double> areas;
   double body = 0;
@@ -80,7 +82,7 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
 }
 
 bool is_much_of_body(const std::vector<NamedBound>& faces) {
-  constexpr double much = 0.1;
+  constexpr double much = 0.1;  // of its area; chosen, not measured
   return share_of_body(faces) > much;
 }
 

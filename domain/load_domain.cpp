@@ -27,13 +27,13 @@ using parallel::Fault;
 // Limits of a child, from the size of the file. Real files take up to 13 s per megabyte (an assembly of 222
 // solids) and less than a gigabyte; what takes several times as long is stuck.
 constexpr double base_cpu_seconds = 30, cpu_seconds_per_megabyte = 60;
-constexpr double most_cpu_seconds = 1800;
+constexpr double most_cpu_seconds = 1800, bytes_per_megabyte = 1e6;
 constexpr std::int64_t base_bytes = 4LL << 30, bytes_per_file_byte = 1000;
 
 /// How a sandboxed run ended, as far as it ended by itself.
 enum class Outcome : std::uint8_t { done, cad_error, file_error };
 
-/// What a child hands over.
+/// The answer of a child.
 struct Answer {
   Outcome outcome = Outcome::done;
   std::string error;
@@ -115,7 +115,8 @@ double file_bytes(const DomainOptions& options) {
 parallel::SandboxLimits limits_for(const DomainOptions& options) {
   const double bytes = file_bytes(options);
   parallel::SandboxLimits limits;
-  limits.cpu_seconds = std::min(most_cpu_seconds, base_cpu_seconds + cpu_seconds_per_megabyte * bytes / 1e6);
+  limits.cpu_seconds =
+      std::min(most_cpu_seconds, base_cpu_seconds + cpu_seconds_per_megabyte * bytes / bytes_per_megabyte);
   limits.address_space_bytes = base_bytes + bytes_per_file_byte * static_cast<std::int64_t>(bytes);
   return limits;
 }

@@ -18,12 +18,17 @@
 namespace aeroloom::domain {
 namespace {
 
-/// Of the smallest size: how far the mesh may leave the surface where a narrow face vanishes.
+/// Of the smallest size: how far the mesh may leave the surface where a narrow face vanishes. A twentieth of
+/// an element is less than what the element itself leaves of a curved surface. Chosen, not measured.
 constexpr double join_tolerance = 0.05;
-/// Tetrahedra predicted over those aimed at, or the other way round, from which on a warning says so.
+/// Tetrahedra predicted over those aimed at, or the other way round, from which on a warning says so: more
+/// than searches end with (sizing/choose_sizes.cpp) and forecasts err by.
 constexpr double missed_target = 1.25;
-/// Logarithm of what a key does to the count, from which on it is named.
+/// Logarithm of what a key does to the count, from which on it is named: about the logarithm of
+/// missed_target.
 constexpr double telling_cost = 0.2;
+/// Share of features over one, below which there are none to speak of.
+constexpr double some_features = 1.01;
 
 /// The model without faces narrower than `width`, where neighbours can take them in.
 std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
@@ -49,7 +54,7 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   return joined;
 }
 
-/// What the sizes that are not given are to meet; nothing where no question is left.
+/// The number of tetrahedra that sizes are chosen for; none where all sizes are given.
 std::optional<double> target_of(const cases::SizingRequest& request) {
   if (request.target_tetrahedra) return request.target_tetrahedra;
   return request.minimum && request.maximum ? std::nullopt : std::optional(cases::default_target);
@@ -74,7 +79,7 @@ std::string describe_all(const std::vector<sizing::BoundCost>& costs) {
   return names.empty() ? "" : "what is given leaves no other choice (" + names + ")";
 }
 
-/// What each given key does to the count, those first that do most.
+/// The effect of each given key on the count, the largest first.
 std::string describe_costs(std::vector<sizing::BoundCost> costs) {
   const auto weight = [](const sizing::BoundCost& cost) { return std::abs(std::log(cost.ratio)); };
   std::stable_sort(costs.begin(), costs.end(),
@@ -97,7 +102,7 @@ void tell_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes
   const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
                                    "larger sizes make it fewer"
                                  : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
-  const bool has_features = chosen.features.share > 1.01;
+  const bool has_features = chosen.features.share > some_features;
   parallel::log_warning(fmt::format(
       "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}{}: {}",
       target, chosen.counts.tetrahedra / chosen.features.share,
@@ -105,7 +110,7 @@ void tell_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes
       remedy));
 }
 
-/// What a model has become on the way to its sizes, and what they may be.
+/// Sizes before any are chosen: those given, or what coarse fields promise of them.
 struct Trial {
   sizing::SizingOptions sizes;               ///< where nothing is left to choose
   std::optional<sizing::Prospect> prospect;  ///< else
@@ -113,7 +118,7 @@ struct Trial {
   sizing::SizingOptions options() const { return prospect ? prospect->with_features() : sizes; }
 };
 
-/// What trailing edges are judged by. Its functions refer to the sampler.
+/// The sizes that trailing edges are judged by. Its functions refer to the sampler.
 TrialSizes tell(sizing::ModelSampler& sampler, const Trial& trial) {
   const sizing::SizingOptions options = trial.options();
   return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
@@ -162,7 +167,7 @@ SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& re
           {}};
 }
 
-/// What sizes are chosen for, and from where.
+/// The purpose of a choice of sizes, and the sizes that it starts from.
 struct Aim {
   sizing::FieldFor purpose;
   /// Sizes for a model that is almost the same, where they are known and the target is to be met.
@@ -180,7 +185,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
   const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;
-  // What is narrow is told by an estimate; sizes are chosen for what is left of the model.
+  // An estimate tells which faces are narrow; sizes are chosen for the model without them.
   if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*sampler, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);
   std::vector<sizing::TrailingEdge> edges;

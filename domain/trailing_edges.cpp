@@ -161,8 +161,10 @@ bool has_closed(const TrailingEdgeReport& report) {
 }
 
 double base_drag_counts(double width_over_chord) {
-  constexpr double counts = 1e4, hoerner = 0.135, section_drag = 0.006;
-  return counts * hoerner * std::pow(width_over_chord, 4.0 / 3) / std::cbrt(section_drag);
+  // Hoerner, Fluid-Dynamic Drag, 1965, chapter 3: 0.135 (h/c)^(4/3) / cd^(1/3), with the drag of a clean
+  // transonic section and counts of 1e-4.
+  constexpr double counts = 1e4, hoerner = 0.135, exponent = 4.0 / 3, section_drag = 0.006;
+  return counts * hoerner * std::pow(width_over_chord, exponent) / std::cbrt(section_drag);
 }
 
 }  // namespace aeroloom::domain

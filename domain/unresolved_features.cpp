@@ -9,7 +9,7 @@
 namespace aeroloom::domain {
 namespace {
 
-constexpr std::size_t shown_strips = 5;
+constexpr std::size_t shown_strips = 5;  // in a line of the log; the report has all
 /// Triangles that are longer than wide by less have angles above the 28 degrees that improvement aims at.
 constexpr double telling_aspect = 1.9;
 
@@ -33,7 +33,7 @@ double FeatureReport::wanted_tetrahedra() const {
 }
 
 std::string describe_share(const FeatureReport& report) {
-  constexpr double telling = 1.25;
+  constexpr double telling = 1.25;  // less is what a forecast may be off by
   if (report.share.share < telling) return {};
   return fmt::format(
       "features finer than the smallest size make it {:.2g} times as many: about {:.2g} "

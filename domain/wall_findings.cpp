@@ -1,5 +1,6 @@
 #include "aeroloom/domain/wall_findings.hpp"
 
+#include "cad/tolerances.hpp"
 #include "domain/place_text.hpp"
 
 #include <algorithm>
@@ -11,10 +12,11 @@ namespace aeroloom::domain {
 namespace {
 
 constexpr std::size_t shown_walls = 5;
-/// Elements over the distance between two faces, from which on these are one to them.
+/// Elements over the distance between two faces, from which on these are one to them: the same five times
+/// that let faces be near (docs/bounds.md).
 constexpr double size_over_distance = 5;
 /// Distance over the length of the place where two faces are on one another, below which it is rounding.
-constexpr double exact = 1e-12;
+constexpr double exact = cad::tolerances::rounding;
 
 std::string and_more(std::size_t all) {
   return all > shown_walls ? fmt::format("; and {} more", all - shown_walls) : "";

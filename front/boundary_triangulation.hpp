@@ -6,7 +6,7 @@
 
 namespace aeroloom::front {
 
-/// What the front makes of a triangle; kept in the user's bits of its flags.
+/// The state of a triangle in the front, kept in the user's bits of its flags.
 enum class TriangleState : std::uint32_t { outside = 0, waiting = 1, accepted = 2 };
 
 inline TriangleState state_of(const geometry::LinkedTriangle& triangle) {

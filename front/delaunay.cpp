@@ -10,16 +10,20 @@ using geometry::Vec2;
 
 namespace {
 
-/// Position along a Hilbert curve of order 16.
+/// Of coordinates along a Hilbert curve: both together fill a key.
+constexpr int curve_order = 16;
+constexpr std::uint32_t largest_coordinate = (1u << curve_order) - 1;
+
+/// Position along a Hilbert curve.
 std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   std::uint32_t key = 0;
-  for (std::uint32_t side = 1u << 15; side > 0; side >>= 1) {
+  for (std::uint32_t side = 1u << (curve_order - 1); side > 0; side >>= 1) {
     const std::uint32_t right = (x & side) ? 1 : 0, up = (y & side) ? 1 : 0;
     key = key << 2 | (3 * right ^ up);
     if (up == 0) {
       if (right == 1) {
-        x = 0xffff - x;
-        y = 0xffff - y;
+        x = largest_coordinate - x;
+        y = largest_coordinate - y;
       }
       std::swap(x, y);
     }
@@ -27,6 +31,8 @@ std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   return key;
 }
 
+/// A step of the generator splitmix64 (Steele, Lea and Flood, OOPSLA 2014, doi:10.1145/2660193.2660195),
+/// whose constants these are.
 std::uint64_t scramble(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
@@ -43,7 +49,7 @@ std::vector<std::int32_t> insertion_order(std::span<const Vec2> points, Vec2 low
     std::int32_t vertex;
   };
   std::vector<InsertionKey> places(points.size());
-  const double scale = extent > 0 ? 65535.0 / extent : 0.0;
+  const double scale = extent > 0 ? static_cast<double>(largest_coordinate) / extent : 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2 q = scale * (points[i] - low);
     places[i] = {-std::countr_zero(scramble(i)),
@@ -79,7 +85,7 @@ void Delaunay::add_box() {
   high += {margin, margin};
   const auto v = static_cast<std::int32_t>(points.size());
   points.insert(points.end(), {low, {high.x, low.y}, high, {low.x, high.y}});
-  mesh.build({{v, v + 1, v + 2}, {v, v + 2, v + 3}}, v + 4);
+  mesh.build({{v, v + 1, v + 2}, {v, v + 2, v + 3}}, v + box_corners);
 }
 
 std::int32_t Delaunay::locate(Vec2 point, std::int32_t start) const {

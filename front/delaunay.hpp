@@ -16,12 +16,16 @@
 
 namespace aeroloom::front {
 
+/// Bounds of the rounding errors of the two determinants over the sums of their terms' magnitudes: (3 + 16 e)
+/// e and (10 + 96 e) e with e = 2^-53, ccwerrboundA and iccerrboundA of the paper below.
+inline constexpr double orientation_error = 3.3306690738754716e-16, circle_error = 1.1102230246251577e-15;
+
 /// geometry::orient2d behind a floating-point filter (Shewchuk, Discrete Comput. Geom. 18, 1997,
 /// doi:10.1007/PL00009321).
 inline int orientation(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 c) {
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
   const double determinant = left - right;
-  const double bound = 3.3306690738754716e-16 * (std::abs(left) + std::abs(right));
+  const double bound = orientation_error * (std::abs(left) + std::abs(right));
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   return geometry::orient2d(a, b, c);
@@ -36,11 +40,14 @@ inline int circle_side(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 c, geo
   const double determinant = aa * (bc - cb) + bb * (ca - ac) + cc * (ab - ba);
   const double permanent = (std::abs(bc) + std::abs(cb)) * aa + (std::abs(ca) + std::abs(ac)) * bb +
                            (std::abs(ab) + std::abs(ba)) * cc;
-  const double bound = 1.1102230246251577e-15 * permanent;
+  const double bound = circle_error * permanent;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   return geometry::in_circle(a, b, c, d);
 }
+
+/// Vertices of the box around all points: they come last when it is made.
+inline constexpr std::int32_t box_corners = 4;
 
 /// Triangulates points inside a box of four extra vertices, so that every vertex given has a closed fan of
 /// triangles.

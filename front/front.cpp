@@ -15,13 +15,23 @@ using geometry::Vec2;
 /// A triangle needs no further point when its circumradius, in sizes, is at most this; an ideal one has
 /// 0.577.
 constexpr double accepted_radius = 0.88;
-/// ... and none of its edges is longer than this, in sizes.
+/// No edge of an accepted triangle is longer than this, in sizes: a triangle may be slender within its
+/// radius. Chosen, not measured.
 constexpr double accepted_edge = 1.6;
-/// No new point comes closer than this to another one, in sizes.
+/// No new point comes closer than this to another one, in sizes. Chosen, not measured.
 constexpr double smallest_distance = 0.6;
-/// Sizes grow at most so fast away from boundary edges that are shorter than asked for.
+/// Sizes grow at most so fast away from boundary edges that are shorter than asked for. Chosen, not measured.
 constexpr double short_edge_growth = 0.4;
 constexpr int smoothing_sweeps = 4;
+// Beside a boundary edge that is longer than the size, which nobody may divide: the triangle on it is as good
+// as it gets when its radius is that of the edge, and its free edges go so far to meet the size. The least
+// spacing is that of the lowest apex that still is one, and twice the edge the highest.
+constexpr double radius_of_fixed = 0.95, edge_of_fixed = 0.55, least_spacing = 0.55, most_spacing = 2;
+/// A spacing that changes by less when the size at the point is known is not placed again.
+constexpr double same_spacing = 0.01;
+/// No point is nearer to a boundary edge, in its length or the spacing: a little less than half the height of
+/// an equilateral triangle. The numbers of the front were chosen, not measured one by one.
+constexpr double least_height = 0.4;
 
 /// A front edge: accepted or boundary on its right, to be filled on its left.
 struct FrontEdge {
@@ -117,8 +127,8 @@ void Front::assess(geometry::LinkedTriangle& triangle) const {
   }
   const double size = (_sizes[v[0]] + _sizes[v[1]] + _sizes[v[2]]) / 3, fixed = std::sqrt(longest_fixed);
   const double area2 = cross(p[1] - p[0], p[2] - p[0]);
-  const double radius_limit = accepted_radius * std::max(size, 0.95 * fixed);
-  const double edge_limit = accepted_edge * std::max(size, 0.55 * fixed);
+  const double radius_limit = accepted_radius * std::max(size, radius_of_fixed * fixed);
+  const double edge_limit = accepted_edge * std::max(size, edge_of_fixed * fixed);
   const bool accepted =
       product <= 4 * area2 * area2 * radius_limit * radius_limit && longest_free <= edge_limit * edge_limit;
   set_state(triangle, accepted ? TriangleState::accepted : TriangleState::waiting);
@@ -176,7 +186,9 @@ bool Front::place_ideal(geometry::LinkedEdge edge, Candidate& best) {
   if (!(reach > 0)) return false;
 
   const double edge_size = 0.5 * (_sizes[va] + _sizes[vb]);
-  const auto spacing_for = [&](double size) { return std::clamp(size, 0.55 * length, 2 * length); };
+  const auto spacing_for = [&](double size) {
+    return std::clamp(size, least_spacing * length, most_spacing * length);
+  };
   const auto place = [&](double spacing) {
     // Leaning towards equal areas: where the front's edges have got shorter than wanted, it moves in longer
     // steps.
@@ -190,7 +202,7 @@ bool Front::place_ideal(geometry::LinkedEdge edge, Candidate& best) {
   place(spacing_for(edge_size));
   // The wanted length is that between the edge and the new point; a second look where sizes change.
   const double spacing = spacing_for(0.5 * (edge_size + best.size));
-  if (std::abs(spacing - best.spacing) > 0.01 * spacing) place(spacing);
+  if (std::abs(spacing - best.spacing) > same_spacing * spacing) place(spacing);
   return true;
 }
 
@@ -216,7 +228,7 @@ bool Front::is_clear(const Candidate& candidate) const {
     if (dot(offset, offset) < limit * limit) return false;
     if (edge.flags & 1u) {
       const double length = distance(a, b), height = cross(b - a, offset) / length;
-      if (height < 0.4 * std::min(candidate.spacing, length)) return false;
+      if (height < least_height * std::min(candidate.spacing, length)) return false;
     }
   }
   return true;
@@ -247,11 +259,11 @@ bool Front::refine_rest() {
 FrontResult extract(const Delaunay& plane, std::int32_t given) {
   FrontResult result;
   result.points.assign(plane.points.begin(), plane.points.begin() + given);
-  result.points.insert(result.points.end(), plane.points.begin() + given + 4, plane.points.end());
+  result.points.insert(result.points.end(), plane.points.begin() + given + box_corners, plane.points.end());
   for (const auto& triangle : plane.mesh.triangles) {
     if (state_of(triangle) == TriangleState::outside) continue;
     auto& t = result.triangles.emplace_back(triangle.vertices);
-    for (std::int32_t& v : t) v -= v >= given ? 4 : 0;
+    for (std::int32_t& v : t) v -= v >= given ? box_corners : 0;
   }
   return result;
 }
@@ -263,7 +275,7 @@ FrontResult fill_front(const FrontInput& input, const ChartSize& size) {
   const auto given = static_cast<std::int32_t>(input.points.size());
   Front front(plane, input, size);
   front.fill();
-  smooth_plane(plane, given + 4, smoothing_sweeps);
+  smooth_plane(plane, given + box_corners, smoothing_sweeps);
   return extract(plane, given);
 }
 

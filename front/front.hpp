@@ -17,7 +17,7 @@
 
 namespace aeroloom::front {
 
-/// What the front fills: loops of boundary vertices in the chart.
+/// Loops of boundary vertices in the chart, whose inside the front fills.
 struct FrontInput {
   std::vector<geometry::Vec2> points;  ///< boundary vertices
   std::vector<std::array<std::int32_t, 2>>

@@ -45,7 +45,8 @@ double ring_energy(const std::vector<RingEdge>& ring, Vec2 centre) {
   for (const RingEdge& edge : ring) {
     const Vec2 u = edge.from - centre, v = edge.to - centre, w = edge.to - edge.from;
     const double area2 = cross(u, v), squares = dot(u, u) + dot(v, v) + dot(w, w);
-    if (!(area2 > 1e-14 * squares)) return std::numeric_limits<double>::infinity();
+    constexpr double no_area = 1e-14;  // what rounding of coordinates makes of a triangle without one
+    if (!(area2 > no_area * squares)) return std::numeric_limits<double>::infinity();
     energy += squares / (2 * std::numbers::sqrt3 * area2);
   }
   return energy;

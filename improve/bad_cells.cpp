@@ -27,7 +27,8 @@ void Examination::add(double quality, const std::array<geometry::Vec3, 4>& p) {
   const double angle = mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest;
   if (angle >= state.least_angle) return;
   state.least_angle = angle;
-  _bound = std::sin(angle * std::numbers::pi / 180) + 1e-9;
+  constexpr double rounding = 1e-9;  // of a quality against the sine of the angle that it is
+  _bound = std::sin(angle * std::numbers::pi / 180) + rounding;
 }
 
 BadState examine(const Piece& piece, const mesh::TetQuality& measure) {

@@ -11,7 +11,7 @@
 
 namespace aeroloom::improve {
 
-/// What the report tells of tetrahedra at one moment.
+/// The number of bad tetrahedra and the smallest angle at one moment, for the report.
 struct BadState {
   std::int64_t bad = 0;
   double least_angle = 180;  ///< degrees

@@ -26,7 +26,7 @@ int group_of(SharedVertexKey vertex_key) {
   return static_cast<int>(mesh::mix_in(1, vertex_key) % group_count);
 }
 
-/// What a piece, or all pieces together, know of a vertex at its present place.
+/// Sums over the tetrahedra around a vertex at its present place, of a piece or of all together.
 struct VertexState {
   mesh::PieceId first = std::numeric_limits<mesh::PieceId>::max();  ///< the lowest of those pieces
   std::int32_t tets = 0;
@@ -106,7 +106,7 @@ public:
 
   std::size_t size() const { return _vertices.size(); }
   LocalIndex vertex(std::size_t s) const { return _vertices[s]; }
-  /// Its place in the list of shared vertices.
+  /// The place of a vertex in the list of shared ones.
   std::size_t place(std::size_t s) const { return _places[s]; }
   std::span<const LocalIndex> cells(std::size_t s) const {
     return {_cells.data() + _first[s], static_cast<std::size_t>(_first[s + 1] - _first[s])};

@@ -17,7 +17,7 @@ inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corn
   return {mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
 }
 
-/// Of edges of the boundary, over the longest one before.
+/// Of edges of the boundary, over the longest one before. Chosen, not measured.
 inline constexpr double most_growth = 1.5;
 
 /// Whether new triangles may take the place of old ones: no normal turns by more than 20 degrees against any

@@ -7,8 +7,8 @@
 namespace aeroloom::improve {
 namespace {
 
-constexpr int rounds = 3;            // of growing the cavity and placing the point
-constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain
+constexpr int rounds = 3;            // of growing the cavity and placing the point; chosen, not measured
+constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain; chosen, not measured
 constexpr double flat = 0.1;         // of the target: tetrahedra of less than about a degree
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
 // Of the target: what a cavity that does not reach it has to gain. Without a floor, one that adds tetrahedra
@@ -18,7 +18,7 @@ constexpr double gain_when_added = 0.12;
 
 /// 0: the centre; then most of the way to the corners, the edges' middles, the faces' centres.
 Vec3 start_in(const std::array<Vec3, 4>& p, int start) {
-  constexpr double to_corner = 0.6, to_edge = 0.8, to_face = 0.8;
+  constexpr double to_corner = 0.6, to_edge = 0.8, to_face = 0.8;  // not varied
   const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
   if (start == 0) return centre;
   if (start < 5) return centre + to_corner * (p[start - 1] - centre);

@@ -14,7 +14,7 @@ namespace aeroloom::improve {
 /// Roundtable, 2007, doi:10.1007/978-3-540-75103-8_1).
 class CavityInsertion {
 public:
-  static constexpr int most_tets = 80;  ///< of a cavity
+  static constexpr int most_tets = 80;  ///< of a cavity; docs/bounds.md
 
   /// Proposes a cavity grown from all tetrahedra around a free vertex, which moves. Nothing in the mesh
   /// changes yet.
@@ -23,7 +23,7 @@ public:
   /// mesh.vertex_count(). Growth begins at t's centre, or nearer to one of its corners, edges or faces: other
   /// starts end in other cavities.
   bool propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, Replacement& cavity);
-  static constexpr int starts = 15;
+  static constexpr int starts = 15;  // the centre, 4 corners, 6 edges, 4 faces
   /// Where the free point of the last proposal goes.
   Vec3 position() const { return _point; }
 

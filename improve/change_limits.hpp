@@ -1,4 +1,4 @@
-/// What a change must keep to beside the quality that it is made for: sizes and decent shapes.
+/// Limits to a change beside the quality that it is made for: sizes and decent shapes.
 #pragma once
 
 #include "aeroloom/improve/improve_options.hpp"

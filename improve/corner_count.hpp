@@ -11,7 +11,7 @@ namespace aeroloom::improve {
 /// How many faces of a tetrahedron are on the boundary.
 int count_boundary_faces(const TetMesh& mesh, LocalIndex t);
 
-/// What changes that leave the boundary as it is do to their number.
+/// How changes that leave the boundary as it is alter the number of corners.
 class CornerCount {
 public:
   /// How many more a change leaves than there are.

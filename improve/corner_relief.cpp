@@ -7,7 +7,7 @@
 namespace aeroloom::improve {
 namespace {
 
-constexpr int passes = 2;
+constexpr int passes = 2;  // chosen, not measured
 
 double worst_of(const TetMesh& mesh, const std::vector<LocalIndex>& tets) {
   double worst = std::numeric_limits<double>::max();
@@ -90,7 +90,7 @@ void CornerRelief::remove_edge(const TetMesh& mesh, LocalIndex t, int edge) {
   _trial.clear();
   _trial.old_tets = _edge_ring.tets;
   const double bar = bar_of(mesh, worst_of(mesh, _trial.old_tets));
-  constexpr double just_below = 1 - 1e-12;
+  constexpr double just_below = 1 - 1e-12;  // what is as good as the bar must be found
   if (_filling.solve(mesh, _edge_ring.start, _edge_ring.end, _edge_ring.ring, just_below * bar) < bar) return;
   _filling.emit(_trial.new_tets);
   consider(mesh);

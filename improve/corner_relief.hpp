@@ -56,7 +56,7 @@ private:
   void consider(const TetMesh& mesh);
   void consider_vertex(TetMesh& mesh, Vec3 place);
   bool is_good(const TetMesh& mesh, const Replacement& cavity);
-  /// What new tetrahedra must reach.
+  /// The quality that new tetrahedra must reach.
   double bar_of(const TetMesh& mesh, double before) const;
 
   const ChangeLimits& _limits;

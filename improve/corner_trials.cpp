@@ -11,9 +11,9 @@
 namespace aeroloom::improve {
 namespace {
 
-/// Of the target: what a change may leave for the sweeps to mend.
+/// Of the target: what a change may leave for the sweeps to mend. Chosen, not measured.
 constexpr double least_share = 0.2;
-constexpr int sweeps_after = 8;
+constexpr int sweeps_after = 8;  // chosen, not measured
 
 /// Whether two faces on the boundary enclose less than twice the target angle, which no two tetrahedra can
 /// share.

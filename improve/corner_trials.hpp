@@ -28,7 +28,7 @@ public:
   std::int64_t run(TetMesh& mesh);
 
 private:
-  /// What is compared before and after.
+  /// The state of a corner, compared before and after a trial.
   struct State {
     double worst = 1;
     std::int64_t bad = 0, corners = 0;

@@ -14,7 +14,7 @@ namespace aeroloom::improve {
 /// Meth. Engng 53, 2002, doi:10.1002/nme.341). All is negated: what is smaller is worse.
 class InverseRatios {
 public:
-  /// What the sum is where a tetrahedron is not positive.
+  /// The sum where a tetrahedron is not positive: worse than any other.
   static constexpr double invalid = -std::numeric_limits<double>::max();
 
   void clear() { _cones.clear(); }

@@ -8,7 +8,7 @@
 namespace aeroloom::improve {
 namespace {
 
-constexpr int most_halvings = 3;
+constexpr int most_halvings = 3;  // chosen, not measured
 
 }  // namespace
 

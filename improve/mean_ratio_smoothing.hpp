@@ -15,11 +15,11 @@ namespace aeroloom::improve {
 /// when the worst TetQuality around it does not fall.
 class MeanRatioSmoothing {
 public:
-  /// Mean ratio on average around a vertex that stays where it is; a lattice has 0.95.
+  /// Mean ratio on average around a vertex that stays where it is; a lattice has 0.95. Chosen, not measured.
   static constexpr double good_enough = 0.93;
-  /// What is tried first, of the mean distance to the neighbours.
+  /// The first step that is tried, of the mean distance to the neighbours. Chosen, not measured.
   static constexpr double first_step = 0.15;
-  /// What a move must gain, of the mean of the inverse ratios.
+  /// The least gain of a move, of the mean of the inverse ratios. Chosen, not measured.
   static constexpr double least_gain = 1e-3;
 
   /// Visits the free vertices in their order, `passes` times. Returns how many moves were made.

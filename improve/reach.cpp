@@ -13,10 +13,11 @@ using mesh::LocalIndex;
 /// Of the target: less must be within reach where a strip counts as one. Triangles up to five times as long
 /// as wide are mended like others.
 constexpr double narrow = 0.9;
-/// Times the worst before: what a severe case must reach where it leaves more to mend than there was.
+/// Times the worst before: what a severe case must reach where it leaves more to mend than there was. Chosen,
+/// not measured.
 constexpr double far_better = 1.5;
 
-/// What a tetrahedron lacks, squared.
+/// The square of what a tetrahedron lacks of the quality within reach.
 double lack(double quality, double reachable) {
   const double part = std::max(0.0, 1 - quality / reachable);
   return part * part;

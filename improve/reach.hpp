@@ -1,4 +1,4 @@
-/// What quality is within reach where the surface is finer across than along: beside strips between two CAD
+/// The quality within reach where the surface is finer across than along: beside strips between two CAD
 /// curves that are narrower than the elements along them.
 #pragma once
 

@@ -10,12 +10,13 @@ constexpr auto later = [](const auto& a, const auto& b) {
   return a.quality != b.quality ? a.quality > b.quality : a.tet > b.tet;
 };
 
-/// What one sweep may try, in tetrahedra that it began with.
+/// Tries of one sweep, in tetrahedra that it began with, so that it ends where the surface leaves no room for
+/// good ones (docs/improvement.md). Chosen, not measured.
 constexpr std::int64_t tries_per_task = 4;
 constexpr std::int64_t least_tries = 1000;
-/// A sweep with fewer gains is the last one.
+/// A sweep with fewer gains is the last one. Chosen, not measured.
 constexpr std::int64_t tasks_per_gain = 50;
-/// Of the target: below these the costly means are tried, which refill a whole cavity.
+/// Of the target: below these the costly means are tried, which refill a whole cavity. Chosen, not measured.
 constexpr double worth_moving = 0.9;
 constexpr double worth_adding = 0.75;
 

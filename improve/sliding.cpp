@@ -10,8 +10,9 @@ namespace {
 using geometry::Vec2;
 
 /// In mean distances to the neighbours: how far from the CAD a vertex may be found to count as lying on it.
+/// Chosen, not measured.
 constexpr double nearness = 1e-4;
-constexpr double least_sliding_gain = 0.01;  // of quality
+constexpr double least_sliding_gain = 0.01;  // of quality; a projection costs more than a move; chosen
 
 /// Triangles at the free point that may change gently.
 class GentleTriangles {

@@ -13,9 +13,9 @@ namespace aeroloom::improve {
 
 class SmallPolyhedron {
 public:
-  static constexpr int most_vertices = 12;
-  static constexpr int most_tets = 24;
-  static constexpr int most_steps = 300;  ///< of the search, which gives up then
+  static constexpr int most_vertices = 12;  // chosen, not measured
+  static constexpr int most_tets = 24;      // chosen, not measured
+  static constexpr int most_steps = 300;    ///< of the search, which gives up then; chosen, not measured
 
   /// Grows a polyhedron around a tetrahedron, neighbours that add no vertex first, and proposes to fill it
   /// anew. Its faces stay; a vertex inside may vanish if it is free. False when nothing beats both the
@@ -42,8 +42,8 @@ private:
   void open(const Face& face);
   void close(const Face& face);
   static int key(const Face& face);
-  /// What the front gets when a tetrahedron is put on one of its faces, where it does not have them already
-  /// from the other side.
+  /// The faces that the front gets when a tetrahedron is put on one of its faces, where it does not have them
+  /// already from the other side.
   static std::array<Face, 3> sides_of(const Face& base, Local apex) {
     return {{{base[0], base[1], apex}, {base[1], base[2], apex}, {base[2], base[0], apex}}};
   }

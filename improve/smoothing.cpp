@@ -6,22 +6,33 @@
 namespace aeroloom::improve {
 namespace {
 
+// Numbers of the ascent were chosen, not measured one by one.
+
 constexpr int most_steps = 12;          // of the ascent
 constexpr int halvings_of_step = 6;     // of one step
 constexpr double active_margin = 0.02;  // of quality: cones this close to the worst one shape the direction
+constexpr double first_step = 0.1;      // of the mean distance to the neighbours
+constexpr double longer = 4;            // the next step over one that gained: two halvings of it are no loss
+constexpr double share_of_gain = 0.1;   // of what counts as a gain: a step with less ends the ascent
+/// Of the mean distance: differences for slopes of quality, half of the digits of a double behind them.
+constexpr double probe_step = 1e-6;
+/// Steps towards the point next to the origin, and the gain over its square that ends them: the direction is
+/// right to 2 degrees then.
+constexpr int most_gradient_steps = 40;
+constexpr double direction_gain = 1e-3;
 
 /// The point of the convex hull of the vectors that lies next to the origin, by conditional gradients: the
 /// direction in which the slowest of them grows fastest.
 Vec3 nearest_to_origin(const std::vector<Vec3>& vectors) {
   Vec3 nearest = vectors[0];
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < most_gradient_steps; ++i) {
     Vec3 extreme = vectors[0];
     for (const Vec3& v : vectors) {
       if (dot(v, nearest) < dot(extreme, nearest)) extreme = v;
     }
     const Vec3 step = extreme - nearest;
     const double gain = -dot(step, nearest);
-    if (gain <= 1e-3 * dot(nearest, nearest)) break;
+    if (gain <= direction_gain * dot(nearest, nearest)) break;
     nearest += std::min(1.0, gain / dot(step, step)) * step;
   }
   return nearest;
@@ -43,7 +54,7 @@ double ConeOptimiser::worst(const mesh::TetQuality& measure, Vec3 p, double floo
   return least;
 }
 
-// What promises nothing need not settle.
+// A place that promises nothing need not settle: projections cost more than measures of quality.
 double ConeOptimiser::worst_on(const mesh::TetQuality& measure, Vec3& p, double floor, Locus& locus) {
   const Vec3 before = p;
   const double reached = worst(measure, p, floor);
@@ -76,9 +87,9 @@ Vec3 ConeOptimiser::ascent_direction(const mesh::TetQuality& measure, Vec3 p, do
 
 double ConeOptimiser::climb(const mesh::TetQuality& measure, Vec3& p, double quality, Locus& locus) {
   const double size = mean_distance(p);
-  double length = 0.1 * size;
+  double length = first_step * size;
   for (int i = 0; i < most_steps; ++i) {
-    const Vec3 direction = normalized(ascent_direction(measure, p, quality, 1e-6 * size, locus));
+    const Vec3 direction = normalized(ascent_direction(measure, p, quality, probe_step * size, locus));
     const double start = quality;
     Vec3 best = p;
     for (int halving = 0; halving <= halvings_of_step; ++halving, length *= 0.5) {
@@ -91,9 +102,9 @@ double ConeOptimiser::climb(const mesh::TetQuality& measure, Vec3& p, double qua
       quality = reached;
       best = candidate;
     }
-    if (quality <= start + 0.1 * Smoothing::least_gain) break;
+    if (quality <= start + share_of_gain * Smoothing::least_gain) break;
     p = best;
-    length *= 4;
+    length *= longer;
   }
   return quality;
 }

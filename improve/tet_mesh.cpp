@@ -49,7 +49,7 @@ void TetMesh::match_all_faces() {
   _twins.assign(sides, -1);
   std::vector<std::int32_t> first(_incident.size(), -1);
   std::vector<Face> faces;
-  faces.reserve(sides / 2 + sides / 16);
+  faces.reserve(sides / 2 + sides / 16);  // a face has two sides, but for those of the boundary
   for (std::size_t h = 0; h < sides; ++h) {
     const auto side = static_cast<HalfFace>(h);
     const auto key = face_key(side);

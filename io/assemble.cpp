@@ -46,7 +46,7 @@ void require_names(const Ids& ids, std::size_t count, const char* what) {
   }
 }
 
-/// What can be said of a share alone.
+/// Checks of a share that need no other one.
 void require_sound(const RawMesh& raw) {
   if (raw.coordinates.size() != 3 * raw.point_ids.size()) throw std::logic_error("points and ids differ");
   require_ids(raw.point_ids, "a point");
@@ -77,7 +77,7 @@ void require_sound(const RawMesh& raw) {
   }
 }
 
-/// What comes before the share of this rank, and totals.
+/// Counts before the share of this rank, and totals.
 struct CellPlaces {
   std::array<GlobalIndex, cell_shape_count> first{};  ///< among all cells: tetrahedra, pyramids, prisms
   GlobalIndex total = 0;

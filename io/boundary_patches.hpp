@@ -23,7 +23,7 @@ struct BoundaryPatches {
 };
 BoundaryPatches boundary_patches(const FileMesh& mesh);
 
-/// What a format allows in names.
+/// Names that a format allows.
 struct NameRule {
   std::string_view signs;                        ///< besides letters, digits and what is beyond ASCII
   std::size_t most_bytes = 1U << 16;             ///< of UTF-8

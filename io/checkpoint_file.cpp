@@ -145,7 +145,7 @@ void write_checkpoint(const Communicator& communicator, const std::string& path,
   const Header header = plan(communicator, label, draft);
   const Bytes packed = parallel::to_wire(header);
   const auto offsets = header.offsets(preamble_bytes + static_cast<std::int64_t>(packed.size()));
-  // What stood there stays until all of the new one does.
+  // The old file stays until all of the new one is there.
   const std::string fresh = path + ".new";
   const auto work = [&](parallel::SharedFile& file) {
     if (communicator.is_root()) {

@@ -1,4 +1,4 @@
-/// What a stage has made, in a file for a run that goes on from there: written by all ranks at once, read by
+/// The result of a stage in a file, for a run that goes on from there: written by all ranks at once, read by
 /// any number of them, refused as soon as one bit is not what it was.
 ///
 /// Layout: magic, version, bytes of the header, digest of both and of the header; the header with key, texts,
@@ -17,7 +17,7 @@
 
 namespace aeroloom::io {
 
-/// What a checkpoint is of.
+/// The key of a checkpoint, by which a run tells whether it is its own.
 struct CheckpointLabel {
   parallel::Digest key;            ///< of everything its content depends on
   std::vector<std::string> about;  ///< the same in words, to tell what is different where the key is
@@ -25,7 +25,7 @@ struct CheckpointLabel {
   static constexpr auto fields() { return std::tuple(&CheckpointLabel::key, &CheckpointLabel::about); }
 };
 
-/// What is written.
+/// Content to be written.
 struct CheckpointDraft {
   /// One of the parts that are spread over ranks. Its bytes are asked for twice, so that no rank holds those
   /// of all its items.
@@ -37,7 +37,7 @@ struct CheckpointDraft {
   std::vector<Item> items;
 };
 
-/// What was read.
+/// Content that was read.
 struct CheckpointContent {
   struct Item {
     std::int64_t number = 0;

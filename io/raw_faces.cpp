@@ -23,7 +23,7 @@ using mesh::LocalIndex;
 
 constexpr std::int32_t none = mesh::no_region;  // or patch
 
-/// What comes to a face: a side of a cell (region and part), or a face of the file (patch and order).
+/// A candidate for a face: a side of a cell (region and part), or a face of the file (patch and order).
 struct FaceCandidate {
   FaceKey<GlobalIndex> key, corners;
   GlobalIndex order;           ///< of a face of the file

@@ -22,7 +22,7 @@ struct NumberedShare {
   std::array<std::vector<std::int32_t>, face_shape_count> patches;
 };
 
-/// What became of the boundary.
+/// The boundary faces with their patches, and counts of those that the file did not have right.
 struct MatchedFaces {
   decltype(mesh::PieceItems::faces) items;
   mesh::DistributedMesh names;     ///< patches, their types, faces of the model, their sides, regions

@@ -1,5 +1,4 @@
-/// What readers make of a file: each rank a share of its points, cells and boundary faces, as they stand
-/// there.
+/// The mesh of a file as it stands there: on each rank a share of its points, cells and boundary faces.
 #pragma once
 
 #include "aeroloom/io/file_mesh.hpp"

@@ -17,8 +17,8 @@ Assembled read_mesh(const parallel::Communicator& communicator, const std::strin
 /// The ends of paths that read_mesh() knows, each with its dot.
 std::vector<std::string> readable_extensions();
 
-/// What was done to a file's mesh: "3 cells turned over, 10 points without a cell dropped, ..."; "nothing
-/// changed".
+/// The repairs of a file's mesh in words: "3 cells turned over, 10 points without a cell dropped, ...";
+/// "nothing changed".
 std::string describe(const Assembled& file);
 
 }  // namespace aeroloom::io

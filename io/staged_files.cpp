@@ -23,8 +23,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// What is in the older of two folders and not in the newer moves over, unless it is numbered as parts of a
-/// mesh are.
+/// Files of the older of two folders that the newer does not have move over, unless it is numbered as parts
+/// of a mesh are.
 void keep_other_files(const fs::path& older, const fs::path& newer) {
   const std::string stem = newer.filename().string() + "_";
   for (const fs::directory_entry& entry : fs::directory_iterator(older)) {

@@ -9,8 +9,10 @@ namespace aeroloom::partition {
 
 std::vector<std::int32_t> partition_graph(const WeightedGraph& graph, std::int32_t parts) {
   static_assert(sizeof(idx_t) == sizeof(std::int32_t), "METIS is built with 32-bit indices");
-  constexpr idx_t seed = 20130, tolerance = 30;  // loads may be off by 3 %
-  constexpr std::int32_t few_parts = 8;          // where recursive bisection cuts less
+  // Any seed does, as long as it is the same everywhere; loads may be off by 3 %, the default of METIS where
+  // it cuts into many parts at once.
+  constexpr idx_t seed = 20130, tolerance = 30;
+  constexpr std::int32_t few_parts = 8;  // where recursive bisection cuts less
   auto nodes = static_cast<idx_t>(graph.node_weights.size());
   std::vector<std::int32_t> part(nodes, 0);
   if (parts <= 1 || nodes <= 1) return part;

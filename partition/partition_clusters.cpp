@@ -14,6 +14,10 @@ namespace {
 /// Weights are whole numbers for METIS: the sum of loads, and an arc as long as one fine edge, are about so
 /// much.
 constexpr double total_weight = 2e6, edge_weight = 20;
+/// One arc's weight, and that of arcs between two clusters together, at most: METIS counts in 32 bits.
+constexpr double most_of_arc = 1e6, most_of_arcs = 1e8;
+/// The area of an equilateral triangle over the square of its edge: elements per area to elements per length.
+constexpr double triangle_over_square = 0.433;
 
 /// The dual graph of the clusters. An arc weighs as much as the fine edges a cut there has.
 WeightedGraph cluster_graph(const BackgroundSurface& surface, const Clusters& clusters) {
@@ -35,7 +39,7 @@ WeightedGraph cluster_graph(const BackgroundSurface& surface, const Clusters& cl
     if (from == to) continue;
     const double length = distance(surface.points[surface.start(h)], surface.points[surface.end(h)]);
     const double density_there = 0.5 * (density(h / 3) + density(twin / 3));
-    arcs.push_back({from, to, edge_weight * length * std::sqrt(0.433 * density_there)});
+    arcs.push_back({from, to, edge_weight * length * std::sqrt(triangle_over_square * density_there)});
   }
   std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
     return std::array{a.from, a.to} < std::array{b.from, b.to};
@@ -52,9 +56,9 @@ WeightedGraph cluster_graph(const BackgroundSurface& surface, const Clusters& cl
     double weight = 0;
     // The two directions of an arc add the same terms in another order: rounded, they must agree.
     for (std::size_t i = first; i < last; ++i)
-      weight += std::max(1.0, std::round(std::min(arcs[i].weight, 1e6)));
+      weight += std::max(1.0, std::round(std::min(arcs[i].weight, most_of_arc)));
     graph.neighbours.push_back(arcs[first].to);
-    graph.arc_weights.push_back(static_cast<std::int32_t>(std::min(weight, 1e8)));
+    graph.arc_weights.push_back(static_cast<std::int32_t>(std::min(weight, most_of_arcs)));
     ++graph.first[arcs[first].from + 1];
   });
   std::partial_sum(graph.first.begin(), graph.first.end(), graph.first.begin());

@@ -1,4 +1,5 @@
-/// What METIS leaves to be done: connected parts whose borders meet at good angles.
+/// Repair of what METIS does not see to: that parts are connected, and that their borders meet at good
+/// angles.
 #pragma once
 
 #include "partition/background_surface.hpp"

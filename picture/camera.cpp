@@ -10,8 +10,9 @@ using geometry::Vec3;
 Viewpoint look_from(Vec3 from, Vec3 up) {
   const Vec3 towards = normalized(from);
   Vec3 right = cross(up, towards);
-  if (norm(right) < 1e-6 * norm(up)) {
-    right = cross(std::abs(towards.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, towards);
+  constexpr double along_up = 1e-6, along_y = 0.9;  // a sine, below which there is no right; a cosine
+  if (norm(right) < along_up * norm(up)) {
+    right = cross(std::abs(towards.y) < along_y ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, towards);
   }
   right = normalized(right);
   return {right, cross(towards, right), towards};

@@ -54,8 +54,9 @@ void draw_polygon(Canvas& canvas, const Camera& camera, const CutPolygon& polygo
     p[i] = camera.project(polygon.corners[i]);
     p[i].depth = 0;
   }
-  // By the size of the tetrahedron, so that slender cuts have lines as their neighbours have.
-  const double opacity = edge_opacity * std::clamp((size - 2) / 5, 0.0, 1.0);
+  // By the size of the tetrahedron in pixels, so that slender cuts have lines as their neighbours have.
+  constexpr double invisible = 2, full = 7;
+  const double opacity = edge_opacity * std::clamp((size - invisible) / (full - invisible), 0.0, 1.0);
   TriangleStyle style{colour, mix(colour, ink, 0.75), 1.0, {opacity, opacity, opacity}};
   if (polygon.count == 3) return canvas.draw_triangle({p[0], p[1], p[2]}, style);
   style.line_opacity = {opacity, opacity, 0};
@@ -120,7 +121,7 @@ void draw_backdrop(Canvas& canvas, const Camera& camera, const geometry::Box& bo
     const ScreenPoint s = camera.project(p);
     seen.add(Vec3{s.x, s.y, 0});
   }
-  constexpr double behind = 1e6;
+  constexpr double behind = 1e6;  // pixels: farther than anything that is drawn
   const ScreenPoint a{seen.low.x, seen.low.y, behind}, b{seen.high.x, seen.low.y, behind},
       c{seen.high.x, seen.high.y, behind}, d{seen.low.x, seen.high.y, behind};
   canvas.draw_triangle({a, b, c}, {colour, colour});

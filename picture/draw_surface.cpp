@@ -11,6 +11,8 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 
+/// Triangles that turn by less are a smooth surface to the eye; colours and lights below are a matter of
+/// taste.
 constexpr double sharp = 35 * std::numbers::pi / 180;
 /// Lines have a width, and the surface rises beside them: pixels.
 constexpr double raised = 2;
@@ -22,7 +24,7 @@ double brightness(const Viewpoint& view, Vec3 flow_normal) {
          0.22 * std::max(0.0, dot(flow_normal, light));
 }
 
-/// What of the surface a camera sees.
+/// The drawing of the triangles of a surface that a camera sees.
 class SurfaceDrawing {
 public:
   SurfaceDrawing(Canvas& canvas, const Camera& camera, const SurfaceLook& look)
@@ -78,7 +80,8 @@ private:
       longest = std::max(longest, std::hypot(b.x - a.x, b.y - a.y));
     }
     const double height = longest > 0 ? area / longest : 0;
-    return std::clamp((height - 1.5) / 4.5, 0.0, 1.0);
+    constexpr double invisible = 1.5, full = 6;  // pixels of a triangle's height
+    return std::clamp((height - invisible) / (full - invisible), 0.0, 1.0);
   }
 
   void draw_border(const ScreenPoint& a, const ScreenPoint& b, Vec3 normal, std::int32_t patch,

@@ -37,7 +37,7 @@ std::tuple<mesh::PieceId, std::int32_t> turn_of(const TriangleSide& side) {
   return {side.piece, side.item};
 }
 
-/// What is told to the rank of a triangle.
+/// The answer to the rank of a triangle.
 struct Answer {
   std::int32_t place, item;
   Fold fold;

@@ -1,4 +1,4 @@
-/// What lies beyond the edges of the triangles of a surface mesh.
+/// Neighbours across the edges of the triangles of a surface mesh, on whatever rank.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"

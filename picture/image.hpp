@@ -17,7 +17,7 @@ struct Image {
   std::vector<Colour> pixels;
 };
 
-/// What all ranks have drawn, the nearest in front, on rank 0; empty elsewhere. Each rank puts a strip
+/// The drawings of all ranks, the nearest in front, on rank 0; empty elsewhere. Each rank puts a strip
 /// together (Hsu, Parallel Rendering Symposium, 1993: direct send); what is empty does not travel. The same
 /// for any distribution of what is drawn. `draw_alike` draws what every rank would draw alike, and does not
 /// travel. Collective; canvases are of one size.

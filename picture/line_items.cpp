@@ -49,7 +49,11 @@ LineItem smoothed(const Line& line, const LineItem& item) {
   mean.normal = mean.along = {};
   double weight = 0, size = 0;
   for (const LineItem& other : line.items) {
-    if (distance(other.point, item.point) > 4 * item.size || dot(other.normal, item.normal) < 0.3) continue;
+    constexpr double around = 4,
+                     least_cosine = 0.3;  // elements; of normals: of the other side of a thin edge is less
+    if (distance(other.point, item.point) > around * item.size ||
+        dot(other.normal, item.normal) < least_cosine)
+      continue;
     mean.normal += other.length * other.normal;
     mean.along += (dot(other.along, item.along) < 0 ? -other.length : other.length) * other.along;
     size += other.length * other.size;

@@ -82,7 +82,8 @@ PalettedImage quantise(const Image& image, int most) {
   while (groups.size() < static_cast<std::size_t>(most)) {
     const auto widest = std::max_element(groups.begin(), groups.end(),
                                          [](const Group& a, const Group& b) { return a.spread < b.spread; });
-    if (!(widest->spread > 1e-6)) break;
+    constexpr double one_colour = 1e-6;  // squares of steps of a channel, times pixels: rounding
+    if (!(widest->spread > one_colour)) break;
     const auto [low, high] = divided(cells, *widest);
     if (low.begin == low.end || high.begin == high.end) break;
     *widest = low;

@@ -19,8 +19,26 @@ using mesh::LocalIndex;
 using parallel::Communicator;
 
 using geometry::degree;
+// The bounds that make a leading edge and a junction were chosen, not measured; with others a picture shows
+// another place.
+
 constexpr double sharp_turn = 40 * degree;  ///< edges count on their own from here on
 constexpr double corner = 75 * degree;      ///< coarse triangles on a rounding turn by less
+/// The flow comes from before a line, within 73 degrees of its normal.
+constexpr double least_upstream = 0.3;
+/// Of the turn of an edge or triangle: the flow that it divides comes from within that.
+constexpr double share_of_edge = 0.45, share_of_triangle = 0.75;
+constexpr double most_of_triangle = 30 * degree;
+/// Curvature over the inverse of the diagonal: of a leading edge, which is curved one way, and of the
+/// sharpest place.
+constexpr double least_curvature = 15, least_curvature_of_any = 8, most_of_other = 0.4;
+/// In elements: less is no edge but a bump.
+constexpr double least_length = 8;
+/// Of the longest line: as long as that, and the one on the left is taken, so that rounding does not choose.
+constexpr double as_long = 0.98;
+/// Faces meet inwards by more at a junction, along more edges than these.
+constexpr double inward_turn = 20 * degree;
+constexpr std::size_t least_edges = 10;
 constexpr Vec3 upstream{-1, 0, 0};
 
 /// How a triangle is curved; positive where it is convex for the flow.
@@ -108,7 +126,8 @@ LineItem item_of_edge(const Element& e, int i, const std::array<mesh::GlobalInde
 /// Whether the flow divides at a line with this normal and direction, if the normal of the section turns by
 /// `angle` there.
 bool flow_divides(Vec3 normal, Vec3 along, double angle) {
-  return dot(normal, upstream) > 0.3 && std::abs(dot(upstream, cross(along, normal))) < std::sin(angle);
+  return dot(normal, upstream) > least_upstream &&
+         std::abs(dot(upstream, cross(along, normal))) < std::sin(angle);
 }
 
 /// Bits of leading edges. Each sharp_turn edge comes from both of its triangles.
@@ -119,12 +138,14 @@ std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::
   for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
       if (e.turns[i] < sharp_turn) continue;
-      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), 0.45 * e.turns[i]))
+      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), share_of_edge * e.turns[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
-    if (curvature.largest * diagonal < 15 || std::abs(curvature.smallest) > 0.4 * curvature.largest) return;
-    const double angle = std::min(0.75 * curvature.largest * e.size, 30 * degree);
+    if (curvature.largest * diagonal < least_curvature ||
+        std::abs(curvature.smallest) > most_of_other * curvature.largest)
+      return;
+    const double angle = std::min(share_of_triangle * curvature.largest * e.size, most_of_triangle);
     if (flow_divides(e.normal, curvature.along, angle))
       items.push_back(item_of_triangle(e, curvature, vertices));
   });
@@ -146,7 +167,7 @@ Place place_at(const Line& line, const LineItem& item, bool is_upstream) {
   return {item.point, mean.normal, mean.along, mean.size, is_upstream};
 }
 
-/// What rank 0 has found, on every rank.
+/// The finding of rank 0, on every rank.
 std::optional<Place> shared(const Communicator& communicator, const std::optional<Place>& found) {
   std::vector<Place> places;
   if (found) places.push_back(*found);
@@ -176,7 +197,7 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
       if (e.turns[i] >= sharp_turn) take(e.turns[i], item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
-    if (curvature.largest * scene.box.diagonal() > 8)
+    if (curvature.largest * scene.box.diagonal() > least_curvature_of_any)
       take(std::min(curvature.largest * e.size, sharp_turn), item_of_triangle(e, curvature, vertices));
   });
   std::vector<Sharpest> all = communicator.all_gather_items<Sharpest>(std::span<const Sharpest>(&mine, 1));
@@ -195,13 +216,13 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] { items = leading_items(surface, numbering, folds, scene); });
   std::vector<Line> lines = gather_lines(communicator, items);
-  // Less than a few elements are no edge but a bump.
-  std::erase_if(lines, [](const Line& line) { return line.extent() < 8 * line.items.front().size; });
+  std::erase_if(lines,
+                [](const Line& line) { return line.extent() < least_length * line.items.front().size; });
   std::optional<Place> found;
   if (!lines.empty()) {
     double longest = 0;
     for (const Line& line : lines) longest = std::max(longest, line.extent());
-    std::erase_if(lines, [longest](const Line& line) { return line.extent() < 0.98 * longest; });
+    std::erase_if(lines, [longest](const Line& line) { return line.extent() < as_long * longest; });
     for (const Line& line : lines) {
       const LineItem& middle = middle_of(line);
       if (!found || middle.point.y < found->point.y) found = place_at(line, middle, true);
@@ -218,7 +239,7 @@ std::optional<Place> find_junction(const Communicator& communicator, const Distr
   parallel::agree(communicator, [&] {
     for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
       for (int i = 0; i < 3; ++i) {
-        if (e.turns[i] < -20 * degree && vertices[i] < vertices[(i + 1) % 3])
+        if (e.turns[i] < -inward_turn && vertices[i] < vertices[(i + 1) % 3])
           items.push_back(item_of_edge(e, i, vertices));
       }
     });
@@ -227,7 +248,7 @@ std::optional<Place> find_junction(const Communicator& communicator, const Distr
   const auto longest = std::max_element(lines.begin(), lines.end(),
                                         [](const Line& a, const Line& b) { return a.extent() < b.extent(); });
   std::optional<Place> found;
-  if (longest != lines.end() && longest->items.size() > 10) {
+  if (longest != lines.end() && longest->items.size() > least_edges) {
     const auto first =
         std::min_element(longest->items.begin(), longest->items.end(),
                          [](const LineItem& a, const LineItem& b) { return a.point.x < b.point.x; });

@@ -50,7 +50,7 @@ std::vector<std::uint8_t> encode(const PalettedImage& image, int width, int heig
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Image& image, std::size_t bytes) {
-  constexpr int fewest = 16;
+  constexpr int fewest = 16;  // colours, below which patches cannot be distinguished
   for (int colours = 256;; colours /= 2) {
     std::vector<std::uint8_t> png = encode(quantise(image, colours), image.width, image.height);
     if (png.size() <= bytes || colours == fewest) return png;

@@ -1,4 +1,4 @@
-/// What a picture is about: the body in the flow, or the walls around it.
+/// The scene of a picture: the body in the flow, or the walls around it.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"
@@ -17,7 +17,7 @@ geometry::Vec3 area_normal(const mesh::Piece& piece, mesh::LocalIndex triangle);
 /// Per local piece, one for each triangle: 1 where it is shown.
 using Shown = std::vector<std::vector<std::uint8_t>>;
 
-/// The same on every rank but for `shown`.
+/// The body or the walls that pictures show; the same on every rank but for `shown`.
 struct Scene {
   /// Whether there is a body in the flow. Else the flow is inside, and all its walls are shown.
   bool has_body = false;

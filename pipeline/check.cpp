@@ -29,8 +29,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
-constexpr std::size_t shown_contacts = 20;
+constexpr std::size_t shown_contacts = 20;  // of faces; `--json` has all
+/// For what is advised: enough pieces that ranks can even out what predictions miss, and pieces that are
+/// neither all border nor more than a rank should do alone. Chosen, not measured; a run without keys has
+/// suitable_piece_tets().
 constexpr int pieces_per_rank = 4;
+constexpr std::int64_t least_triangles = 1000, most_triangles = 200'000;
+constexpr std::int64_t least_tetrahedra = 10'000, most_tetrahedra = 1'000'000;
 
 /// How many ranks a run is worth, by what the clock has of geometry and sizing. Collective.
 study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicator,
@@ -67,8 +72,10 @@ Forecast forecast_run(const parallel::Communicator& communicator, const cad::Mod
   forecast.seconds = predicted_seconds(forecast.counts);
   forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
   const double pieces = pieces_per_rank * communicator.size();
-  forecast.piece_triangles = std::clamp<std::int64_t>(std::llround(triangles / pieces), 1000, 200'000);
-  forecast.piece_tets = std::clamp<std::int64_t>(std::llround(tetrahedra / pieces), 10'000, 1'000'000);
+  forecast.piece_triangles =
+      std::clamp<std::int64_t>(std::llround(triangles / pieces), least_triangles, most_triangles);
+  forecast.piece_tets =
+      std::clamp<std::int64_t>(std::llround(tetrahedra / pieces), least_tetrahedra, most_tetrahedra);
   return forecast;
 }
 
@@ -294,7 +301,8 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     print_record(input, record, communicator.size());
-    // What was asked is answered: no file is a reason to say that the case is not fit.
+    // The question whether the case is fit has been answered: a file that cannot be written does not change
+    // the answer.
     try {
       write_record(input, record);
     } catch (const std::ios_base::failure& error) {

@@ -26,7 +26,7 @@ struct FaceContact {
   geometry::Vec3 where;
 };
 
-/// What a run would cost, from the prediction and the constants in docs/usage.md.
+/// The predicted cost of a run, by the constants in docs/usage.md.
 struct Forecast {
   sizing::SizingOptions sizes;
   std::optional<domain::FeatureReport> features;

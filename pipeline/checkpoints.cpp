@@ -255,7 +255,7 @@ void Checkpoints::remove_needless(SavedStage kept) {
   remove_volume_of(kept);
 }
 
-/// What a run has left that was killed once the stage was kept.
+/// Removes files of a run that was killed after the stage was kept.
 void Checkpoints::remove_left_over(SavedStage found) {
   attempt([&] {
     const parallel::TaskStore emptied(_communicator, _folder, name_of(found), {},

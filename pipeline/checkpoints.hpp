@@ -30,7 +30,7 @@ public:
   Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
               const RunIdentity& identity);
 
-  /// What the stage has made in an earlier run, if that can be had; says why where it is there and cannot.
+  /// The result of the stage from an earlier run, if it can be had; says why where it is there and cannot.
   /// Collective.
   std::optional<io::CheckpointContent> find(SavedStage stage);
   /// Keeps what `draft` gives, where that is wanted, and lets go what it makes needless. Where it cannot be

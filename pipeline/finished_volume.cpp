@@ -139,7 +139,7 @@ void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& re
 
 namespace {
 
-/// What is said of a region that does not have the volume of the CAD's.
+/// The message about a region that does not have the volume of the CAD's.
 std::string describe_missed_volume(const report::RegionRow& region, double most,
                                    const report::RunRecord& record) {
   return fmt::format(
@@ -176,7 +176,7 @@ std::string missed_volume(const cases::QualityGate& gate, const report::RunRecor
   return "improve.gate.area_deviation: " + describe_missed_volume(*worst, gate.area_deviation, record);
 }
 
-/// What is said where the walls do not have the area of the CAD; empty where they have, or there is none.
+/// The message about walls that do not have the area of the CAD; empty where they have, or there is none.
 std::string missed_area(const cases::QualityGate& gate, const report::RunRecord& record) {
   double area = 0, cad = 0, most = 0;
   const report::PatchRow* worst = nullptr;

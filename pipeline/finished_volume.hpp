@@ -1,4 +1,4 @@
-/// What is done with a volume mesh once it is there: improvement, checks, figures.
+/// Improvement, checks and figures of a volume mesh, the same whether it was made or read.
 #pragma once
 
 #include "aeroloom/cad/model/model.hpp"
@@ -26,7 +26,7 @@ void inspect_volume(const parallel::Communicator& communicator, const cases::Cas
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
                     const mesh::DistributedMesh* surface, report::RunRecord& record);
 
-/// What the regions of the model hold, for comparison.
+/// Adds the volumes of the regions of the model, for comparison.
 void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);
 
 /// Triangles and areas of the patches of a mesh from a file; there is no CAD to compare them with.
@@ -34,7 +34,7 @@ void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& re
 std::vector<report::PatchRow> table_of_patches(const parallel::Communicator& communicator,
                                                const mesh::DistributedMesh& volume);
 
-/// What is to be warned of: a region that misses the volume of the CAD's by more than the gate allows, but is
+/// The warning about a region that misses the volume of the CAD's by more than the gate allows, but is
 /// so few of the smallest elements wide that these explain it. Empty where there is none.
 std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record);
 /// Throws StageFailure when the finished mesh misses the limits.

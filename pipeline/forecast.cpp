@@ -16,7 +16,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
-// What a run costs on one core, from runs at a million tetrahedra (docs/status.md).
+// The cost of a run on one core, from runs at a million tetrahedra (docs/status.md).
 constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
 constexpr double base_bytes = 150e6, bytes_per_tetrahedron = 120;
 
@@ -37,7 +37,7 @@ constexpr std::array<StageShare, 5> stage_shares{{{"decompose", nullptr, 1.0e-6,
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
-/// What would fit on a node of `ranks_here` of all `ranks`, where `needed` bytes do not.
+/// The advice on what would fit on a node of `ranks_here` of all `ranks`, where `needed` bytes do not.
 std::string advise(double tetrahedra, double limit, int ranks_here, int ranks) {
   const double for_elements = limit - base_bytes * ranks_here;
   if (for_elements <= 0) {

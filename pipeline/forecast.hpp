@@ -1,4 +1,4 @@
-/// What a run will cost, from predicted counts and constants that runs have shown (docs/usage.md).
+/// The expected cost of a run, from predicted counts and constants that runs have shown (docs/usage.md).
 #pragma once
 
 #include "aeroloom/case/case.hpp"

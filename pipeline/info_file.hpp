@@ -1,4 +1,4 @@
-/// What a file is: a mesh, CAD, or a case.
+/// Facts about a file, be it a mesh, CAD, or a case.
 #pragma once
 
 #include "aeroloom/parallel/communication/communicator.hpp"

@@ -76,7 +76,7 @@ Json report_json(const std::string& path, const io::Assembled& file, const mesh:
           {"gate", {{"passed", missed.empty()}, {"missed", missed}}}};
 }
 
-/// What a program prints of a name in a file that is no UTF-8 is replaced.
+/// A name in a file may be no UTF-8, which JSON cannot hold: its letters are replaced.
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -15,7 +15,8 @@ namespace {
 parallel::Digest digest_of_file(const std::string& path, std::int64_t* bytes = nullptr) {
   parallel::Digester digester;
   std::ifstream stream(path, std::ios::binary);
-  std::vector<char> part(1 << 20);
+  constexpr std::size_t bytes_at_a_time = 1 << 20;
+  std::vector<char> part(bytes_at_a_time);
   while (stream) {
     stream.read(part.data(), static_cast<std::streamsize>(part.size()));
     digester.bytes(

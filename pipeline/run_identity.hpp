@@ -1,4 +1,4 @@
-/// What the result of a run depends on besides its configuration: the program and the geometry.
+/// The program and the geometry, on which the result of a run depends besides its configuration.
 #pragma once
 
 #include "aeroloom/case/case.hpp"

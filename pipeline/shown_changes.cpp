@@ -7,7 +7,7 @@
 namespace aeroloom::pipeline {
 
 std::vector<std::string> shown_changes(cad::Changes changes, const std::string& all_of_them) {
-  constexpr std::size_t most = 5, of_many = 3;
+  constexpr std::size_t most = 5, of_many = 3;  // lines of the log; the report has all
   const std::size_t shown = changes.size() <= most ? changes.size() : of_many;
   if (shown < changes.size()) {
     std::stable_sort(changes.begin(), changes.end(),

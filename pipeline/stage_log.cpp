@@ -86,7 +86,7 @@ void log_surface(const report::RunRecord& record) {
 
 /// Triangles below ten degrees: how many the CAD forces, and where the others are.
 void log_needles(const report::RunRecord& record) {
-  constexpr int shown = 5;
+  constexpr int shown = 5;  // lines of the log; the report has all
   std::int64_t forced = 0, forced_groups = 0, others = 0;
   double least = surface::needle_degrees;
   int listed = 0;
@@ -131,7 +131,7 @@ void log_decompose(const report::RunRecord& record) {
 }
 
 void warn_of_count(const report::RunRecord& record) {
-  constexpr double telling = 1.5;
+  constexpr double telling = 1.5;  // more than forecasts err by (docs/bounds.md)
   const double expected = record.decomposition.expected_tetrahedra, forecast = record.forecast.tetrahedra;
   if (expected < telling * forecast) return;
   parallel::log_warning(fmt::format(

@@ -1,4 +1,4 @@
-/// What the stages of a run say when they end: all of it is worded here. What a stage says while it works
+/// The wording of all that the stages of a run say when they end. What a stage says while it works
 /// (retries, searches) stands in its driver.
 #pragma once
 

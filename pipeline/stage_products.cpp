@@ -30,7 +30,7 @@ mesh::DistributedMesh make_mesh(mesh::MeshFacts facts, std::vector<CheckpointCon
   return mesh;
 }
 
-/// What is kept of sizes.
+/// The part of the sizes that is kept for a run that resumes.
 struct SizesRecord {
   sizing::SizingOptions sizes;
   Bytes field;
@@ -48,7 +48,7 @@ struct SizesRecord {
   }
 };
 
-/// What is kept of a surface besides its pieces.
+/// The part of a surface, besides its pieces, that is kept for a run that resumes.
 struct SurfaceRecord {
   parallel::Digest sized;  ///< what it depends on
   Bytes sizes;             ///< where they are not those of the stage before
@@ -62,7 +62,7 @@ struct SurfaceRecord {
   }
 };
 
-/// What is kept of a volume besides its pieces.
+/// The part of a volume, besides its pieces, that is kept for a run that resumes.
 struct VolumeRecord {
   volume::DecompositionReport decomposition;
   volume::VolumeReport volume;
@@ -75,7 +75,7 @@ struct VolumeRecord {
   }
 };
 
-/// What a surface depends on.
+/// The digest of everything that a surface depends on.
 parallel::Digest digest_of(const domain::SizedDomain& sized) {
   const parallel::Digest field = sized.field.digest();
   parallel::Digester digester;

@@ -1,4 +1,4 @@
-/// What stages hand on, as the content of checkpoints and back. Unpacking with a communicator is collective.
+/// Results of stages as the content of checkpoints, and back. Unpacking with a communicator is collective.
 /// Drafts refer to the meshes they are of. Bytes that are none of ours throw std::logic_error (checkpoints
 /// are checked before).
 #pragma once
@@ -24,7 +24,7 @@ io::CheckpointDraft pack_sizes(const domain::SizedDomain& sized);
 domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, io::CheckpointContent content,
                                  const cad::Model& domain);
 
-/// What a surface was made of, and its sizes.
+/// A surface with the model that it was made of, and its sizes.
 struct SurfaceProduct {
   const mesh::DistributedMesh& mesh;
   const sizing::SizeField& field;  ///< left out where it is the one of the sized domain

@@ -1,4 +1,4 @@
-/// What was found out while sizes were chosen, as report.json and the answer of `aeroloom check` have it.
+/// Findings made while sizes were chosen, as report.json and the answer of `aeroloom check` have it.
 #pragma once
 
 #include "aeroloom/domain/bounded_faces.hpp"

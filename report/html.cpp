@@ -31,12 +31,13 @@ std::string legend_of(const Picture& picture) {
 
 /// A legend that an earlier picture has had is not repeated.
 std::string figure(const Picture& picture, std::set<std::string>& legends) {
+  constexpr int broad = 1200;  // pixels: stands alone in its row of the page
   const std::string legend = legend_of(picture);
   const bool repeated = !legend.empty() && !legends.insert(legend).second;
   return fmt::format(
       "<figure{}>\n<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">\n"
       "<figcaption>{}</figcaption>\n{}</figure>\n",
-      picture.width >= 1200 ? " class=\"broad\"" : "", escaped(picture.caption), picture.width,
+      picture.width >= broad ? " class=\"broad\"" : "", escaped(picture.caption), picture.width,
       picture.height, base64(picture.png),
       escaped(picture.caption) + (repeated ? " <span class=\"quiet\">Colours as above.</span>" : ""),
       repeated ? "" : legend);

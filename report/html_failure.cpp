@@ -7,7 +7,7 @@
 namespace aeroloom::report::html {
 namespace {
 
-/// What to do, by the way the program ended; the message says it of the very case.
+/// The remedy for each way in which the program ends; the message has the one for the very case.
 const char* remedy(int code) {
   switch (static_cast<ExitCode>(code)) {
     case ExitCode::usage:
@@ -140,17 +140,20 @@ std::string failure_section(const Json& report) {
 }
 
 std::string warnings_section(const Json& report) {
+  // A page that opens at once; report.json has all.
+  constexpr std::size_t most_shown = 50, longest_message = 4000;
   std::string items;
   std::size_t shown = 0;
   for (const Json& warning : find(report, "/warnings")) {
-    if (++shown > 50) continue;
+    if (++shown > most_shown) continue;
     const Json& times = find(warning, "/times");
     items +=
-        fmt::format("<li>{}{}</li>\n", long_text(find(warning, "/message"), 4000),
+        fmt::format("<li>{}{}</li>\n", long_text(find(warning, "/message"), longest_message),
                     number(times) > 1 ? " <span class=\"quiet\">(" + count(times) + " times)</span>" : "");
   }
   if (!items.empty()) items = "<ul class=\"warnings\">\n" + items + "</ul>\n";
-  if (shown > 50) items += fmt::format("<p class=\"more\">and {} more, see report.json</p>\n", shown - 50);
+  if (shown > most_shown)
+    items += fmt::format("<p class=\"more\">and {} more, see report.json</p>\n", shown - most_shown);
   const Json& left_out = find(report, "/warnings_left_out");
   if (number(left_out) > 0) items += paragraph(count(left_out) + " further ones were printed and not kept.");
   return section("warnings", "Warnings", items.empty() ? paragraph("There were none.") : items);

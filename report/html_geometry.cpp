@@ -9,6 +9,9 @@
 namespace aeroloom::report::html {
 namespace {
 
+/// Characters of a cell of a table, whose row is to stay one; report.json has all.
+constexpr std::size_t longest_change = 1000, longest_retry = 500;
+
 std::string worst_table(const Json& worst) {
   Table table({{"cell", Align::right}, {"smallest dihedral angle", Align::right}, {"centre"}});
   for (const Json& cell : worst)
@@ -93,7 +96,7 @@ std::string regions_table(const Json& regions) {
 std::string changes_table(const Json& changes) {
   Table table({{"what was done"}, {"where"}, {"moved by at most", Align::right}});
   for (const Json& change : changes)
-    table.add({long_text(find(change, "/what"), 1000), place(find(change, "/where")),
+    table.add({long_text(find(change, "/what"), longest_change), place(find(change, "/where")),
                number(find(change, "/how_much")) > 0 ? quantity(find(change, "/how_much")) : "–"});
   return table.html();
 }
@@ -132,8 +135,8 @@ std::string tips_table(const Json& tips) {
 std::string retries_table(const Json& report) {
   Table retries({{"zone", Align::right}, {"what was changed"}, {"because"}});
   for (const Json& retry : find(report, "/volume/retries"))
-    retries.add({count(find(retry, "/zone")), long_text(find(retry, "/change"), 500),
-                 long_text(find(retry, "/reason"), 500)});
+    retries.add({count(find(retry, "/zone")), long_text(find(retry, "/change"), longest_retry),
+                 long_text(find(retry, "/reason"), longest_retry)});
   Table places(
       {{"place"}, {"zone that counts", Align::right}, {"faces", Align::right}, {"round", Align::right}});
   for (const Json& item : find(report, "/volume/disagreements"))

@@ -11,7 +11,7 @@
 namespace aeroloom::report::html {
 namespace {
 
-/// What a smallest dihedral angle means to a flow solver; rules of thumb for isotropic tetrahedra.
+/// Judgements of a smallest dihedral angle for a flow solver: rules of thumb for isotropic tetrahedra.
 struct Judgement {
   double from;  ///< degrees
   const char* kind;
@@ -41,12 +41,15 @@ std::string judgement_of(const Json& report) {
   return {};
 }
 
-/// Long thin elements have good angles and a small mean ratio.
+/// Long thin elements have good angles and a small mean ratio. From here on a ratio is good: a regular
+/// tetrahedron drawn out to five times its length; and fair, or else nearly flat. Chosen, not measured.
+constexpr double good_ratio = 0.3, fair_ratio = 0.02;
+
 std::string judgement_of_shape(const Json& report) {
   const Json& least = find(report, "/quality/min_mean_ratio");
   const Json& mean = find(report, "/quality/mean_mean_ratio");
-  const char* kind = number(least) >= 0.3 ? "good" : number(least) >= 0.02 ? "fair" : "poor";
-  const std::string worst = number(least) >= 0.3 ? "" : ": the worst are stretched or flat";
+  const char* kind = number(least) >= good_ratio ? "good" : number(least) >= fair_ratio ? "fair" : "poor";
+  const std::string worst = number(least) >= good_ratio ? "" : ": the worst are stretched or flat";
   return fmt::format(
       "<li>{} Mean ratio {} on average and {} at least{}. Of a regular tetrahedron it is 1.</li>\n",
       badge(kind, kind), ratio(mean), ratio(least), worst);

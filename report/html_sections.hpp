@@ -12,7 +12,7 @@ namespace aeroloom::report::html {
 
 using namespace page;  // what pages are made of
 
-/// What was run, how it ended, the figures that people ask for first.
+/// The case, how its run ended, and the figures that people ask for first.
 std::string headline(const Json& report);
 /// Of a run that failed: where, why, what to do, how far it came.
 std::string failure_section(const Json& report);
@@ -25,7 +25,7 @@ std::string places_section(const Json& report);
 /// `pictures` tell the colours.
 std::string patches_section(const Json& report, const std::vector<Picture>& pictures);
 std::string warnings_section(const Json& report);
-/// What was done to the CAD, and what the surface mesher met.
+/// Changes to the CAD, and what the surface mesher met.
 std::string geometry_section(const Json& report);
 std::string stages_section(const Json& report);
 /// Input, versions, configuration.
@@ -33,7 +33,7 @@ std::string origin_section(const Json& report);
 
 /// A patch of this colour, "#rrggbb"; nothing for what is no colour.
 std::string swatch(const std::string& colour);
-/// What the run is called: the case, else the file.
+/// The name of the run: that of the case, else of the file.
 std::string title_of(const Json& report);
 
 }  // namespace aeroloom::report::html

@@ -14,10 +14,11 @@ bool was_resumed(const Json& report, const std::string& stage) {
   return std::find(resumed.begin(), resumed.end(), Json(stage)) != resumed.end();
 }
 
-/// The busiest rank over the mean.
+/// The busiest rank over the mean. Below a hundredth of a second the clock's steps rule it.
 std::string imbalance(const Json& stage) {
+  constexpr double least_told = 0.01;
   const double mean = number(find(stage, "/cpu_seconds_mean"));
-  return mean < 0.01 ? "–" : fmt::format("{:.2f}", number(find(stage, "/cpu_seconds_max")) / mean);
+  return mean < least_told ? "–" : fmt::format("{:.2f}", number(find(stage, "/cpu_seconds_max")) / mean);
 }
 
 /// Bytes of messages of all kinds.
@@ -123,7 +124,8 @@ std::string origin_section(const Json& report) {
     rows.emplace_back("size", count(bytes) + " bytes");
   if (const std::string hash = text(find(input, "/hash")); !hash.empty())
     rows.emplace_back("hash of the input", "<code>" + escaped(hash) + "</code>");
-  const std::string configuration = long_text(find(report, "/configuration"), 200'000);
+  constexpr std::size_t longest_configuration = 200'000;  // far below the page's room for pictures
+  const std::string configuration = long_text(find(report, "/configuration"), longest_configuration);
   return section("origin", "Where it comes from",
                  facts(rows) + versions(find(report, "/versions")) +
                      (configuration.empty()

@@ -1,4 +1,4 @@
-/// What the program is made of.
+/// The versions of the libraries that the program is made of.
 #pragma once
 
 #include <string>

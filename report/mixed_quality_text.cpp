@@ -16,7 +16,7 @@ using mesh::Measure;
 constexpr std::array<std::string_view, mesh::measure_count> titles = {
     "smallest dihedral angle", "largest dihedral angle",      "mean ratio", "radius ratio", "scaled Jacobian",
     "longest / shortest edge", "volume ratio to a neighbour", "volume"};
-constexpr std::size_t most_bars = 15;
+constexpr std::size_t most_bars = 15;  // lines and characters of a terminal
 constexpr int longest_bar = 60;
 /// Patches shown; `--json` has all.
 constexpr std::size_t shown_patches = 30;

@@ -33,12 +33,24 @@ using picture::Scene;
 using picture::Viewpoint;
 using picture::Window;
 
-constexpr std::size_t bytes_of_picture = 240'000;
+// Widths, heights, margins (pixels), opacities and directions are a matter of taste, looked at in the
+// pictures of the survey (docs/pictures/); nothing but the pictures depends on them.
+
+constexpr std::size_t bytes_of_picture = 240'000;  // a report of ten is a page that can be sent
 constexpr int width = 1000, detail_width = 800, detail_height = 560;
+constexpr int least_height_of_body = 420, least_height_of_cut = 360, most_height = 680;
+constexpr int margin = 15;
+/// Elements across a close-up, and across the cut beside it: each is seen as a triangle, and what it belongs
+/// to too.
+constexpr double elements_across = 40, elements_across_cut = 36;
 /// Of what is shown, where it is open: half a body.
 constexpr double half = 0.02;
+/// Of the diagonal: a plane of symmetry is cut just inside, where there are tetrahedra; a middle that is
+/// nearer to zero is zero.
+constexpr double just_inside = 1e-7, as_good_as_zero = 1e-3;
+constexpr double no_extent = 1e-300;  // in place of nothing, to divide by
 
-/// What all pictures of a mesh have in common.
+/// The subject of all pictures of a mesh, found once.
 struct Subject {
   const Communicator& communicator;
   const PictureSource& source;
@@ -77,7 +89,7 @@ Subject find_subject(const Communicator& communicator, const PictureSource& sour
   return subject;
 }
 
-/// What the legend of cuts says.
+/// The legend of cuts.
 std::vector<LegendItem> angle_legend() {
   std::vector<LegendItem> legend;
   legend.reserve(picture::angle_classes.size());
@@ -121,7 +133,7 @@ Box seen_from(const Subject& subject, const Viewpoint& view) {
 /// A height that suits what is to be seen.
 int height_for(const Box& seen, int least, int most) {
   const double ratio = seen.size().x > 0 ? seen.size().y / seen.size().x : 1;
-  return std::clamp(static_cast<int>(std::lround(width * ratio)) + 30, least, most);
+  return std::clamp(static_cast<int>(std::lround(width * ratio)) + 2 * margin, least, most);
 }
 
 /// From upstream and above, on the side to which half a body is open.
@@ -139,8 +151,8 @@ constexpr Vec3 up{0, 0, 1};
 Picture body_picture(const Subject& subject) {
   const Viewpoint view = picture::look_from(main_direction(subject.scene), up);
   const Box seen = seen_from(subject, view);
-  const int height = height_for(seen, 420, 680);
-  const Camera camera = picture::frame(view, seen, {0, 0, width, height}, 15);
+  const int height = height_for(seen, least_height_of_body, most_height);
+  const Camera camera = picture::frame(view, seen, {0, 0, width, height}, margin);
   const std::string what = subject.scene.has_body ? "The body in the flow" : "The walls, seen from inside";
   return painted(subject.communicator,
                  {.name = "body",
@@ -164,13 +176,13 @@ Picture views_picture(const Subject& subject) {
   std::array<Box, 4> seen;
   for (int i = 0; i < 4; ++i) seen[i] = seen_from(subject, views[i]);
   constexpr double gap = 12;
-  constexpr int most = 680;
+  constexpr int most = most_height;
   // Beside a slender body there is room for the view from behind all the same.
   const double right = std::max(seen[3].size().x, 0.5 * seen[2].size().x);
   const double wide = seen[2].size().x + right, tall = seen[0].size().y + seen[2].size().y;
   const double scale = std::min((width - 4 * gap) / wide, (most - 4 * gap) / tall);
   const int left = static_cast<int>(width * seen[2].size().x / wide);
-  const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, 1e-300);
+  const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, no_extent);
   const int lower = static_cast<int>(std::lround(scale * seen[2].size().y + 2 * gap));
   const int upper = static_cast<int>(std::lround(std::max(
       scale * seen[0].size().y + 2 * gap, std::min(behind + 2 * gap, static_cast<double>(most - lower)))));
@@ -216,7 +228,7 @@ Vec3 towards_viewer(const Subject& subject, Vec3 along) {
 /// The place lies a little off the middle, so that more of the body is seen and less of what is behind it.
 Picture close_up_picture(const Subject& subject, const Place& place, Vec3 from, std::string name,
                          const std::string& what) {
-  const double across = width_around(subject, place, 40);
+  const double across = width_around(subject, place, elements_across);
   const Viewpoint view = picture::look_from(from, up);
   const Vec3 inwards = dot(place.normal, view.towards) * view.towards - place.normal;
   const Camera camera = picture::close_up(view, place.point + 0.25 * across * inwards, across,
@@ -271,17 +283,18 @@ Cut main_cut(const Scene& scene) {
     const double end = open > 0 ? scene.box.low[axis] : scene.box.high[axis];
     Vec3 normal;
     normal[axis] = std::copysign(1, open);
-    return look_at_plane(normal, normal[axis] * end + 1e-7 * scene.box.diagonal());
+    return look_at_plane(normal, normal[axis] * end + just_inside * scene.box.diagonal());
   }
   int axis = 1;
   if (!scene.has_body) {
     const Vec3 size = scene.box.size();
-    for (const int other : {2, 0}) axis = size[other] < 0.999 * size[axis] ? other : axis;
+    constexpr double shorter = 0.999;  // by more than rounding, or y is across as on an aircraft
+    for (const int other : {2, 0}) axis = size[other] < shorter * size[axis] ? other : axis;
   }
   Vec3 normal;
   normal[axis] = 1;
   const double middle = scene.box.center()[axis];
-  return look_at_plane(normal, std::abs(middle) < 1e-3 * scene.box.diagonal() ? 0 : middle);
+  return look_at_plane(normal, std::abs(middle) < as_good_as_zero * scene.box.diagonal() ? 0 : middle);
 }
 
 Picture painted_cut(const Subject& subject, const mesh::DistributedMesh& volume, const Plane& plane,
@@ -322,9 +335,9 @@ Picture cut_picture(const Subject& subject, const mesh::DistributedMesh& volume)
       seen.high[axis] = std::min(seen.high[axis], domain.high[axis]);
     }
   }
-  const int height = height_for(seen, 360, 680);
-  const double margin = subject.scene.has_body ? 0 : 15;
-  const Camera camera = picture::frame(cut.view, seen, {0, 0, width, height}, margin);
+  const int height = height_for(seen, least_height_of_cut, most_height);
+  const double around = subject.scene.has_body ? 0 : margin;
+  const Camera camera = picture::frame(cut.view, seen, {0, 0, width, height}, around);
   return painted_cut(subject, volume, cut.plane, camera, "cut",
                      fmt::format("The tetrahedra that a plane cuts, {}.",
                                  subject.scene.has_body ? "around the body" : "from wall to wall"));
@@ -332,7 +345,7 @@ Picture cut_picture(const Subject& subject, const mesh::DistributedMesh& volume)
 
 Picture leading_edge_cut_picture(const Subject& subject, const mesh::DistributedMesh& volume,
                                  const Place& place) {
-  const double across = width_around(subject, place, 36);
+  const double across = width_around(subject, place, elements_across_cut);
   const Cut cut = look_at_plane(place.along, dot(place.along, place.point));
   const Camera camera = picture::close_up(cut.view, place.point, across, {0, 0, detail_width, detail_height});
   return painted_cut(

@@ -23,7 +23,7 @@
 
 namespace aeroloom::report {
 
-/// What pictures are made of.
+/// The meshes and names that pictures are made of.
 struct PictureSource {
   const mesh::DistributedMesh& surface;  ///< the boundary of the domain
   const mesh::Numbering& numbering;      ///< of the surface
@@ -36,8 +36,8 @@ struct PictureSource {
 std::vector<Picture> pictures_or_warning(const parallel::Communicator& communicator,
                                          const mesh::DistributedMesh* volume, const PictureSource& source);
 
-/// What `work` gives. Should the volume fail there, the surface alone is pictured before the failure goes on,
-/// if the output is to have pictures. Collective.
+/// Runs `work` and returns its result. Should the volume fail there, the surface alone is pictured before the
+/// failure goes on, if the output is to have pictures. Collective.
 template <class Work>
 auto with_pictures_of_failure(const parallel::Communicator& communicator, const PictureSource& source,
                               const cases::OutputOptions& output, std::vector<Picture>& pictures, Work work) {

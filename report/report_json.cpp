@@ -46,7 +46,7 @@ Json pictures_json(const std::vector<Picture>& pictures) {
   return json;
 }
 
-/// What every report begins with.
+/// The beginning of every report.
 Json outcome_json(const cases::Case& input, const RunRecord& record, const ReportFacts& facts) {
   const RunOutcome& outcome = facts.outcome;
   Json json;
@@ -69,7 +69,7 @@ Json outcome_json(const cases::Case& input, const RunRecord& record, const Repor
   return json;
 }
 
-/// What every report says of the finished mesh.
+/// Adds what every report says of the finished mesh.
 void add_finished_mesh(Json& json, const cases::Case& input, const RunRecord& record,
                        const ReportFacts& facts) {
   json["mesh"] = mesh_json(record);

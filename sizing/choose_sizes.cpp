@@ -14,22 +14,26 @@
 namespace aeroloom::sizing {
 namespace {
 
-// What the preset fixes; one length, the size on the body, follows from the target.
+// The preset fixes these; one length, the size on the body, follows from the target. What nothing else is
+// said of was chosen, not measured: for an aircraft in a far field, whose user gives nothing but a file.
 constexpr double preset_curvature_angle = 15;
 constexpr double preset_growth = 1.3;
-constexpr double size_over_gap = 10;  // the smallest size over the widest gap that was sewn
+/// The smallest size over the widest gap that was sewn: surfaces do not meet there, and an element that
+/// bridges the gap is off by a tenth of itself at most.
+constexpr double size_over_gap = 10;
 constexpr double body_size_over_minimum = 10;
 constexpr double out_of_reach = 0.2;        // logarithm of the count over the target
 constexpr double domain_over_maximum = 20;  // diagonal of everything
-constexpr double body_over_coarsest = 5;    // largest extent of the body over the coarsest size tried on it
-constexpr double body_over_finest = 5000;
-constexpr double body_over_first = 60;
-constexpr int most_rounds = 8;
-constexpr int rounds_out_of_reach = 2;  // of full fields, where coarse ones found nothing near the target
+/// The largest extent of the body over sizes on it: the coarsest that is tried, the finest and the first.
+constexpr double body_over_coarsest = 5, body_over_finest = 5000, body_over_first = 60;
+/// Fields that are built to meet the target (docs/bounds.md), and full ones where coarse ones found nothing
+/// near it: each takes as long as that of the mesh.
+constexpr int most_rounds = 8, rounds_out_of_reach = 2;
 // Of the logarithm of the count over that of the size: near -2 where the surface rules, flatter where small
 // features do.
 constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
-constexpr double largest_step = 1.4;  // of the logarithm of the size
+/// Of the logarithm of the size: four times as large or small, beyond which no slope that was measured holds.
+constexpr double largest_step = 1.4;
 // Far too many, and no fewer over a step that tells: what is given rules, not this size.
 constexpr double hopeless = 2, flat = 0.02;  // of the logarithm of the count
 // Over a shorter step counts may jump by more than they change: a flat slope says nothing then.
@@ -39,31 +43,42 @@ constexpr double least_telling_step = 0.2;
 constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
 // Where features take more than a twentieth on top of what is aimed at, their share is no better known.
 constexpr double little_share = 1.05, near_enough_with_features = 0.2;
-// A field with more leaves than this gives several times the count: it is not built to the end.
+// A field with more leaves than this gives several times the count: it is not built to the end. With fewer
+// than the least limit fields take so little that none is given up.
 constexpr double leaves_per_tetrahedron = 0.5;
-/// Nor is anything sampled for it where faces would be cut into as many parts for each of these leaves.
-constexpr double parts_per_leaf = 8;
 constexpr std::int64_t least_limit = 100'000;
+/// Leaves that a limit may be: more than any octree has.
+constexpr double most_limit = 1e15;
+/// Nothing is sampled either for a field whose faces would be cut into as many parts for each of the leaves
+/// of its limit.
+constexpr double parts_per_leaf = 8;
+/// Below this target fields that show the way have the sizes themselves: with few elements every leaf counts.
+/// Above it their sizes are so many times as large, with a 64th of the leaves.
+constexpr double few_tetrahedra = 300'000, usual_coarsening = 4;
 /// Of faces, for which a field is built without asking first how large it would be; chosen, not
 /// measured.
 constexpr double most_parts_unasked = 1e6;
-/// Of coarse fields that tell what each bound does: some ten million elements.
+/// Fields that tell what each bound does may predict ten million elements at least, whatever the target: what
+/// a bound costs shows there. Coarse ones have some 300,000 leaves then.
+constexpr double least_told = 1e7;
 constexpr std::int64_t most_coarse_leaves = 300'000;
+/// The error of a field that was given up.
+constexpr double far_too_many = 1e300;
 
 std::int64_t leaves_for(double tetrahedra) {
   return std::max<std::int64_t>(least_limit,
-                                std::llround(std::min(1e15, leaves_per_tetrahedron * tetrahedra)));
+                                std::llround(std::min(most_limit, leaves_per_tetrahedron * tetrahedra)));
 }
 
-/// How much larger sizes are than those wanted in fields that only show the way: with few elements every leaf
-/// counts.
+/// How much larger sizes are than those wanted in fields that only show the way.
 double coarsening(double target_tetrahedra) {
-  return target_tetrahedra < 300'000 ? 1 : 4;
+  return target_tetrahedra < few_tetrahedra ? 1 : usual_coarsening;
 }
 
-/// What a field predicts over what a coarser one does (median of seven models).
+/// How many tetrahedra a field predicts over what a coarser one does.
 double usual_bias(double coarser) {
-  return coarser > 1 ? 0.55 : 1;
+  constexpr double median_of_seven_models = 0.55;  // with sizes four times as large
+  return coarser > 1 ? median_of_seven_models : 1;
 }
 
 struct Preset {
@@ -115,7 +130,7 @@ public:
     double slope = first_slope;
     for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
       const double error = judge(std::exp(size), preset);
-      if (round > 0 && last_error < 1e300 && error < 1e300) {
+      if (round > 0 && last_error < far_too_many && error < far_too_many) {
         const bool is_flat =
             std::abs(error - last_error) < flat && std::abs(size - last_size) >= least_telling_step;
         if (is_flat && error > hopeless) break;
@@ -128,7 +143,7 @@ public:
       size -= std::clamp(error / slope, -largest_step, largest_step);
       if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
     }
-    if (_error == 1e300) {
+    if (_error == far_too_many) {
       _body_size = std::exp(finest);
       _options = sizes_for(_body_size, preset, _given);
     }
@@ -136,7 +151,7 @@ public:
 
   bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
   bool is_hopeless() const { return _error > hopeless; }
-  /// What came nearest to the target; the coarsest tried where all were far too fine.
+  /// The sizes that came nearest to the target; the coarsest tried where all were far too fine.
   const SizingOptions& options() const { return _options; }
   double body_size() const { return _body_size; }
   /// As options(), with the field: of a search by fields that are as fine as asked for.
@@ -188,7 +203,7 @@ private:
   FeatureShare _features;
   double _target;
   std::int64_t _most_leaves;
-  double _error = 1e300, _body_size = 0;
+  double _error = far_too_many, _body_size = 0;
   SizingOptions _options;
   std::optional<Trial> _best;
 };
@@ -309,7 +324,8 @@ std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& 
   const Preset preset = Preset::of(sampler.model());
   const double coarser = coarsening(chosen.counts.tetrahedra);
   const auto count = [&](const GivenSizes& these) {
-    const auto most = std::min(leaves_for(std::max(chosen.counts.tetrahedra, 1e7)), most_coarse_leaves);
+    const auto most =
+        std::min(leaves_for(std::max(chosen.counts.tetrahedra, least_told)), most_coarse_leaves);
     const double most_parts = parts_per_leaf * static_cast<double>(most) * coarser * coarser;
     if (sampler.has_more_parts(sizes_for(chosen.body_size, preset, these), most_parts))
       return std::optional<double>();

@@ -1,5 +1,5 @@
-/// Which sharp corners of faces are closed instead of being filled, and how far. What sizes and surface have
-/// to agree on.
+/// Which sharp corners of faces are closed instead of being filled, and how far: sizes and surface have to
+/// agree on it (docs/real_cad.md).
 #pragma once
 
 #include "aeroloom/cad/model/evaluation/face_corners.hpp"
@@ -7,23 +7,30 @@
 
 namespace aeroloom::sizing {
 
+/// Degrees below which a corner is closed where two faces lie beyond it, and where these meet already:
+/// closed, they would do so twice, so that only corners are that nothing can fill. The first leaves no
+/// triangle of less than 12 degrees in a corner, the second was chosen.
+inline constexpr double closed_between_two_faces = 12, closed_where_faces_meet = 3;
+
 /// A corner that opens by less than this many degrees is closed (surface/cusp_tips.hpp): one triangle that
-/// filled it would be a needle. Less where the faces beyond meet already: closed, they would do so twice.
+/// filled it would be a needle.
 inline double closing_angle(const cad::Model& model, const cad::FaceCorner& corner) {
   switch (cad::beyond_corner(model, corner)) {
     case cad::BeyondCorner::two_faces:
-      return 12;
+      return closed_between_two_faces;
     case cad::BeyondCorner::faces_that_meet:
-      return 3;
+      return closed_where_faces_meet;
     default:
       return 0;
   }
 }
 
-/// As far as their edges are apart by less than this. The mesh leaves the surface by half of it,
-/// by all of it beside an exact plane.
+/// Corners are closed as far as their edges are apart by less than this. The mesh leaves the surface by half
+/// of it, by all of it beside an exact plane: a twentieth of the smallest element is what joined narrow faces
+/// may leave too.
 inline double closing_gap(const SizingOptions& options) {
-  return 0.05 * options.minimum;
+  constexpr double share_of_minimum = 0.05;
+  return share_of_minimum * options.minimum;
 }
 
 }  // namespace aeroloom::sizing

@@ -24,15 +24,17 @@ using parallel::ScopedCpu;
 // Faces are on one another where they are nearer than this, of the body's extent, over this part of the
 // smaller one's area.
 constexpr double nearest_walls = 2e-5, least_part = 0.05;
-// And where what is between them is meshed, up to so much, if elements as small as they are near would be
-// more triangles on each of the two than any mesh can spare for one gap. A body as thin as that is only thin.
+// Faces with a meshed gap between them are on one another up to so much of the extent, if elements as small
+// as the gap would be more triangles on each of the two than any mesh can spare for one gap. A body as thin
+// as that is only thin.
 constexpr double nearest_in_gap = 2e-4, most_triangles_in_gap = 1e7;
 constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times the square of their edges
 // Walls that run together towards a common edge are no overlap: the distance over that to the edge, at most.
 constexpr double least_wedge = 1e-3;
-constexpr double least_cosine = 0.9;          // between normals, to either side
-constexpr double least_overlap = 1e-3;        // of two facets, over the area of the smaller one
-constexpr std::size_t places_looked_at = 16;  // of two faces, those of the largest overlaps
+// Chosen, not measured: the cosine between normals, to either side; the overlap of two facets over the area
+// of the smaller one; places of two faces, those of the largest overlaps, each of which takes a projection.
+constexpr double least_cosine = 0.9, least_overlap = 1e-3;
+constexpr std::size_t places_looked_at = 16;
 // Nodes of the tree that the search may visit: in all, shared out by facets, and for each face.
 constexpr double most_tree_nodes = 1e8;
 constexpr std::int64_t few_tree_nodes = 1000;
@@ -100,7 +102,7 @@ struct FacetPair {
   Overlap overlap;
 };
 
-/// What lies on one face.
+/// The faces that lie on one face.
 class FaceOverlaps {
 public:
   FaceOverlaps(const cad::Model& model, const Walls& walls, const std::vector<std::int32_t>& first_walls,
@@ -174,7 +176,7 @@ private:
     Nearness walls, gap;  ///< on either side, up to nearest_walls; where that is meshed, up to nearest_in_gap
   };
 
-  /// What lies on the other face, from what is found where their facets overlap most.
+  /// How far two faces lie on one another, judged where their facets overlap most.
   PairFindings measure(FaceId other, std::vector<FacetPair>& pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const FacetPair& a, const FacetPair& b) { return a.overlap.area > b.overlap.area; });

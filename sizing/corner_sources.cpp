@@ -8,16 +8,17 @@
 namespace aeroloom::sizing {
 namespace {
 
-/// Corners below this angle (degrees) have a triangle of their own; sources begin behind it.
+/// Corners below this angle (degrees) have a triangle of their own; sources begin behind it. Chosen, not
+/// measured.
 constexpr double sharp = 30;
-/// Distances from the corner at which sources are put follow each other by this ratio.
+/// Distances from the corner at which sources are put follow each other by this ratio. Chosen, not measured.
 constexpr double step = 1.15;
 /// Behind this many steps (a factor of a thousand) a corner is none any more.
 constexpr int most_steps = 50;
 
 /// A part of the shorter edge, so that there is something behind the corner.
 double nearest_reach(const cad::Model& model, const cad::FaceCorner& corner) {
-  constexpr double part = 0.25;
+  constexpr double part = 0.25;  // corners at both ends, and as much between them
   double shortest = std::numeric_limits<double>::max();
   for (const cad::EdgeId id : {corner.arriving.edge, corner.leaving.edge}) {
     const cad::Edge& edge = model.edge(id);
@@ -27,7 +28,8 @@ double nearest_reach(const cad::Model& model, const cad::FaceCorner& corner) {
   return part * shortest;
 }
 
-/// Seen from some distance.
+/// Seen from three distances: edges that are tangent at the corner part farther away, others only look sharp
+/// there.
 bool opens_by_less(const cad::Model& model, const cad::FaceCorner& corner, double degrees) {
   const double farthest = nearest_reach(model, corner);
   for (const double part : {1.0, 0.1, 0.01}) {

@@ -1,4 +1,5 @@
-// What sizes ask of the faces of a model, told by their facets alone, before anything is sampled for them.
+// The number of elements that sizes ask of the faces of a model, told by facets alone: sizes that would take
+// too long to sample are refused before that.
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/sizing/model_sampler.hpp"
 #include "parallel/observation/memory_limit.hpp"
@@ -17,8 +18,8 @@ using parallel::ScopedCpu;
 
 namespace {
 
-/// What the sizing and the surface take for each triangle, at least (the built-in aircraft with 67,224: 1,540
-/// and 1,090).
+/// Memory of the stages of sizes and surface for each triangle, at least (the built-in aircraft with 67,224:
+/// 1,540 and 1,090).
 constexpr double bytes_per_triangle = 200;
 
 }  // namespace
@@ -48,7 +49,7 @@ std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOpti
 }
 
 bool ModelSampler::has_more_parts(const SizingOptions& options, double most) {
-  constexpr double most_of_face = 1e15;
+  constexpr double most_of_face = 1e15;  // adding up must not overflow
   std::int64_t parts = 0;
   parallel::agree(_communicator, [&] {
     for (const auto& [face, seen] : look_over(options))

@@ -15,10 +15,14 @@
 namespace aeroloom::sizing {
 namespace {
 
+/// The finest size of a feature, over the minimum (docs/trailing_edges.md). Chosen, not
+/// measured.
 constexpr double finest_over_minimum = 1e-3;
-constexpr double finest_point = 0.05;    // of the minimum, at short edges and sharp corners
-constexpr double finest_over_gap = 0.5;  // of the widest gap that was sewn
-// Of the budget, by forecasts that are some percent too low where strips take most of a mesh.
+/// At short edges and sharp corners, over the minimum. Chosen, not measured.
+constexpr double finest_point = 0.05;
+/// Of the widest gap that was sewn: narrower features may be what sewing left. Chosen, not measured.
+constexpr double finest_over_gap = 0.5;
+// Of the budget: forecasts are 10 to 14 % too low where strips take most of a mesh (docs/trailing_edges.md).
 constexpr double aim = 0.9;
 // Values are tried on a logarithmic scale: steps of 4 %, up to a factor of a thousand.
 constexpr int steps_per_octave = 16, last_step = 160;
@@ -70,8 +74,8 @@ public:
   double finest_share() const { return _found == 0 ? _share : expected(0); }
 
 private:
-  static constexpr int most_lame_rounds = 2;
-  static constexpr double least_most = 1.01;
+  static constexpr int most_lame_rounds = 2;  // guesses that lead nowhere, before halves are tried
+  static constexpr double least_most = 1.01;  // a budget below it leaves features nothing
 
   double expected(int step) const { return 1 + _per_element * (_elements[step] - _elements.back()); }
 
@@ -211,7 +215,8 @@ FeatureShare share_of_features(ModelSampler& sampler, const SizingOptions& optio
   found.minimum = found.gap_floor = options.minimum;
   found.floor = std::min(options.minimum, std::max(finest_over_minimum * options.minimum,
                                                    finest_over_gap * sampler.model().sewn_gap()));
-  // Coarser fields have so many times fewer leaves, at most.
+  // A field that is so many times coarser has the cube of it fewer leaves where it is a volume's, and more
+  // where strips rule. Chosen, not measured.
   constexpr double slack = 4;
   const double leaves = std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves);
   const Counter count(sampler, coarser, std::llround(leaves));

@@ -22,9 +22,12 @@ namespace {
 /// Edge of a leaf over the size at its centre, at most, where no source lies in it: there h is a cone or a
 /// plane, which trilinear interpolation follows within a few percent.
 constexpr double leaf_edge_per_size = 2.0;
+/// Leaves before the division of coarse ones over the most there may be: a division makes eight of one.
+constexpr std::int64_t growth_by_division = 8;
 /// More sources, or leaves of the field to start from, are shared by several pages; chosen, not measured.
 constexpr std::int64_t cells_per_page = 500;
-/// Masters are not looked through for equal ones before there are so many.
+/// Masters are not looked through for equal ones before there are so many: to do so takes a sort of all.
+/// Chosen, not measured.
 constexpr std::size_t least_masters = 1 << 20;
 
 void require(bool holds, const char* what, double value) {
@@ -89,7 +92,8 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   if (_previous != nullptr) split_as_before();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  if (!split_where_coarse(SeedTree(_communicator, seeds_at_sources(), _slope), most_leaves / 8))
+  if (!split_where_coarse(SeedTree(_communicator, seeds_at_sources(), _slope),
+                          most_leaves / growth_by_division))
     return std::nullopt;
   _cells.balance();
   const Octree octree = grow_octree();

@@ -74,17 +74,17 @@ private:
   /// As the field that it starts from is.
   void split_as_before();
   std::vector<SizeSeed> seeds_at_sources() const;
-  /// Of those at one point the smallest, along the curve.
+  /// Keeps the smallest of the sizes at one point; points along the curve.
   static void keep_smallest(std::vector<PointSize>& sizes);
-  /// What hanging corners of leaves hang on, with the smallest size that the sources of this rank ask for in
-  /// such leaves.
+  /// Corners that hanging corners of leaves hang on, with the smallest size that the sources of this rank ask
+  /// for in those leaves.
   std::vector<PointSize> sizes_at_masters(const Octree& octree) const;
   /// The tree of the sources' cells and of those.
   SeedTree plant_seeds(const Octree& octree) const;
   Octree grow_octree() const;
   /// False where that would take more cubes than that.
   bool split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes);
-  /// What no size may exceed at a point.
+  /// The bound that no size may exceed at a point.
   double bound_at(GridPoint p) const;
   std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;
   SizeField finish(const Octree& octree, std::vector<float> own_corner_sizes) const;

@@ -6,6 +6,7 @@
 namespace aeroloom::sizing {
 namespace {
 
+/// Two levels at once: half as many steps as with one, for a table of 256 bytes at each node.
 constexpr std::size_t branches = 64;
 
 /// The level of the branches that a cell consists of, or is.

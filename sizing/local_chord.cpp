@@ -18,7 +18,7 @@ struct SectionPlane {
   Vec3 origin, normal, forward;
 };
 
-/// What a section has between two places ahead of the edge.
+/// A part of a section between two places ahead of the edge.
 struct Piece {
   double first, last;  ///< ahead, first <= last
   Vec3 end;            ///< the point farther ahead
@@ -71,6 +71,7 @@ Section section_of(const Skin& skin, const SectionPlane& plane, double width) {
 }  // namespace
 
 double local_chord(const Skin& skin, const ChordPlace& at) {
+  // Planes tilted by up to 40 degrees either way: edges are swept (docs/trailing_edges.md).
   constexpr int tilts = 4;
   constexpr double step = 10 * std::numbers::pi / 180;
   const Vec3 ahead = normalized(at.into - dot(at.into, at.along) * at.along);

@@ -15,7 +15,7 @@ struct ChordPlace {
   double width = 0;            ///< of the edge
 };
 
-/// What a body is covered by around its trailing edge.
+/// The facets that cover a body around its trailing edge.
 struct Skin {
   std::vector<Triangle> facets;
   std::vector<std::array<geometry::Vec3, 2>> border;  ///< segments where it ends: tips, roots

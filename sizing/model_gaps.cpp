@@ -17,19 +17,26 @@ using cad::FaceId;
 using parallel::ScopedCpu;
 
 // Gaps that are looked for, and the shortest edge of the facets rays start from, as parts of the body's
-// extent.
+// extent. Chosen, not measured.
 constexpr double narrow_gap = 20, finest_gap = 400;
-// How many rays all faces together may take, about.
+// How many rays all faces together may take, about. This bound and those below are listed in docs/bounds.md;
+// chosen, not measured.
 constexpr double most_rays = 2e6;
-// And those that look closer at open gaps.
+// Rays that look closer at open gaps, besides.
 constexpr std::int64_t most_close_rays = 600'000;
 // Nodes of trees that all searches may visit: rays of all faces, and those that look closer.
 constexpr std::int64_t most_nodes = 300'000'000, most_close_nodes = 100'000'000;
 // How often what some faces leave of that is given to those that need more, and the least part of it that is
-// worth it.
+// worth it. docs/bounds.md has what that comes to; chosen, not measured.
 constexpr int most_deals = 4, most_close_deals = 8;
 constexpr double least_deal = 0.02;
+/// Shares of nodes are whole numbers, of which so many are all: a face with a millionth still has millions.
 constexpr double all_shares = 3e12;
+/// Rays that are farther apart than this many times the finest that is wanted are told of. Chosen, not
+/// measured.
+constexpr double coarser_than_wanted = 1.5;
+/// In place of an area of nothing.
+constexpr double least_area = 1e-300;
 
 /// The shortest edge of the facets that rays start from, where all faces would need it.
 double finest_facet(double extent, double area) {
@@ -151,7 +158,7 @@ void ModelSampler::measure_gaps(Notes notes) {
       if (!_model.is_far_field(f)) area += _areas[f], ++count;
     }
     const double finest = finest_facet(extent, area);
-    if (notes == Notes::tell && _layers > 0 && finest > 1.5 * extent / finest_gap) {
+    if (notes == Notes::tell && _layers > 0 && finest > coarser_than_wanted * extent / finest_gap) {
       parallel::log_info(
           fmt::format("sizing: gaps are looked for every {:.3g} of the surface; finer looking would take too "
                       "many rays",
@@ -165,7 +172,7 @@ void ModelSampler::measure_gaps(Notes notes) {
       searches.push_back({face.id,
                           &*face.gaps,
                           {_model, face.id, face.facets, *_walls, limits},
-                          share_of_face(count, _areas[face.id] / std::max(area, 1e-300),
+                          share_of_face(count, _areas[face.id] / std::max(area, least_area),
                                         static_cast<double>(face.facets.triangles.size()) / all_facets)});
     }
   });

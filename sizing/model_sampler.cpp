@@ -36,7 +36,8 @@ std::vector<double> measure_faces(const parallel::Communicator& communicator, co
   return areas;
 }
 
-/// What sampling a face costs: a share for each face, and its share of the body's area.
+/// Loads by which faces are distributed for sampling: a share for each face, and its share of the body's
+/// area.
 std::vector<double> predict_sampling_loads(const std::vector<bool>& far_field,
                                            const std::vector<double>& areas) {
   double body_area = 0;
@@ -59,7 +60,7 @@ constexpr double finest_strip = 0.01;
 constexpr double aspect_of_parts = 8;
 constexpr double largest_aspect = 1e30;  // finite, for widths of nothing
 
-/// What walls opposite to each other ask for.
+/// Sources in gaps and thin bodies.
 std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& options) {
   std::vector<SizeSource> sources;
   for (const Gap& gap : gaps.seen) {

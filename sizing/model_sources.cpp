@@ -13,9 +13,11 @@ using geometry::Vec3;
 
 /// Facets that samples start from: a fillet that turns less than this is seen by its neighbours.
 constexpr double facet_angle = 20 * std::numbers::pi / 180;
-constexpr double facet_deflection = 1e-3;      ///< over the diagonal of the body
-constexpr double far_facet_deflection = 5e-3;  ///< over the diagonal of everything
-constexpr int first_intervals = 8;             ///< of each smooth part of an edge
+/// Over the diagonal of the body, and over that of everything for the far field, which has no details.
+/// Chosen, not measured: samples are refined by sizes afterwards.
+constexpr double facet_deflection = 1e-3, far_facet_deflection = 5e-3;
+/// Of each smooth part of an edge, so that bisection misses no bend between two samples of equal size.
+constexpr int first_intervals = 8;
 
 struct EdgeSample {
   double parameter;

@@ -18,7 +18,11 @@ using cad::Model;
 using cad::no_entity;
 using geometry::Vec3;
 
-constexpr double largest_turn = 20;  // degrees
+/// Degrees by which a face turns into the neighbour that it is joined with, at most: a crease that turns more
+/// is a feature that elements are to follow. Chosen, not measured.
+constexpr double largest_turn = 20;
+/// A face without normals at its border counts as turning by this much: none goes on smoothly in it.
+constexpr double half_turn = 180;
 
 /// An exact plane stays one: it joins its like alone.
 bool may_join(const Model& model, FaceId a, FaceId b) {
@@ -50,7 +54,7 @@ double deviation_of(double width, double degrees) {
   return degrees < 90 ? width * std::sin(degrees * std::numbers::pi / 180) : width;
 }
 
-/// What lies between a narrow face and one neighbour.
+/// The common border of a narrow face and one neighbour.
 struct Border {
   double length = 0, degrees = 0;
   Vec3 place;
@@ -91,9 +95,9 @@ std::optional<NarrowFace> examine(const Model& model, FaceId face, double width,
 }  // namespace
 
 double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
-  constexpr int samples = 16;
+  constexpr int samples = 16;  // along an edge; chosen, not measured
   const auto first = use_of(model, a, id), second = use_of(model, b, id);
-  if (!first || !second) return 180;
+  if (!first || !second) return half_turn;
   const cad::Edge& edge = model.edge(id);
   double largest = 0;
   for (int i = 0; i < samples; ++i) {
@@ -101,7 +105,7 @@ double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
         edge.first_parameter + (i + 0.5) / samples * (edge.last_parameter - edge.first_parameter);
     const Vec3 n = model.face_frame(a, model.edge_uv(a, *first, t)).normal;
     const Vec3 m = model.face_frame(b, model.edge_uv(b, *second, t)).normal;
-    if (!(norm(n) > 0 && norm(m) > 0)) return 180;
+    if (!(norm(n) > 0 && norm(m) > 0)) return half_turn;
     largest = std::max(largest, std::atan2(norm(cross(n, m)), dot(n, m)) * 180 / std::numbers::pi);
   }
   return largest;

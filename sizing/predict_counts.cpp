@@ -18,11 +18,11 @@ constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
 // Times 1/h^3: what meshes of ten models have on average, with edges of 0.98 h. Regular tetrahedra of edges h
 // would be 6 sqrt(2) = 8.5 if they filled space, those of a body-centred lattice are 9.1.
 constexpr double tetrahedra_per_volume = 11.3;
-constexpr double facet_per_size = 3;         // edge of a part of a facet that one value of h stands for
-constexpr double needle_per_element = 1e-3;  // area of a facet that is not cut, over the square of h
-constexpr double cube_per_size = 1;          // edge of a cube on the boundary that one value of h stands for
-constexpr int deepest_subdivision = 8;
-constexpr std::int64_t leaves_per_task = 1024;
+// Chosen, not measured: edges, over h, of a part of a facet and of a cube on the boundary that one value of h
+// stands for; area, over its square, of a facet that is not cut.
+constexpr double facet_per_size = 3, cube_per_size = 1, needle_per_element = 1e-3;
+constexpr int deepest_subdivision = 8;          // halvings; chosen, not measured
+constexpr std::int64_t leaves_per_task = 1024;  // chosen, not measured
 
 /// Whether there is room for next to nothing of an element, by the sizes in the middle and at the corners.
 /// Facets of a face whose edges are cut finely may be needles along these by the ten thousand.
@@ -94,9 +94,9 @@ private:
     SizeField::Leaf leaf;
     bool inside;
   };
-  static constexpr std::size_t remembered_leaves = 16;
-  static constexpr int levels_around = 3;  // above a leaf: the largest of the cubes
-  static constexpr double margin = 1e-9;   // of the edge
+  static constexpr std::size_t remembered_leaves = 16;  // neighbours ask for the same; chosen, not measured
+  static constexpr int levels_around = 3;  // above a leaf: the largest of the cubes; chosen, not measured
+  static constexpr double margin = 1e-9;   // of the edge: a facet in a side of a cube touches it
 
   static double cube(double x) { return x * x * x; }
 
@@ -125,7 +125,8 @@ private:
   }
 
   static int levels_between(const SizeField::Leaf& above, const SizeField::Leaf& below) {
-    return std::ilogb(1.5 * above.edge / below.edge);
+    constexpr double above_rounding = 1.5;  // edges are powers of two times the root's, rounded
+    return std::ilogb(above_rounding * above.edge / below.edge);
   }
 
   struct Surroundings {

@@ -16,10 +16,18 @@ namespace {
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr double facing = -0.5;          // largest cosine between normals of walls that face each other
-constexpr double edge_per_size = 4;      // of facets that one ray stands for
-constexpr double wedge_slenderness = 8;  // distance to the common edge over the gap
+/// The largest cosine between normals of walls that face each other: within 60 degrees of opposite. Chosen,
+/// not measured.
+constexpr double facing = -0.5;
+/// The edge of facets that one ray stands for, over the size there. Chosen, not measured.
+constexpr double edge_per_size = 4;
+/// The distance to the common edge over the gap, below which walls are a wedge: they meet at more than 7
+/// degrees. Chosen, not measured.
+constexpr double wedge_slenderness = 8;
+/// Halvings of a facet; chosen, not measured.
 constexpr int deepest_edge_split = 24;
+/// Rays that can be counted: more than any field has.
+constexpr double most_counted = 1e15;
 // Walls that meet in an edge run together where the gap, at their angle, closes within so many times the way
 // to it.
 constexpr double closing_reach = 2;
@@ -30,11 +38,11 @@ constexpr double middle_off_facet = 0.25;
 // over the accuracy, and over what facets are off by: where that is far more they are no guide to what is
 // opposite.
 constexpr double gap_over_error = 2, accuracy = 1e-5, surface_gap_over_error = 0.25;
-// What a projection on a surface counts, by the time it takes.
+// A projection on a surface takes as long as visiting so many nodes of a tree.
 constexpr std::int64_t nodes_per_projection = 100;
-// Parts that are so many times as long as gaps ask for were hardly looked at.
+// Parts that are so many times as long as gaps ask for were hardly looked at. Chosen, not measured.
 constexpr double coarse_look = 8;
-constexpr std::int64_t looks_per_beat = 4096;
+constexpr std::int64_t looks_per_beat = 4096;  // between signs of life; chosen, not measured
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 Vec3 unit_normal(const Triangle& t) {
@@ -126,7 +134,7 @@ public:
   }
 
 private:
-  /// What is looked at next: the longest part for its gap, the first one of several.
+  /// The part that is looked at next: the longest for its gap, the first one of several.
   struct Narrow {
     Gaps::Part part;
     double coarseness;
@@ -206,7 +214,7 @@ private:
     return {std::min(ahead.gap, behind.gap), std::min(ahead.open, behind.open)};
   }
 
-  /// What a crossing means, on a side that is meshed or not. The direction is that of the ray.
+  /// Whether a crossing is a gap, on a side that is meshed or not. The direction is that of the ray.
   Seen judge(const RayTree::Crossing& crossing, Vec3 from, Vec3 direction, std::int32_t facet, bool meshed) {
     if (crossing.triangle < 0) return {};
     const Wall& wall = _walls.facets[crossing.triangle];
@@ -339,7 +347,7 @@ std::int64_t count_rays(const Gaps& gaps, double layers) {
     const double edge = edge_per_gap(layers) * part.gap;
     rays += rays_per_area * area(part.triangle) / (edge * edge);
   }
-  return std::llround(std::min(rays, 1e15));
+  return std::llround(std::min(rays, most_counted));
 }
 
 }  // namespace aeroloom::sizing

@@ -11,7 +11,7 @@ namespace {
 
 /// Sizes that differ by rounding alone.
 bool is_same(double a, double b) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9;  // relative
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
 }
 

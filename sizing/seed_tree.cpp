@@ -28,7 +28,7 @@ float round_down(double value) {
 /// largest cubes: boxes of parts on both sides of one would be far larger.
 template <class Visit>
 void part_by_boundaries(const std::vector<std::uint64_t>& keys, const Visit& visit) {
-  constexpr std::size_t most = 8, least = 4;
+  constexpr std::size_t most = 8, least = 4;  // seeds; chosen, not measured
   const auto boundary = [&](std::size_t i) { return std::bit_width(keys[i] ^ keys[i - 1]); };
   for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
     last = std::min(first + most, keys.size());

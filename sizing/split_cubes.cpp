@@ -93,7 +93,7 @@ void SplitCubes::balance() {
     const auto split_neighbours = [&](std::uint64_t parent, std::uint32_t wanted) {
       split_around(parent, level - 1, wanted);
     };
-    // What holds several pages every rank knows, and sees to its own.
+    // Cubes that hold several pages are known to every rank, and each sees to its own pages.
     for_each_parent(_above[level], split_neighbours);
     _of_others.clear();
     for_each_parent(_cells[level], split_neighbours);

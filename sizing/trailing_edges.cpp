@@ -13,9 +13,13 @@ namespace {
 using cad::FaceId;
 using Kind = cad::BluntEdgeFinding::Kind;
 
-constexpr double largest_kink = 50;  // degrees: a skin goes on beyond an edge, but for tips and noses
+/// Degrees: a skin goes on beyond an edge that turns by less, but for tips and noses
+/// (docs/trailing_edges.md).
+constexpr double largest_kink = 50;
+/// A skin of more faces is cut off. Chosen, not measured.
 constexpr std::size_t most_faces_of_skin = 64;
-constexpr double least_end_share = 0.5;  // of the chord near by, at an end
+/// Of the chord near by, at an end of an edge: less is a section through a tip. Chosen, not measured.
+constexpr double least_end_share = 0.5;
 
 /// The faces on both sides of a strip and those that go on from them, over kinks.
 std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
@@ -46,7 +50,7 @@ std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
 
 /// Facets of those faces, and their border but for the strip itself.
 Skin cover(const ModelSampler& sampler, const std::set<FaceId>& faces, FaceId strip) {
-  constexpr int intervals = 32;
+  constexpr int intervals = 32;  // of each edge of a border; chosen, not measured
   const cad::Model& model = sampler.model();
   Skin skin;
   for (const Wall& wall : sampler.walls().facets) {

@@ -14,8 +14,9 @@ using geometry::orient2d;
 using geometry::Vec2;
 using geometry::Vec3;
 
-constexpr std::int32_t triangles_per_leaf = 4;
-constexpr std::size_t most_candidates = 512;  // that are looked at one by one
+constexpr std::int32_t triangles_per_leaf = 4;  // chosen, not measured
+constexpr std::size_t most_candidates = 512;    // that are looked at one by one; chosen, not measured
+constexpr double least_length = 1e-300;         // in place of one of nothing, to divide by
 
 Box box_of(const Triangle& t) {
   Box box;
@@ -27,7 +28,10 @@ Box box_of(const Triangle& t) {
 // triangle is wide: one box would hold far more than the triangle (early split clipping; Ernst and Greiner,
 // Symposium on Interactive Ray Tracing, 2007, doi:10.1109/RT.2007.4342593).
 constexpr double most_boxes = 16, box_over_width = 4;
-constexpr double slack = 1e-9;  // of a box, over the triangle's length
+constexpr double slack = 1e-9;  // of a box, over the triangle's length: points of its edges are rounded
+/// Two squared distances are equal, and one is not less than another that is computed through a product of
+/// normals: what rounding leaves, with some digits to spare.
+constexpr double equal = 1e-9, not_less = 1e-8;
 
 /// The boxes of a triangle: of its parts along its longest edge where it is slender.
 void add_boxes(const Triangle& t, std::vector<Box>& boxes) {
@@ -38,7 +42,8 @@ void add_boxes(const Triangle& t, std::vector<Box>& boxes) {
   const Vec3 size = whole.size();
   const double second =
       size.x + size.y + size.z - std::max({size.x, size.y, size.z}) - std::min({size.x, size.y, size.z});
-  const double parts = std::floor(std::min(most_boxes, length / std::max(box_over_width * height, 1e-300)));
+  const double parts =
+      std::floor(std::min(most_boxes, length / std::max(box_over_width * height, least_length)));
   if (parts < 2 || second < box_over_width * height) {
     boxes.push_back(whole);
     return;
@@ -217,20 +222,20 @@ double TriangleTree::share_behind(Vec3 low, double edge, std::span<const std::in
     const Triangle& t = _triangles[i];
     // No triangle is nearer than its plane.
     const double over = dot(_normals[i], middle - t[0]);
-    if (over * over > nearest * (1 + 1e-8) * dot(_normals[i], _normals[i])) continue;
+    if (over * over > nearest * (1 + not_less) * dot(_normals[i], _normals[i])) continue;
     const double square = squared_distance(middle, t, _normals[i]);
-    if (square > nearest * (1 + 1e-9)) continue;
+    if (square > nearest * (1 + equal)) continue;
     const Vec3 normal = geometry::normalized(_normals[i]);
     const double height = dot(normal, middle - t[0]);
     // Where two facets meet at the nearest place, the one seen more directly tells the side.
-    const bool tie = square >= nearest * (1 - 1e-9);
+    const bool tie = square >= nearest * (1 - equal);
     if (!tie || std::abs(height) > std::abs(side)) side = height, direction = normal;
     nearest = std::min(nearest, square);
   }
   // A facet that is seen past its border is farther away than its plane.
   const double away = std::copysign(std::sqrt(nearest), side);
   const double width = edge * (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
-  return std::clamp(0.5 - away / std::max(width, 1e-300), 0.0, 1.0);
+  return std::clamp(0.5 - away / std::max(width, least_length), 0.0, 1.0);
 }
 
 }  // namespace aeroloom::sizing

@@ -1,4 +1,4 @@
-/// What one run has cost, by stages and by tasks: what a replay on other numbers of ranks goes by.
+/// The costs of one run, by stages and by tasks: what a replay on other numbers of ranks goes by.
 #pragma once
 
 #include "aeroloom/parallel/communication/message_counts.hpp"
@@ -30,7 +30,7 @@ struct TaskGroup {
   std::vector<TaskCost> tasks = {};  ///< by number
 };
 
-/// What ranks of one stage exchanged: what was asked for, and what left its rank.
+/// Exchanges between ranks in one stage: those asked for, and what left its rank.
 struct StageExchanges {
   parallel::ExchangeCounts asked;
   parallel::MessageCounts sent;  ///< of all ranks together; nothing in a record of one rank

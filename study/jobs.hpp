@@ -27,8 +27,8 @@ void write_jobs(const StudyRecord& record, const JobOptions& options,
 /// The folder of results that jobs written into `folder` have. Throws std::runtime_error.
 std::filesystem::path results_of_jobs(const std::filesystem::path& folder);
 
-/// What sacct says of the jobs that submit.sh and the jobs themselves have noted, by names of runs; where it
-/// does not answer, what the queue wrote last into what the job printed (that a node failed, that time was
+/// The word of sacct on the jobs that submit.sh and the jobs themselves have noted, by names of runs; where
+/// it does not answer, what the queue wrote last into what the job printed (that a node failed, that time was
 /// over).
 std::map<std::string, std::string> ask_queue(const std::filesystem::path& folder);
 

@@ -33,8 +33,8 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
     text.replace(at, what.size(), by);
 }
 
-/// What a launcher told this process of its own place, or how a process without a launcher starts: not for
-/// others.
+/// Whether a variable tells this process of its own place under a launcher, or how to start without one:
+/// others must not inherit it.
 bool is_of_this_process(const std::string& variable) {
   constexpr std::array<std::string_view, 9> beginnings{"OMPI_COMM_WORLD_",
                                                        "OMPI_UNIVERSE_",
@@ -104,7 +104,7 @@ public:
 };
 
 void ask_then_kill(pid_t group) {
-  constexpr int rounds = 50;
+  constexpr int rounds = 50;  // five seconds between being asked and being killed
   constexpr std::chrono::milliseconds step(100);
   ::kill(-group, SIGTERM);
   for (int round = 0; round < rounds && ::kill(-group, 0) == 0; ++round) std::this_thread::sleep_for(step);

@@ -17,7 +17,7 @@ struct Launcher {
   std::string line(int ranks, int nodes, const std::vector<std::string>& command) const;
 };
 
-/// What the user gave, else srun within a job of SLURM, else mpirun on this machine. Throws
+/// The launcher that the user gave, else srun within a job of SLURM, else mpirun on this machine. Throws
 /// std::invalid_argument for a pattern without {command} or {ranks}.
 Launcher make_launcher(const std::string& pattern);
 

@@ -14,7 +14,7 @@ namespace aeroloom::study {
 
 namespace {
 
-/// What stands behind the first line that begins with `key`, and a colon.
+/// The value behind `key` and a colon, of the first line that begins with them.
 std::string value_of(const char* file, const std::string& key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

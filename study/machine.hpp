@@ -1,4 +1,4 @@
-/// What a study ran on.
+/// The machine that a study ran on.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 enum class Series { serial, strong, weak };
 std::string_view name_of(Series series);
 
-/// What the user asks for.
+/// The study that the user asks for.
 struct StudyOptions {
   std::string program;                 ///< its path
   std::string case_file;               ///< absolute
@@ -40,7 +40,7 @@ struct RunSpec {
   std::string name() const;  ///< "strong_4_2"; also of its folder
 };
 
-/// What multiplies the elements of a case by a factor: settings of keys.
+/// Settings of keys that multiply the elements of a case by a factor.
 struct WeakScale {
   int ranks = 1;
   std::vector<std::string> settings;
@@ -57,7 +57,7 @@ std::filesystem::path folder_of(const std::filesystem::path& directory, const Ru
 Json to_json(const RunSpec& run);
 RunSpec run_of(const Json& json);
 
-/// What the folder of a study remembers. `subject` tells apart what must not be mixed: the case without where
+/// The memory of a study in its folder. `subject` tells apart what must not be mixed: the case without where
 /// results go, as lines.
 struct StudyRecord {
   StudyOptions options;

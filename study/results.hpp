@@ -1,4 +1,4 @@
-/// What the runs of a study have left: their marks, their reports, and the figures that are compared.
+/// Marks and reports that the runs of a study have left, and the figures that are compared.
 #pragma once
 
 #include "study/plan.hpp"
@@ -39,7 +39,7 @@ struct StageFigures {
   double tasks_mean = 0, tasks_max = 0;  ///< CPU seconds of tasks
 };
 
-/// What a finished run is compared by. Memory in bytes.
+/// The figures by which finished runs are compared. Memory in bytes.
 struct RunFigures {
   double wall = 0, busy = 0, serial = 0, waiting = 0;
   double imbalance = 1;  ///< CPU of tasks: busiest rank over the mean, summed over stages

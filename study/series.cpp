@@ -17,7 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double near_enough = 0.02;  // of the elements that a rank is to have
-constexpr int most_forecasts = 8;
+constexpr int most_forecasts = 8;     // each takes as long as the stage of sizes; chosen, not measured
+// Of the logarithm of the count over that of lengths: a surface's is -2, a volume's -3; outside of the bounds
+// it is noise.
+constexpr double first_slope = -2.5, steepest_slope = -4, flattest_slope = -1;
 constexpr double uneven = 1.25;  // elements per rank over those of the smallest number of ranks
 
 void add_settings(std::vector<std::string>& words, const std::vector<std::string>& settings) {
@@ -37,12 +40,12 @@ std::vector<std::string> scaled(const CaseSize& size, double factor) {
 /// Lengths for `wanted` elements: as many are lost per logarithm of length as the last two forecasts tell.
 std::vector<std::string> find_lengths(const StudyOptions& options, const CaseSize& size, double wanted,
                                       double factor, double made) {
-  double slope = -2.5;  // between a surface and a volume
+  double slope = first_slope;
   for (int round = 0; round < most_forecasts && std::abs(made / wanted - 1) > near_enough; ++round) {
     const double next = factor * std::exp(std::log(wanted / made) / slope);
     const double then = forecast_case(options, scaled(size, next)).tetrahedra;
     const double measured = std::log(then / made) / std::log(next / factor);
-    if (std::isfinite(measured)) slope = std::clamp(measured, -4.0, -1.0);
+    if (std::isfinite(measured)) slope = std::clamp(measured, steepest_slope, flattest_slope);
     factor = next;
     made = then;
   }
@@ -116,7 +119,7 @@ std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize&
 void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
                const std::function<void(const std::string&)>& tell) {
   const StudyOptions& options = record.options;
-  constexpr double busy = 0.5;
+  constexpr double busy = 0.5;  // of a core that others use; chosen, not measured
   double load = 0;
   if (std::ifstream("/proc/loadavg") >> load && load > busy)
     tell(fmt::format("this machine is busy, its load is {:.1f}: seconds will tell of that, too", load));

@@ -14,7 +14,7 @@
 
 namespace aeroloom::study {
 
-/// What `check` predicts of a case.
+/// The prediction of `check` for a case.
 struct Forecast {
   double tetrahedra = 0, seconds = 0, bytes = 0;
 };
@@ -23,7 +23,7 @@ struct Forecast {
 /// fails.
 Forecast forecast_case(const StudyOptions& options, const std::vector<std::string>& settings);
 
-/// What a case says of its size: a target, or lengths that hold.
+/// The size that a case asks for: a target, or lengths that hold.
 struct CaseSize {
   std::optional<double> target;
   std::vector<std::pair<std::string, double>> lengths;  ///< keys and values, without a target

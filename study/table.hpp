@@ -29,7 +29,7 @@ struct SeriesRow {
 std::vector<SeriesRow> make_rows(const StudyRecord& record, const std::vector<RunResult>& runs,
                                  const Machine& machine);
 
-/// What is beside the page: keys are stable within a schema_version.
+/// The JSON beside the page: keys are stable within a schema_version.
 Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs,
                 const std::vector<SeriesRow>& rows, const Machine& machine);
 /// A line for each run, with a head.

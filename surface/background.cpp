@@ -19,11 +19,12 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 using geometry::degree;
-/// Of curves and of the surface along an edge of the background.
+/// Of curves and of the surface along an edge of the background. Chosen, not measured.
 constexpr double largest_turn = 30 * degree;
-/// But no edge is shorter than so many fine ones for that.
+/// Edges of the background are as long as so many fine ones at least, however much the surface turns: a
+/// coarser mesh is its point.
 constexpr double fine_edges = 2;
-constexpr int smoothing_sweeps = 3;
+constexpr int smoothing_sweeps = 3;  // it carries cuts, it is no mesh: a few do
 /// Facets of the support turn less than this: edges between points whose normals differ by more are divided,
 /// in so many rounds.
 constexpr double facet_turn = 12 * degree;
@@ -41,7 +42,7 @@ public:
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       const cad::SurfaceFrame frame = model.face_frame(mesh.face, mesh.uv[v]);
       const double u = norm(frame.du), v_length = norm(frame.dv);
-      constexpr double vanishing = 1e-6;  // one derivative next to the other
+      constexpr double vanishing = 1e-6;  // one derivative next to the other; at a pole; chosen, not measured
       _collapsed[v] = {u <= vanishing * v_length, v_length <= vanishing * u};
     }
   }

@@ -42,8 +42,11 @@ public:
       Vec3 p[3];
       for (int i = 0; i < 3; ++i) p[i] = points[i] == gone ? target : _support.points[points[i]];
       const Vec3 after = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
-      // It may tilt by 45 degrees, not more, and must keep some area.
-      if (dot(before, after) < 0.7 * norm(before) * norm(after) || norm(after) < 1e-3 * norm(before))
+      // A triangle may tilt by 45 degrees, not more, or parameters fold; and must keep some area, or no
+      // normal is left.
+      constexpr double least_cosine = 0.7, least_area = 1e-3;
+      if (dot(before, after) < least_cosine * norm(before) * norm(after) ||
+          norm(after) < least_area * norm(before))
         return false;
     }
     for (const std::int32_t t : _around[gone]) {

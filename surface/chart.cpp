@@ -26,9 +26,11 @@ constexpr double acceptable_fold = 1e-4, bearable_fold = 1e-3;
 constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
 /// A flat domain may exceed the limits of stretch and scale so often before it is split.
 constexpr double endurable_excess = 2;
-/// A domain below this area, in squares of the size, is not split any further.
+/// A domain below this area, in squares of the size, is not split any further. Any map does for them.
 constexpr double few_elements = 4;
+/// Of the map that keeps triangles as rigid as may be; each lowers its energy. Chosen, not measured.
 constexpr int rigid_steps = 15;
+/// 16,384 charts of a face: a face that asks for more has no sensible normals (docs/bounds.md).
 constexpr int deepest_split = 14;
 
 struct Candidate {

@@ -56,6 +56,9 @@ private:
   geometry::PlaneGrid _grid;
 };
 
+/// Bounds on how a chart may distort triangles. The front meshes the plane with sizes that the map has
+/// scaled: stretch it cannot undo, and an equilateral triangle that is stretched by 1.5 has angles of 42
+/// degrees and more. Chosen, not measured.
 struct ChartLimits {
   double stretch = 1.5;    ///< largest ratio of singular values of the map, on all but 1 % of the area
   double scale_ratio = 8;  ///< largest ratio of scales within a chart

@@ -11,6 +11,7 @@ using geometry::Vec2;
 
 /// Weights above minus this count as inside: a point on an edge belongs to either triangle.
 constexpr double inside_tolerance = 1e-9;
+/// Triangles; beyond, the grid finds the point sooner. Chosen, not measured.
 constexpr int longest_walk = 24;
 
 double segment_distance(Vec2 p, Vec2 a, Vec2 b) {

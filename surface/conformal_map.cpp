@@ -20,8 +20,10 @@ using Entry = Eigen::Triplet<double>;
 
 /// Cotangents of flatter angles are cut off: slivers must not rule the system.
 constexpr double largest_cotangent = 1e5;
+constexpr double least_across = 1e-300;  // in place of a length of nothing, to divide by
 /// Keeps the systems regular: translations (and, on developable patches, similarities) cost nothing.
 constexpr double regularisation = 1e-9;
+/// Each brings the eigenvector nearer by the ratio of the two smallest eigenvalues; chosen, not measured.
 constexpr int inverse_iterations = 12;
 
 /// Half the cotangents of a triangle's angles, by corner.
@@ -33,7 +35,7 @@ std::array<double, 3> half_cotangents(const Support& support, const std::array<s
                b = support.points[triangle[(i + 2) % 3]] - apex;
     const double along = dot(a, b), across = norm(cross(a, b));
     const double limit = largest_cotangent * across;
-    result[i] = 0.5 * (std::abs(along) <= limit ? along / std::max(across, 1e-300)
+    result[i] = 0.5 * (std::abs(along) <= limit ? along / std::max(across, least_across)
                                                 : std::copysign(largest_cotangent, along));
   }
   return result;

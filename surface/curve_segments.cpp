@@ -14,7 +14,7 @@ int least_of_edge(const Model& model, const EdgeMeasure& measure) {
   const cad::Edge& edge = model.edge(measure.edge);
   if (edge.first != edge.last) return 1;
   constexpr double three_quarters = 4.7;  // of a full turn: a triangle is a poor circle, but fits a teardrop
-  return measure.turning > three_quarters ? 4 : 3;
+  return measure.turning > three_quarters ? least_of_loop + 1 : least_of_loop;
 }
 
 /// Leaves one single segment, the straightest, among the edges that join the same two vertices.
@@ -54,7 +54,7 @@ void close_loops(const Model& model, const std::vector<double>& lengths, std::ve
         if (segments[use.edge] == 0) continue;
         if (longest == cad::no_entity || lengths[use.edge] > lengths[longest]) longest = use.edge;
       }
-      if (longest != cad::no_entity && total < 3) segments[longest] += 3 - total;
+      if (longest != cad::no_entity && total < least_of_loop) segments[longest] += least_of_loop - total;
     }
   }
 }
@@ -67,7 +67,7 @@ std::vector<int> count_segments(const Model& model, std::vector<EdgeMeasure> mea
   std::vector<int> segments(model.edge_count(), 0);
   std::vector<double> lengths(model.edge_count(), 0);
   for (const EdgeMeasure& measure : measures) {
-    const double wanted = std::min(std::round(measure.metric_length), 1e8);
+    const double wanted = std::min(std::round(measure.metric_length), most_segments);
     segments[measure.edge] = std::max(least_of_edge(model, measure), static_cast<int>(wanted));
     lengths[measure.edge] = measure.length;
   }

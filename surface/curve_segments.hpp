@@ -8,7 +8,13 @@
 
 namespace aeroloom::surface {
 
-/// What decides on the segments of a constraining edge.
+/// Segments of a loop, at least: two between the same two vertices would be one edge of a triangle.
+inline constexpr int least_of_loop = 3;
+/// Segments of a curve, at most: a count must not overflow before a message says that so many fit in no
+/// memory.
+inline constexpr double most_segments = 1e8;
+
+/// Measures of a constraining edge that decide how many segments it gets.
 struct EdgeMeasure {
   cad::EdgeId edge;
   double metric_length;  ///< integral of ds/h

@@ -71,7 +71,7 @@ MetricLength metric_length(const Model& model, const sizing::SizeField& field, E
 
 /// A cheap guess of the segments of an edge, as its load.
 double estimate_load(const Model& model, const sizing::SizeField& field, EdgeId id) {
-  constexpr int chords = 8;
+  constexpr int chords = 8;  // rough: loads are dealt by it, no result depends on it
   const Edge& edge = model.edge(id);
   Vec3 from = model.edge_point(id, edge.first_parameter);
   double load = 1;
@@ -86,7 +86,7 @@ double estimate_load(const Model& model, const sizing::SizeField& field, EdgeId 
 
 /// Length, chord and turning of an edge beside its length in the metric.
 EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& length, int legs) {
-  constexpr int samples = 32;
+  constexpr int samples = 32;  // chosen, not measured
   const Edge& edge = model.edge(id);
   const double between = legs > 0 ? std::max(1.0, length.total()) : length.total();
   EdgeMeasure measure{id, between + legs, 0, 0, 0};

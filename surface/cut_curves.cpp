@@ -1,6 +1,7 @@
 #include "surface/cut_curves.hpp"
 
 #include "surface/curve_metric.hpp"
+#include "surface/curve_segments.hpp"
 #include "surface/support_topology.hpp"
 
 #include <algorithm>
@@ -15,6 +16,10 @@ using geometry::Vec3;
 /// A point of the cut becomes a mesh vertex where the spread vertices come this close, in parts of their
 /// distance.
 constexpr double snap_part = 0.03;
+/// Segments of a closed cut, at least: one more than a loop has, so that it may be round.
+constexpr int least_of_closed = 4;
+/// The arc of a cut over its chord, from which on one segment leaves the surface: an arc of 120 degrees.
+constexpr double bulging = 1.2;
 
 /// One stretch of a cut between mesh vertices or meetings of cuts, or a closed one: half-edges with the
 /// higher part on their left.
@@ -113,14 +118,14 @@ private:
   }
 
   /// The rounded metric length, but enough that no two edges join the same vertices and a chord is near its
-  /// arc.
+  /// arc: four for a closed cut, three for one that ends where it begins, two where it bulges.
   int count_segments(double metric_length, double length, std::int32_t first, std::int32_t last,
                      bool closed) const {
-    const int wanted = std::max(1, static_cast<int>(std::min(std::round(metric_length), 1e8)));
-    if (closed) return std::max(4, wanted);
+    const int wanted = std::max(1, static_cast<int>(std::min(std::round(metric_length), most_segments)));
+    if (closed) return std::max(least_of_closed, wanted);
     const std::int32_t a = _support.mesh_vertex[first], b = _support.mesh_vertex[last];
-    if (a == b) return std::max(3, wanted);
-    const bool bulges = length > 1.2 * distance(_support.points[first], _support.points[last]);
+    if (a == b) return std::max(least_of_loop, wanted);
+    const bool bulges = length > bulging * distance(_support.points[first], _support.points[last]);
     return bulges || _joined.contains({std::min(a, b), std::max(a, b)}) ? std::max(2, wanted) : wanted;
   }
 

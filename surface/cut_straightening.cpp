@@ -12,10 +12,12 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr int sweeps = 12;
+constexpr int sweeps = 12;  // a kink spreads over as many edges; chosen, not measured
+/// A vertex goes so far towards the middle of its neighbours: less than all, as these move too.
+constexpr double relaxation = 0.7;
 /// Triangles may be distorted to this mean ratio: they carry the pieces, they are not the mesh.
 constexpr double least_mean_ratio = 0.4;
-/// Angles below this one are protected, in parts of the smallest angle allowed.
+/// Angles below this one are protected, in parts of the smallest angle allowed. Chosen, not measured.
 constexpr double margin = 1.2;
 
 }  // namespace
@@ -58,7 +60,7 @@ bool FaceRemesher::straighten_vertex(std::int32_t vertex, const std::vector<std:
   Vec3 sum;
   for (const std::int32_t end : ends) sum += _mesh.points[end];
   const Vec3 offset = sum / static_cast<double>(ends.size()) - before_move.point;
-  const Vec3 move = 0.7 * (offset - dot(offset, _normals[vertex]) * _normals[vertex]);
+  const Vec3 move = relaxation * (offset - dot(offset, _normals[vertex]) * _normals[vertex]);
   VertexPlace place;
   if (!project(before_move.point + move, vertex, norm(move) + 0.5 * _sizes[vertex], place)) return true;
   TriangleShapes before, after;

@@ -21,14 +21,14 @@ namespace {
 
 using geometry::Vec3;
 
-/// Background triangles in a part of a division, about.
+/// Background triangles in a part of a division, about: chosen, not measured.
 constexpr double triangles_per_part = 64;
 /// How often the background gets twice as fine where its loops cross; a subface that is still no good stays
 /// whole.
 constexpr int most_halvings = 4;
-/// No cluster is heavier than this fraction of a part, so that parts can be balanced.
+/// No cluster is heavier than this fraction of a part, so that parts can be balanced to about as much.
 constexpr double largest_cluster = 0.15;
-/// A face of more pieces is cut twice.
+/// A face of more pieces is cut twice, so that ranks divide its parts side by side. Chosen, not measured.
 constexpr double most_pieces_at_once = 24;
 
 /// The pieces that a subface is cut into at once: a part of a face (group > 0) is not cut again.
@@ -108,7 +108,7 @@ SubfaceParts make_pieces(CutFace cut, const sizing::SizeField& field) {
   return pieces;
 }
 
-/// What divide_subface() is asked for.
+/// The arguments of divide_subface(), which its attempts share.
 struct DivisionRequest {
   const cad::Model& model;
   const Subface& subface;
@@ -159,15 +159,19 @@ const sizing::SizeField& CoarseSizes::field(int power) {
 double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options) {
   // A part costs its background triangles; the cuts of so many parts have about so many edges.
   // Facets of a face, as the CAD library made them, cost more than those of parts.
+  // In triangles to mesh. No mesh depends on it, only who makes what.
   constexpr double per_part = 400, per_cut_edge = 2, per_facet = 1.5, of_face = 1.6;
+  constexpr double cut_edges =
+      1.3;  // over the root of triangles times parts: of square parts half as many borders
   const double parts = count_parts(triangles, group, options);
   return (group == 0 ? of_face : 1) *
-         (per_part * parts + per_cut_edge * 1.3 * std::sqrt(triangles * parts) + per_facet * facets);
+         (per_part * parts + per_cut_edge * cut_edges * std::sqrt(triangles * parts) + per_facet * facets);
 }
 
 bool is_heavy(double load, const SurfaceOptions& options) {
+  constexpr double least_pieces = 1.5;  // from here on two parts are nearer to the piece wanted than one
   return options.decomposition == SurfaceDecomposition::pieces &&
-         load >= 1.5 * static_cast<double>(options.piece_triangles);
+         load >= least_pieces * static_cast<double>(options.piece_triangles);
 }
 
 SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,

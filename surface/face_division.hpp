@@ -28,8 +28,8 @@ private:
   std::deque<sizing::SizeField> _fields;  // references to those made stay good
 };
 
-/// What it costs to divide a subface of so many triangles and facets (group 0: a face), in triangles to mesh.
-/// About; no result depends on it.
+/// The cost of dividing a subface of so many triangles and facets (group 0: a face), in triangles to mesh. An
+/// estimate by which work is dealt; no result depends on it.
 double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options);
 
 struct SubfaceParts {

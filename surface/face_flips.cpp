@@ -25,7 +25,8 @@ bool FaceRemesher::flip_if_better(geometry::LinkedEdge edge) {
   if (dot(pb - pa, pc - pa) > 0 && dot(pb - pd, pc - pd) > 0) return false;
   const double sine = std::min(smallest_sine(a, b, c), smallest_sine(d, c, b));
   const double flipped_sine = std::min(smallest_sine(a, b, d), smallest_sine(d, c, a));
-  if (!(flipped_sine > sine * (1 + 1e-6)) || a == d) return false;
+  constexpr double real_gain = 1 + 1e-6;  // more than rounding: no flip is undone by the next
+  if (!(flipped_sine > sine * real_gain) || a == d) return false;
   TriangleShapes before = shape(a, b, c), after = shape(a, b, d);
   before.add(shape(d, c, b));
   after.add(shape(d, c, a));

@@ -7,8 +7,11 @@
 namespace aeroloom::surface {
 namespace {
 
-constexpr double shortest_edge = 0.65, longest_edge = 1.4;  // in sizes
-/// Triangles below this mean ratio are worth contracting an edge whatever its length.
+// In sizes: an edge that is divided at 1.4 leaves two of 0.7, which are not contracted again.
+constexpr double shortest_edge = 0.65, longest_edge = 1.4;
+/// Edges of the star around a new vertex: beyond ten its triangles have angles of 36 degrees and less.
+constexpr std::size_t most_star_edges = 10;
+/// Triangles below this mean ratio are worth contracting an edge whatever its length. Chosen, not measured.
 constexpr double poor_mean_ratio = 0.55;
 
 }  // namespace
@@ -168,7 +171,7 @@ void FaceRemesher::plan_star(geometry::LinkedEdge edge, const VertexPlace& middl
   const auto is_in_star = [&](std::int32_t v) {
     return std::any_of(_star.begin(), _star.end(), [&](const StarEdge& e) { return e.origin == v; });
   };
-  for (std::size_t k = 0; k < _star.size() && _star.size() < 10;) {
+  for (std::size_t k = 0; k < _star.size() && _star.size() < most_star_edges;) {
     const StarEdge e = _star[k];
     const std::int32_t w = e.outside == geometry::no_linked_edge ? -1 : _links.apex(e.outside);
     if (w < 0 || is_in_star(w)) {

@@ -9,8 +9,10 @@ using geometry::Vec3;
 
 namespace {
 
-/// Shorter moves, in sizes, are not worth a projection.
+/// Shorter moves, in sizes, are not worth a projection. Chosen, not measured.
 constexpr double smallest_move = 0.03;
+/// A projection may end so far from its start, in sizes, however short the move: the surface may curve.
+constexpr double least_reach = 0.25;
 
 }  // namespace
 
@@ -35,7 +37,7 @@ void FaceRemesher::smooth_vertex(std::int32_t vertex) {
   const double length = norm(move);
   if (!(length > smallest_move * _sizes[vertex])) return;
   VertexPlace place;
-  if (!project(here + move, vertex, std::max(length, 0.25 * _sizes[vertex]), place)) return;
+  if (!project(here + move, vertex, std::max(length, least_reach * _sizes[vertex]), place)) return;
   TriangleShapes before, after;
   for (const std::int32_t t : _fan) {
     before.add(shape(t));

@@ -14,7 +14,8 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 /// Edges between points whose normals differ by more (20 degrees) are divided, and so is the longest edge of
-/// a triangle that leans away from the normals of its corners (30 degrees), in so many rounds.
+/// a triangle that leans away from the normals of its corners (30 degrees), in so many rounds. Chosen, not
+/// measured.
 constexpr double turning_cosine = 0.94, leaning_cosine = 0.87;
 constexpr int fitting_rounds = 4;
 /// Unless the edge is shorter than this part of the elements: where sizes do not resolve the curvature,

@@ -18,6 +18,10 @@ struct Weighted {
   double value, weight;
 };
 
+// Shares of the area that ratios are judged by: slivers of facets may have any. The two of scales leave out
+// as much together as the one of stretch.
+constexpr double nearly_all = 0.99, lowest = 0.005, highest = 0.995;
+
 /// The value below which the given share of the weight lies.
 double quantile(std::vector<Weighted>& items, double share) {
   if (items.empty()) return 0;
@@ -65,9 +69,10 @@ public:
       }
     }
     const double count = static_cast<double>(_edges.size());
+    constexpr double most_cells = 1000;  // along the extent, however short edges are
     const double extent = std::max(high.x - low.x, high.y - low.y);
     if (!(extent > 0) || !std::isfinite(extent)) return true;
-    const double cell = std::max(2 * length / count, extent / 1000);
+    const double cell = std::max(2 * length / count, extent / most_cells);
     struct GridEdge {
       std::int32_t column, row, edge;
       auto operator<=>(const GridEdge&) const = default;
@@ -181,8 +186,8 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
   }
   MapQuality quality;
   quality.folded = total > 0 ? folded / total : 1;
-  quality.stretch = quantile(stretches, 0.99);
-  const double smallest = quantile(scales, 0.005), largest = quantile(scales, 0.995);
+  quality.stretch = quantile(stretches, nearly_all);
+  const double smallest = quantile(scales, lowest), largest = quantile(scales, highest);
   quality.scale_ratio = smallest > 0 ? largest / smallest : 1e300;
   quality.overlap = may_overlap(support, map) ? overlap_share(support, map) : 0;
   quality.loops_cross = !support.loop_edges.empty() && BoundaryCrossings(map, support.loop_edges).any();
@@ -198,7 +203,7 @@ double normal_spread(const Support& support) {
     const Vec3 normal = area_vector(support, static_cast<std::int32_t>(t));
     angles.push_back({std::atan2(norm(cross(mean, normal)), dot(mean, normal)), norm(normal)});
   }
-  return quantile(angles, 0.99);
+  return quantile(angles, nearly_all);
 }
 
 }  // namespace aeroloom::surface

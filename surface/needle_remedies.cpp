@@ -16,6 +16,9 @@ using sizing::SizeSource;
 /// Sizes at a short side, in its length; less of a fall than this part of the size there is not worth a
 /// round.
 constexpr double sides = 2, worthwhile = 0.8;
+/// A leg that is shorter than this, over the longest of short ones, is a short one whose size has been
+/// rounded.
+constexpr double long_leg = 1.1;
 
 SizeSource source_at_shortest_side(const Piece& piece, const LocalIndex* v) {
   Vec3 a = piece.point(v[2]), b = piece.point(v[0]);
@@ -34,7 +37,7 @@ void add_long_legs(const Piece& piece, const LocalIndex* v, const sizing::SizeFi
     const auto [lower, higher] = std::minmax(piece.vertex_dimension[a], piece.vertex_dimension[b]);
     if (lower != CadDimension::vertex || higher > CadDimension::edge) continue;
     const Vec3 p = piece.point(a), q = piece.point(b);
-    if (distance(p, q) < 1.1 * longest_short_leg * field(0.5 * (p + q))) continue;
+    if (distance(p, q) < long_leg * longest_short_leg * field(0.5 * (p + q))) continue;
     for (const LocalIndex end : {a, b}) {
       if (piece.vertex_dimension[end] == CadDimension::vertex) vertices.push_back(piece.vertex_entity[end]);
     }

@@ -1,4 +1,4 @@
-/// What to change so that needles which the CAD does not force do not come about again.
+/// Changes after which needles that the CAD does not force do not come about again.
 #pragma once
 
 #include "surface/needles.hpp"

@@ -18,11 +18,12 @@ using mesh::LocalIndex;
 using mesh::Piece;
 
 /// A curve is as close as a needle is thin when the needle's height over the other curve is at most this part
-/// of its side there.
+/// of its side there. Chosen, not measured.
 constexpr double close_part = 0.2;
-/// Two curves run along each other where their segments enclose less than this.
+/// Two curves run along each other where their segments enclose less than 30 degrees. Chosen, not measured.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 /// Vertices of one curve that are further apart along it than this belong to different stretches of it.
+/// Chosen, not measured.
 constexpr int same_stretch = 3;
 
 class NeedleSearch {

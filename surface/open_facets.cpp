@@ -18,12 +18,14 @@ using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
-/// A facet node moves to a curve vertex within this part of the distance to the next node or vertex.
+/// A facet node moves to a curve vertex within this part of the distance to the next node or vertex. Farther
+/// away it is a point of its own. Chosen, not measured.
 constexpr double reuse_part = 1e-4;
 /// Two coedges along a seam have a node in common where their parameters agree to this part of the distance
-/// to the next.
+/// to the next. Chosen, not measured.
 constexpr double same_parameter_part = 1e-7;
-/// Points closer than this part of the face's extent are one, unless both are mesh vertices.
+/// Points closer than this part of the face's extent are one, unless both are mesh vertices. Rounding leaves
+/// them less than that apart.
 constexpr double no_distance = 1e-10;
 
 using Joining = geometry::DisjointSets<std::int32_t>;

@@ -19,12 +19,15 @@ using cad::FaceId;
 using parallel::ScopedCpu;
 using sizing::SizeField;
 
-/// What a piece costs besides its triangles, in triangles. No result depends on it.
+/// The cost of a piece besides its triangles, in triangles. No result depends on it. Chosen, not measured.
 constexpr double piece_overhead = 150;
-/// Rounds may come to so many triangles, however few the first one has.
+/// The cost of a whole face besides the vertices of its curves, in vertices, before any was looked at.
+/// Chosen, not measured; no result depends on it.
+constexpr double load_of_face = 50;
+/// Rounds may come to so many triangles, however few the first one has. Chosen, not measured.
 constexpr double few_triangles = 20'000;
 
-/// What meshing a piece is expected to cost, in triangles.
+/// The expected cost of meshing a piece, in triangles.
 double load_of_piece(double triangles, double facets) {
   return triangles + piece_overhead + facets;
 }
@@ -99,7 +102,8 @@ std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const Size
 }
 
 double PiecePool::seconds_per_triangle() const {
-  constexpr double usual = 3e-6, of_curve = 0.8;  // the latter over what a unit of a curve's load takes
+  constexpr double usual = 3e-6, of_curve = 0.8;  // the latter over what a unit of a curve's load takes;
+                                                  // chosen, not measured; no result depends on it
   double load = 0, seconds = 0;
   for (const parallel::TaskRecord& task : _clock.tasks()) {
     if (task.kind == "curve") load += task.predicted, seconds += task.cpu_seconds;
@@ -121,7 +125,7 @@ PiecePool::Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& fa
     std::vector<double> loads;
     for (const FaceId face : faces) {
       const auto counts = edge_vertices(curves, face);
-      loads.push_back(50 + std::accumulate(counts.begin(), counts.end(), 0.0));
+      loads.push_back(load_of_face + std::accumulate(counts.begin(), counts.end(), 0.0));
     }
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
@@ -206,7 +210,7 @@ PiecePool::Subfaces PiecePool::divide_heavy(Subfaces subfaces, const std::vector
   auto owners = parallel::assign_largest_first(loads, _burdens);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     _burdens[owners[i]] += loads[i];
-    // What is not divided stays with whoever has it.
+    // A subface that is not divided stays with whoever has it: nothing travels in vain.
     if (!is_to_divide(rows[i], level)) owners[i] = rows[i].at;
   }
   subfaces = send_to_owners(std::move(subfaces), rows, owners);

@@ -18,7 +18,7 @@
 
 namespace aeroloom::surface {
 
-/// What has to change before meshing can succeed.
+/// Findings of a round that have to be mended before the next one can succeed.
 struct Conflicts {
   std::vector<sizing::SizeSource> remedies;  ///< where sizes have to fall
   std::vector<cad::FaceId> undivided;        ///< faces that had better stay whole
@@ -28,8 +28,8 @@ struct Conflicts {
 
 class PiecePool {
 public:
-  PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
-            const CutOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
+  PiecePool(const parallel::Communicator& communicator, const cad::Model& model, const CutOptions& options,
+            parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
 
   /// Meshes every face whose curves or sizes are not those of the round before, unless the whole surface is
   /// predicted to have more triangles than rounds may come to (SurfaceOptions::most_growth). Collective.
@@ -83,7 +83,7 @@ private:
   /// Triangles of the whole surface: of faces that are kept, and of these subfaces.
   double predict(const Subfaces& subfaces, const sizing::SizeField& field) const;
   Subfaces divide(Subfaces subfaces, const sizing::SizeField& field);
-  /// What a triangle takes to mesh on this machine, from what curves took. Collective.
+  /// Seconds to mesh a triangle on this machine, from what curves took. Collective.
   double seconds_per_triangle() const;
   Subfaces make_whole_subfaces(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                                const sizing::SizeField& field);

@@ -12,10 +12,17 @@ using geometry::Vec3;
 
 /// An edge is not divided closer to its ends than this part of it: a point inside moves onto the cut instead.
 constexpr double least_part = 0.1;
-/// Parts below this share of the area are not cut off.
+/// Parts below this share of the area are not cut off: they would be charts of a few triangles. Chosen, not
+/// measured.
 constexpr double least_share = 0.02;
-/// The plane bends towards a mesh vertex within this many lengths of the boundary segments there.
+/// The plane bends towards a mesh vertex within this many lengths of the boundary segments there: over a few
+/// triangles, so that none is cut askew. Chosen, not measured.
 constexpr double bend_reach = 2.5;
+constexpr double kept_part = 0.1;
+/// Levels of points that are put on a side are no less than a part of the largest, and not zero.
+constexpr double off_plane = 1e-3, not_zero = 1e-300;
+/// Small parts are given away one by one; where so many are left the cut is no good anyway.
+constexpr std::size_t most_absorbed = 64;
 
 /// A mesh vertex the cut has to pass, and how far the plane misses it.
 struct Bend {
@@ -38,9 +45,11 @@ public:
       _levels[i] = dot(plane.normal, support.points[i]) - plane.offset;
       extent = std::max(extent, std::abs(_levels[i]));
     }
-    // What lies in the plane but for rounding falls on one side.
+    // Points in the plane but for rounding fall on one side: they come from a CAD file, whose planes are no
+    // more exact.
+    constexpr double in_plane = 1e-7;
     for (double& level : _levels) {
-      if (std::abs(level) < 1e-7 * extent) level = 1e-7 * extent;
+      if (std::abs(level) < in_plane * extent) level = in_plane * extent;
     }
     for (const auto& loop : trace_boundary(support, twins)) {
       _loops.emplace_back();
@@ -100,9 +109,9 @@ private:
     for (std::size_t i = 0; i < _levels.size(); ++i) {
       const double raw = _levels[i];
       _levels[i] = _on_cut[i] ? 0 : bent(_support.points[i], raw, bends);
-      // A bend must not push a mesh vertex to the other side.
+      // A bend must not push a mesh vertex to the other side: it keeps a part of its distance, and its sign.
       if (!_on_cut[i] && is_mesh_vertex(static_cast<std::int32_t>(i)) && _levels[i] * raw <= 0)
-        _levels[i] = 0.1 * raw;
+        _levels[i] = kept_part * raw;
     }
   }
 
@@ -139,7 +148,8 @@ private:
     for (const std::int32_t p : points) size = std::max(size, std::abs(_levels[p]));
     if (size == 0) size = std::abs(side);
     for (const std::int32_t p : points) {
-      _levels[p] = std::copysign(std::max(std::abs(_levels[p]), 1e-3 * size + 1e-300), side < 0 ? -1.0 : 1.0);
+      _levels[p] =
+          std::copysign(std::max(std::abs(_levels[p]), off_plane * size + not_zero), side < 0 ? -1.0 : 1.0);
     }
   }
 
@@ -189,7 +199,7 @@ void divide_at_zero(Support& support, const std::vector<geometry::HalfEdge>& twi
 std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t>& side) {
   const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
   const double least = least_share * support_area(support);
-  for (std::size_t round = 0; round < 64; ++round) {
+  for (std::size_t round = 0; round < most_absorbed; ++round) {
     std::vector<std::int32_t> component;
     const std::int32_t count = label_components(twins, side, component);
     std::vector<double> area(count, 0);

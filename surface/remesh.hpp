@@ -21,7 +21,7 @@ struct FaceMesh {
 };
 
 struct Remeshing {
-  int sweeps = 6;
+  int sweeps = 6;       ///< after which few vertices move still; chosen, not measured
   bool resizes = true;  ///< whether edges are divided and contracted
 };
 

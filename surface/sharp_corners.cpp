@@ -16,13 +16,14 @@ using cad::FaceCorner;
 using cad::Model;
 using geometry::Vec3;
 
-constexpr double sharp = 30;  // degrees
-/// A leg ends where the gap between the edges is this part of the size there.
+/// Degrees, as where sizes look for sharp corners (sizing/corner_sources.cpp).
+constexpr double sharp = 30;
+/// A leg ends where the gap between the edges is this part of the size there. Chosen, not measured.
 constexpr double fitting = 0.8;
-/// Legs are sought in steps of this ratio, from the size at the corner on.
+/// Legs are sought in steps of this ratio, from the size at the corner on. Chosen, not measured.
 constexpr double step = 1.1;
-constexpr int most_steps = 36;
-/// An edge turns less than this along a leg (degrees).
+constexpr int most_steps = 36;  // to 31 times the size at the corner
+/// An edge turns less than this along a leg (degrees). Chosen, not measured.
 constexpr double straight = 10;
 
 /// Whether the edge stays close to its chord up to the parameter.

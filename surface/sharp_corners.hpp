@@ -37,7 +37,7 @@ std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& commun
                                             const cad::Model& model, const sizing::SizeField& field,
                                             parallel::StageClock& clock);
 
-/// Length of a short leg, in sizes at the corner.
+/// Length of a short leg, in sizes at the corner. Chosen, not measured.
 inline constexpr double longest_short_leg = 4;
 
 /// Makes the legs at the CAD vertices (ascending) no longer than that: a face on the other side of an edge

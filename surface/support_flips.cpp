@@ -12,10 +12,11 @@ namespace {
 using geometry::Vec2;
 using geometry::Vec3;
 
-/// Triangles that turn by more than this (10 degrees) are not merged into one plane for a flip.
+/// Triangles that turn by more than this (10 degrees) are not merged into one plane for a flip. Chosen, not
+/// measured.
 constexpr double coplanar_cosine = 0.985;
 /// Angles that sum to 180 degrees but for rounding do not ask for a flip.
-constexpr double angle_tolerance = 1e-9;
+constexpr double angle_tolerance = 1e-9;  // radians
 
 /// Two triangles (a,b,c) and (b,a,d) on either side of the half-edges ab and ba.
 struct Diamond {
@@ -48,8 +49,11 @@ public:
     for (geometry::HalfEdge h = count - 1; h >= 0; --h) {
       if (_twins[h] > h) queue.push_back(h), queued[h] = 1;
     }
-    // Angles of neighbours change a little with every flip on a curved support, so termination is enforced.
-    for (std::int64_t left = 8 * static_cast<std::int64_t>(count); !queue.empty() && left > 0; --left) {
+    // Angles of neighbours change a little with every flip on a curved support, so termination is enforced:
+    // after many times as many looks as there are edges.
+    constexpr std::int64_t looks_per_half_edge = 8;
+    for (std::int64_t left = looks_per_half_edge * static_cast<std::int64_t>(count);
+         !queue.empty() && left > 0; --left) {
       const geometry::HalfEdge h = queue.back();
       queue.pop_back();
       queued[h] = 0;
@@ -171,7 +175,8 @@ public:
       return true;
     const SurfaceMetric metric = mean({ia, ib, ic, id});
     const double determinant = metric.uu * metric.vv - metric.uv * metric.uv;
-    if (!(determinant > 1e-12 * metric.uu * metric.vv)) {
+    constexpr double singular = 1e-12;  // at a pole, where parameters are no plane
+    if (!(determinant > singular * metric.uu * metric.vv)) {
       return is_not_delaunay(_support.points[ia], _support.points[ib], _support.points[ic],
                              _support.points[id]);
     }

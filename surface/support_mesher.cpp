@@ -26,7 +26,7 @@ struct ChartBoundary {
 /// Per boundary point, the one to use in its place. Where loops touch in a vertex, the chart has a point for
 /// each coedge; those that the map puts on one spot are one vertex of the front.
 std::vector<std::int32_t> join_coedges(const ChartBoundary& boundary) {
-  constexpr double one_spot = 1e-6;  // of the shortest edge there
+  constexpr double one_spot = 1e-6;  // of the shortest edge there; what rounding of the map leaves; chosen
   const auto& points = boundary.input.points;
   const auto count = static_cast<std::int32_t>(points.size());
   std::vector<double> reach(count, std::numeric_limits<double>::max());

@@ -12,7 +12,7 @@ using cad::EdgeEnd;
 using cad::Model;
 using geometry::Vec3;
 
-/// Vertices behind the last aligned one that share what it moved by.
+/// Vertices behind the last aligned one that share what it moved by. Chosen, not measured.
 constexpr int steps_back = 5;
 
 /// The interior vertices of an edge from one of its ends on, in its near half.

@@ -155,7 +155,7 @@ struct CurveTriangle {
   auto operator<=>(const CurveTriangle&) const = default;
 };
 
-/// What the triangles around tips become when tips close.
+/// The triangles around tips after these have closed.
 class Closure {
 public:
   Closure(std::size_t curve_vertices, const std::vector<Tip>& tips)

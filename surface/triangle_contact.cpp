@@ -37,7 +37,7 @@ bool meet_wrongly(const NamedTriangle& a, const NamedTriangle& b) {
     case 0:
       return geometry::triangles_intersect(a.points, b.points);
     case 1: {
-      // What they share beyond the vertex reaches the opposite edge of one of them.
+      // Two triangles that share more than their vertex do so up to the opposite edge of one of them.
       const int i = in_a[0], j = in_b[0];
       return geometry::segment_meets_triangle(a.points[(i + 1) % 3], a.points[(i + 2) % 3], b.points) ||
              geometry::segment_meets_triangle(b.points[(j + 1) % 3], b.points[(j + 2) % 3], a.points);

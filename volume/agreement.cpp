@@ -10,7 +10,7 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// What travels of a face.
+/// A face as it travels to the rank that matches it.
 struct WireFace {
   std::array<mesh::SharedVertexKey, 3> vertices;
   ZoneIndex zone;

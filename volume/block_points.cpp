@@ -16,9 +16,10 @@ using geometry::Vec3;
 namespace {
 
 /// The size of boundary triangles counts in the clearance as far as it is within these bounds, in local
-/// sizes.
+/// sizes: beyond them the surface is not what sizes ask for. Chosen, not measured.
 constexpr double smallest_edge = 0.3, largest_edge = 1.5;
-/// What the clearance grows by in each step of a retry.
+/// The factor by which the clearance grows in each step of a retry, up to the steps that the ladder has:
+/// points move off what TetGen could not mesh, and still fill the space. Chosen, not measured.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
 
@@ -227,11 +228,12 @@ private:
   EmptyBalls _balls;
 };
 
+/// Lengths in the frame's grid over those in space: what the frame's shear adds, at most.
 constexpr double more_for_shear = 1.1;
 
 /// How far a triangle is from any point of a block that the surface meets, at most, and its inside.
 double nearest_in(const LatticeSource& source, BlockIndex b) {
-  constexpr double inward = 0.1;
+  constexpr double inward = 0.1;  // of the longest edge; chosen, not measured
   const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.tree.cube(b).edge();
   return more_for_shear * half_diagonal +
          source.frame.grid_distance(source.table.nearest[b] + inward * source.table.longest_edge[b]);

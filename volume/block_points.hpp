@@ -16,11 +16,16 @@
 namespace aeroloom::volume {
 
 struct LatticeOptions {
-  double clearance = 0.5;       ///< distance from the surface, in local sizes
-  double perturbation = 0.005;  ///< in mean edges of the lattice
+  /// Distance from the surface, in local sizes: fewest bad tetrahedra of seven values on two aircraft
+  /// (docs/volume_decomposition.md).
+  double clearance = 0.5;
+  /// In mean edges of the lattice: enough for general position, and so little that no triangle of the core's
+  /// border was missing in the mesh of the shell of nineteen aircraft and parts
+  /// (docs/volume_decomposition.md).
+  double perturbation = 0.005;
 };
 
-/// What retries have changed of a block.
+/// Changes that retries have made to a block.
 struct BlockChange {
   std::uint8_t variant = 0;  ///< another number gives other perturbations
   std::uint8_t farther = 0;  ///< steps by which its points keep farther off the surface
@@ -67,7 +72,7 @@ struct BlockPoints {
   std::int64_t count(BlockIndex b) const { return starts[b - first + 1] - starts[b - first]; }
 };
 
-/// What points are made from.
+/// Everything that a point of the lattice is a function of.
 struct LatticeSource {
   const LatticeFrame& frame;
   const LatticeTree& tree;

@@ -140,7 +140,7 @@ private:
   std::vector<Contact> _contacts;           // that this rank has met
 };
 
-/// What was seen of a set of blocks, from how many places, and the first of them.
+/// The region that was seen around a set of blocks, from how many places, and the first of them.
 struct Witness {
   BlockNumber set;
   RegionId region;
@@ -201,7 +201,7 @@ private:
   EmptyBalls _balls;
 };
 
-/// What is seen from contacts. The first place of each
+/// The regions that are seen from contacts. The first place of each
 /// kind is looked at for what it tells; others in an empty ball, whose region is known, only count.
 std::vector<Witness> witnesses_of(std::span<const Contact> contacts, const LatticeTree& tree,
                                   std::span<const SurfaceTriangle> triangles, Look& look) {

@@ -6,7 +6,8 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// Cells that are counted to a core leaf with core all around.
+/// Cells that are counted to a core leaf with core all around: four at each of its six sides, half of which
+/// are the neighbours'.
 constexpr int cells_per_leaf = 12;
 
 /// Whether core leaves touch a block, as far as is seen without looking closer.

@@ -1,4 +1,4 @@
-/// What the zones are given where there is a core: the points of the shell, and the border.
+/// The points of the shell and the border of the core, which zones are given where there is a core.
 #pragma once
 
 #include "volume/core_cells.hpp"
@@ -21,7 +21,7 @@ struct BlockBorders {
   }
 };
 
-/// What this rank's blocks have of shell and core.
+/// The shell and the core in this rank's blocks.
 struct ShellShare {
   BlockPoints points;  ///< those of the shell
   BlockBorders borders;

@@ -107,7 +107,7 @@ void CoreCells::surround_axis(const Side& side, const Leaf& other) {
   }
 }
 
-/// What lies between a core leaf and the cube beside it, unless that is counted to what is there.
+/// The cells between a core leaf and the cube beside it, unless they are counted to the cube.
 void CoreCells::make_side(const Side& side) {
   using Size = LeafSurroundings::Size;
   const int b = side.first_axis(), d = side.second_axis();

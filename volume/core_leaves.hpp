@@ -71,7 +71,7 @@ private:
   std::vector<std::uint64_t> _claims;       // by place: six sides of each leaf, a bit each
   std::vector<std::uint8_t> _beside_shell;  // of this rank's blocks
   std::vector<mesh::RegionId> _regions;     // of this rank's blocks
-  /// What a block has, by place.
+  /// The points of a block that exist, and their region.
   struct Present {
     std::uint64_t slots = 0;                  ///< points, a bit each
     mesh::RegionId region = mesh::no_region;  ///< of all of them; none where they lie in several

@@ -122,7 +122,7 @@ Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const Numb
 /// Running numbers met lately and what they stand for: cells next to each other on the curve share most.
 class RecentNumbers {
 public:
-  /// What `find(number)` gives, if not asked for lately.
+  /// The result of `find(number)`, remembered from the last time where that is not long ago.
   template <class Find>
   LocalIndex operator()(std::int64_t number, const Find& find) {
     Slot& slot = _slots[static_cast<std::size_t>(number) % slot_count];
@@ -131,7 +131,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t slot_count = 1 << 12;
+  static constexpr std::size_t slot_count = 1 << 12;  // chosen, not measured
   struct Slot {
     std::int64_t number = -1;
     LocalIndex local = -1;

@@ -14,7 +14,7 @@
 
 namespace aeroloom::volume {
 
-/// What the core's cells are made and scheduled by.
+/// Everything by which the core's cells are made and scheduled.
 struct CoreSource {
   const LatticeSource& lattice;
   const CoreLeaves& core;

@@ -120,7 +120,7 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
     data.expected.push_back(tetrahedra_of(load));
 }
 
-/// What zones know, and who fills them.
+/// Decides what zones know, and who fills them.
 void plan_all(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
               parallel::StageClock& clock) {
   std::vector<ZoneIndex> all(data.zones->count());

@@ -1,4 +1,4 @@
-/// What is inside of a Decomposition. Used by the two halves of the stage's driver.
+/// The inside of a Decomposition, which the two halves of the stage's driver share.
 #pragma once
 
 #include "aeroloom/volume/volume_mesher.hpp"
@@ -16,7 +16,7 @@
 namespace aeroloom::volume {
 
 struct Decomposition::Data {
-  // The same on every rank, of the blocks that it knows.
+  // Frame, tree and table are the same on every rank as far as it knows the blocks.
   std::unique_ptr<const LatticeFrame> frame;
   std::unique_ptr<LatticeTree> tree;
   SurfaceTable table;

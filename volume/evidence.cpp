@@ -12,7 +12,7 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr std::size_t most_names = 8;
+constexpr std::size_t most_names = 8;  // in a message
 
 /// The triangles at vertices of the zone itself.
 std::vector<std::int32_t> own_triangles(const ZoneProblem& problem) {

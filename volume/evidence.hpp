@@ -1,4 +1,4 @@
-/// What is known of zones that could not be filled, and the message the user gets.
+/// Evidence about zones that could not be filled, and the message the user gets.
 #pragma once
 
 #include "aeroloom/parallel/communication/communicator.hpp"

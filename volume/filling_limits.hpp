@@ -1,4 +1,4 @@
-/// What is tried with zones that cannot be filled, and how often zones may be filled again.
+/// The ladder for zones that cannot be filled, and how often zones may be filled again.
 #pragma once
 
 #include "aeroloom/parallel/communication/collective_error.hpp"

@@ -30,7 +30,7 @@ struct NearZone {
 /// than that block, all of them are there.
 class ZonesAround {
 public:
-  /// Levels by which blocks are looked at as one cube.
+  /// Levels by which blocks are looked at as one cube. Chosen, not measured.
   static constexpr int finer_levels = 3;
   /// How far from a block leaves of zones matter to what lies in it, in the grid. Triangles count to the
   /// block that their centre lies in, so that they may stick out of it.

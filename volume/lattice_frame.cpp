@@ -12,9 +12,9 @@ namespace {
 /// The shear, and how it mixes the axes: any numbers without symmetry would do.
 constexpr double shear = 0.03;
 constexpr Vec3 mixing[3] = {{0, 0.6, 0.35}, {0.45, 0, -0.5}, {0.4, -0.3, 0}};
-/// Samples of the field that choose the scale of the lattice.
+/// Samples of the field that choose the scale of the lattice. Chosen, not measured.
 constexpr std::int64_t scale_samples = 4096;
-/// What the root is wider than the domain.
+/// The width of the root over that of the domain. Chosen, not measured.
 constexpr double root_margin = 1.02;
 
 /// The size the coarsest lattice is scaled to: maximum, or up to half an octave off, so that the levels suit

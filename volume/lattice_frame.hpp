@@ -70,7 +70,7 @@ public:
             {_forward[0].y, _forward[1].y, _forward[2].y},
             {_forward[0].z, _forward[1].z, _forward[2].z}};
   }
-  /// What a distance in space is in the grid, at most.
+  /// The length in the grid of a distance in space, at most.
   double grid_distance(double space) const { return space * _stretch; }
   /// The middle of a cube, and the box in space around it.
   geometry::Vec3 middle_of(const GridCube& cube) const {

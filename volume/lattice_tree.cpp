@@ -129,7 +129,7 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   fill(mine, first, static_cast<BlockIndex>(mine.size()));
 }
 
-/// What lies between blocks becomes cubes, as large as they can be.
+/// Gaps between blocks become cubes as large as they can be, so that there are few.
 void LatticeTree::fill(const std::vector<KnownBlock>& blocks, BlockNumber first, BlockIndex own) {
   _blocks = {};
   _split.clear(), _numbers.clear(), _known.clear();

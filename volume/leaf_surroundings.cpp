@@ -8,7 +8,7 @@ void LeafSurroundings::move_to(BlockIndex b) {
   _low = whole.low;
   _width = _tree.leaf_count(b) == 8 ? 2 : 1;
   _edge = whole.edge() / static_cast<std::uint32_t>(_width);
-  // What lies beside the block lies in one other block more often than not: one look for all of it.
+  // All neighbours across a side lie in one other block more often than not: one look-up serves them all.
   for (int side = 0; side < 27; ++side) {
     const HalfPlace sides{side % 3 - 1, side / 3 % 3 - 1, side / 9 - 1};
     HalfPlace first, last;

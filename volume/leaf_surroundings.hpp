@@ -38,7 +38,7 @@ public:
     Size size = Size::outside;
     Leaf leaf{};
   };
-  /// Of those that touch the block, and its own: -1 to width() along each axis, in leaves.
+  /// Leaves of the block and of those that touch it: -1 to width() along each axis, in leaves.
   const LatticeTree& tree() const { return _tree; }
   const Cube& cube(const HalfPlace& at) const {
     return _cubes[(at[0] + 1) + 4 * (at[1] + 1) + 16 * (at[2] + 1)];

@@ -96,10 +96,13 @@ std::optional<mesh::RegionId> NearSurface::region_at(Vec3 p, const BoundaryDista
   }
   const std::vector<std::int32_t> candidates = around(nearest.triangle);
   std::vector<std::int32_t> targets{nearest.triangle};
-  const double slack = nearest.distance * (1 + 1e-9);
+  constexpr double rounding = 1e-9;  // of distances to triangles that share the foot
+  const double slack = nearest.distance * (1 + rounding);
   for (const std::int32_t t : candidates) {
     if (t != nearest.triangle && _distance->distance_to(p, t) <= slack) targets.push_back(t);
   }
+  // A foot on a border or corner is seen along the surface; a little inside of the triangle it is seen from a
+  // side, the less far inside the less stands in between. Chosen, not measured.
   for (const double inward : {1e-3, 4e-3, 1.6e-2, 6.4e-2}) {
     for (const std::int32_t target : targets) {
       const auto& v = _triangles[target];

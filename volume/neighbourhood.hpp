@@ -1,4 +1,4 @@
-/// What ranks learn of the blocks of others.
+/// Blocks of other ranks, as far as they matter to those of this one.
 #pragma once
 
 #include "aeroloom/parallel/communication/communicator.hpp"
@@ -38,14 +38,14 @@ void for_each_asker(std::span<const Question> questions, const Visit& visit) {
       [&](std::size_t first, std::size_t last) { visit(questions.subspan(first, last - first)); });
 }
 
-/// What a rank knows of the lattice, and learns more of.
+/// The part of the lattice that a rank knows, which grows as it learns of blocks.
 struct KnownLattice {
   const LatticeFrame& frame;
   LatticeTree& tree;
   SurfaceTable& table;
 };
 
-// What tree and table learn. Indices of blocks change. All are collective.
+// Tree and table grow by these. Indices of blocks change. All are collective.
 
 /// All blocks that touch this rank's, or hold corners of its triangles.
 void learn_what_touches(const parallel::Communicator& communicator, const KnownLattice& lattice,

@@ -27,7 +27,8 @@ LocalTriangle face_of(const LocalCell& cell, int face) {
   return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
 }
 
-/// What bounds cells: triangles of the surface, then those of the core's border, with nothing behind them.
+/// The triangles that bound cells: those of the surface, then those of the core's border, with nothing behind
+/// them.
 class Bounds {
 public:
   explicit Bounds(const ZoneProblem& problem) : _problem(problem) {}

@@ -19,8 +19,8 @@ using LocalCell = std::array<mesh::LocalIndex, 4>;
 /// Whose a vertex is, seen from a zone.
 enum class Owner : std::int8_t { mine, lower, higher };
 
-/// What a zone is filled with, halo included. Vertices: those of the surface first, then lattice points, both
-/// in global order, which is the order of TetGen's symbolic perturbation.
+/// The points and triangles that a zone is filled with, halo included. Vertices of the surface come first,
+/// then lattice points, both in global order, which is the order of TetGen's symbolic perturbation.
 struct ZoneProblem {
   std::vector<geometry::Vec3> points;
   std::vector<Owner> owners;             ///< per point: own zone, one of lower or of higher number

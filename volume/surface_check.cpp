@@ -143,7 +143,7 @@ SurfaceDefect find_intersections(const SurfacePart& surface, const BoundaryDista
 }
 
 std::string describe_triangles(const SurfacePart& surface, const std::vector<std::int32_t>& triangles) {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t most = 10;  // in a message
   std::ostringstream text;
   for (std::size_t i = 0; i < std::min(triangles.size(), most); ++i) {
     const auto& t = surface.triangles[triangles[i]];

@@ -1,4 +1,4 @@
-/// What is wrong with a part of a surface that bounds what shall be filled.
+/// Defects of a part of a surface that is to bound tetrahedra.
 #pragma once
 
 #include "volume/boundary_distance.hpp"

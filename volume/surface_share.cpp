@@ -66,7 +66,7 @@ struct Parcel {
   static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
 };
 
-/// What arrives here, by number, each once, with those that are here by number. Collective.
+/// The triangles that arrive here, each once, with those that are here, by number. Collective.
 std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, std::vector<Parcel> outgoing,
                                   const std::vector<SurfaceTriangle>& here) {
   const std::vector<Parcel> arrived =
@@ -173,7 +173,8 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
   }
   questions = take_questions(communicator, std::move(questions));
   std::vector<Parcel> outgoing;
-  constexpr std::size_t batch = 32;  // triangles that follow each other are near each other
+  constexpr std::size_t batch =
+      32;  // triangles that follow each other are near each other; chosen, not measured
   for_each_asker(questions, [&](std::span<const Question> asked) {
     NearBoxes of_all, of_large;  // triangles
     for (const Question& question : asked) {

@@ -36,7 +36,7 @@ struct SurfaceTriangle {
 /// A closed box in the grid around a triangle.
 GridBox grid_box(const LatticeFrame& frame, const std::array<geometry::Vec3, 3>& points);
 
-/// What meets each block, by block index; nothing for those that are not known.
+/// The triangles that meet each block, by block index; none for blocks that are not known.
 struct SurfaceTable {
   std::vector<float> longest_edge;  ///< of the triangles that meet it; 0: none does
   // Of this rank's blocks.

@@ -121,7 +121,7 @@ void lay_out(tetgenmesh& mesh, tetgenmesh::memorypool& all, tetgenmesh::arraypoo
 /// in. recoverboundary() goes through all of it in random order, and waits for memory twice as long as it
 /// works; what it finds recovered it skips, what is left climbs its ladder of flips and points.
 void recover_in_order(tetgenmesh& mesh) {
-  constexpr int log_of_block = 8;
+  constexpr int log_of_block = 8;  // 256 at a time, as TetGen has it for its own arrays
   tetgenmesh::arraypool missing(sizeof(tetgenmesh::face), log_of_block);
   mesh.checksubsegflag = 1;
   lay_out(mesh, *mesh.subsegs, *mesh.subsegstack);

@@ -10,7 +10,7 @@
 
 namespace aeroloom::volume {
 
-/// What TetGen makes of points and triangles between some of them, unverified: the convex hull of all.
+/// TetGen's mesh of points and of triangles between some of them, unverified: the convex hull of all.
 struct TetgenMesh {
   std::vector<double> added;  ///< (s,3) Steiner points, numbered after the given ones
   std::vector<std::array<mesh::LocalIndex, 4>> cells;  ///< positive volume in VTK's order

@@ -45,7 +45,7 @@ std::vector<CoarseCell> coarsen(const parallel::Communicator& communicator, cons
   return cells;
 }
 
-/// What lies of a cell between cuts.
+/// The part of a cell between cuts.
 struct ZoneCuts::Part {
   std::array<double, 3> low, high;
   double load, edge;  ///< of its blocks
@@ -87,8 +87,10 @@ void ZoneCuts::divide(std::vector<Part> parts, ZoneIndex count) {
     }
     const double place = 0.5 * low;
     double cost = 0;
+    // A cut costs what both sides will have to know: about as far as a halo reaches beyond it.
+    constexpr double halo = 1.5;  // in edges of the cells, either way
     for (const Part& part : parts)
-      cost += part.between(axis, place - 1.5 * part.edge, place + 1.5 * part.edge);
+      cost += part.between(axis, place - halo * part.edge, place + halo * part.edge);
     if (cost < least) least = cost, best = {axis, low};
   }
   _cuts.push_back(best);

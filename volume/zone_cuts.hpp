@@ -24,14 +24,15 @@ inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2
 
 /// Tetrahedra of the shell that are expected, in eighths, so that sums are exact.
 using Load = std::int64_t;
+inline constexpr int loads_per_tetrahedron = 8;
 inline double tetrahedra_of(Load load) {
-  return static_cast<double>(load) / 8;
+  return static_cast<double>(load) / loads_per_tetrahedron;
 }
 /// Of a block with so many points of the shell, triangles of the surface and of the core's border.
 inline Load load_of(std::int64_t points, std::int64_t triangles, std::int64_t borders) {
-  constexpr auto per_point = static_cast<Load>(8 * tetrahedra_per_point),
-                 per_triangle = static_cast<Load>(8 * tetrahedra_per_triangle),
-                 per_border = static_cast<Load>(8 * fewer_per_border);
+  constexpr auto per_point = static_cast<Load>(loads_per_tetrahedron * tetrahedra_per_point),
+                 per_triangle = static_cast<Load>(loads_per_tetrahedron * tetrahedra_per_triangle),
+                 per_border = static_cast<Load>(loads_per_tetrahedron * fewer_per_border);
   return std::max<Load>(0, per_point * points + per_triangle * triangles - per_border * borders);
 }
 
@@ -58,7 +59,7 @@ std::vector<CoarseCell> coarsen(const parallel::Communicator& communicator, cons
 /// Planes that cut space into zones. The same on every rank: a plane for each zone.
 class ZoneCuts {
 public:
-  /// Cells that a zone is made of, about.
+  /// Cells that a zone is made of, about. Chosen, not measured.
   static constexpr Load cells_per_zone = 128;
 
   /// Zones of equal load by recursive bisection: always across the axis where the two halves have least in

@@ -12,7 +12,7 @@
 
 namespace aeroloom::volume {
 
-/// What came of it.
+/// The result of filling a zone.
 struct ZoneFilling {
   bool filled = false;
   std::string failure;                ///< why not, one line or more

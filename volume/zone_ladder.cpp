@@ -18,7 +18,8 @@ using geometry::Vec3;
 
 namespace {
 
-/// Rounds in which leaves are given away where zones disagree; after that such zones are merged.
+/// Rounds in which leaves are given away where zones disagree; after that such zones are merged. Chosen, not
+/// measured.
 constexpr int most_rounds_of_giving = 3;
 
 template <class T>

@@ -1,4 +1,4 @@
-/// What is done about zones that cannot be filled or do not fit together. Rungs are in filling_limits.hpp.
+/// Remedies for zones that cannot be filled or do not fit together; their order is in filling_limits.hpp.
 #pragma once
 
 #include "volume/agreement.hpp"
@@ -44,7 +44,7 @@ public:
 private:
   /// A leaf where zones disagree, or beside one.
   struct LeafOfPlace;
-  /// What becomes of blocks: those that were touched, of this rank, and the zones that were.
+  /// Blocks of this rank and zones that a remedy has touched: all zones that see them are filled again.
   struct Changed {
     std::vector<std::uint8_t> blocks;
     std::vector<ZoneIndex> zones;

@@ -9,7 +9,8 @@
 namespace aeroloom::volume {
 namespace {
 
-/// Zones that a rank is sent at a time.
+/// Zones that a rank is sent at a time. All that a zone is made of waits in memory until its turn. Chosen,
+/// not measured.
 constexpr std::size_t zones_at_a_time = 4;
 
 /// Triangles by the block that their centre lies in, of a range of blocks.
@@ -95,7 +96,7 @@ private:
   std::vector<std::uint8_t> _is_wanted;  // per zone
 };
 
-/// What all ranks have of each zone, by zone. Collective.
+/// The sum over all ranks of what they have of each zone, by zone. Collective.
 std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const ZoneShipment& mine,
                              std::span<const ZoneIndex> zones, std::size_t all_zones) {
   std::vector<std::int64_t> points(all_zones, 0), triangles(all_zones, 0);

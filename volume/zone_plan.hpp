@@ -10,7 +10,7 @@
 
 namespace aeroloom::volume {
 
-/// What a zone knows, halo included.
+/// The size of a zone, halo included, by which it is scheduled.
 struct ZoneLoad {
   ZoneIndex zone;
   std::int64_t points;  ///< of the lattice

@@ -55,7 +55,7 @@ struct BorderOfZone {
   }
 };
 
-/// What travels.
+/// The parts of zones that travel from one rank to another.
 struct Cargo {
   std::vector<PointOfZone> points, at_borders;
   std::vector<TriangleOfZone> triangles;

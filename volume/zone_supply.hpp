@@ -57,7 +57,8 @@ private:
   mesh::GlobalIndex _surface_vertices;
 };
 
-/// What a rank has of the shell: the points of its blocks, the triangles that meet them, the core's border.
+/// The share of a rank in the shell: the points of its blocks, the triangles that meet them, the core's
+/// border.
 struct ZoneStore {
   LatticeSource lattice;
   ZoneFinder finder;
@@ -67,7 +68,7 @@ struct ZoneStore {
   const CoreLeaves& core;
 };
 
-/// What a rank has for zones.
+/// The points, triangles and leaves that a rank supplies to zones.
 struct ZoneShipment {
   struct OfBlock {
     ZoneIndex zone;

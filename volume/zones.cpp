@@ -74,7 +74,7 @@ std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator
 }
 
 ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets) {
-  constexpr double whole_below = 1.5;
+  constexpr double whole_below = 1.5;  // from here on two zones are nearer to what is wanted than one
   const double zones = expected_tetrahedra / static_cast<double>(piece_tets);
   if (zones < whole_below) return 1;
   const double unit = std::exp2(std::max(0, std::ilogb(zones) - 2));

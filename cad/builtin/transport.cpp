@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -25,9 +26,17 @@
 namespace aeroloom::cad {
 namespace {
 
+/// In the aircraft's unit, metres: sides of its parts are the same curves, off by rounding alone.
 constexpr double sewing_tolerance = 1e-6;
-/// How deep a root section lies inside the fuselage, at least, in fuselage diameters.
+/// How deep a root section lies inside the fuselage, at least, in fuselage diameters: no boolean operation
+/// has to cut faces that touch.
 constexpr double least_depth = 0.005;
+/// Where roots may lie, in fuselage radii off the plane of symmetry, the first that is inside enough: the
+/// farther off, the shorter what is cut away.
+constexpr double root_stations[] = {0.35, 0.2, 0.1};
+/// Beyond these bounds (degrees, over chord) parts would cross themselves or each other.
+constexpr double most_sweep = 75, most_dihedral = 60, most_incidence = 30, most_thickness = 0.4,
+                 most_camber = 0.1;
 
 void require(bool holds, const std::string& dimension, const char* rule, double value) {
   if (!holds) throw CadError(fmt::format("transport: {} must {}, but it is {}", dimension, rule, value));
@@ -37,13 +46,15 @@ void check_surface(const std::string& name, const LiftingSurface& s) {
   require(s.root_chord > 0, name + ".root_chord", "be positive", s.root_chord);
   require(s.taper > 0 && s.taper <= 1, name + ".taper", "lie in (0, 1]", s.taper);
   require(s.half_span > 0, name + ".half_span", "be positive", s.half_span);
-  require(std::abs(s.sweep) < 75, name + ".sweep", "lie within 75 degrees", s.sweep);
-  require(std::abs(s.dihedral) < 60, name + ".dihedral", "lie within 60 degrees", s.dihedral);
-  require(s.thickness > 0 && s.thickness <= 0.4, name + ".thickness", "lie in (0, 0.4]", s.thickness);
-  require(std::abs(s.camber) <= 0.1, name + ".camber", "lie within 0.1", s.camber);
-  require(std::abs(s.root_incidence) < 30, name + ".root_incidence", "lie within 30 degrees",
+  require(std::abs(s.sweep) < most_sweep, name + ".sweep", "lie within 75 degrees", s.sweep);
+  require(std::abs(s.dihedral) < most_dihedral, name + ".dihedral", "lie within 60 degrees", s.dihedral);
+  require(s.thickness > 0 && s.thickness <= most_thickness, name + ".thickness", "lie in (0, 0.4]",
+          s.thickness);
+  require(std::abs(s.camber) <= most_camber, name + ".camber", "lie within 0.1", s.camber);
+  require(std::abs(s.root_incidence) < most_incidence, name + ".root_incidence", "lie within 30 degrees",
           s.root_incidence);
-  require(std::abs(s.tip_incidence) < 30, name + ".tip_incidence", "lie within 30 degrees", s.tip_incidence);
+  require(std::abs(s.tip_incidence) < most_incidence, name + ".tip_incidence", "lie within 30 degrees",
+          s.tip_incidence);
   require(s.trailing_edge >= 0 && s.trailing_edge < s.thickness, name + ".trailing_edge",
           "be at least 0 and below the thickness", s.trailing_edge);
 }
@@ -70,7 +81,7 @@ void check_dimensions(const TransportDimensions& d) {
 }
 
 double least_section_depth(const Fuselage& fuselage, const Lifting& lifting, double station) {
-  double least = 1e300;
+  double least = std::numeric_limits<double>::infinity();
   for (const Vec3 p : lifting.section(station)) least = std::min(least, fuselage.depth(p));
   return least;
 }
@@ -109,7 +120,8 @@ Part mirror(const Part& part, const std::string& from, const std::string& to) {
 std::vector<Part> make_parts(const TransportDimensions& d) {
   const Fuselage fuselage(d);
   const double radius = 0.5 * d.fuselage_diameter;
-  const std::vector<double> beside{0.35 * radius, 0.2 * radius, 0.1 * radius};
+  std::vector<double> beside;
+  for (const double station : root_stations) beside.push_back(station * radius);
   std::vector<Part> parts{fuselage.make_part()};
   const auto add_halves = [&](const std::string& name, const LiftingSurface& surface) {
     const Lifting lifting(surface, SpreadTo::right);

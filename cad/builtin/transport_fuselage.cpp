@@ -12,8 +12,14 @@
 namespace aeroloom::cad {
 namespace {
 
+// The shape is a designer's choice, that of no aircraft; what is measured on it stands in docs/ with its
+// hash, so that these numbers stay.
+
 constexpr int spline_degree = 3;
-constexpr int nose_stations = 6;  // over a quarter of an ellipse
+constexpr int nose_stations = 6;          // over a quarter of an ellipse
+constexpr double nose_tip_radius = 0.12;  // over the cabin's, of the control points that round the tip
+constexpr double end_rounding = 0.6;      // over the radius of the tail's end, likewise
+constexpr int fewest_cabin_stations = 3;  // with the front's four of one radius: a cylindrical span
 constexpr int tail_stations = 8;
 constexpr double cabin_station_spacing = 1.5;  // in radii
 constexpr double tail_end_radius = 0.14;       // over the cabin's
@@ -29,15 +35,15 @@ Fuselage::Fuselage(const TransportDimensions& d) {
   const double radius = 0.5 * d.fuselage_diameter, tail_start = d.fuselage_length - d.tail_length;
   // The first two stations lie in the plane of the tip, the last two in that of the end: round, no needle.
   _stations.push_back({0, 0, 0});
-  _stations.push_back({0, 0.12 * radius, 0});
+  _stations.push_back({0, nose_tip_radius * radius, 0});
   for (int i = 1; i <= nose_stations; ++i) {
     const double angle = 0.5 * std::numbers::pi * i / nose_stations;
     _stations.push_back({d.nose_length * (1 - std::cos(angle)), radius * std::sin(angle), 0});
   }
   const auto cabin_front = static_cast<double>(_stations.size() - 1);
   const double cabin = tail_start - d.nose_length;
-  const int cabin_stations =
-      std::max(3, static_cast<int>(std::lround(cabin / (cabin_station_spacing * radius))));
+  const int cabin_stations = std::max(
+      fewest_cabin_stations, static_cast<int>(std::lround(cabin / (cabin_station_spacing * radius))));
   for (int i = 1; i <= cabin_stations; ++i) {
     _stations.push_back({d.nose_length + cabin * i / cabin_stations, radius, 0});
   }
@@ -48,7 +54,7 @@ Fuselage::Fuselage(const TransportDimensions& d) {
     _stations.push_back({tail_start + s * (end_x - tail_start), radius + taper * (end_radius - radius),
                          taper * d.tail_upsweep});
   }
-  _stations.push_back({d.fuselage_length, 0.6 * end_radius, d.tail_upsweep});
+  _stations.push_back({d.fuselage_length, end_rounding * end_radius, d.tail_upsweep});
   _stations.push_back({d.fuselage_length, 0, d.tail_upsweep});
   // With knots 0, 1, 2, ... the control point i rules around the parameter i - 1.
   const auto spans = static_cast<double>(_stations.size() - spline_degree);
@@ -110,8 +116,9 @@ Fuselage::Station Fuselage::evaluate(double parameter) const {
 }
 
 double Fuselage::depth(Vec3 point) const {
+  constexpr int bisections = 60;  // down to the last bit of the parameter
   double low = 0, high = _breaks.back();
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (low + high);
     (evaluate(middle).x < point.x ? low : high) = middle;
   }

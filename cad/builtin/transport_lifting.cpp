@@ -1,4 +1,5 @@
 #include "cad/builtin/transport_parts.hpp"
+#include "cad/tolerances.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -19,6 +20,14 @@ namespace {
 
 constexpr int aerofoil_intervals = 16;   // of the interpolated upper and lower side
 constexpr double camber_position = 0.4;  // of the largest camber, over chord
+/// About which incidence turns a section, over chord: where a thin aerofoil's lift acts.
+constexpr double turning_point = 0.25;
+/// Of the angle, for a derivative by differences of second order: its error is the square of it, 1e-10.
+constexpr double difference_step = 1e-5;
+/// Points of the unit aerofoil that are nearer are one to the interpolation: none are.
+constexpr double distinct_points = 1e-9;
+/// Points of a section to test where it lies, in intervals of the interpolation.
+constexpr int tested_per_interval = 4;
 
 enum class Side { upper, lower };
 
@@ -48,7 +57,7 @@ gp_Pnt to_gp(Vec2 p) {
 
 /// Derivative by angle at an end of the range.
 gp_Vec end_tangent(const LiftingSurface& surface, Side side, double angle, double inward) {
-  const double step = 1e-5 * inward;
+  const double step = difference_step * inward;
   const Vec2 a = aerofoil(surface, side, angle), b = aerofoil(surface, side, angle + step),
              c = aerofoil(surface, side, angle + 2 * step);
   const Vec2 d = (-3.0 * a + 4.0 * b - c) / (2 * step);
@@ -65,7 +74,7 @@ Handle(Geom_BSplineCurve) interpolate_side(const LiftingSurface& surface, Side s
     points->SetValue(i + 1, to_gp(aerofoil(surface, side, angle)));
     parameters->SetValue(i + 1, angle);
   }
-  GeomAPI_Interpolate interpolate(points, parameters, Standard_False, 1e-9);
+  GeomAPI_Interpolate interpolate(points, parameters, Standard_False, distinct_points);
   gp_Vec leading = end_tangent(surface, Side::upper, 0, 1);
   if (side == Side::lower) leading.Reverse();
   interpolate.Load(leading, end_tangent(surface, side, 0.5 * std::numbers::pi, -1), Standard_False);
@@ -111,7 +120,7 @@ Handle(Geom_BSplineCurve) line(Vec3 a, Vec3 b) {
 TopoDS_Face cap(const Handle(Geom_BSplineCurve) & upper, const Handle(Geom_BSplineCurve) & lower,
                 gp_Dir normal) {
   BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(upper).Edge(), BRepBuilderAPI_MakeEdge(lower).Edge());
-  if (!upper->EndPoint().IsEqual(lower->EndPoint(), 1e-7)) {
+  if (!upper->EndPoint().IsEqual(lower->EndPoint(), tolerances::library_length)) {
     wire.Add(BRepBuilderAPI_MakeEdge(upper->EndPoint(), lower->EndPoint()).Edge());
   }
   return BRepBuilderAPI_MakeFace(gp_Pln(upper->StartPoint(), normal), wire.Wire());
@@ -121,10 +130,9 @@ TopoDS_Face cap(const Handle(Geom_BSplineCurve) & upper, const Handle(Geom_BSpli
 
 Vec3 Lifting::place(Vec2 point, double station) const {
   const auto at = [&](double chord, double incidence, double span) {
-    // Incidence turns the section about its quarter chord.
-    const double x = chord * (point.x - 0.25), z = chord * point.y;
+    const double x = chord * (point.x - turning_point), z = chord * point.y;
     const double c = std::cos(radians(incidence)), s = std::sin(radians(incidence));
-    const Vec2 turned{x * c + z * s + 0.25 * chord, z * c - x * s};
+    const Vec2 turned{x * c + z * s + turning_point * chord, z * c - x * s};
     const double back = _surface.x + span * std::tan(radians(_surface.sweep)) + turned.x;
     if (_to == SpreadTo::up) return Vec3{back, turned.y, _surface.z + span};
     return Vec3{back, span, _surface.z + span * std::tan(radians(_surface.dihedral)) + turned.y};
@@ -137,9 +145,10 @@ Vec3 Lifting::place(Vec2 point, double station) const {
 std::vector<Vec3> Lifting::section(double station) const {
   std::vector<Vec3> points;
   for (const Side side : {Side::upper, Side::lower}) {
-    for (int i = 0; i <= 4 * aerofoil_intervals; ++i) {
-      points.push_back(
-          place(aerofoil(_surface, side, 0.125 * std::numbers::pi * i / aerofoil_intervals), station));
+    for (int i = 0; i <= tested_per_interval * aerofoil_intervals; ++i) {
+      points.push_back(place(
+          aerofoil(_surface, side, 0.5 / tested_per_interval * std::numbers::pi * i / aerofoil_intervals),
+          station));
     }
   }
   return points;

@@ -1,4 +1,4 @@
-/// What boolean operations have in common. Seen by this folder only.
+/// Boolean operations that fail loudly and keep names. Seen by this folder only.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
@@ -9,10 +9,6 @@
 #include <TopoDS_Solid.hxx>
 
 namespace aeroloom::cad {
-
-/// What the CAD library's volumes of trimmed spline solids are good for, relative; an operation gone wrong is
-/// off by a body.
-inline constexpr double integration_error = 2e-3;
 
 /// Builds an operation whose arguments are set. Throws CadError when the CAD library reports failure; `doing`
 /// says what was tried.

@@ -23,7 +23,7 @@ struct ClosedStrips {
 /// model and the strips alone.
 ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips);
 
-/// What is told of one that was closed.
+/// The entry in the list of changes for a strip that was closed.
 Change describe_closed(const Model& model, const BluntEdge& strip);
 
 }  // namespace aeroloom::cad

@@ -9,6 +9,7 @@
 #include "cad/repair/heal.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
   return decide_kind(*hull);
 }
 
-/// What is meshed, the far field included.
+/// The solids that are meshed, the far field included.
 struct FluidShape {
   NamedShape shape;
   KindDecision decision;
@@ -86,28 +87,30 @@ double largest_extent(Vec3 size) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// The CAD library knows points to `exactness`, whatever the unit: far from the origin numbers are further
+/// The CAD library knows points to one length whatever the unit; far from the origin numbers are further
 /// apart.
 void require_representable(const Box& box) {
-  constexpr double exactness = 1e-7, bearable = 10;
   double farthest = 0;
   for (const Vec3& corner : {box.low, box.high})
     farthest = std::max({farthest, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
   const double spacing = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
-  if (spacing <= bearable * exactness) return;
+  if (spacing <= tolerances::bearable_spacings * tolerances::library_length) return;
   throw CadError(
       fmt::format("the domain reaches out to {:.3g} in the file's unit, where numbers of the computer are "
                   "{:.2g} apart, but "
                   "the CAD library tells points {:.0g} apart. Remedy: a larger unit, a model near the "
                   "origin, or a far field "
                   "that is nearer (farfield.extent)",
-                  farthest, spacing, exactness));
+                  farthest, spacing, tolerances::library_length));
 }
 
 /// Triangulates every face coarsely, where nobody did: what the CAD library cannot triangulate is found here,
 /// where a crash is sandboxed.
 void try_facets(const Model& model) {
-  for (FaceId f = 0; f < model.face_count(); ++f) model.facets(f, 0.01 * model.bounds().diagonal(), 0.6);
+  constexpr double deflection = 0.01,
+                   angle = 0.6;  // of the diagonal; radians: coarser than what any stage asks for
+  for (FaceId f = 0; f < model.face_count(); ++f)
+    model.facets(f, deflection * model.bounds().diagonal(), angle);
 }
 
 Domain prepare(const DomainOptions& options) {

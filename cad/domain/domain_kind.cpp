@@ -1,5 +1,7 @@
 #include "cad/domain/domain_kind.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,10 +16,20 @@
 namespace aeroloom::cad {
 namespace {
 
+// The bounds that tell a fluid from bodies were chosen, not measured; the fill and the number of inner faces
+// are in the log, and `geometry.domain` overrules the decision.
+
+/// Half spaces that stand for the convex hull: normals some 15 degrees apart.
 constexpr int direction_count = 200;
+/// A far field with a body in it fills nearly all of its hull, since bodies are small in it.
 constexpr double fluid_fill = 0.85;
+/// A face is a piece of the hull where no more of it lies before the face (of the diagonal): facets and
+/// directions 15 degrees apart leave some before any round hull.
 constexpr double hull_tolerance = 0.02;
+/// A face with more of the hull before it lies inside: a wall of an obstacle.
 constexpr double inner_reach = 0.1;
+/// Facets for all that (of the diagonal; radians).
+constexpr double hull_facet_deflection = 0.005, hull_facet_angle = 0.6;
 
 /// Directions spread evenly over the sphere (Fibonacci's spiral), the axes first: boxes are common.
 std::vector<Vec3> spread_directions() {
@@ -64,7 +76,7 @@ double radical_inverse(int base, int index) {
 
 /// Share of the box, by Halton's points.
 double Polytope::volume(const Box& box) const {
-  constexpr int samples = 20000;
+  constexpr int samples = 20000;  // chosen, not measured
   const Vec3 size = box.size();
   int inside = 0;
   for (int i = 1; i <= samples; ++i) {
@@ -79,7 +91,7 @@ std::vector<Facets> coarse_facets(const Model& model) {
   std::vector<Facets> facets;
   facets.reserve(model.face_count());
   for (FaceId f = 0; f < model.face_count(); ++f) {
-    facets.push_back(model.facets(f, 0.005 * model.bounds().diagonal(), 0.6));
+    facets.push_back(model.facets(f, hull_facet_deflection * model.bounds().diagonal(), hull_facet_angle));
   }
   return facets;
 }
@@ -99,7 +111,7 @@ double distance_to_hull(const Facets& facets, const Polytope& hull) {
 /// "xmin" and so on for a flat face on the box; empty otherwise.
 std::string side_of_box(const Box& face, const Box& all) {
   static const char* const names[3][2] = {{"xmin", "xmax"}, {"ymin", "ymax"}, {"zmin", "zmax"}};
-  const double tolerance = 1e-6 * all.diagonal();
+  const double tolerance = tolerances::same_place * all.diagonal();
   for (int axis = 0; axis < 3; ++axis) {
     if (face.high[axis] - face.low[axis] > tolerance) continue;
     if (std::abs(face.low[axis] - all.low[axis]) <= tolerance) return names[axis][0];

@@ -7,6 +7,7 @@
 #include "cad/repair/plane_loops.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
+#include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
@@ -97,6 +98,10 @@ TopoDS_Solid make_far_field(const FarFieldOptions& options, const Extent& extent
   return make_cylinder(extent, options.axis, symmetry);
 }
 
+/// How far beyond the bodies' box the far field reaches, at least: at equal reach the two would touch, and
+/// there would be no fluid between them. Chosen, not measured.
+constexpr double least_clearance = 1.01;
+
 /// How far the far field must reach from the centre to clear the bodies' box.
 double needed_extent(const FarFieldOptions& options, const Box& body, const gp_Pnt& center) {
   Vec3 reach;
@@ -113,11 +118,11 @@ double needed_extent(const FarFieldOptions& options, const Box& body, const gp_P
 void require_clearance(const FarFieldOptions& options, const Box& body, const gp_Pnt& center,
                        double reference) {
   const double needed = needed_extent(options, body, center) / reference;
-  if (options.extent > 1.01 * needed) return;
+  if (options.extent > least_clearance * needed) return;
   throw CadError(
       fmt::format("the far field cuts the body: its extent of {:.4g} reference lengths ({:.6g}) must exceed "
                   "{:.4g} for this body",
-                  options.extent, reference, 1.01 * needed));
+                  options.extent, reference, least_clearance * needed));
 }
 
 bool holds(const Box& outer, const Box& inner) {
@@ -165,7 +170,8 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
 /// counts twice.
 void require_volume(double far_field, double body, double fluid) {
   const double error = std::abs(far_field - body - fluid);
-  if (error <= 1e-3 * std::abs(body) + 1e-12 * far_field && body > 0) return;
+  if (error <= tolerances::sum_of_volumes * std::abs(body) + tolerances::rounding * far_field && body > 0)
+    return;
   throw CadError(
       fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; the body's "
                   "shells cross or are turned "

@@ -15,12 +15,14 @@ namespace {
 
 using Kind = BluntEdgeFinding::Kind;
 
-/// Strips wider than this many times the limit are not what the user means: not a word about them.
+/// Strips wider than this many times the limit are not what the user means: not a word about them. Chosen,
+/// not measured.
 constexpr double remarkable_excess = 3;
 
 /// Strips that are left, by name at most; the others are counted.
 constexpr std::size_t most_named = 20;
-/// Faces that are no strips between two others are spoken of where they are this many times longer than wide.
+/// Faces that are no strips between two others are spoken of where they are this many times longer than wide:
+/// those that a user may take for a trailing edge. Chosen, not measured.
 constexpr double remarkable_slenderness = 50;
 
 /// Whether the user may have meant the face, though it stays.

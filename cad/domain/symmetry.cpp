@@ -3,6 +3,7 @@
 #include "cad/domain/booleans.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +24,6 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr double on_plane_share = 1e-6;  // of the body's diagonal
-constexpr double symmetric_share =
-    1e-3;  // of the body's extent: how unequal the halves of a symmetric body are
 constexpr char axis_names[] = {'x', 'y', 'z'};
 
 /// Where a body may end at a plane: a side of its box with planar faces on it.
@@ -42,7 +40,7 @@ std::vector<End> find_ends(const TopoDS_Shape& bodies, const Box& box) {
       end.plane.axis = axis;
       end.plane.positive = positive;
       end.plane.position = positive ? box.low[axis] : box.high[axis];
-      end.plane.tolerance = on_plane_share * box.diagonal();
+      end.plane.tolerance = tolerances::same_place * box.diagonal();
       if (std::abs(end.plane.position) <= end.plane.tolerance) end.plane.position = 0;
       for (TopExp_Explorer faces(bodies, TopAbs_FACE); faces.More(); faces.Next()) {
         const TopoDS_Face face = TopoDS::Face(faces.Current());
@@ -72,7 +70,7 @@ const End* best_end(const std::vector<End>& ends, std::optional<int> axis) {
 }
 
 SymmetryPlane plane_at(int axis, double position, const Box& box, std::string reason) {
-  const double tolerance = on_plane_share * box.diagonal();
+  const double tolerance = tolerances::same_place * box.diagonal();
   if (position < box.low[axis] - tolerance || position > box.high[axis] + tolerance) {
     throw CadError(
         fmt::format("the plane of symmetry {} = {:.6g} misses the body, which reaches from {:.6g} to "
@@ -85,7 +83,7 @@ SymmetryPlane plane_at(int axis, double position, const Box& box, std::string re
 
 SymmetryPlane find_automatic(const TopoDS_Shape& bodies, const Box& box) {
   const double extent = box.high.y - box.low.y;
-  if (std::abs(box.high.y + box.low.y) <= symmetric_share * extent) {
+  if (std::abs(box.high.y + box.low.y) <= tolerances::symmetric * extent) {
     return plane_at(1, 0, box, "the body is symmetric about it");
   }
   const std::vector<End> ends = find_ends(bodies, box);
@@ -103,7 +101,7 @@ SymmetryPlane find_automatic(const TopoDS_Shape& bodies, const Box& box) {
 SymmetryPlane find_on_axis(int axis, const FarFieldOptions& options, const TopoDS_Shape& bodies,
                            const Box& box) {
   if (options.symmetry_position) return plane_at(axis, *options.symmetry_position, box, "as requested");
-  const double tolerance = on_plane_share * box.diagonal();
+  const double tolerance = tolerances::same_place * box.diagonal();
   if (box.low[axis] < -tolerance && box.high[axis] > tolerance) {
     return plane_at(axis, 0, box, "the body reaches across it");
   }
@@ -232,7 +230,7 @@ NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Vol
       for (const TopoDS_Solid& part : *half) parts += volumes.of(part);
     }
     const double whole = volumes.of(body);
-    if (inside.empty() || std::abs(parts - whole) > integration_error * whole) {
+    if (inside.empty() || std::abs(parts - whole) > tolerances::integrated_volume * whole) {
       throw CadError(
           fmt::format("cutting a body at {} = {:.6g} went wrong: its halves have a volume of {:.9g}, the "
                       "body has {:.9g}",

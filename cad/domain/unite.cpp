@@ -2,6 +2,7 @@
 #include "cad/domain/far_field.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_
   std::vector<Box> boxes;
   Box all;
   for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));
-  const Vec3 gap = 1e-6 * all.diagonal() * Vec3{1, 1, 1};
+  const Vec3 gap = tolerances::same_place * all.diagonal() * Vec3{1, 1, 1};
   for (Box& box : boxes) box.low -= gap, box.high += gap;
   std::vector<std::size_t> group(solids.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
@@ -70,7 +71,7 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes&
     const TopoDS_Shape before = make_compound(united);
     const double parts = volumes.of(before) + volumes.of(group[i]);
     const double whole = volumes.of(fuse.Shape());
-    const double tolerance = integration_error * parts;
+    const double tolerance = tolerances::integrated_volume * parts;
     if (std::abs(parts - whole) > tolerance &&
         std::abs(parts - common_volume(before, group[i], volumes) - whole) > tolerance) {
       throw CadError(fmt::format("uniting bodies went wrong: parts of volume {:.9g} gave a union of {:.9g}",
@@ -101,7 +102,7 @@ namespace {
 
 /// The first pairs of solids that overlap, with places.
 std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volumes) {
-  constexpr int shown = 3;
+  constexpr int shown = 3;  // each takes a boolean operation
   std::vector<Box> boxes;
   boxes.reserve(group.size());
   for (const TopoDS_Solid& solid : group) boxes.push_back(tight_box(solid));
@@ -111,7 +112,8 @@ std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volum
     for (std::size_t j = 0; j < i && found < shown; ++j) {
       if (!boxes[i].overlaps(boxes[j])) continue;
       const double common = common_volume(group[i], group[j], volumes);
-      if (common <= integration_error * std::min(volumes.of(group[i]), volumes.of(group[j]))) continue;
+      if (common <= tolerances::integrated_volume * std::min(volumes.of(group[i]), volumes.of(group[j])))
+        continue;
       ++found;
       const Vec3 low{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
                      std::max(boxes[i].low.z, boxes[j].low.z)};
@@ -147,7 +149,7 @@ NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) 
     const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
     double whole = 0;
     for (const TopoDS_Solid& solid : joined) whole += volumes.of(solid);
-    if (joined.size() < group.size() || std::abs(whole - parts) > integration_error * parts) {
+    if (joined.size() < group.size() || std::abs(whole - parts) > tolerances::integrated_volume * parts) {
       throw CadError(
           fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}{}. Remedy: make "
                       "them touch in the CAD program, or take them as bodies (DomainOptions::kind: body)",

@@ -12,7 +12,7 @@
 
 namespace aeroloom::cad {
 
-/// What a file says about one face; empty strings where it says nothing.
+/// Names of one face as the file gives them; empty strings where it gives none.
 struct FaceLabel {
   std::string name;  ///< of the face itself
   std::string layer;

@@ -1,5 +1,5 @@
-/// What the CAD library is doing at the moment, for messages about crashes. Seen by this folder and by who
-/// contains it.
+/// The step that the CAD library is in, so that a message about a crash can name it. Seen by this folder and
+/// by who contains it.
 #pragma once
 
 #include <string>

@@ -30,7 +30,7 @@ struct Ends {
 };
 
 Ends read_ends(const std::string& file) {
-  constexpr std::streamoff window = 4096;
+  constexpr std::streamoff window = 4096;  // bytes; chosen, not measured
   std::ifstream stream;
   stream.exceptions(std::ios::failbit | std::ios::badbit);
   std::error_code ignored;  // what cannot be looked at cannot be opened either
@@ -70,26 +70,29 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// What stands at the beginning, printable, for messages.
+/// The beginning of a file, printable, so that a message shows what it is instead of CAD.
 std::string excerpt(const std::string& head) {
-  std::string text = trimmed(head).substr(0, 40);
+  constexpr std::size_t shown = 40;  // characters, in one line of a message
+  std::string text = trimmed(head).substr(0, shown);
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '.');
   return text;
 }
 
-/// IGES: lines of 80 characters with the section's letter in column 73. Line lengths vary when trailing
-/// blanks were stripped, never before that column.
+/// IGES: lines of 80 characters with the section's letter in column 73, here counted from 0. Line lengths
+/// vary when trailing blanks were stripped, never before that column.
+constexpr std::size_t letter_column = 72;
+
 bool looks_like_iges(const std::string& head) {
   const std::string line = head.substr(0, head.find_first_of("\r\n"));
-  return line.size() > 73 && line[72] == 'S' &&
-         line.find_first_not_of(" 0123456789", 73) == std::string::npos;
+  return line.size() > letter_column + 1 && line[letter_column] == 'S' &&
+         line.find_first_not_of(" 0123456789", letter_column + 1) == std::string::npos;
 }
 
 bool iges_is_complete(const std::string& tail) {
   const std::string text = trimmed(tail);
   const std::string line = text.substr(text.find_last_of("\r\n") + 1);
-  return line.size() > 73 - 1 && line[72] == 'T';
+  return line.size() > letter_column && line[letter_column] == 'T';
 }
 
 void require(bool condition, const std::string& file, const std::string& found) {

@@ -1,4 +1,4 @@
-/// What the exchange framework keeps about a file's shapes: parts, names, colours, layers. Seen by this
+/// Parts, names, colours and layers of a file's shapes, as the exchange framework keeps them. Seen by this
 /// folder only.
 #pragma once
 

@@ -6,6 +6,7 @@
 #include "cad/read/cad_reader.hpp"
 #include "cad/repair/noise_faces.hpp"
 #include "cad/repair/sewing.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +26,8 @@
 namespace aeroloom::cad {
 namespace {
 
+/// Findings that are listed; the others of a kind are counted, so that `check` fits a screen or two.
 constexpr int shown_of_a_kind = 20;
-constexpr double short_edge = 1e-5;          // of the diagonal
-constexpr double sliver_width = 1e-4;        // of the diagonal
-constexpr double sliver_slenderness = 0.01;  // width over length
 
 struct MeasuredEdge {
   double length;
@@ -57,7 +56,8 @@ void find_short_edges(const TopoDS_Shape& shape, double diagonal, Diagnosis& dia
     double first, last;
     if (BRep_Tool::Degenerated(edge) || BRep_Tool::Curve(edge, first, last).IsNull()) continue;
     const MeasuredEdge found = measure(edge);
-    if (found.length >= short_edge * diagonal || ++diagnosis.counts.short_edges > shown_of_a_kind) continue;
+    if (found.length >= tolerances::short_edge * diagonal || ++diagnosis.counts.short_edges > shown_of_a_kind)
+      continue;
     diagnosis.findings.push_back({fmt::format("a short edge of length {:.3g}", found.length), found.middle});
   }
 }
@@ -77,10 +77,11 @@ void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis
     BRepGProp::LinearProperties(faces(i), rim);
     const double length = 0.5 * rim.Mass();  // of a strip
     double width = length > 0 ? std::abs(surface.Mass()) / length : 0;
-    if (width > sliver_width * diagonal || width > sliver_slenderness * length) continue;
+    if (width > tolerances::sliver_width * diagonal || width > tolerances::sliver_slenderness * length)
+      continue;
     if (++diagnosis.counts.sliver_faces > shown_of_a_kind) continue;
     // Areas of such faces are inexact.
-    if (const auto strip = examine_noise(TopoDS::Face(faces(i)), sliver_width * diagonal))
+    if (const auto strip = examine_noise(TopoDS::Face(faces(i)), tolerances::sliver_width * diagonal))
       width = strip->widest;
     diagnosis.findings.push_back({fmt::format("a sliver face '{}' {:.3g} wide and {:.3g} long",
                                               name_of(named, faces(i), i - 1), width, length),

@@ -1,6 +1,7 @@
 #include "cad/repair/edge_on_face.hpp"
 
 #include "aeroloom/cad/model/model.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 
@@ -15,7 +16,7 @@ namespace aeroloom::cad {
 
 Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
                                   const Handle(Geom2d_Curve) & image, bool against, double tolerance) {
-  constexpr int fewest = 16, most = 1024;
+  constexpr int fewest = 16, most = 1024;  // points; doubled until `interpolated`, chosen, not measured
   const SampledEdge own(edge.edge), beside(other.edge);
   const auto along = [](const EdgePart& part, double share) {
     return part.first + share * (part.last - part.first);
@@ -51,7 +52,7 @@ Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
       apart = std::max(apart, curve->Value(along(edge, share)).Distance(exact));
       extent = std::max(extent, exact.Distance(start));
     }
-    if (apart <= 1e-7 * extent) break;
+    if (apart <= tolerances::interpolated * extent) break;
   }
   return curve;
 }

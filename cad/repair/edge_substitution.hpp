@@ -11,8 +11,8 @@
 
 namespace aeroloom::cad {
 
-/// What takes an edge's place in every wire: edges in its direction, forward ones or reversed; nothing where
-/// the edge became a vertex.
+/// The edges that take an edge's place in every wire: in its direction, forward ones or reversed; nothing
+/// where the edge became a vertex.
 using EdgeChain = std::vector<TopoDS_Edge>;
 
 struct Substitution {

@@ -6,6 +6,7 @@
 #include "cad/repair/repair_edges.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@
 namespace aeroloom::cad {
 namespace {
 
-/// What a file's shape consists of.
+/// A file's shape taken apart by how much work its parts need to become solids.
 struct Parts {  // NOLINT(bugprone-exception-escape): the CAD library's maps copy when they are moved
   std::vector<TopoDS_Solid> solids;
   std::vector<TopoDS_Shell> closed_shells;  ///< outside solids
@@ -96,8 +97,8 @@ void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
 
 /// Gaps that elements would show are the user's to close.
 double largest_sewing_tolerance(double smallest_size) {
-  constexpr double share_of_size = 0.1;
-  return smallest_size > 0 ? share_of_size * smallest_size : std::numeric_limits<double>::infinity();
+  return smallest_size > 0 ? tolerances::share_of_size * smallest_size
+                           : std::numeric_limits<double>::infinity();
 }
 
 void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
@@ -119,7 +120,7 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Box& box = boxes[i];
     const double volume = volumes.of(solids[i]);
-    if (volume > 1e-9 * std::pow(box.diagonal(), 3)) continue;
+    if (volume > tolerances::no_volume * std::pow(box.diagonal(), 3)) continue;
     const Vec3 at = box.center();
     throw CadError(fmt::format(
         "solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses next to no volume ({:.3g} in a box of "
@@ -172,7 +173,7 @@ NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes,
   std::vector<Box> boxes;
   Box all;
   for (const TopoDS_Solid& solid : solids) all.add(boxes.emplace_back(tight_box(solid)));
-  repair_edges(named.shape, 1e-6 * all.diagonal(), changes);
+  repair_edges(named.shape, tolerances::same_place * all.diagonal(), changes);
   require_volume(solids, boxes, volumes);
   return close_noise(std::move(named), smallest_size, changes);
 }

@@ -4,6 +4,7 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/noise_closing.hpp"
 #include "cad/repair/noise_faces.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -17,9 +18,11 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Edges that are listed by place; the others are counted.
+/// Edges that are listed by place; the others are counted, so that a file with thousands leaves a report that
+/// can be read.
 constexpr std::size_t most_edges_listed = 20;
-/// Where all cannot be closed together, so many are tried one by one.
+/// Where all cannot be closed together, so many are tried one by one: each attempt examines the whole shape.
+/// Chosen, not measured.
 constexpr int most_single_attempts = 200;
 
 /// One face or edge that is noise.
@@ -142,8 +145,9 @@ NamedShape close_singly(NamedShape named, double tolerance, Changes& changes) {
 }  // namespace
 
 double noise_tolerance(double diagonal, double precision, double smallest_size) {
-  constexpr double share = 2e-6, most = 1e-5, precisions = 2, share_of_size = 0.1;
-  const double tolerance = std::min(std::max(share * diagonal, precisions * precision), most * diagonal);
+  using namespace tolerances;
+  const double tolerance =
+      std::min(std::max(noise * diagonal, noise_over_precision * precision), most_noise * diagonal);
   return smallest_size > 0 ? std::min(tolerance, share_of_size * smallest_size) : tolerance;
 }
 

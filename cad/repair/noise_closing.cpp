@@ -30,8 +30,9 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Vertices unite as far apart as this, in tolerances: a noise face may lie beside another.
-constexpr double widest_union = 3;
+// In tolerances: how far apart vertices unite (noise faces lie side by side), pieces do, are looked for.
+constexpr double widest_union = 3, beside = 1.5, looked_for = 2;
+constexpr double holding = 1.01;  // a vertex's ball over the distance of the ends that it is to hold
 
 /// Plans the closing; numbers of vertices, edges and faces are those of the shape's maps, from 0.
 class NoiseClosing {
@@ -192,7 +193,7 @@ private:
   }
 
   double rough_length_of(const Piece& piece) {
-    constexpr int steps = 16;
+    constexpr int steps = 16;  // rough: compared with some tolerances alone
     const SampledEdge& curve = samples(piece.edge);
     double length = 0;
     for (int i = 0; i < steps; ++i) {
@@ -220,7 +221,7 @@ private:
     if (!alike) return false;
     for (const double share : {0.5, 0.25, 0.75}) {
       const Vec3 at = samples(a.edge).point(a.first + share * (a.last - a.first));
-      if (samples(b.edge).nearest(at, 2 * _tolerance).away > 1.5 * _tolerance) return false;
+      if (samples(b.edge).nearest(at, looked_for * _tolerance).away > beside * _tolerance) return false;
     }
     return true;
   }
@@ -228,7 +229,7 @@ private:
   bool run_against(const Piece& a, const Piece& b) {
     if (a.start != a.end) return a.start == b.end;
     const Vec3 at = middle_of(a);
-    const SampledEdge::Foot foot = samples(b.edge).nearest(at, 2 * _tolerance);
+    const SampledEdge::Foot foot = samples(b.edge).nearest(at, looked_for * _tolerance);
     return dot(samples(a.edge).tangent(0.5 * (a.first + a.last)), samples(b.edge).tangent(foot.parameter)) <
            0;
   }
@@ -264,7 +265,7 @@ private:
   /// The piece that stays is chosen by its place alone, so that two solids which touch in copies of a strip
   /// choose alike.
   void choose_leaders() {
-    const Vec3 direction{0.5377, 0.6231, 0.5681};
+    const Vec3 direction{0.5377, 0.6231, 0.5681};  // askew: symmetric pieces are not equally far along it
     std::vector<int> leader(_pieces.size(), -1);
     for (int p = 0; p < static_cast<int>(_pieces.size()); ++p) {
       const int root = like(p);
@@ -303,7 +304,7 @@ private:
       if (_united.root(v) == root)
         tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Vertex(_vertices(v + 1))));
     }
-    BRep_Builder().MakeVertex(made, gp_Pnt(at.x, at.y, at.z), 1.01 * reach + tolerance);
+    BRep_Builder().MakeVertex(made, gp_Pnt(at.x, at.y, at.z), holding * reach + tolerance);
     return made;
   }
 
@@ -347,12 +348,13 @@ private:
       const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(edge(lost.edge), face, first, last);
       if (image.IsNull()) refuse(middle_of(lost), "an edge beside a strip has no parameter curve");
       const Handle(Geom2d_Curve) now = image_beside(own, other, image, lost.against, _tolerance);
-      add_image(taken.made, now, face, is_passed_forward(lost.edge, face) != lost.against, 1.5 * _tolerance);
+      add_image(taken.made, now, face, is_passed_forward(lost.edge, face) != lost.against,
+                beside * _tolerance);
       builder.Range(taken.made, face, taken.first, taken.last);
     }
     builder.SameRange(taken.made, true);
     builder.SameParameter(taken.made, true);
-    for (const int root : {taken.start, taken.end}) builder.UpdateVertex(vertex(root), 1.5 * _tolerance);
+    for (const int root : {taken.start, taken.end}) builder.UpdateVertex(vertex(root), beside * _tolerance);
   }
 
   bool is_passed_forward(int e, const TopoDS_Face& face) const {

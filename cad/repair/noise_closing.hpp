@@ -6,7 +6,7 @@
 
 namespace aeroloom::cad {
 
-/// What is to be closed.
+/// Faces and edges that are to be closed.
 struct NoiseItems {
   TopTools_IndexedMapOfShape faces;  ///< narrower than the tolerance
   TopTools_IndexedMapOfShape edges;  ///< shorter than the tolerance

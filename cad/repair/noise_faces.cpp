@@ -1,5 +1,7 @@
 #include "cad/repair/noise_faces.hpp"
 
+#include "cad/model/model_data.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -42,6 +44,8 @@ double away_from_others(const std::vector<SampledEdge>& border, std::size_t own,
 }  // namespace
 
 std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance) {
+  // Of an edge, coarse ones first: most faces are told to be wide at the first place that is looked at. The
+  // last two look beside the ends, where a strip that is wide for a short way only would be missed.
   constexpr double shares[] = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.01, 0.99};
   const std::vector<SampledEdge> border = sample_border(face);
   if (border.size() < 2) return std::nullopt;
@@ -65,7 +69,7 @@ std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance
     for (const SampledEdge& edge : border) noise.widest = std::max(noise.widest, edge.length());
   }
   GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties, 1e-3);
+  BRepGProp::SurfaceProperties(face, properties, area_precision);
   if (properties.Mass() > 2 * tolerance * noise.length) return std::nullopt;
   return noise;
 }

@@ -1,5 +1,7 @@
 #include "cad/repair/plane_loops.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +23,7 @@
 namespace aeroloom::cad {
 namespace {
 
+/// Chords by which areas and distances from a plane are measured: a circle's area is short by 0.2 %.
 constexpr int samples_per_edge = 64;
 
 /// Visits points along a wire's edges, each edge in its own direction: calls `visit(first, second)` for
@@ -161,7 +164,7 @@ TopoDS_Face make_plane_face(const gp_Pln& plane, const TopoDS_Wire& outer,
   };
   BRep_Builder builder;
   TopoDS_Face face;
-  builder.MakeFace(face, new Geom_Plane(plane), 1e-7);
+  builder.MakeFace(face, new Geom_Plane(plane), tolerances::library_length);
   builder.Add(face, turned(outer, true));
   for (const TopoDS_Wire& hole : holes) builder.Add(face, turned(hole, false));
   return face;

@@ -2,6 +2,7 @@
 
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/model_topology.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,7 @@
 namespace aeroloom::cad {
 namespace {
 
+/// Of an edge, and of the parameter curve that is drawn through them; chosen, not measured.
 constexpr int samples = 200;
 
 /// Crowded towards the ends, where parameters run away most.
@@ -94,8 +96,8 @@ Pace measure_pace(const EdgeOnFace& edge, const FaceEvaluator& face, double tole
 bool keep_pace(const TopoDS_Edge& edge, const FaceEvaluator& face, double tolerance) {
   const EdgeOnFace on_face(edge, face);
   if (!on_face.differ_by_more(tolerance)) return false;
-  const Pace pace = measure_pace(on_face, face, 1e-3 * tolerance);
-  if (pace.after > 0.1 * pace.before) return false;
+  const Pace pace = measure_pace(on_face, face, tolerances::foot_that_measures * tolerance);
+  if (pace.after > tolerances::better_pace * pace.before) return false;
   Geom2dAPI_Interpolate interpolation(pace.uv, pace.at, false, 0);
   interpolation.Perform();
   if (!interpolation.IsDone()) return false;

@@ -7,7 +7,11 @@
 namespace aeroloom::cad {
 namespace {
 
+/// Chords stand for an edge where it is looked for near a point, and feet start from them. Chosen, not
+/// measured.
 constexpr int edge_intervals = 32;
+/// Steps along tangents to a foot, and halvings of one that leads away; chosen, not measured.
+constexpr int rounds = 20, halvings_of_foot = 5;
 
 Vec3 vec_of(const gp_XYZ& p) {
   return {p.X(), p.Y(), p.Z()};
@@ -34,7 +38,6 @@ Vec3 SampledEdge::tangent(double parameter) const {
 }
 
 SampledEdge::Foot SampledEdge::nearest_around(Vec3 p, double parameter) const {
-  constexpr int rounds = 20;
   Foot best{parameter, distance(point(parameter), p)};
   for (int i = 0; i < rounds; ++i) {
     const Vec3 along = tangent(best.parameter);
@@ -42,7 +45,7 @@ SampledEdge::Foot SampledEdge::nearest_around(Vec3 p, double parameter) const {
     if (square == 0) break;
     double step = dot(p - point(best.parameter), along) / square;
     bool nearer = false;
-    for (int half = 0; half < 5 && !nearer; ++half, step *= 0.5) {
+    for (int half = 0; half < halvings_of_foot && !nearer; ++half, step *= 0.5) {
       const double t = std::clamp(best.parameter + step, first(), last());
       const double away = distance(point(t), p);
       if (away >= best.away) continue;

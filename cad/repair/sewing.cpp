@@ -7,6 +7,7 @@
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"
 #include "cad/repair/shells.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -35,17 +36,9 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Tolerances in shares of the diagonal. Measured on real files: three quarters of those with gaps close at
-/// the first, all but one at the third.
-constexpr double shares[] = {1e-7, 1e-6, 1e-5, 1e-4};
-/// An opening is planar when it leaves its plane by no more than this share of the diagonal.
-constexpr double planar_share = 1e-5;
-/// What is open wider than this share of its faces' area is a sheet, not a body with an opening.
+/// A shape that is open wider than this share of its faces' area is a sheet, not a body with an opening: an
+/// open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
 constexpr double widest_opening = 0.5;
-
-/// An opening narrower than this share of the diagonal is a gap between faces, to be sewn and not to be
-/// capped.
-constexpr double narrowest_opening = 1e-3;
 
 struct Sewn {
   std::vector<TopoDS_Shell> closed;
@@ -98,7 +91,7 @@ struct Gap {
 /// The largest distance between an edge and the surface of a face it bounds: the gap that sewing closed
 /// there.
 Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
-  constexpr int samples = 8;
+  constexpr int samples = 8;  // on an edge; gaps change slowly along it. Chosen, not measured.
   TopTools_IndexedDataMapOfShapeListOfShape users;
   TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
   Gap gap;
@@ -127,8 +120,9 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
 
 /// Returns the widest gap.
 double tell_sewn(const Sewn& sewn, int face_count, Changes& changes) {
-  const Gap gap = largest_gap(sewn.shape, 1e-3 * sewn.tolerance);
-  const char* caution = sewn.share > 2e-5 ? "; such gaps are wide: look at the mesh there" : "";
+  const Gap gap = largest_gap(sewn.shape, tolerances::foot_that_measures * sewn.tolerance);
+  const char* caution =
+      sewn.share > tolerances::cautioned_sewing ? "; such gaps are wide: look at the mesh there" : "";
   changes.push_back({fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the "
                                  "diagonal){}",
                                  face_count, sewn.closed.size(), sewn.tolerance, sewn.share, caution),
@@ -174,10 +168,10 @@ bool close_bodies(const TopoDS_Shape& open, const std::vector<Cap>& caps) {
 
 /// Adds caps to sewn faces and sews once more; not complete where the openings are not planar.
 Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
-  const std::vector<Cap> caps = cap_openings(open_edges(sewn.shape), planar_share * diagonal);
+  const std::vector<Cap> caps = cap_openings(open_edges(sewn.shape), tolerances::planar_opening * diagonal);
   if (caps.empty()) return {};
   for (const Cap& cap : caps) {
-    if (cap.area < narrowest_opening * diagonal * length_of(cap.face)) return {};
+    if (cap.area < tolerances::narrowest_opening * diagonal * length_of(cap.face)) return {};
   }
   if (!close_bodies(sewn.shape, caps)) return {};
   TopTools_IndexedMapOfShape faces;
@@ -207,6 +201,8 @@ struct Attempt {
 /// Tolerances ascending. Where strips are no wider than a few of them sewing would lay their sides on one
 /// another and leave the strip: it is tried with less, and without the strips.
 std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double diagonal) {
+  // In widths of the narrowest strip, and in tolerances: how far sewing keeps from laying one side on the
+  // other. Chosen, not measured.
   constexpr double part_of_strip = 0.1, near = 5;
   const double limit = noise_tolerance(diagonal, 0, 0);
   std::vector<std::pair<int, NoiseFace>> strips;
@@ -218,9 +214,9 @@ std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double
     narrowest = std::min(narrowest, noise->widest);
   }
   std::vector<Attempt> attempts;
-  if (narrowest < near * shares[0] * diagonal)
+  if (narrowest < near * tolerances::sewing[0] * diagonal)
     attempts.push_back({faces, part_of_strip * narrowest / diagonal, {}});
-  for (const double share : shares) {
+  for (const double share : tolerances::sewing) {
     if (narrowest < near * share * diagonal && static_cast<int>(strips.size()) < faces.Extent()) {
       Attempt without{{}, share, strips};
       for (int i = 1, next = 0; i <= faces.Extent(); ++i) {
@@ -250,7 +246,7 @@ std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, cons
 }
 
 std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels) {
-  constexpr std::size_t shown = 5;
+  constexpr std::size_t shown = 5;  // a message of some lines
   const std::vector<TopoDS_Edge> edges = open_edges(shape);
   std::string text = fmt::format("{} open edges", edges.size());
   for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {

@@ -1,6 +1,7 @@
 #include "cad/repair/shells.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -36,7 +37,7 @@ bool box_inside(const Box& inner, const Box& outer) {
 
 /// Points of a shape's edges, evenly among them: their ends and three between.
 std::vector<gp_Pnt> points_on_edges(const TopoDS_Shape& shape) {
-  constexpr int most_edges = 40, steps = 4;
+  constexpr int most_edges = 40, steps = 4;  // some 200 points where few decide; chosen, not measured
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(shape, TopAbs_EDGE, edges);
   const int stride = std::max(1, edges.Extent() / most_edges);
@@ -56,7 +57,7 @@ enum class Place { inside, outside, on_surface };
 /// Where a body lies that does not cross the solid: most of its points not on the solid's surface decide. One
 /// alone does not: the classifier's rays err where they graze an edge of large tolerance.
 Place place_of(const TopoDS_Shape& body, const TopoDS_Solid& solid, double tolerance) {
-  constexpr int lead = 4;
+  constexpr int lead = 4;  // more than the rays that graze one edge can be wrong; chosen, not measured
   BRepClass3d_SolidClassifier classifier(solid);
   int balance = 0;
   for (const gp_Pnt& point : points_on_edges(body)) {
@@ -113,7 +114,8 @@ std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, V
   std::vector<int> depth(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
-      if (i != j) depth[i] += inside[i][j] = lies_inside(bodies[i], bodies[j], 1e-9 * all.diagonal());
+      if (i != j)
+        depth[i] += inside[i][j] = lies_inside(bodies[i], bodies[j], tolerances::coincident * all.diagonal());
     }
   }
   std::vector<TopoDS_Solid> solids;
@@ -139,7 +141,7 @@ int count_in_cavities(const std::vector<TopoDS_Solid>& solids, Volumes& volumes)
     outlines.push_back({outer.IsNull() ? solid : solid_of(outer, volumes), tight_box(solid)});
     all.add(outlines.back().box);
   }
-  const double tolerance = 1e-9 * all.diagonal();
+  const double tolerance = tolerances::coincident * all.diagonal();
   int count = 0;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     for (std::size_t j = 0; j < solids.size(); ++j) {

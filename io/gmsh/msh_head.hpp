@@ -19,7 +19,7 @@ struct MshBox {
 /// By patch, then by region, of the whole mesh. Collective.
 std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator, const FileMesh& mesh);
 
-/// What part files have in addition: which entities lie in part `part` (from 1).
+/// The entities that lie in part `part` (from 1), which part files have in addition.
 struct MshPartition {
   std::int32_t part = 1;
   std::vector<std::int32_t> patches, regions;

@@ -1,4 +1,4 @@
-/// What an MSH file says about itself: groups, entities, and where its blocks of nodes and elements stand.
+/// Tables of an MSH file: groups, entities, and where its blocks of nodes and elements stand.
 #pragma once
 
 #include "aeroloom/io/file_mesh.hpp"

@@ -10,7 +10,8 @@
 
 namespace aeroloom::io::hdf5 {
 
-/// What HDF5 says about its last failure in this thread: the innermost reason, and what it was about to do.
+/// The message of HDF5 about its last failure in this thread: the innermost reason, and what it was about to
+/// do.
 std::string last_reason();
 
 /// Throws std::runtime_error "WHAT: the library's reason" where a call has returned a negative number.

@@ -18,13 +18,17 @@ namespace aeroloom::io::hdf5 {
 namespace {
 
 constexpr std::int64_t rows_at_a_time = std::int64_t{1} << 21;
+// Of a child that reads so many rows: many times what they take where the file is sound. Chosen, not
+// measured.
+constexpr double most_cpu_seconds = 120;
+constexpr std::int64_t most_bytes = std::int64_t{2} << 30;
 
 /// Runs one operation in a child; its bytes.
 parallel::Bytes read_sandboxed(const ReadingRequest& request) {
   const std::string& path = request.path;
   parallel::SandboxLimits limits;
-  limits.cpu_seconds = 120;
-  limits.address_space_bytes = std::int64_t{2} << 30;
+  limits.cpu_seconds = most_cpu_seconds;
+  limits.address_space_bytes = most_bytes;
   const parallel::CrashNote note(fmt::format("reading '{}'", path));
   parallel::SandboxResult result =
       parallel::run_sandboxed(reading_task.name(), parallel::to_wire(request), limits);

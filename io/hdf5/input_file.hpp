@@ -14,7 +14,7 @@ namespace aeroloom::io::hdf5 {
 
 enum class ItemKind : std::uint8_t { missing, integer, real, text, other };
 
-/// What is known of an array without reading it.
+/// Facts about an array that are known without reading it.
 struct ArrayFacts {
   ItemKind kind = ItemKind::missing;  ///< `other`: a group, or items of another kind
   std::vector<std::int64_t> dimensions;
@@ -32,7 +32,7 @@ struct AttributeName {
   static constexpr auto fields() { return std::tuple(&AttributeName::object, &AttributeName::attribute); }
 };
 
-/// What to look up in one go.
+/// Names to be looked up by one child, so that the file is opened once.
 struct SurveyRequest {
   std::vector<std::string> arrays;
   std::vector<AttributeName> attributes;

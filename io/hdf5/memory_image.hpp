@@ -1,4 +1,4 @@
-/// What HDF5 writes of a file that is laid out in memory.
+/// The bytes that HDF5 writes of a file that is laid out in memory.
 #pragma once
 
 #include "aeroloom/parallel/communication/communicator.hpp"
@@ -28,7 +28,7 @@ public:
   /// Of the file, as its owner says; no byte of it need be written.
   void set_length(std::uint64_t length) { _length = length; }
   std::uint64_t length() const { return _length; }
-  /// What has been written, and nothing between: ascending, neither overlapping nor touching.
+  /// The extents that have been written, and nothing between: ascending, neither overlapping nor touching.
   std::vector<Extent> extents() const;
 
 private:

@@ -12,7 +12,7 @@ namespace aeroloom::io::hdf5 {
 
 enum class Operation : std::uint8_t { survey, integers, reals, texts };
 
-/// What the child is asked.
+/// The question to the child.
 struct ReadingRequest {
   Operation operation = Operation::survey;
   std::string path;

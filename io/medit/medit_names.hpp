@@ -9,7 +9,7 @@
 
 namespace aeroloom::io {
 
-/// What references stand for: of cells of all shapes, and of faces of all shapes.
+/// The regions and patches that references stand for: of cells of all shapes, and of faces of all shapes.
 struct MeditNames {
   std::map<std::int64_t, std::string> regions;
   std::map<std::int64_t, mesh::Patch> patches;

@@ -1,4 +1,4 @@
-/// What the readers of the two encodings make of a Medit file. Internal to io/medit/.
+/// The share of a Medit file that the readers of both encodings fill. Internal to io/medit/.
 #pragma once
 
 #include "aeroloom/io/file_mesh.hpp"

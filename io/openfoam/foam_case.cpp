@@ -116,7 +116,7 @@ bool holds_results(const fs::path& processor) {
   return false;
 }
 
-/// What a decomposeParDict says; 0: nothing.
+/// The number of subdomains that a decomposeParDict asks for; 0: none.
 std::int64_t subdomains_of(const fs::path& path) {
   const std::string text = text_of(path), word = "numberOfSubdomains";
   const std::size_t at = text.find(word);
@@ -153,7 +153,7 @@ void write_decomposition(const FoamCase& foam_case) {
   write_once(old, foam_decomposition(foam_case.parts));
 }
 
-/// What a solver left in the time folders stays: it is its user's.
+/// Fields that a solver left in the time folders stay, as they are its user's.
 void warn_of_fields(const FoamCase& foam_case) {
   const auto is_time = [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();

@@ -97,7 +97,7 @@ void require_closed(const LinkDefects& defects) {
           defects.crowded_faces, defects.stray_faces, defects.repeated_faces, defects.open_faces));
 }
 
-/// What a part has of the whole mesh's.
+/// Counts of a part among those of the whole mesh.
 struct PartRow {
   GlobalIndex cells, inner_faces;
 
@@ -117,7 +117,7 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
   return mesh::gather_by_piece(communicator, *mesh.pieces, mine);
 }
 
-/// What a part has to tell others about the faces between them.
+/// Notes of a part to others about the faces between them.
 void add_notes(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
                std::vector<mesh::Told<FoamFaceNote>>& notes) {
   const PatchPlaces places(mesh, part);

@@ -45,7 +45,7 @@ struct FoamCorners {
 };
 FoamCorners corners_of_face(const FilePart& part, const FoamFace& face);
 
-/// What the other part tells about a face between two.
+/// The note of the other part about a face between two.
 struct FoamFaceNote {
   std::int32_t zone = -1;         ///< if the other side has the boundary face
   mesh::GlobalIndex number = -1;  ///< among the inner faces of the part that tells, if its cell is the owner

@@ -108,7 +108,7 @@ omega           250;        // 1/s: as much eddy viscosity as viscosity
 nut             1.5e-05;    // eddy viscosity, m2/s: k over omega
 )foam";
 
-/// What a field is at patches of each type; a name of a type is that of a group of patches.
+/// A field with its conditions at patches of each type; the name of a type is that of a group of patches.
 struct Field {
   std::string_view name, kind, dimensions, start, wall, slip, farfield, inlet, outlet;
 };

@@ -1,4 +1,4 @@
-/// What a solver needs besides the mesh: dictionaries, and fields with conditions by type of patch.
+/// Dictionaries, and fields with conditions by type of patch: all that a solver needs besides the mesh.
 ///
 /// They make `potentialFoam`, then `simpleFoam` with the k-omega SST model, run as they stand: air at 50 m/s,
 /// first-order convection of turbulence and limited gradients, made to start from nothing on tetrahedra

@@ -19,7 +19,7 @@ struct Su2Element {
   static constexpr std::int64_t point = 1, line = 3;
 };
 
-/// What a type means; nothing where it is not supported.
+/// The element of a type; none where it is not supported.
 inline std::optional<Su2Element> su2_element_of(std::int64_t type) {
   for (const CellShape shape : cell_shapes) {
     if (vtk_cell_type[static_cast<std::size_t>(shape)] == type)

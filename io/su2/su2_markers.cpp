@@ -112,7 +112,7 @@ std::map<std::string, mesh::PatchType> read_markers(const std::string& path) {
   return types;
 }
 
-/// What each patch is. Lines for markers that the mesh does not have are those of another mesh.
+/// The type of each patch. Lines for markers that the mesh does not have are those of another mesh.
 std::vector<mesh::PatchType> types_of_markers(const std::string& path,
                                               const std::vector<mesh::Patch>& patches) {
   std::map<std::string, mesh::PatchType> markers = read_markers(path);

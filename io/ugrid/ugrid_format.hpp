@@ -1,4 +1,4 @@
-/// What UGRID files are made of: kinds by suffix, places of sections, orders of corners, codes of patches.
+/// The format of UGRID files: kinds by suffix, places of sections, orders of corners, codes of patches.
 ///
 /// Layout after the UG_IO documentation of UGRID files (SimCenter, Mississippi State University: `3D grid
 /// file type UGRID`, `3D input/output grids`) and of the High Lift Prediction Workshops (AFLR3, stream
@@ -63,9 +63,10 @@ inline constexpr std::array<std::array<std::int8_t, 6>, cell_shape_count> to_ugr
 /// normal to, 3000 (no flow through it) where that is none of x, y, z.
 enum class NormalAxis { x, y, z, none };
 int mapbc_code_of(mesh::PatchType type, NormalAxis axis);
-/// What a number means here: FUN3D's, and USM3D's (its web page `Boundary conditions`: 0 free stream, 1 plane
-/// of reflection, 2 extrapolation, 3 characteristic, 4 no slip, 5 tangent flow, 1001 and 1002 inflow and
-/// outflow of channels); walls are the answer to numbers that mean nothing here.
+/// The type of patch that a number of a mapbc file means: FUN3D's, and USM3D's (its web page `Boundary
+/// conditions`: 0 free stream, 1 plane of reflection, 2 extrapolation, 3 characteristic, 4 no slip, 5 tangent
+/// flow, 1001 and 1002 inflow and outflow of channels); walls are the answer to numbers that mean nothing
+/// here.
 mesh::PatchType patch_type_of_mapbc(std::int64_t code);
 
 }  // namespace aeroloom::io

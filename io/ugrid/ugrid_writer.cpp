@@ -109,10 +109,12 @@ void write_parts_of_rank(const FileMesh& mesh, const BoundaryPatches& patches, b
   writer.flush();
 }
 
-/// The axis along which a patch has no extent to speak of.
+/// The axis along which a patch has no extent to speak of: exact planes have none at all, and planes of
+/// meshes read from other files what is left by their rounding.
 NormalAxis normal_axis_of(const geometry::Box& box) {
   const geometry::Vec3 size = box.size();
-  const double flat = 1e-9 * std::max({size.x, size.y, size.z});
+  constexpr double no_extent = 1e-9;
+  const double flat = no_extent * std::max({size.x, size.y, size.z});
   return size.x <= flat   ? NormalAxis::x
          : size.y <= flat ? NormalAxis::y
          : size.z <= flat ? NormalAxis::z

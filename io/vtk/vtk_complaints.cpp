@@ -45,7 +45,8 @@ std::string VtkComplaints::first() const {
   if (place != std::string::npos) text.erase(0, place + 3);
   std::replace(text.begin(), text.end(), '\n', ' ');
   text.erase(text.find_last_not_of(' ') + 1);
-  return text.size() > 300 ? text.substr(0, 300) + " ..." : text;
+  constexpr std::size_t longest = 300;  // characters of a message of ours that quotes it
+  return text.size() > longest ? text.substr(0, longest) + " ..." : text;
 }
 
 }  // namespace aeroloom::io

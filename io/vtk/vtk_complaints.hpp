@@ -1,4 +1,4 @@
-/// What VTK complains of. Included by io/vtk/*.cpp alone: it names VTK.
+/// Complaints of VTK, which it prints instead of throwing. Included by io/vtk/*.cpp alone: it names VTK.
 #pragma once
 
 #include <string>

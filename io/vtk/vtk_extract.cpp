@@ -57,7 +57,7 @@ std::vector<double> read_coordinates(vtkUnstructuredGrid& grid) {
   return coordinates;
 }
 
-/// What becomes of a cell of the file.
+/// The use that is made of a cell of the file.
 enum class Use { cell, face, none };
 struct Kind {
   Use use = Use::none;

@@ -1,4 +1,4 @@
-/// What the writers of VTK files share. Included by io/vtk/*.cpp alone: it names VTK.
+/// Parts of VTK files that all their writers have in common. Included by io/vtk/*.cpp alone: it names VTK.
 #pragma once
 
 #include "aeroloom/io/vtk/vtk_writer.hpp"

@@ -37,7 +37,7 @@ public:
 };
 vtkStandardNewMacro(XmlGridReader);
 
-/// Nor that the end of a file is missing.
+/// VTK reads a file whose end is missing as far as it goes, without a word: the last bytes tell.
 void require_xml_end(const std::string& path) {
   constexpr std::int64_t enough = 1024;
   std::ifstream stream(path, std::ios::binary | std::ios::ate);

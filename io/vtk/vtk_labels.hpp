@@ -1,4 +1,4 @@
-/// What VTK files tell of regions and patches. Included by io/vtk/*.cpp alone: it names VTK.
+/// Regions and patches as VTK files tell them. Included by io/vtk/*.cpp alone: it names VTK.
 #pragma once
 
 #include "io/vtk/vtk_part.hpp"

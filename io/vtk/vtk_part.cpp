@@ -17,11 +17,14 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Compressed arrays and text grow in memory, but not beyond measure.
+/// Compressed arrays and text grow in memory, but not beyond measure. Chosen, not measured: many times what
+/// files take that are sound.
 parallel::SandboxLimits limits_of(std::int64_t file_bytes) {
+  constexpr double base_seconds = 10, seconds_per_byte = 4e-6;
+  constexpr std::int64_t base_bytes = std::int64_t{1} << 30, bytes_per_byte = 100;
   parallel::SandboxLimits limits;
-  limits.cpu_seconds = 10 + 4e-6 * static_cast<double>(file_bytes);
-  limits.address_space_bytes = (std::int64_t{1} << 30) + 100 * file_bytes;
+  limits.cpu_seconds = base_seconds + seconds_per_byte * static_cast<double>(file_bytes);
+  limits.address_space_bytes = base_bytes + bytes_per_byte * file_bytes;
   return limits;
 }
 

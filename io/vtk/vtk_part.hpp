@@ -53,7 +53,7 @@ std::vector<std::string> read_vtk_sources(const std::string& path);
 /// The size of a file in bytes. Throws std::filesystem::filesystem_error unless it is one and can be opened.
 std::int64_t readable_bytes(const std::string& path);
 
-/// What the child does; io/vtk/vtk_part.cpp alone calls it. Texts of exceptions do not name the file.
+/// The child's task; io/vtk/vtk_part.cpp alone calls it. Texts of exceptions do not name the file.
 VtkPart extract_vtk_part(const std::string& path);
 std::vector<std::string> extract_vtk_sources(const std::string& path);
 

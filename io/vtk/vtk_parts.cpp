@@ -55,7 +55,7 @@ std::span<const Block> blocks_of(const FilePart& part, PartContent content) {
   return part.faces;
 }
 
-/// What becomes of a file, the same on every rank.
+/// The plan for a file, the same on every rank.
 struct FilePlan {
   parallel::Rank writer = 0;
   std::size_t turn = 0;  ///< the files of this writer before it
@@ -113,7 +113,7 @@ Plan plan_files(const parallel::Communicator& communicator, std::span<const Part
   return plan;
 }
 
-/// What of a part travels.
+/// The arrays of a part that travel.
 template <template <class> class Array>
 struct PieceArrays {
   struct Items {

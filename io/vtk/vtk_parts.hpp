@@ -13,7 +13,7 @@
 
 namespace aeroloom::io {
 
-/// What a writer needs of one part: views of a part that lives here, or of one that was brought, without
+/// One part as a writer needs it: views of a part that lives here, or of one that was brought, without
 /// `owned`. The surface of a DistributedMesh comes as faces without runs.
 struct PartPiece {
   FilePart part;
@@ -24,7 +24,7 @@ struct PartPiece {
 /// The parts on this rank.
 std::vector<PartPiece> pieces_of(const FileMesh& mesh);
 
-/// What of a part goes into the files.
+/// The items of a part that go into the files.
 enum class PartContent { cells, faces };
 
 /// Number of a point within its file.

@@ -82,7 +82,7 @@ PartRange deal_parts(const parallel::Communicator& communicator, const std::stri
   return range;
 }
 
-/// What this rank has read of several parts.
+/// The share that this rank has read of several parts.
 struct VtkShare {
   RawMesh raw;
   std::vector<VtkLabel> regions, patches;     ///< what labels of cells and faces refer to, so far

@@ -12,7 +12,7 @@
 
 namespace aeroloom::io::vtkhdf {
 
-/// What a partition holds of a grid, or all lower ones together.
+/// Counts of a partition of a grid, or of all lower ones together.
 struct GridCounts {
   std::int64_t points = 0, cells = 0, corners = 0;
 

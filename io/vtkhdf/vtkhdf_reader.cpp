@@ -99,7 +99,7 @@ std::vector<std::span<const std::int32_t>> spans_of(const std::vector<std::vecto
   return spans;
 }
 
-/// What the values of cell data stand for: values of the file, and their names.
+/// The meaning of cell data: values of the file, and their names.
 struct NamedValues {
   std::vector<std::int32_t> values;
   std::vector<std::string> names;

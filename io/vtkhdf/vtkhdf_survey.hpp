@@ -1,4 +1,4 @@
-/// What a VTKHDF file holds, without its large arrays.
+/// A survey of a VTKHDF file, without its large arrays.
 #pragma once
 
 #include "aeroloom/parallel/communication/communicator.hpp"

@@ -108,7 +108,7 @@ std::vector<Parcel> announce(const CommunicatorHandle& handle, int tag, const st
     if (arrived) {
       std::uint64_t size = 0;
       check(MPI_Mrecv(&size, 1, MPI_UINT64_T, &message, MPI_STATUS_IGNORE), "receiving an announcement");
-      // What a rank sends itself is handed over, not received.
+      // A message to oneself is handed over and not received: no copy is made.
       incoming.push_back({status.MPI_SOURCE, Bytes(status.MPI_SOURCE == handle.rank ? 0 : size)});
     }
     if (in_barrier) {

@@ -44,7 +44,7 @@ constexpr int exit_bug = 70;
 /// allocator moves the bound up to the largest one that was freed, and keeps their memory for what may come.
 void return_large_arrays() {
 #ifdef __GLIBC__
-  constexpr int large = 8 << 20, kept_at_most = 32 << 20;
+  constexpr int large = 8 << 20, kept_at_most = 32 << 20;  // bytes; chosen, not measured
   mallopt(M_MMAP_THRESHOLD, large);
   mallopt(M_TRIM_THRESHOLD, kept_at_most);
 #endif

@@ -17,10 +17,12 @@ namespace {
 using session::check;
 
 constexpr std::array<int, 8> lengths{8, 64, 1 << 10, 1 << 13, 1 << 16, 1 << 18, 1 << 20, 1 << 22};
+/// Of each length, the fastest of which counts: others met something else on the network or the core.
 constexpr int repeats = 31;
 constexpr int kept_bytes = 32 << 20;  // a rank keeps no more of what arrives
+constexpr double clock_step = 1e-9;   // seconds
 
-/// What the network takes, whatever else the processors are asked to do meanwhile.
+/// The time of the network alone: the fastest of several had no other work on its processors meanwhile.
 double least(const std::vector<double>& values) {
   return *std::min_element(values.begin(), values.end());
 }
@@ -75,7 +77,7 @@ NetworkProbe probe_network(const Communicator& communicator) {
   const MessageTiming &shortest = probe.messages.front(), &longest = probe.messages.back();
   probe.latency_seconds = std::max(shortest.seconds, probe.reduction_seconds / steps);
   probe.bytes_per_second =
-      static_cast<double>(longest.bytes) / std::max(longest.seconds - shortest.seconds, 1e-9);
+      static_cast<double>(longest.bytes) / std::max(longest.seconds - shortest.seconds, clock_step);
   return probe;
 }
 

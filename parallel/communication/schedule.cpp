@@ -110,7 +110,8 @@ double heaviest(std::span<const double> loads, std::span<const Rank> assignment,
 }
 
 std::vector<Rank> rebalance(std::span<const double> loads, std::span<const Rank> now, int ranks) {
-  constexpr double tolerance = 1.05;  // of the mean
+  constexpr double tolerance =
+      1.05;  // of the mean: what predictions err by; below it nothing is sent. Chosen.
   const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / ranks;
   const double before = heaviest(loads, now, ranks);
   std::vector<Rank> stay(now.begin(), now.end());

@@ -7,7 +7,7 @@
 
 namespace aeroloom::parallel {
 
-/// What a Communicator refers to.
+/// The group of ranks that a Communicator refers to.
 struct CommunicatorHandle {
   MPI_Comm communicator = MPI_COMM_NULL;
   int rank = 0;
@@ -39,8 +39,8 @@ std::shared_ptr<CommunicatorHandle> world();
 /// Throws std::logic_error unless the library runs.
 std::shared_ptr<CommunicatorHandle> self();
 
-/// What this process has spent in the operations of communicators so far: wall seconds, waiting for other
-/// ranks included, and CPU seconds of the calling thread.
+/// The time that this process has spent in the operations of communicators so far: wall seconds, waiting for
+/// other ranks included, and CPU seconds of the calling thread.
 struct MessageTime {
   double wall_seconds = 0, cpu_seconds = 0;
 };

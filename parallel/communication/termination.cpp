@@ -84,15 +84,18 @@ struct TerminationWatch::State {
   }
 
   [[noreturn]] static void end(int signal) {
+    constexpr int signal_code = 128;  // exit codes of shells for programs that a signal ended
     if (session::world()->rank == 0) {
       std::fprintf(stderr, "error: ended by SIG%s\n", sigabbrev_np(signal));
       const std::lock_guard guard(last_words().mutex);
       if (last_words().say) last_words().say(signal);
     } else {
-      // The first that aborts ends all: rank 0 is left the time to speak.
-      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      // The first that aborts ends all: rank 0 is left the time to speak. Launchers kill some seconds after a
+      // signal.
+      constexpr std::chrono::milliseconds time_to_speak(500);
+      std::this_thread::sleep_for(time_to_speak);
     }
-    abort_all_ranks(128 + signal);
+    abort_all_ranks(signal_code + signal);
   }
 };
 

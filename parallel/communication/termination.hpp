@@ -1,4 +1,4 @@
-/// What happens when the system, a queue or the user asks the program to end.
+/// The end of all ranks when the system, a queue or the user asks the program to end.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,7 @@ private:
   std::unique_ptr<State> _state;
 };
 
-/// What rank 0 does last when it is asked to end while this lives; one at a time. Called at most once, on
+/// The last act of rank 0 when it is asked to end while this lives; one at a time. Called at most once, on
 /// the thread of the watch while the others go on: it must touch nothing of theirs.
 class LastWords {
 public:

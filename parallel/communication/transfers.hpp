@@ -33,7 +33,7 @@ void for_each_part(std::size_t total, Transfer transfer) {
 /// received, must live until wait() returns.
 class Transfers {
 public:
-  /// What is sent counts as messages of `kind`.
+  /// Messages count as those of `kind`.
   Transfers(MPI_Comm communicator, int tag, Messages MessageCounts::*kind)
       : _communicator(communicator), _tag(tag), _kind(kind) {}
 

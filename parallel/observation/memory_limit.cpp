@@ -101,7 +101,7 @@ void limit_memory(const Communicator& communicator, std::int64_t bytes_of_node) 
     const std::int64_t share = bytes_of_node / ranks_here, used = status_bytes("RssAnon");
     limit() = {share, bytes_of_node, ranks_here};
     if (share <= used) throw std::bad_alloc();
-    // What is reserved but not in use, such as stacks of threads, is not charged.
+    // Memory that is reserved but not in use, such as stacks of threads, is not charged.
     const std::int64_t reserved = std::max<std::int64_t>(0, status_bytes("VmData") - used);
     rlimit data{};
     getrlimit(RLIMIT_DATA, &data);

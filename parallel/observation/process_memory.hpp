@@ -1,4 +1,4 @@
-/// What the system tells about this process's memory.
+/// This process's memory as the system tells it.
 #pragma once
 
 #include <cstdint>

@@ -16,12 +16,12 @@ namespace aeroloom::parallel {
 namespace {
 
 /// Seconds between two lines where lines stay.
-double seconds_between_lines = 5;
+double seconds_between_lines = 5;  // tests have it shorter
 /// Seconds between two lines that are rewritten; between two looks at the processes of the node, of which
 /// there may be hundreds.
 constexpr double seconds_between_rewrites = 0.2, seconds_between_looks = 1;
 
-/// What is known of the stage at hand.
+/// The stage at hand, as far as it is known.
 struct Stage {
   std::string name;
   double begin = 0, last_print = 0;

@@ -33,8 +33,8 @@ std::int64_t shared_bytes() {
   return status_bytes("RssFile") + status_bytes("RssShmem");
 }
 
-/// This process's share of those: each page over the number of processes that have it. All of them where the
-/// system does not tell.
+/// This process's share of the bytes that it shares: each page over the number of processes that have it. All
+/// of them where the system does not tell.
 std::int64_t share_of_shared_bytes() {
   const char* path = "/proc/self/smaps_rollup";
   const std::int64_t share = process_memory(path, "Pss_File") + process_memory(path, "Pss_Shmem");
@@ -159,7 +159,7 @@ void StageClock::end() {
   cost.exchanges -= _exchanges_at_start;
   const std::int64_t peak = status_bytes("VmHWM");
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, peak);
-  // What was shared at the peak is not known: the least that it may have been leaves the most for the rest.
+  // The shared part of the peak is not known: the least that it may have been leaves the most for the rest.
   const std::int64_t own = peak - std::min(_shared_at_start, shared_bytes()) + share_of_shared_bytes();
   cost.peak_own_bytes = std::max(cost.peak_own_bytes, std::min(own, peak));
   _open = false;
@@ -201,7 +201,7 @@ void StageClock::note_child_memory(std::int64_t bytes) {
   StageCost& cost = current();
   const std::int64_t here = resident_bytes();
   cost.peak_resident_bytes = std::max(cost.peak_resident_bytes, here + bytes);
-  // What others have of it is asked for once per stage: the system walks all pages for an answer.
+  // The share that others have of it is asked for once per stage: the system walks all pages for an answer.
   cost.peak_own_bytes = std::max(cost.peak_own_bytes, here - _of_others_at_start + bytes);
 }
 

@@ -6,7 +6,10 @@
 namespace aeroloom::parallel {
 namespace {
 
-constexpr std::size_t most_texts = 100;
+// Warnings are kept as far as a report can be read with them, and as rank 0 can hold those of thousands of
+// ranks. Texts of a rank; of all ranks, in those of one; bytes of one text, of a rank, of all others
+// together, and of one of very many.
+constexpr std::size_t most_texts = 100, texts_of_all = 5;
 constexpr std::size_t longest_text = 4000;
 constexpr std::size_t most_bytes = 64 << 10;
 constexpr std::size_t most_bytes_of_others = 4 << 20;
@@ -74,7 +77,7 @@ Warnings take_warnings(const Communicator& communicator) {
                                : std::clamp(most_bytes_of_others / others, least_bytes_of_a_rank, most_bytes);
   std::vector<Warnings> parts = communicator.gather_values(fitting(of_this_rank().warnings(), room));
   of_this_rank() = Collection(most_texts, most_bytes);
-  Collection all(5 * most_texts, most_bytes + most_bytes_of_others);
+  Collection all(texts_of_all * most_texts, most_bytes + most_bytes_of_others);
   for (std::size_t r = 0; r < parts.size(); ++r) {
     for (Warning& warning : parts[r].kept) {
       warning.rank = static_cast<Rank>(r);

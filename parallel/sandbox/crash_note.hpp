@@ -1,4 +1,4 @@
-/// What is said where the program itself crashes. Sandboxed runs (sandbox.hpp) keep that from happening;
+/// The message where the program itself crashes. Sandboxed runs (sandbox.hpp) keep that from happening;
 /// where there are none the CAD library and the mesher run in the rank.
 #pragma once
 
@@ -14,7 +14,8 @@ void tell_crashes(int rank);
 /// Puts another text into the note, such as a step of what is under way.
 void set_crash_note(std::string_view what);
 
-/// What is under way while this lives, such as "stage volume, zone 17"; one at a time, cut after 300 bytes.
+/// Names the work under way while this lives, such as "stage volume, zone 17"; one at a time, cut after 300
+/// bytes.
 class CrashNote {
 public:
   explicit CrashNote(std::string_view what);

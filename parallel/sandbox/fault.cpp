@@ -16,7 +16,7 @@ void inject_fault(Fault fault) {
     for (;;) std::atomic_signal_fence(std::memory_order_seq_cst);
   }
   if (fault == Fault::exhausts_memory) {
-    // What is limited is the address space: nearly none of it need be written.
+    // The limit is on the address space: nearly none of it need be written.
     constexpr std::size_t chunk = 64 << 20;
     std::vector<std::vector<char>> hoard;
     for (;;) {

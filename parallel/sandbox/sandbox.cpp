@@ -25,7 +25,8 @@ namespace aeroloom::parallel {
 
 namespace {
 
-/// How long the rank sleeps between two looks at its messages while a child works.
+/// How long the rank sleeps between two looks at its messages while a child works. Others wait for answers
+/// meanwhile; the core is the child's. Chosen, not measured.
 constexpr int progress_interval_ms = 2;
 
 struct Registry {
@@ -125,7 +126,7 @@ std::string describe_interruption(const std::string& task, const SandboxReply& r
          ", twice; is the machine short of memory? Remedy: fewer ranks on it, or --max-memory";
 }
 
-/// It ends when it sees that nobody asks any more.
+/// Ends the server, which sees that nobody asks any more.
 void end_server() {
   server().socket.close();
   if (server().process < 0) return;
@@ -254,7 +255,7 @@ SandboxResult run_sandboxed(const std::string& name, std::span<const std::byte> 
   }
   const std::int64_t allowed = request.limits.address_space_bytes;
   SandboxResult result;
-  // What asks for much at once has little of it in use.
+  // A task that asks for much at once has little of it in use when it fails.
   result.short_of_memory =
       allowed < limits.address_space_bytes &&
       (reply.status == SandboxStatus::out_of_memory || reply.peak_resident_bytes > allowed / 2);

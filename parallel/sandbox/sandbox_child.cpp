@@ -67,7 +67,8 @@ void limit_resources(const SandboxLimits& limits) {
   const rlimit cpu{seconds, seconds + 1};
   setrlimit(RLIMIT_CPU, &cpu);
   const std::int64_t allowed = mapped_bytes() + limits.address_space_bytes;
-  nearly_everything_mapped = allowed - limits.address_space_bytes / 16;
+  constexpr std::int64_t nearly = 16;  // what failed to be allocated may have been a sixteenth of all
+  nearly_everything_mapped = allowed - limits.address_space_bytes / nearly;
   const rlimit address_space{static_cast<rlim_t>(allowed), static_cast<rlim_t>(allowed)};
   setrlimit(RLIMIT_AS, &address_space);
 }

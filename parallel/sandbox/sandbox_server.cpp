@@ -20,13 +20,14 @@ namespace aeroloom::parallel {
 
 namespace {
 
-/// What of a child's printing is kept.
+/// Characters of a child's printing that are kept: its last lines, for a message.
 constexpr std::size_t printed_tail = 4000;
 
 /// A task that sleeps uses no CPU. It is given up after this many wall seconds; generous, because the clock
 /// must not decide about a task that works on a busy machine.
 double wall_limit(const SandboxLimits& limits) {
-  return 10 * limits.cpu_seconds + limits.idle_seconds;
+  constexpr double wall_over_cpu = 10;  // as if ten tasks shared its core
+  return wall_over_cpu * limits.cpu_seconds + limits.idle_seconds;
 }
 
 struct Assignment {
@@ -60,7 +61,7 @@ std::optional<Assignment> receive_assignment(int socket) {
   return assignment;
 }
 
-/// What a child printed last.
+/// The last lines that a child printed.
 class PrintedTail {
 public:
   explicit PrintedTail(FileDescriptor pipe) : _pipe(std::move(pipe)) {
@@ -103,7 +104,8 @@ Ending await_child(pid_t child, const SandboxLimits& limits, PrintedTail& printe
   Ending ending;
   const double deadline = wall_seconds() + wall_limit(limits);
   for (;;) {
-    printed.wait(100);
+    constexpr int milliseconds_between_looks = 100;
+    printed.wait(milliseconds_between_looks);
     const pid_t ended = wait4(child, &ending.status, WNOHANG, &ending.usage);
     if (ended == child) break;
     if (!ending.overslept && wall_seconds() > deadline) {

@@ -17,15 +17,15 @@ struct RegisteredTask {
 };
 const std::vector<RegisteredTask>& sandbox_tasks();
 
-/// What the rank asks for. Two file descriptors travel with it: input (to map) and output (to write).
+/// The request of a rank. Two file descriptors travel with it: input (to map) and output (to write).
 struct SandboxRequest {
   std::int32_t task;
   SandboxLimits limits;
 };
 
-/// What the server answers. The output is in the rank's own shared memory.
+/// The answer of the server. The output is in the rank's own shared memory.
 struct SandboxReply {
-  static constexpr std::size_t message_capacity = 8192;
+  static constexpr std::size_t message_capacity = 8192;  // bytes; chosen, not measured
   SandboxStatus status;
   bool interrupted;  ///< by the machine or somebody on it: nothing is known of the task
   double cpu_seconds;

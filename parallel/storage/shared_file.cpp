@@ -39,7 +39,7 @@ void require_success(int code, const char* what, const std::string& path) {
   throw fs::filesystem_error(fmt::format("{} ({})", what, text.data()), path, std::make_error_code(reason));
 }
 
-/// What ranks do together is time in messages, no work of theirs.
+/// Writing together counts as time in messages, since ranks wait for each other in it.
 template <class Call>
 int waiting_for_others(Call call) {
   const session::MessageScope timed;
@@ -69,7 +69,7 @@ void work_and_close(const Communicator& communicator, SharedFile::Handle& handle
     MPI_File_close(&handle.file);
     throw;
   }
-  // What a file system puts off, it may fail at later: closing through MPI would not tell.
+  // A file system may put off writing and fail at it later: closing through MPI would not tell.
   const int synchronized = named == Named::when_on_disk ? MPI_File_sync(handle.file) : MPI_SUCCESS;
   const int closed = waiting_for_others([&] { return MPI_File_close(&handle.file); });
   agree(communicator, [&] {

@@ -132,7 +132,7 @@ std::vector<std::string> all_names(const CLI::App& command) {
   return all;
 }
 
-/// What the commands and the program itself, under an empty name, take.
+/// Tables of the arguments that each command takes, and the program itself under an empty name.
 std::string tables(const std::vector<const CLI::App*>& commands) {
   Cases options("_aeroloom_options", "$1"), valued("_aeroloom_takes_value", "\"$1 $2\""),
       values("_aeroloom_option_values", "\"$1 $2\""), places("_aeroloom_places", "\"$1 $2\"");

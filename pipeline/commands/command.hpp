@@ -1,4 +1,4 @@
-/// What the commands of the program share: how one is added to the command line, and how it ends.
+/// How a command is added to the command line, and how it ends: the same for all commands.
 #pragma once
 
 #include "aeroloom/case/case.hpp"

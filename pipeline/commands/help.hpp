@@ -1,4 +1,4 @@
-/// What `--help` tells beside the options: examples and exit codes.
+/// Examples and exit codes, which `--help` tells beside the options.
 #pragma once
 
 #include "aeroloom/report/exit_code.hpp"

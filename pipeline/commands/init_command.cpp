@@ -35,7 +35,7 @@ void require_ours(const std::string& schema_file) {
                          "--no-schema does without");
 }
 
-/// What is made of triangles is no CAD.
+/// A file of triangles is no CAD, and a case cannot begin with it.
 void require_cad(const std::string& geometry) {
   std::string extension = fs::path(geometry).extension().string();
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));

@@ -13,7 +13,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
-/// What a unit stands for; 0 for none that is known.
+/// Bytes of a unit; 0 for none that is known.
 double unit_bytes(const std::string& unit, std::int64_t node_bytes) {
   if (unit == "%") return static_cast<double>(node_bytes) / 100;
   constexpr std::string_view letters = "KMGT";
@@ -30,7 +30,8 @@ std::int64_t memory_size(const std::string& text, std::int64_t node_bytes) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string unit(end, static_cast<const char*>(text.data() + text.size()));
   const double bytes = error == std::errc() ? number * unit_bytes(unit, node_bytes) : 0;
-  if (!(bytes >= 1) || bytes > 1e18 || (unit == "%" && number > 100)) {
+  constexpr double most_bytes = 1e18;  // fits in 64 bits with a sign
+  if (!(bytes >= 1) || bytes > most_bytes || (unit == "%" && number > 100)) {
     throw std::invalid_argument(
         fmt::format("'{}' is no amount of memory; give one like 8G, 500M, or 80% of the node", text));
   }

@@ -116,7 +116,8 @@ void add_earlier_runs(study::StudyRecord& record) {
   }
 }
 
-/// What the run on the smallest number of ranks foretells of the others, and of somewhat more.
+/// Adds the prediction of the other runs, and of some on more ranks, from that on the smallest number of
+/// ranks.
 void add_prediction(study::Json& study, const study::StudyRecord& record,
                     const std::vector<study::RunResult>& runs, const study::Network& network) {
   const study::RunResult* from = study::telling_run(runs);

@@ -17,7 +17,7 @@ class Option;
 
 namespace aeroloom::pipeline {
 
-/// What a prediction goes by. Empty: not asked for.
+/// Files and figures that a prediction goes by. Empty: not asked for.
 struct PredictionArguments {
   std::string run;       ///< the folder of a run
   std::string measured;  ///< the file that the network's measures are written to

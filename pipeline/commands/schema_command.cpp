@@ -19,7 +19,7 @@ struct SchemaArguments {
   bool markdown = false;
 };
 
-/// What is to be written: the schema, or the page of the reference with its tables renewed.
+/// The text to be written: the schema, or the page of the reference with its tables renewed.
 std::string schema_text(const SchemaArguments& arguments) {
   if (!arguments.markdown) return cases::case_schema(cases::case_keys());
   std::string reference = cases::case_reference(cases::case_keys());

@@ -1,4 +1,4 @@
-/// What commands with stages share: the record of a run, its report and its end.
+/// The record of a run, its report and its end, the same for all commands with stages.
 #pragma once
 
 #include "aeroloom/report/report.hpp"

@@ -10,7 +10,7 @@ class ParseError;
 
 namespace aeroloom::pipeline {
 
-/// What is wrong with the line that `program` has tried to read, the command or option that was probably
+/// The mistake in the line that `program` has tried to read, the command or option that was probably
 /// meant, and where to read on.
 std::string explain_usage_error(const CLI::App& program, const CLI::ParseError& error);
 

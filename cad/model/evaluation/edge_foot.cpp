@@ -1,13 +1,15 @@
 #include "cad/model/evaluation/edge_foot.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace aeroloom::cad {
 
 EdgeFoot foot_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) {
-  constexpr int most_steps = 8;
-  constexpr double exact_enough = 1e-9;  // of the edge's range, of what is left to go
+  constexpr int most_steps =
+      8;  // the guess is near, and each step is one along a tangent; chosen, not measured
   const Edge& edge = model.edge(id);
   const double range = edge.last_parameter - edge.first_parameter;
   const auto at = [&](double t) {
@@ -21,7 +23,7 @@ EdgeFoot foot_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) {
     if (!(square > 0)) break;
     const double t = std::clamp(best.parameter + dot(point - best.point, tangent) / square,
                                 edge.first_parameter, edge.last_parameter);
-    const bool arrived = std::abs(t - best.parameter) <= exact_enough * range;
+    const bool arrived = std::abs(t - best.parameter) <= tolerances::same_parameter * range;
     const EdgeFoot next = at(t);
     if (!(next.away < best.away)) break;
     best = next;

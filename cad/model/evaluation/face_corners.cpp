@@ -1,5 +1,7 @@
 #include "aeroloom/cad/model/evaluation/face_corners.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +15,7 @@ Vec3 normal_at(const Model& model, const FaceCorner& corner) {
   const Edge& edge = model.edge(end.edge);
   const double from = end.first ? edge.first_parameter : edge.last_parameter;
   const double to = end.first ? edge.last_parameter : edge.first_parameter;
-  for (const double part : {0.0, 1e-3, 1e-2}) {
+  for (const double part : {0.0, tolerances::beside_end, tolerances::farther_beside_end}) {
     const Vec2 uv = model.edge_uv(corner.face, corner.leaving, from + part * (to - from));
     const Vec3 normal = model.face_frame(corner.face, uv).normal;
     if (norm(normal) > 0) return normal;
@@ -72,18 +74,23 @@ std::optional<double> parameter_at(const Model& model, EdgeEnd end, double wante
   const Edge& edge = model.edge(end.edge);
   const double from = end.first ? edge.first_parameter : edge.last_parameter;
   const double range = (end.first ? edge.last_parameter : edge.first_parameter) - from;
+  // Growing by half ends close behind the place, and 40 bisections narrow it to 1e-12 of that.
+  constexpr double growth = 1.5;
+  constexpr int bisections = 40;
   const Vec3 vertex = model.edge_point(end.edge, from);
   const auto is_beyond = [&](double part) {
     return distance(model.edge_point(end.edge, from + part * range), vertex) >= wanted;
   };
   const double speed = norm(model.edge_tangent(end.edge, from)) * std::abs(range);
-  double high = speed > 0 ? std::clamp(wanted / speed, 1e-9, 0.5) : 1e-3, low = 0;
+  double high =
+             speed > 0 ? std::clamp(wanted / speed, tolerances::same_parameter, 0.5) : tolerances::beside_end,
+         low = 0;
   while (!is_beyond(high)) {
     if (high >= 0.5) return std::nullopt;
     low = high;
-    high = std::min(1.5 * high, 0.5);
+    high = std::min(growth * high, 0.5);
   }
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < bisections; ++step) {
     const double middle = 0.5 * (low + high);
     (is_beyond(middle) ? high : low) = middle;
   }

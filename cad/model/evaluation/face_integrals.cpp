@@ -1,5 +1,7 @@
 #include "cad/model/evaluation/face_integrals.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,7 +33,9 @@ struct Rule {
   }
 };
 
-/// The rule for each of so many parts of an interval: splines of many spans are smooth over each of them.
+/// The rule for each of so many parts of an interval: splines of many spans are smooth over each of them. A
+/// rule of n points is exact up to degree 2n - 1; where one part stands for a whole analytic surface it is
+/// 23, and with many parts 3, their number making up for it. The numbers of parts were chosen, not measured.
 const Rule& rule_for(std::size_t parts) {
   static const Rule two(2), three(3), five(5), twelve(12);
   return parts <= 1 ? twelve : parts <= 4 ? five : parts <= 10 ? three : two;
@@ -63,7 +67,7 @@ std::vector<double> knots_of(const TColStd_Array1OfReal& intervals, double perio
 /// From one parameter to another, in either sense, with the knots between them.
 void list_breaks(double from, double to, const std::vector<double>& knots, std::vector<double>& breaks) {
   const auto [low, high] = std::minmax(from, to);
-  const double rounding = 1e-9 * (high - low);
+  const double rounding = tolerances::same_parameter * (high - low);
   breaks.assign(1, low);
   for (auto k = std::upper_bound(knots.begin(), knots.end(), low + rounding);
        k != knots.end() && *k < high - rounding; ++k) {

@@ -5,7 +5,7 @@
 namespace aeroloom::cad {
 
 double rough_length(const Model& model, EdgeId id) {
-  constexpr int intervals = 16;
+  constexpr int intervals = 16;  // a chord over a sixteenth of a circle is short by 0.6 %: rough enough
   const Edge& edge = model.edge(id);
   if (edge.degenerate) return 0;
   double length = 0;

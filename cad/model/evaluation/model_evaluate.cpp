@@ -4,6 +4,7 @@
 #include "cad/model/to_vec.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/sheets.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ PrincipalCurvatures curvatures_of(const SurfaceJet& jet) {
   const double e = dot(jet.du, jet.du), f = dot(jet.du, jet.dv), g = dot(jet.dv, jet.dv);
   const Vec3 normal = cross(jet.du, jet.dv);
   const double area = norm(normal);
-  if (!(area > 1e-12 * std::max(e, g))) return {};
+  if (!(area > tolerances::rounding * std::max(e, g))) return {};
   const double l = dot(jet.duu, normal) / area, m = dot(jet.duv, normal) / area,
                n = dot(jet.dvv, normal) / area;
   const double determinant = area * area;
@@ -128,7 +129,7 @@ Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
     const Vec2 guess = closed->base_uv(face, use, parameter);
     if (!closed->moved[use.edge] || _data->edges[use.edge].degenerate) return guess;
     return follow_moved_point(evaluator, edge_point(use.edge, parameter), guess,
-                              1e-10 * _data->bounds.diagonal());
+                              tolerances::foot_beside * _data->bounds.diagonal());
   }
   const UseCurve& on_face = evaluator.use(use);
   const Edge& edge = _data->edges[use.edge];
@@ -141,7 +142,7 @@ Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
   const bool is_end = parameter == edge.first_parameter || parameter == edge.last_parameter;
   if (edge.degenerate || is_end) return {guess.X(), guess.Y()};
   return settle_on_face(evaluator, edge_point(use.edge, parameter), {guess.X(), guess.Y()},
-                        1e-10 * _data->bounds.diagonal());
+                        tolerances::foot_beside * _data->bounds.diagonal());
 }
 
 std::vector<double> Model::edge_breaks(EdgeId id) const {
@@ -176,7 +177,7 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
   SurfaceFrame frame{_data->face_snaps[id](jet.point), jet.du, jet.dv, {}};
   const Vec3 normal = cross(frame.du, frame.dv);
   // Below this the angle between the derivatives is rounding error: the direction would be noise.
-  if (norm(normal) > 1e-12 * std::max(dot(frame.du, frame.du), dot(frame.dv, frame.dv))) {
+  if (norm(normal) > tolerances::rounding * std::max(dot(frame.du, frame.du), dot(frame.dv, frame.dv))) {
     frame.normal = face.reversed ? -normalized(normal) : normalized(normal);
   }
   return frame;

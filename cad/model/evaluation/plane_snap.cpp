@@ -1,5 +1,7 @@
 #include "cad/model/evaluation/plane_snap.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,10 +9,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-constexpr double angular_tolerance = 1e-9;  // of a normal against the axis
-constexpr double merge_share = 1e-9;        // of the diagonal: positions closer than this are one
-constexpr double leave_share = 1e-6;        // of the diagonal: edges further off are not on the plane
 
 struct Plane {
   int axis;
@@ -26,7 +24,7 @@ std::optional<Plane> aligned_plane(const Model::Data& data, FaceId id) {
   const Vec3 normal = normalized(cross(jet.du, jet.dv));
   for (int axis = 0; axis < 3; ++axis) {
     const double u = normal[(axis + 1) % 3], v = normal[(axis + 2) % 3];
-    if (std::hypot(u, v) <= angular_tolerance) return Plane{axis, jet.point[axis], id};
+    if (std::hypot(u, v) <= tolerances::parallel) return Plane{axis, jet.point[axis], id};
   }
   return std::nullopt;
 }
@@ -37,7 +35,7 @@ void merge_positions(std::vector<Plane>& planes, double diagonal) {
     if (a.axis != b.axis) return a.axis < b.axis;
     return a.position != b.position ? a.position < b.position : a.face < b.face;
   });
-  const double near = merge_share * diagonal;
+  const double near = tolerances::coincident * diagonal;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     if (std::abs(planes[i].position) <= near) planes[i].position = 0;
     if (i == 0 || planes[i].axis != planes[i - 1].axis) continue;
@@ -47,7 +45,7 @@ void merge_positions(std::vector<Plane>& planes, double diagonal) {
 }
 
 double distance_from(const Model::Data& data, EdgeId id, const Plane& plane) {
-  constexpr int samples = 16;
+  constexpr int samples = 16;  // along the edge, as in distance_of_moved()
   const Edge& edge = data.edges[id];
   double largest = std::max(std::abs(data.vertices[edge.first][plane.axis] - plane.position),
                             std::abs(data.vertices[edge.last][plane.axis] - plane.position));
@@ -104,7 +102,7 @@ void mark_planes_again(Model::Data& data, const std::vector<char>& moved) {
   const auto faces = static_cast<FaceId>(data.faces.size());
   for (FaceId id = 0; id < faces; ++id) {
     if (!data.face_evaluators[id].planar) continue;
-    if (distance_of_moved(data, id, moved) <= merge_share * data.bounds.diagonal()) continue;
+    if (distance_of_moved(data, id, moved) <= tolerances::coincident * data.bounds.diagonal()) continue;
     data.face_evaluators[id].planar = false;
     data.face_snaps[id] = {};
   }
@@ -128,7 +126,7 @@ void mark_exact_planes(Model::Data& data) {
     data.face_snaps[plane.face].fix(plane.axis, plane.position);
     for (const UseCurve& use : data.face_evaluators[plane.face].uses) {
       const EdgeId edge = use.use.edge;
-      if (distance_from(data, edge, plane) > leave_share * diagonal) continue;
+      if (distance_from(data, edge, plane) > tolerances::same_place * diagonal) continue;
       data.edge_snaps[edge].fix(plane.axis, plane.position);
       data.vertex_snaps[data.edges[edge].first].fix(plane.axis, plane.position);
       data.vertex_snaps[data.edges[edge].last].fix(plane.axis, plane.position);

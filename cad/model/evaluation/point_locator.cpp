@@ -1,5 +1,7 @@
 #include "aeroloom/cad/model/evaluation/point_locator.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,16 +10,21 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Samples of a face are as dense as its curvature asks for: Newton's method starts within reach.
+/// Samples of a face are as dense as its curvature asks for: Newton's method starts within reach. Chosen, not
+/// measured.
 constexpr double facet_angle = 20 * std::numbers::pi / 180;
 constexpr double facet_deflection = 0.01;  // of the body
 /// The body counts as no smaller than this part of everything: a far field needs no more samples the farther
 /// it is.
 constexpr double least_body = 1.0 / 400;
-constexpr int samples_per_interval = 32;  // of a curve, where it is smooth
-/// Where sheets pass close to each other the nearest sample may lie on the other one.
+/// Of a curve, where it is smooth; chosen, not measured.
+constexpr int samples_per_interval = 32;
+/// Where sheets pass close to each other the nearest sample may lie on the other one: so many are started
+/// from.
 constexpr std::size_t most_starts = 8;
-constexpr int most_steps = 20;
+/// Steps along tangents, and halvings of one that leads away: at a place where the curve bends round the
+/// point. Chosen, not measured.
+constexpr int most_steps = 20, most_halvings = 8;
 
 /// The samples nearest to a point, nearest first; ties by number.
 std::vector<std::int32_t> nearest(const std::vector<Vec3>& samples, Vec3 point) {
@@ -86,7 +93,7 @@ std::optional<double> PointLocator::on_edge(EdgeId id, Vec3 point, double tolera
 double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) {
   const Edge& edge = model.edge(id);
   const auto clamp = [&](double t) { return std::clamp(t, edge.first_parameter, edge.last_parameter); };
-  const double resolution = 1e-14 * (edge.last_parameter - edge.first_parameter);
+  const double resolution = tolerances::parameter_rounding * (edge.last_parameter - edge.first_parameter);
   double at = clamp(guess);
   double away = distance(model.edge_point(id, at), point);
   for (int i = 0; i < most_steps; ++i) {
@@ -95,7 +102,7 @@ double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) 
     if (!(speed2 > 0)) break;
     double step = dot(point - model.edge_point(id, at), tangent) / speed2;
     double next = clamp(at + step), closer = distance(model.edge_point(id, next), point);
-    for (int halving = 0; halving < 8 && closer > away; ++halving) {
+    for (int halving = 0; halving < most_halvings && closer > away; ++halving) {
       step *= 0.5;
       next = clamp(at + step);
       closer = distance(model.edge_point(id, next), point);

@@ -1,6 +1,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/topology/sheets.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,19 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr int newton_steps = 40;
-constexpr int step_halvings = 12;
+// Steps of a projection whose guess is anywhere on the face, and halvings of one; chosen, not measured. Where
+// they do not suffice there are restarts and the library's search.
+constexpr int newton_steps = 40, step_halvings = 12;
+/// Steps from a guess on the same sheet, which is off by what a file's parameter curve is: Newton's method
+/// doubles its digits with each.
+constexpr int settling_steps = 8;
+/// The Hessian counts as positive definite where it is at least this part of the first fundamental form in
+/// each parameter, and its determinant the square of it: where the surface bends towards the point by nine
+/// tenths of what would make the distance stationary, Newton's step is too long to trust. Chosen, not
+/// measured.
+constexpr double least_convexity = 0.1, least_convexity2 = 0.01;
+/// Of the face, that one step may run through.
+constexpr double longest_way = 0.25;
 
 /// Half the squared distance from the target to the surface, and its derivatives.
 struct Distance {
@@ -48,7 +60,8 @@ public:
   /// Nearest point of the same sheet around the guess: neither wrapped nor moved to another end.
   Vec2 settle(Vec2 guess) const {
     Distance at = evaluate(clamp(guess));
-    for (int step = 0; step < 8 && at.value > 0.5 * _tolerance * _tolerance && descend(at); ++step) {
+    for (int step = 0; step < settling_steps && at.value > 0.5 * _tolerance * _tolerance && descend(at);
+         ++step) {
     }
     return at.uv;
   }
@@ -95,14 +108,14 @@ private:
   Vec2 newton_direction(const Distance& at) const {
     const bool hold_u = pushed_out(at.uv.x, at.gradient.x, _face.u);
     const bool hold_v = pushed_out(at.uv.y, at.gradient.y, _face.v);
-    const bool convex = at.huu > 0.1 * at.guu && at.hvv > 0.1 * at.gvv &&
-                        at.huu * at.hvv - at.huv * at.huv > 0.01 * at.guu * at.gvv;
+    const bool convex = at.huu > least_convexity * at.guu && at.hvv > least_convexity * at.gvv &&
+                        at.huu * at.hvv - at.huv * at.huv > least_convexity2 * at.guu * at.gvv;
     const double a = convex ? at.huu : at.guu, b = convex ? at.huv : at.guv, c = convex ? at.hvv : at.gvv;
     if (hold_u && hold_v) return {};
     if (hold_u) return {0, c > 0 ? -at.gradient.y / c : 0};
     if (hold_v) return {a > 0 ? -at.gradient.x / a : 0, 0};
     const double determinant = a * c - b * b;
-    if (determinant > 1e-14 * a * c) {
+    if (determinant > tolerances::rounding_of_squares * a * c) {
       return {(-at.gradient.x * c + at.gradient.y * b) / determinant,
               (-at.gradient.y * a + at.gradient.x * b) / determinant};
     }
@@ -113,7 +126,7 @@ private:
   /// Near a pole a step may run round the surface many times: a quarter of the face is far enough.
   Vec2 shorten(Vec2 direction) const {
     const double share = std::max(std::abs(direction.x) / extent().x, std::abs(direction.y) / extent().y);
-    return share > 0.25 ? (0.25 / share) * direction : direction;
+    return share > longest_way ? (longest_way / share) * direction : direction;
   }
 
   Vec2 extent() const { return _face.uv_high - _face.uv_low; }
@@ -121,11 +134,12 @@ private:
   /// At a pole all directions but one look alike to derivatives: tries the others. False when none leads
   /// closer.
   bool leave_pole(Distance& at) const {
-    constexpr int directions = 16;
+    constexpr int directions = 16;  // round a pole; chosen, not measured
     const double along_u = at.guu * extent().x * extent().x, along_v = at.gvv * extent().y * extent().y;
-    if (std::min(along_u, along_v) > 1e-14 * std::max(along_u, along_v)) return false;
+    if (std::min(along_u, along_v) > tolerances::rounding_of_squares * std::max(along_u, along_v))
+      return false;
     const bool u_collapses = along_u < along_v;
-    const Vec2 inward = 1e-3 * (0.5 * (_face.uv_low + _face.uv_high) - at.uv);
+    const Vec2 inward = tolerances::beside_end * (0.5 * (_face.uv_low + _face.uv_high) - at.uv);
     Distance best = at;
     for (int i = 0; i < directions; ++i) {
       const Vec2 swept = _face.uv_low + (i + 0.5) / directions * extent();
@@ -178,7 +192,7 @@ private:
 };
 
 Vec2 nearest_sample(const FaceEvaluator& face, Vec3 target) {
-  constexpr int samples = 12;
+  constexpr int samples = 12;  // each way, where a guess led nowhere; chosen, not measured
   Vec2 best;
   double least = std::numeric_limits<double>::max();
   for (int i = 0; i <= samples; ++i) {
@@ -218,7 +232,7 @@ Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double to
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
   if (_data->joined) return _data->joined->project(id, point, guess);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
-  const Projector projector(face, point, 1e-11 * _data->bounds.diagonal());
+  const Projector projector(face, point, tolerances::foot * _data->bounds.diagonal());
   Projection best = projector.from(guess);
   if (!best.converged) {
     const Projection restarted = projector.from(nearest_sample(face, point));

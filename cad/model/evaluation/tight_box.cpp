@@ -1,4 +1,5 @@
 #include "cad/model/model_data.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,9 @@ Box loose_box(const TopoDS_Shape& shape) {
   Bnd_Box bounds;
   BRepBndLib::Add(shape, bounds, false);
   Box box;
-  if (bounds.IsVoid() || bounds.IsOpen()) return {{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+  constexpr double everywhere = 1e300;  // finite, so that sums of it are
+  if (bounds.IsVoid() || bounds.IsOpen())
+    return {{-everywhere, -everywhere, -everywhere}, {everywhere, everywhere, everywhere}};
   bounds.Get(box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
   return box;
 }
@@ -47,9 +50,10 @@ bool inside(const Box& inner, const Box& outer) {
 template <class Function>
 void refine(Function&& height, double low, double high) {
   const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  constexpr int steps = 40;  // 0.618^40: the interval has shrunk to 4e-9, its square is rounding at a maximum
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double at_a = height(a), at_b = height(b);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < steps; ++i) {
     if (at_a > at_b) {
       high = b, b = a, at_b = at_a;
       a = high - golden * (high - low), at_a = height(a);
@@ -66,7 +70,10 @@ public:
   explicit EdgeExtremes(const TopoDS_Edge& edge) : _curve(edge) {}
 
   void add_samples(Box& box) {
-    _samples = 8 * std::min(200, _curve.NbIntervals(GeomAbs_C2)) + 8;
+    // Between two knots a curve has few extremes; curves of thousands of knots have them closer together than
+    // they bend. Chosen, not measured.
+    constexpr int per_interval = 8, most_intervals = 200;
+    _samples = per_interval * std::min(most_intervals, _curve.NbIntervals(GeomAbs_C2)) + per_interval;
     _first = _curve.FirstParameter(), _step = (_curve.LastParameter() - _first) / _samples;
     std::array<double, 2 * axes> reach;
     reach.fill(-std::numeric_limits<double>::max());
@@ -120,7 +127,7 @@ void add_edges(Box& box, const TopTools_IndexedMapOfShape& edges) {
 class FaceExtremes {
 public:
   FaceExtremes(const TopoDS_Face& face, Box& box)
-      : _box(box), _surface(face, false), _classifier(face, 1e-9) {
+      : _box(box), _surface(face, false), _classifier(face, tolerances::on_loop) {
     BRepTools::UVBounds(face, _low.x, _high.x, _low.y, _high.y);
   }
 
@@ -150,7 +157,8 @@ public:
   }
 
 private:
-  static constexpr int samples = 16;
+  static constexpr int samples = 16;       // each way: one within reach of Newton's method from each extreme
+  static constexpr int newton_steps = 20;  // most end after few, at a step that leads no higher
 
   struct Sample {
     Vec2 uv;
@@ -166,7 +174,7 @@ private:
 
   /// Ends at the border of the face at the latest: its edges were looked at on their own.
   void climb(Vec2 uv, int axis, double sign) {
-    for (int step = 0; step < 20; ++step) {
+    for (int step = 0; step < newton_steps; ++step) {
       gp_Pnt p;
       gp_Vec du, dv, duu, dvv, duv;
       _surface.D2(uv.x, uv.y, p, du, dv, duu, dvv, duv);

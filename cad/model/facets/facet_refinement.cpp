@@ -8,7 +8,15 @@
 namespace aeroloom::cad {
 namespace {
 
+// Bounds that keep a face from being refined for ever where its surface has a crease that no facet can
+// follow. A pass halves the worst facets, so that two dozen reach any deflection; chosen, not measured.
 constexpr int passes = 24;
+constexpr std::size_t most_growth = 20, least_allowance = 20000;
+/// Facets whose longest side is shorter, over the deflection, are good however they are turned: dividing them
+/// gains nothing that anyone sees.
+constexpr double shortest_side = 0.1;
+/// Twice the area over the square of the longest side, below which a facet is mended by taking a point away.
+constexpr double flat = 0.1;
 
 }  // namespace
 
@@ -18,7 +26,7 @@ FacetRefiner::FacetRefiner(const Model& model, FaceId id, double deflection, dou
       _facets(facets),
       _deflection(deflection),
       _error_limit(1 - std::cos(0.5 * angle)),
-      _most_triangles(20 * facets.triangles.size() + 20000) {
+      _most_triangles(most_growth * facets.triangles.size() + least_allowance) {
   for (const Vec2 uv : facets.uv) _normals.push_back(normal_at(uv));
   _pole.resize(facets.points.size(), 0);
   collect_sides();
@@ -74,7 +82,7 @@ bool FacetRefiner::touches_pole(std::int32_t t) const {
 
 bool FacetRefiner::collapsed(std::int32_t t) const {
   for (int i = 0; i < 3; ++i) {
-    if (distance(point(corner(t, i)), point(corner(t, i + 1))) <= 1e-6 * _deflection) return true;
+    if (distance(point(corner(t, i)), point(corner(t, i + 1))) <= collapsed_side * _deflection) return true;
   }
   return false;
 }
@@ -103,7 +111,7 @@ double FacetRefiner::side_length(std::int32_t t, int i) const {
 bool FacetRefiner::is_bad(std::int32_t t) const {
   if (!alive(t) || touches_pole(t)) return false;
   const double length = side_length(t, longest_side(t));
-  if (collapsed(t) || length <= 0.1 * _deflection) return false;
+  if (collapsed(t) || length <= shortest_side * _deflection) return false;
   if (error(t) > _error_limit) return true;
   if (length <= _deflection) return false;
   const std::int32_t a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
@@ -122,7 +130,7 @@ bool FacetRefiner::has_become_bad(std::int32_t t) {
 bool FacetRefiner::is_flat(std::int32_t t) const {
   const Vec3 a = point(corner(t, 0)), b = point(corner(t, 1)), c = point(corner(t, 2));
   const double longest = side_length(t, longest_side(t));
-  return norm(cross(b - a, c - a)) < 0.1 * longest * longest;
+  return norm(cross(b - a, c - a)) < flat * longest * longest;
 }
 
 std::int32_t FacetRefiner::encroached_side(std::int32_t t) const {

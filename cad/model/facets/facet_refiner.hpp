@@ -56,7 +56,7 @@ private:
   int corner_opposite(std::int32_t t, std::int32_t a, std::int32_t b) const;
   bool positive(std::int32_t a, std::int32_t b, std::int32_t c) const;
 
-  /// Such triangles stay as they are: at a pole the parameters of the middle of a side say nothing of where
+  /// Triangles at a pole stay as they are: there the parameters of the middle of a side say nothing of where
   /// it is.
   bool touches_pole(std::int32_t t) const;
   bool is_pole(std::int32_t node) const { return _pole[node] != 0; }
@@ -126,6 +126,8 @@ private:
     std::int32_t from, to, triangle;
   };
   static constexpr std::int32_t no_link = std::numeric_limits<std::int32_t>::min();
+  /// Corners are one where they are nearer, over the deflection: at poles and cusps.
+  static constexpr double collapsed_side = 1e-6;
   const Model& _model;
   FaceId _id;
   Facets& _facets;

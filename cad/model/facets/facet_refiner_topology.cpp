@@ -6,6 +6,16 @@
 #include <tuple>
 
 namespace aeroloom::cad {
+namespace {
+
+/// Triangles around a vertex; where there are more it is a pole or the links do not close. Chosen, not
+/// measured.
+constexpr std::size_t most_around = 64;
+/// A flip that lowers an error (1 minus a cosine) or raises a sum of angles (radians) by less is rounding,
+/// and would be undone by the next. Chosen, not measured.
+constexpr double least_gain = 1e-6;
+
+}  // namespace
 
 void FacetRefiner::collect_sides() {
   for (std::size_t l = 0; l < _facets.boundary.size(); ++l) {
@@ -93,7 +103,7 @@ std::vector<std::int32_t> FacetRefiner::ring(std::int32_t t, std::int32_t vertex
   do {
     around.push_back(at);
     at = _links[at][(index_of(at, vertex) + 1) % 3];
-  } while (at >= 0 && at != t && around.size() < 64);
+  } while (at >= 0 && at != t && around.size() < most_around);
   return at == t ? around : std::vector<std::int32_t>{};
 }
 
@@ -170,8 +180,8 @@ void FacetRefiner::push_sides(std::int32_t t) {
 }
 
 void FacetRefiner::flip() {
-  // Each flip lowers an error or an angle sum; on curved quadrilaterals both may alternate, hence the
-  // budget.
+  // Each flip lowers an error or an angle sum; on curved quadrilaterals both may alternate, hence the budget,
+  // a multiple of what a Delaunay mesh takes. Chosen, not measured.
   std::size_t budget = 20 * _facets.triangles.size() + 100;
   while (!_stack.empty() && budget > 0) {
     const auto [b, c, t] = _stack.back();
@@ -195,11 +205,11 @@ bool FacetRefiner::should_flip(std::int32_t t, int i) const {
   if (a == d || !positive(a, b, d) || !positive(a, d, c)) return false;
   if (touches_pole(t) || touches_pole(u)) return false;
   if (collapsed(t) || collapsed(u)) return false;
-  if (distance(point(a), point(d)) <= 1e-6 * _deflection) return false;
+  if (distance(point(a), point(d)) <= collapsed_side * _deflection) return false;
   const double before = std::max(error(t), error(u)), after = std::max(error(a, b, d), error(a, d, c));
-  if (std::max(before, after) > _error_limit) return after < before - 1e-6;
+  if (std::max(before, after) > _error_limit) return after < before - least_gain;
   return angle_at(point(a), point(b), point(c)) + angle_at(point(d), point(b), point(c)) >
-         std::numbers::pi + 1e-6;
+         std::numbers::pi + least_gain;
 }
 
 void FacetRefiner::flip(std::int32_t t, int i) {

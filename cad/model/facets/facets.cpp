@@ -6,6 +6,7 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/sheets.hpp"
+#include "cad/tolerances.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -135,7 +136,7 @@ std::vector<FacetSide> open_sides(const Facets& facets) {
   return open;
 }
 
-/// What is wrong with a triangulation; empty when nothing is.
+/// The first defect of a triangulation; empty when there is none.
 std::string find_defect(const Facets& facets) {
   if (facets.triangles.empty()) return "no triangles";
   std::vector<FacetSide> boundary;
@@ -174,10 +175,12 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
   const Model::Data& data = model.data();
   const FaceEvaluator& evaluator = data.face_evaluators[id];
   std::string defect;
+  // The library leaves holes and folds at some deflections and not at others: a finer one is tried where it
+  // did.
   for (const double share : {1.0, 0.5, 0.25, 0.1, 0.02}) {
     Facets facets = extract(data, id, triangulate(evaluator, share * deflection, angle));
     defect = find_defect(facets);
-    if (defect.empty() && folded_share(facets) > 1e-3) defect = "facets folded over each other";
+    if (defect.empty() && folded_share(facets) > tolerances::folded) defect = "facets folded over each other";
     if (!defect.empty()) continue;
     settle_boundary(model, id, facets);
     if (!evaluator.planar) refine_facets(model, id, deflection, angle, facets);

@@ -3,6 +3,7 @@
 #include "aeroloom/cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/topology/border_path.hpp"
+#include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
 
 #include <algorithm>
@@ -17,15 +18,14 @@ namespace aeroloom::cad {
 namespace {
 
 using geometry::degree;
-/// A strip's loop turns by more at the ends of its long borders, and by less along them.
-constexpr double corner_turn = 30 * degree;
-/// Strips are this many times longer than wide, at least.
+/// Strips are this many times longer than wide, at least: a face that is less slender is a wall of its own.
+/// Chosen, not measured.
 constexpr double slenderness = 10;
-/// An edge across a strip's end is at most this part of the long borders.
+/// An edge across a strip's end is at most this part of the long borders: else the face is a triangle or a
+/// fan. Chosen, not measured.
 constexpr double end_share = 0.25;
-/// A face that turns less across a border goes on in its neighbour.
-constexpr double smooth_turn = 30 * degree;
-constexpr int stations = 9;  // inside, where angles and widths are measured
+/// Places inside a strip where angles and widths are measured: a wing's sections change slowly along it.
+constexpr int stations = 9;
 
 using Kind = BluntEdgeFinding::Kind;
 
@@ -40,12 +40,12 @@ bool is_reversed_end(const EdgeUse& use, bool at_start) {
 
 /// The direction of the loop at the start or end of a coedge, as a chord over a small part of the edge.
 Vec3 direction_at(const Model& model, const EdgeUse& use, bool at_start) {
-  constexpr double part = 1e-3;
   const Edge& edge = model.edge(use.edge);
   const double range = edge.last_parameter - edge.first_parameter;
   const bool at_last = is_reversed_end(use, at_start);
   const double end = at_last ? edge.last_parameter : edge.first_parameter;
-  const Vec3 inner = model.edge_point(use.edge, end + (at_last ? -part : part) * range);
+  const Vec3 inner =
+      model.edge_point(use.edge, end + (at_last ? -tolerances::beside_end : tolerances::beside_end) * range);
   const Vec3 outer = model.edge_point(use.edge, end);
   return normalized(at_start ? inner - outer : outer - inner);
 }
@@ -60,7 +60,8 @@ std::vector<Run> cut_at_corners(const Model& model, const std::vector<EdgeUse>& 
   std::vector<std::size_t> starts;
   for (std::size_t i = 0; i < count; ++i) {
     const EdgeUse& before = loop[(i + count - 1) % count];
-    if (angle_between(direction_at(model, before, false), direction_at(model, loop[i], true)) > corner_turn)
+    if (angle_between(direction_at(model, before, false), direction_at(model, loop[i], true)) >
+        tolerances::smooth)
       starts.push_back(i);
   }
   std::vector<Run> runs;
@@ -230,7 +231,7 @@ void judge(const Model& model, double width, BluntEdgeFinding& finding) {
     finding.kind = kind, finding.reason = std::move(reason);
   };
   for (int side = 0; side < 2; ++side) {
-    if (widest_turn[side] < smooth_turn) {
+    if (widest_turn[side] < tolerances::smooth) {
       const FaceId into = strip.borders[side].front().neighbour;
       return refuse(Kind::smooth, fmt::format("it goes on smoothly in '{}'", model.face(into).name));
     }

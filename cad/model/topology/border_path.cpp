@@ -8,7 +8,8 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr int intervals = 256;  // of each edge
+/// Of each edge: lengths of arcs are then right to 3e-5 on a full circle, and feet start within reach.
+constexpr int intervals = 256;
 
 }  // namespace
 

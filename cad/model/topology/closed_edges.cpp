@@ -168,7 +168,7 @@ private:
 
   /// A face that runs out to a point at a vertex, narrower than the vertex moves, cannot follow it.
   void require_broad_corners() const {
-    constexpr double away = 10, narrow = 2;  // moves
+    constexpr double away = 10, narrow = 2;  // in moves of the vertex: corners of a fifth of a radian; chosen
     const auto is_kept = [&](EdgeId id) { return _closed.fates[id].kind == EdgeFate::Kind::kept; };
     for (const FaceId id : _closed.base_faces) {
       for (const FaceCorner& corner : corners_of(_base, id)) {
@@ -218,15 +218,17 @@ private:
 
   /// From one end of an edge to the other; a part of the length where both are one.
   double reach_of_edge(EdgeId id) const {
+    constexpr double share_of_closed_edge = 0.25;  // to either side of its vertex, so that half of it stays
     const Edge& edge = _base.edge(id);
-    if (edge.first == edge.last) return 0.25 * rough_length(_base, id);
+    if (edge.first == edge.last) return share_of_closed_edge * rough_length(_base, id);
     return distance(_base.vertex(edge.first), _base.vertex(edge.last));
   }
 
   /// How far around each vertex of the base model edges follow its move: as far as the shortest of them goes,
   /// but for very short ones.
   std::vector<double> reaches_of_vertices(const std::vector<char>& used) const {
-    constexpr double short_edge = 20;  // moves
+    constexpr double short_edge =
+        20;  // in moves: over less, a move would show as a bend of more than 3 degrees
     constexpr double unlimited = std::numeric_limits<double>::infinity();
     std::vector<double> reaches(_base.vertex_count(), unlimited);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {

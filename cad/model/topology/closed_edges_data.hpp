@@ -21,7 +21,7 @@ struct BorderPart {
   double low() const { return is_along() ? base.front() : base.back(); }
 };
 
-/// What became of an edge of the base model.
+/// The fate of an edge of the base model.
 struct EdgeFate {
   enum class Kind : std::uint8_t { kept, closed, collapsed };
   Kind kind = Kind::kept;

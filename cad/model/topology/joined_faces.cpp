@@ -13,7 +13,10 @@
 namespace aeroloom::cad {
 namespace {
 
+/// From which the nearest border to a point is told; chosen, not measured.
 constexpr int samples_per_border = 64;
+/// How far beside its loops guesses of a periodic face stray, in periods: one and the half beside it.
+constexpr double straying_periods = 1.5;
 
 void require_joinable(const Model& model, const std::vector<FaceId>& group) {
   const Face& first = model.face(group.front());
@@ -30,7 +33,7 @@ void require_joinable(const Model& model, const std::vector<FaceId>& group) {
 /// The interval of u that a member's points can have: its loops, and as far around as guesses stray.
 std::pair<double, double> reach_in_u(const FaceEvaluator& face) {
   const double extent = face.uv_high.x - face.uv_low.x, repeats = face.u.repeats_after();
-  const double margin = std::max(extent, 1.5 * repeats);
+  const double margin = std::max(extent, straying_periods * repeats);
   const double low = face.uv_low.x - margin, high = face.uv_high.x + margin;
   if (repeats > 0) return {low, high};
   return {std::max(low, face.u.low), std::min(high, face.u.high)};

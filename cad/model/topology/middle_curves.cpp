@@ -1,5 +1,7 @@
 #include "cad/model/topology/middle_curves.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,12 +19,14 @@
 namespace aeroloom::cad {
 namespace {
 
-/// A border turns by more at a kink (radians).
-constexpr double kink_turn = 5 * std::numbers::pi / 180;
 /// A middle curve is drawn through more points until it leaves the middle by less than this part of the
-/// strip's width.
+/// strip's width: a thousandth of a width is less than any element shows. Chosen, not measured.
 constexpr double middle_error = 1e-3;
+/// Where the most do not suffice the curve is as it is: borders with a kink nobody marked cannot be followed.
 constexpr int fewest_points = 32, most_points = 1024;
+/// Joints face each other when they are no farther apart than the strip is wide, and half as much again where
+/// borders run askew. Chosen, not measured.
+constexpr double facing_width = 1.5;
 /// A moved end takes its surroundings along by this power of the share of its reach that is left: smooth, and
 /// without a curvature of its own to speak of.
 constexpr double fading = 4;
@@ -41,10 +45,10 @@ std::vector<Joint> inner_joints(const Model& model, const std::vector<BorderEdge
     const EdgeId edge = chain[i].strip_use.edge;
     const std::vector<double> breaks = model.edge_breaks(edge);
     for (std::size_t b = 1; b + 1 < breaks.size(); ++b) {
-      const double step = 1e-6 * (breaks.back() - breaks.front());
+      const double step = tolerances::beside_knot * (breaks.back() - breaks.front());
       const Vec3 before = model.edge_tangent(edge, breaks[b] - step);
       const Vec3 behind = model.edge_tangent(edge, breaks[b] + step);
-      if (std::atan2(norm(cross(before, behind)), dot(before, behind)) < kink_turn) continue;
+      if (std::atan2(norm(cross(before, behind)), dot(before, behind)) < tolerances::kink) continue;
       joints.push_back({path.passed_at(i, breaks[b]), no_entity});
     }
   }
@@ -122,7 +126,7 @@ Handle(Geom_BSplineCurve) as_spline(const GeomAdaptor_Curve& curve) {
   if (curve.IsPeriodic()) return {};
   const Handle(Geom_TrimmedCurve) part = new Geom_TrimmedCurve(curve.Curve(), low, high);
   const Handle(Geom_BSplineCurve) spline = GeomConvert::CurveToBSplineCurve(part);
-  const double error = 1e-12 * (high - low);
+  const double error = tolerances::rounding * (high - low);
   const bool same =
       std::abs(spline->FirstParameter() - low) <= error && std::abs(spline->LastParameter() - high) <= error;
   return same ? spline : Handle(Geom_BSplineCurve)();
@@ -145,7 +149,7 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
   const Station end{{borders[0].length(), borders[1].length()},
                     {borders[0].vertices().back(), borders[1].vertices().back()}};
   double apart = 0;  // at equal shares of the way: more than the strip is wide where borders' lengths differ
-  constexpr int shares = 10;
+  constexpr int shares = 10;  // a width changes slowly along a strip
   for (int i = 0; i <= shares; ++i) {
     const double share = static_cast<double>(i) / shares;
     apart = std::max(apart, distance(borders[0].at(share * borders[0].length()).point,
@@ -159,7 +163,7 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
       return distance(borders[0].at(a.passed).point, borders[1].at(b.passed).point);
     };
     std::size_t best = joints[1].size();
-    double least = 1.5 * apart;
+    double least = facing_width * apart;
     for (std::size_t i = next; i < joints[1].size(); ++i) {
       if (gap(joints[1][i]) < least) least = gap(joints[1][i]), best = i;
     }
@@ -234,7 +238,7 @@ Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, const EndMove& firs
   const auto moved = [&](double t) { return first(value(t)) + last(value(t)); };
   const Handle(Geom_BSplineCurve) spline = as_spline(curve);
   if (spline.IsNull()) {
-    constexpr int intervals = 256;
+    constexpr int intervals = 256;  // of a circle or an ellipse, whose interpolation then errs by 1e-9 of it
     std::vector<Vec3> points;
     std::vector<double> at;
     for (int i = 0; i <= intervals; ++i) {

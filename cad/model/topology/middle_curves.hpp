@@ -34,8 +34,8 @@ struct MiddleCurve {
 MiddleCurve draw_middle(const std::array<BorderPath, 2>& borders, const Station& from, const Station& to,
                         Vec3 first, Vec3 last);
 
-/// What happens to an end of a curve. Curves that are near each other at their common end stay so: each moves
-/// by what depends on the place alone.
+/// A move of an end of a curve, which fades out along it. Curves that are near each other at their common end
+/// stay so: each moves by what depends on the place alone.
 struct EndMove {
   Vec3 from, by;
   double reach = 1;  ///< what is further away stays

@@ -1,6 +1,7 @@
 #include "cad/model/topology/model_topology.hpp"
 
 #include "cad/model/evaluation/plane_snap.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -264,7 +265,8 @@ void index_topology(Model::Data& data) {
   add_edges(maps, data);
   data.faces.resize(maps.faces.Extent());
   for (int i = 1; i <= maps.faces.Extent(); ++i) {
-    data.face_evaluators.push_back(make_evaluator(maps.faces(i), 1e-9 * data.bounds.diagonal()));
+    data.face_evaluators.push_back(
+        make_evaluator(maps.faces(i), tolerances::coincident * data.bounds.diagonal()));
     data.faces[i - 1].loops = add_uses(maps, data, data.face_evaluators.back());
     for (const UseCurve& curve : data.face_evaluators.back().uses) {
       auto& users = data.edges[curve.use.edge].faces;

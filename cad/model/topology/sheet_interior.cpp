@@ -1,5 +1,7 @@
 #include "cad/model/topology/sheet_interior.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +11,10 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr double on_loop = 1e-9;  // in parameters
 // In cells: how far apart points of a loop are taken, and how far around them its cells reach.
 constexpr double longest_step = 0.5, reach = 0.75;
+// Parts of a curve to begin with, so that none that bends back is missed, and how often each is halved: 4096
+// times as short reaches `longest_step` on any curve that is not a needle in parameters.
 constexpr int first_steps = 32, halvings = 12;
 
 }  // namespace
@@ -21,7 +24,7 @@ SheetInterior::SheetInterior(const FaceEvaluator& face)
       _box_low(face.uv_low),
       _box_high(face.uv_high),
       _cells(cells_per_side * cells_per_side, Cell::unknown),
-      _library(face.shape, on_loop) {
+      _library(face.shape, tolerances::on_loop) {
   // Two rows of cells on each side of the box: one of them is not beside a loop.
   _cell_size = (1.0 / (cells_per_side - 4)) * (_box_high - _box_low);
   _grid_low = _box_low - 2.0 * _cell_size;

@@ -2,6 +2,7 @@
 
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/sheet_interior.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -72,7 +73,7 @@ Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
   const Place start = locate(id, guess);
   Projection found = base.project(start.face, point, start.uv), best = found;
   if (face.sheets.size() == 1) return best;
-  const double tolerance = 1e-11 * base.bounds().diagonal();  // that of Newton's method
+  const double tolerance = tolerances::foot * base.bounds().diagonal();
   std::int32_t sheet = start.sheet, best_sheet = sheet;
   bool best_inside = false;
   std::vector<char> seen(face.sheets.size(), 0);

@@ -21,10 +21,10 @@
 
 namespace aeroloom::cases {
 
-/// What the user said about sizes; what is left out is chosen from the model.
+/// The sizes that the user gave; others are chosen from the model.
 struct SizingRequest : sizing::GivenSizes {
-  /// What the sizes that are chosen aim at; left out: default_target, or any where minimum and maximum are
-  /// given.
+  /// The number of tetrahedra that chosen sizes aim at; left out: default_target, or any where minimum and
+  /// maximum are given.
   std::optional<double> target_tetrahedra;
   /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
   /// minimum come on top.
@@ -33,7 +33,7 @@ struct SizingRequest : sizing::GivenSizes {
 
 inline constexpr double default_target = 1'000'000;
 
-/// What happens to faces narrower than the smallest size that go on smoothly in a neighbour.
+/// The treatment of faces narrower than the smallest size that go on smoothly in a neighbour.
 enum class NarrowFaces { join, keep };
 
 /// Whether what stages have made is kept for a later run.
@@ -75,7 +75,7 @@ struct Case {
 /// duplicates, wrong types, values out of range or at odds with each other, no geometry or two.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides);
 
-/// What resolved_yaml() has made, on a rank that does not look at the file itself.
+/// The case that resolved_yaml() has written, on a rank that does not look at the file itself.
 Case case_of_resolved(const std::string& yaml);
 
 /// A case from overrides alone, for commands that need no geometry. Throws CaseError as read_case.

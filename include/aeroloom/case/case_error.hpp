@@ -1,4 +1,4 @@
-/// What is wrong with a case.
+/// Errors in a case, with their place in the file.
 #pragma once
 
 #include <stdexcept>

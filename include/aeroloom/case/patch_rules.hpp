@@ -1,4 +1,4 @@
-/// What the case says of patches: names, which faces they join, and what they are to a solver.
+/// Rules of the case for patches: names, which faces they join, and what they are to a solver.
 #pragma once
 
 #include "aeroloom/cad/model/model.hpp"

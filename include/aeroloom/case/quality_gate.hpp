@@ -1,4 +1,4 @@
-/// What a mesh has to be like for the run to count as a success.
+/// The quality that a mesh must have for the run to count as a success.
 #pragma once
 
 #include "aeroloom/attribution/pinned.hpp"
@@ -35,7 +35,7 @@ inline constexpr std::array<std::string_view, 10> gate_keys = {
     "smallest_angle", "largest_angle",   "percentile_01",        "percentile_1",       "percentile_5",
     "min_mean_ratio", "mean_mean_ratio", "largest_volume_ratio", "largest_edge_ratio", "min_scaled_jacobian"};
 
-/// What improvement is to work on beside its target.
+/// The targets of improvement beside its own.
 std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate);
 
 /// A limit of the gate and what the mesh has.

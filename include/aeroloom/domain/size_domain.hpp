@@ -19,7 +19,7 @@
 
 namespace aeroloom::domain {
 
-/// What was joined.
+/// Narrow faces that were joined with neighbours.
 struct JoinedFaces {
   std::vector<std::vector<cad::FaceId>> groups;  ///< for cad::join_faces
   cad::Changes changes;                          ///< one for each face that vanished
@@ -27,7 +27,7 @@ struct JoinedFaces {
   static constexpr auto fields() { return std::tuple(&JoinedFaces::groups, &JoinedFaces::changes); }
 };
 
-/// What may become of a model so that it needs no small elements.
+/// Simplifications that a model may undergo so that it needs no small elements.
 struct Simplification {
   cases::NarrowFaces narrow_faces = cases::NarrowFaces::join;
   cad::TrailingEdges trailing_edges = cad::TrailingEdges::keep;  ///< `sharpen` was done to the model before

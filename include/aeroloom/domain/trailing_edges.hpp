@@ -1,4 +1,4 @@
-/// What becomes of blunt trailing edges: kept, closed or graded, decided after a trial sizing.
+/// The fate of blunt trailing edges: kept, closed or graded, decided after a trial sizing.
 #pragma once
 
 #include "aeroloom/cad/model/model.hpp"
@@ -50,7 +50,7 @@ using TrailingEdgeReport = std::vector<JudgedEdge>;
 double moved(const JudgedEdge& edge);
 const char* name_of(EdgeFate fate);
 
-/// What a trial sizing tells.
+/// The sizes of a trial, as far as trailing edges are judged by them.
 struct TrialSizes {
   std::function<double(double)> aspect_at;  ///< of elements along a strip that is so wide
   double minimum;                           ///< of what is no feature
@@ -70,8 +70,8 @@ std::optional<cad::Model> close_trailing_edges(const cad::Model& domain,
                                                const std::vector<sizing::TrailingEdge>& edges,
                                                TrailingEdgeReport& report);
 
-/// What is left of those to be graded under the sizes that were chosen in the end: where others were closed
-/// there is more for them.
+/// Judges edges that were to be graded again, under the sizes that were chosen in the end: where others were
+/// closed there is more for them.
 void judge_again(TrailingEdgeReport& report, const sizing::SizingOptions& sizes);
 
 /// The domain with the edges closed that a report has as closed; it is that domain's. Throws cad::CadError.

@@ -23,7 +23,8 @@ struct UnresolvedStrip {
   }
 };
 
-/// What came of features finer than the smallest size, where sizes were chosen from the model.
+/// Features finer than the smallest size, and how far they are resolved, where sizes were chosen from the
+/// model.
 struct FeatureReport {
   sizing::FeatureShare share;
   double tetrahedra = 0;                ///< predicted in all
@@ -40,10 +41,11 @@ struct FeatureReport {
 FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
                               double tetrahedra);
 
-/// What is not resolved, what it would take, what to expect, and the remedies; empty where there is nothing.
+/// The message about unresolved features: what they would take, what to expect, and the remedies; empty where
+/// there are none.
 std::string describe(const FeatureReport& report);
 
-/// What features finer than the smallest size add to the count; empty where it is little.
+/// The message about what features finer than the smallest size add to the count; empty where it is little.
 std::string describe_share(const FeatureReport& report);
 
 }  // namespace aeroloom::domain

@@ -1,4 +1,4 @@
-/// What the sizing stage found out about walls that are close to each other.
+/// Findings of the sizing stage about walls that are close to each other.
 #pragma once
 
 #include "aeroloom/sizing/model_sampler.hpp"

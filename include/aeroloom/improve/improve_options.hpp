@@ -1,4 +1,4 @@
-/// What the user may ask of the improvement stage.
+/// Options of the improvement stage.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct ImproveOptions {
   std::vector<PercentileTarget> percentiles = {};
 };
 
-/// What is spent on tetrahedra beside strips that are narrower than their elements (reach.hpp).
+/// The effort spent on tetrahedra beside strips that are narrower than their elements (reach.hpp).
 enum class Effort : std::int8_t {
   sparing,   ///< what hardly ever gains there is left out, and the aim is what is within reach
   unsparing  ///< as much as elsewhere, and the worst alone decides: for few

@@ -1,4 +1,4 @@
-/// What the improvement stage tells about its work.
+/// The report of the improvement stage.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct ImproveReport {
                       &ImproveReport::replaced, &ImproveReport::changed_triangles,
                       &ImproveReport::is_lattice);
   }
-  /// What another run has changed, on top.
+  /// Adds the changes of another run.
   void add_changes(const ImproveReport& of) {
     smoothed += of.smoothed;
     slid += of.slid;

@@ -1,4 +1,4 @@
-/// What a mesh was made from.
+/// The model and the sizes that a mesh was made from.
 #pragma once
 
 #include "aeroloom/cad/model/evaluation/point_locator.hpp"
@@ -6,7 +6,7 @@
 
 namespace aeroloom::improve {
 
-/// What the mesh was made from, as far as that is known.
+/// The origin of a mesh, as far as it is known.
 struct MeshSource {
   cad::PointLocator* locator = nullptr;      ///< of the CAD model: boundary vertices may slide on it
   const sizing::SizeField* sizes = nullptr;  ///< edges keep to them (change_limits.hpp)

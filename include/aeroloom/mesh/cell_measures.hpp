@@ -10,7 +10,7 @@
 
 namespace aeroloom::mesh {
 
-/// What is measured of cells.
+/// Measures of cells.
 enum class Measure : std::uint8_t {
   /// Degrees, between neighbouring faces inside the cell, 0 to 360: over 180 where the cell is folded or
   /// turned inside out. Of quadrilaterals the planes at both ends of the edge count, spanned there by the
@@ -47,7 +47,7 @@ inline constexpr bool larger_is_worse(Measure measure) {
          measure == Measure::volume_ratio;
 }
 
-/// What a ratio counts as that is larger, or has no value because something is not above zero.
+/// The value of a ratio that is larger, or that has none because its divisor is not above zero.
 inline constexpr double largest_ratio = 1e30;
 
 /// By Measure; those that a shape does not have, and the ratio of volumes, are 0.

@@ -49,7 +49,7 @@ inline std::size_t position_of(const DistributedMesh& mesh, PieceId id) {
   return static_cast<std::size_t>(found - mesh.pieces.begin());
 }
 
-/// What the pieces of lower id have of something together, per local piece; the total comes last. `counts` as
+/// Sums over the pieces of lower id, per local piece; the total comes last. `counts` as
 /// rows of gather_by_piece. Collective.
 inline std::vector<GlobalIndex> first_by_piece(const parallel::Communicator& communicator,
                                                const DistributedMesh& mesh,

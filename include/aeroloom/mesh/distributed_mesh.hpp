@@ -21,7 +21,7 @@ struct FaceSides {
   bool is_inner() const { return back != no_region; }
 };
 
-/// What is the same on every rank.
+/// Facts about a mesh that are the same on every rank.
 struct MeshFacts {
   CellKind kind = CellKind::tetrahedron;
   PieceId piece_count = 0;             ///< of the whole mesh; ids run from 0

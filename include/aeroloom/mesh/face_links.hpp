@@ -1,4 +1,4 @@
-/// What lies behind the faces of cells, across pieces and ranks.
+/// Neighbours behind the faces of cells, across pieces and ranks.
 #pragma once
 
 #include "aeroloom/mesh/delivery.hpp"
@@ -32,7 +32,7 @@ struct PieceLinks {
   std::vector<LocalIndex> boundary_face;  ///< by side: the piece's boundary face there, -1 none
 };
 
-/// What does not fit; counts over all ranks, the same everywhere.
+/// Faces that do not fit; counts over all ranks, the same everywhere.
 struct LinkDefects {
   GlobalIndex crowded_faces = 0;   ///< at which more than two cells meet
   GlobalIndex stray_faces = 0;     ///< boundary faces that are no face of a cell of their piece

@@ -1,4 +1,4 @@
-/// What a solver makes of a patch of the boundary.
+/// Types of patches of the boundary, as solvers know them.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ inline std::optional<PatchType> patch_type_of(std::string_view name) {
   return std::nullopt;
 }
 
-/// What a patch is by its name alone, whatever else than letters is in it: that of a type ("far_field"), or
-/// one of its usual other names ("symmetry plane", "Inflow 2"). Empty: nothing to tell. Never `interior`.
+/// The type of a patch by its name alone, whatever else than letters is in it: that of a type ("far_field"),
+/// or one of its usual other names ("symmetry plane", "Inflow 2"). Empty: nothing to tell. Never `interior`.
 std::optional<PatchType> patch_type_by_name(std::string_view name);
 
 /// A patch as solvers know it.

@@ -114,7 +114,7 @@ std::span<const std::int32_t> patches_of(const Piece& piece, FaceShape shape);
 template <class Visit>
 void for_each_region_run(const Piece& piece, CellShape shape, const Visit& visit);
 
-/// What a piece occupies in memory, bytes: its arrays with what they have reserved.
+/// The memory that a piece occupies, bytes: its arrays with what they have reserved.
 std::int64_t bytes_at_rest(const Piece& piece);
 
 /// Faces that the cells of a piece may have at most: their indices must fit 30 bits.

@@ -7,7 +7,7 @@
 
 namespace aeroloom::mesh {
 
-/// What a piece may hold.
+/// The regions that a piece may hold.
 enum class PieceRegions : std::uint8_t { several, one };
 
 /// A volume mesh in `pieces` pieces of nearly equal numbers of cells, cut along a space-filling curve

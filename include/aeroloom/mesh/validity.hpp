@@ -8,8 +8,8 @@
 
 namespace aeroloom::mesh {
 
-/// What is wrong with a mesh, the same on every rank. Each violation is a sentence with a count, and the
-/// piece and coordinates of the first offender by global number.
+/// Violations of the invariants of a mesh, the same on every rank. Each violation is a sentence with a count,
+/// and the piece and coordinates of the first offender by global number.
 struct ValidityReport {
   std::vector<std::string> violations;
   double volume = 0;          ///< of all cells (volume meshes), or enclosed by the surface (triangles)

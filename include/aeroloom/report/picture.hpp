@@ -7,7 +7,7 @@
 
 namespace aeroloom::report {
 
-/// What a colour of a picture stands for.
+/// A colour of a picture and what it stands for.
 struct LegendItem {
   std::string name;
   std::string colour;  ///< as HTML writes it: "#rrggbb"

@@ -19,13 +19,13 @@ struct RunOutcome {
   std::vector<std::string> older_files = {};  ///< of meshes in the output directory, not of this run
 };
 
-/// What was run.
+/// The case and the file that were run.
 struct ReportSubject {
   std::string case_file;      ///< as it was named; empty: none
   std::string improved_file;  ///< a mesh, of the command improve; else empty
 };
 
-/// What a report tells besides the case and the record.
+/// Facts that a report tells besides the case and the record.
 struct ReportFacts {
   RunOutcome outcome;
   ReportSubject subject;

@@ -1,4 +1,4 @@
-/// What a run has found out, and what a report is written from.
+/// The record of a run, from which its report is written.
 #pragma once
 
 #include "aeroloom/attribution/pinned.hpp"

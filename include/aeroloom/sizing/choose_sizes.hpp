@@ -45,7 +45,7 @@ struct ChosenSizes {
 /// choose_sizes().
 SizingOptions estimate_sizes(ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given = {});
 
-/// What coarse fields tell of the sizes to choose, before any is built that is as fine as asked for.
+/// Sizes as coarse fields foretell them, before any is built that is as fine as asked for.
 struct Prospect {
   SizingOptions options;  ///< where no feature is finer than the minimum
   double body_size;       ///< from which the bounds that are not given follow
@@ -71,8 +71,8 @@ ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra,
 Prospect prospect_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given);
 
-/// What a field is for: to make a mesh, or to tell what mesh that would be. For that alone it is a rough one
-/// (ModelSampler::build_rough_field) where there would be more elements than this.
+/// The purpose of a field: to make a mesh, or to tell what mesh that would be. For that alone it is a rough
+/// one (ModelSampler::build_rough_field) where there would be more elements than this.
 enum class FieldFor : bool { mesh, forecast };
 inline constexpr double least_rough = 3e7;
 
@@ -87,7 +87,7 @@ ChosenSizes apply_sizes(ModelSampler& sampler, const SizingOptions& options, Fie
 /// Where the minimum is given and does not bind them.
 inline constexpr const char* of_features = "features";
 
-/// What one of the given bounds does.
+/// The effect of one of the given bounds.
 struct BoundCost {
   std::string bound;  ///< its name in SizingOptions; of_features for what features finer than the minimum do
   double ratio;  ///< predicted tetrahedra over those with what would be chosen in its place, about; infinite

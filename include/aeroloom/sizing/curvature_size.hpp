@@ -15,7 +15,8 @@ inline constexpr int deepest_bisection = 40;
 
 double radians_per_element(bool far_field, const SizingOptions& options);
 
-/// What curvature asks for on the body, or on the far field, which turns slowly and has no shape to keep.
+/// Limits to the sizes that curvature asks for on the body, or on the far field, which turns slowly and has
+/// no shape to keep.
 struct CurvatureLimits {
   double angle;      ///< an element turns by, at most; radians
   double deviation;  ///< of triangles from the surface, at most; 0: any

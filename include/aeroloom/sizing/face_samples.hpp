@@ -26,7 +26,7 @@ public:
   std::vector<SizeSource> sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
                                   bool far_field, const SizingOptions& options, double coarser = 1);
 
-  /// What is asked for, told by the corners of the facets alone.
+  /// The sizes asked for, told by the corners of the facets alone.
   struct Overview {
     double triangles = 0;  ///< about
     double parts =
@@ -54,7 +54,7 @@ private:
   };
   /// Two points by number, the lower one first.
   using Pair = std::uint64_t;
-  /// What one call asks for.
+  /// The request of one call.
   struct Demand {
     const cad::Model& model;
     cad::FaceId face;

@@ -1,4 +1,4 @@
-/// What features finer than the smallest size cost, and how fine they may be for a budget.
+/// The cost of features finer than the smallest size, and how fine they may be for a budget.
 #pragma once
 
 #include "aeroloom/sizing/model_sampler.hpp"
@@ -17,8 +17,8 @@ inline constexpr double default_feature_budget = 5;
 /// Of strips whose elements get nothing below the minimum.
 inline constexpr double no_aspect = std::numeric_limits<double>::infinity();
 
-/// What strips, short edges and sharp corners bring that are finer than the minimum of some sizes. Strips
-/// share one aspect: for the same number of elements thin and thick ones have the same angles.
+/// The elements that strips, short edges and sharp corners bring which are finer than the minimum of some
+/// sizes. Strips share one aspect: for the same number of elements thin and thick ones have the same angles.
 struct FeatureShare {
   double aspect = no_aspect;  ///< length of an element over the strip's width there; 1: resolved
   double floor = 0;           ///< however thin, none asks for less

@@ -1,4 +1,4 @@
-/// What a model asks for: sources on its faces and edges.
+/// Sources on the faces and edges of a model.
 #pragma once
 
 #include "aeroloom/cad/model/evaluation/face_corners.hpp"
@@ -32,7 +32,7 @@ std::vector<StripPart> strip_parts(const cad::Model& model, const cad::Facets& f
                                    std::span<const EdgePair> closed_corners, const SizingOptions& options,
                                    double reach);
 
-/// What narrow strips of a face ask for: between two edges of the face that share no vertex, or that end in
+/// Sources of narrow strips of a face: between two edges of the face that share no vertex, or that end in
 /// one of its corners which are closed (is_closed_corner()), elements are at most as large as strip_size() of
 /// the nearest distance. Distances from `reach` on ask for nothing, nor does a corner as far as it
 /// is closed.

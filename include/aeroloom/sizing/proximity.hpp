@@ -23,7 +23,7 @@ struct Gap {
   double width;
 };
 
-/// What rays from one face have met.
+/// Gaps that rays from one face have met.
 struct Gaps {
   std::vector<Gap> seen;  ///< on either side of the face, the narrower one
   /// On a side that is meshed, and where the walls do not run together towards a common edge: elements as
@@ -74,7 +74,7 @@ struct Walls {
   explicit Walls(std::vector<Wall> walls);
 };
 
-/// What a search for gaps may cost, and what is looked for.
+/// Limits to the cost of a search for gaps, and the gaps that it looks for.
 struct GapLimits {
   double widest;  ///< gaps wider than this are left out
   double finest;  ///< no parts of facets are bisected whose edges are no longer than this

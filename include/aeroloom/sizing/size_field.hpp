@@ -16,7 +16,7 @@
 
 namespace aeroloom::sizing {
 
-/// What the user asks for. Lengths in the model's unit. Going away from where a size is asked for, each
+/// Sizes that the user asks for. Lengths in the model's unit. Going away from where a size is asked for, each
 /// element is at most `growth` times as large as the one before, so |grad h| <= ln(growth).
 struct SizingOptions {
   double minimum = 0;           ///< smallest size, > 0
@@ -56,12 +56,12 @@ inline double smallest_strip_size(const SizingOptions& options) {
   return options.strip_minimum > 0 ? options.strip_minimum : smallest_feature_size(options);
 }
 
-/// What something as long or wide as `extent` asks for that may ask for sizes down to `smallest`.
+/// The size that a feature as long or wide as `extent` asks for, which may ask for sizes down to `smallest`.
 inline double feature_size(double extent, double smallest, const SizingOptions& options) {
   return std::max(std::min(options.feature_aspect * extent, std::max(extent, options.minimum)), smallest);
 }
 
-/// What a narrow face asks for where it is so wide.
+/// The size that a narrow face asks for where it is so wide.
 inline double strip_size(double width, const SizingOptions& options) {
   return feature_size(width, smallest_strip_size(options), options);
 }

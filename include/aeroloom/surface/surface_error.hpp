@@ -1,4 +1,4 @@
-/// What the surface stage throws.
+/// Errors of the surface stage.
 #pragma once
 
 #include <stdexcept>

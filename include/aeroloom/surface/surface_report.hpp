@@ -1,4 +1,4 @@
-/// What the surface stage tells about its work.
+/// The report of the surface stage.
 #pragma once
 
 #include "aeroloom/cad/model/model.hpp"
@@ -45,7 +45,7 @@ struct ClosedTip {
 /// A triangle is a needle when its smallest angle is below this, degrees.
 inline constexpr double needle_degrees = 10;
 
-/// What makes a needle.
+/// The cause of a needle.
 enum class NeedleCause : std::int32_t {
   corner,  ///< two curves that meet at a CAD vertex enclose its smallest angle: forced
   strip,   ///< one side lies on a curve, the third vertex on another one as close as the needle is thin:

@@ -1,4 +1,4 @@
-/// What the volume stage throws.
+/// Failures of the volume stage.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"

@@ -17,7 +17,7 @@
 
 namespace aeroloom::volume {
 
-/// What is meshed. Refers to what lives elsewhere.
+/// The input of the volume stage. Refers to what lives elsewhere.
 struct VolumeInput {
   const mesh::DistributedMesh& surface;  ///< closed around every region, its vertices classified
   const mesh::Numbering& numbering;      ///< of the surface

@@ -1,4 +1,4 @@
-/// What the user may ask of the volume stage.
+/// Options of the volume stage.
 #pragma once
 
 #include <cstdint>

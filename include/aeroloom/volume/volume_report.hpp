@@ -1,4 +1,4 @@
-/// What the volume stage tells about its work.
+/// The report of the volume stage.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"
@@ -10,7 +10,7 @@
 
 namespace aeroloom::volume {
 
-/// What the decomposition tells.
+/// The report of the decomposition.
 struct DecompositionReport {
   std::int64_t blocks = 0;  ///< of the lattice
   std::int64_t lattice_points = 0;
@@ -49,7 +49,7 @@ struct Disagreement {
   }
 };
 
-/// What the filling tells.
+/// The report of the filling.
 struct VolumeReport {
   std::int64_t tetrahedra = 0;
   std::int64_t core_tetrahedra = 0;  ///< those of them that come from a table, the others from TetGen

@@ -41,9 +41,9 @@ struct FarFieldOptions {
   }
 };
 
-/// What happens to blunt trailing edges: strips between two faces that meet at a sharp angle. `sharpen`: they
-/// are closed here; `automatic`: they are kept here, and those closed later that sizes cannot resolve, where
-/// that moves little.
+/// The treatment of blunt trailing edges: strips between two faces that meet at a sharp angle. `sharpen`:
+/// they are closed here; `automatic`: they are kept here, and those closed later that sizes cannot resolve,
+/// where that moves little.
 enum class TrailingEdges { automatic, keep, sharpen };
 
 struct TrailingEdgeOptions {
@@ -74,7 +74,7 @@ struct DomainOptions {
   }
 };
 
-/// What was read and what was done with it, for log and report.
+/// The file that was read and the changes made to it, for log and report.
 struct DomainReport {
   DomainKind kind = DomainKind::automatic;  ///< as decided
   std::string reason;                       ///< why, when it was decided here

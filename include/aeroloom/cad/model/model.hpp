@@ -141,7 +141,7 @@ public:
   Vec3 face_point(FaceId id, Vec2 uv) const;
   SurfaceFrame face_frame(FaceId id, Vec2 uv) const;
   PrincipalCurvatures face_curvatures(FaceId id, Vec2 uv) const;
-  /// What face_point() and face_curvatures() return, for one evaluation of the surface.
+  /// The results of face_point() and face_curvatures(), for one evaluation of the surface.
   CurvedPoint face_curved_point(FaceId id, Vec2 uv) const;
   bool is_planar(FaceId id) const;
   /// Whether the face is an axis-aligned plane, whose coordinate its points have exactly.

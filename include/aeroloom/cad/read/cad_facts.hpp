@@ -1,4 +1,4 @@
-/// What a CAD file holds, as it stands there: for a look, without any repair.
+/// The content of a CAD file as it stands there: for a look, without any repair.
 #pragma once
 
 #include "aeroloom/cad/model/evaluation/face_place.hpp"
@@ -19,7 +19,7 @@ struct NamedFaces {
   static constexpr auto fields() { return std::tuple(&NamedFaces::name, &NamedFaces::faces); }
 };
 
-/// What users may know a face by, and where it is.
+/// The names that users may know a face by, and its place.
 struct FaceFacts {
   std::string name;  ///< "face_<number>" where the file gives none, as rules for patches know it
   std::string part, layer, colour;

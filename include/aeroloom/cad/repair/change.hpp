@@ -1,4 +1,4 @@
-/// What was done to a model on its way from the file to the domain. Nothing moves silently.
+/// Changes to a model on its way from the file to the domain. Nothing moves silently.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"

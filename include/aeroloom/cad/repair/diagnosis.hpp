@@ -1,4 +1,4 @@
-/// What a geometry is like before anything is meshed: for the user who has to repair it.
+/// The state of a geometry before anything is meshed: for the user who has to repair it.
 #pragma once
 
 #include "aeroloom/cad/domain/domain.hpp"

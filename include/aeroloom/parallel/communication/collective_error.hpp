@@ -9,7 +9,7 @@
 
 namespace aeroloom::parallel {
 
-/// What an exception says about its cause: bad_alloc is `resources`, logic_error is `bug`, a failure of
+/// The cause that an exception tells of: bad_alloc is `resources`, logic_error is `bug`, a failure of
 /// reading or writing files (std::ios_base::failure, filesystem_error) is `files`, anything else `input`.
 enum class FailureKind { input, files, resources, bug };
 

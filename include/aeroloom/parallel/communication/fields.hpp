@@ -1,4 +1,4 @@
-/// What travels between ranks and into files: a struct lists its fields once, for both directions, and
+/// Structs that travel between ranks and into files: a struct lists its fields once, for both directions, and
 /// padding stays behind.
 #pragma once
 
@@ -22,8 +22,8 @@ concept HasFields = requires {
 template <class T>
 struct FlatTraits;
 
-/// What is the same number of bytes whatever it says: numbers, enumerations, arrays of flat items, and
-/// trivially copyable structs that list flat fields.
+/// Types that take the same number of bytes whatever their value: numbers, enumerations, arrays of flat
+/// items, and trivially copyable structs that list flat fields.
 template <class T>
 concept Flat = FlatTraits<T>::is_flat;
 

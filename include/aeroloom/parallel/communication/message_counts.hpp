@@ -6,7 +6,7 @@
 
 namespace aeroloom::parallel {
 
-/// What this rank has sent to other ranks by one kind of message. Bytes are those of the content, without the
+/// Messages of one kind that this rank has sent to other ranks. Bytes are those of the content, without the
 /// headers of protocols. A group of one rank sends nothing, and counts nothing.
 struct Messages {
   std::int64_t count = 0, bytes = 0;
@@ -42,8 +42,8 @@ struct MessageCounts {
 /// All that this process has sent so far.
 const MessageCounts& message_counts();
 
-/// What was to be exchanged, in a group of one rank as of many: what a model of other numbers of ranks goes
-/// by. Counts are calls, on every rank the same but where it says so.
+/// Exchanges that were asked for, in a group of one rank as of many: a model of other numbers of ranks goes
+/// by them. Counts are calls, on every rank the same but where it says so.
 struct ExchangeCounts {
   Messages broadcast;   ///< bytes of the content
   Messages all_gather;  ///< bytes of all ranks together

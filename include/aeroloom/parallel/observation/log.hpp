@@ -9,7 +9,7 @@
 
 namespace aeroloom::parallel {
 
-/// What rank 0 prints besides warnings and errors, which are always printed.
+/// How much rank 0 prints besides warnings and errors, which are always printed.
 enum class LogLevel { quiet, normal, verbose };
 
 /// Call once after start; before that, or where a host program never does, facts are not printed, and

@@ -37,7 +37,7 @@ struct TaskRecord {
   int round = 0;           ///< within the stage; filled in by the clock
 };
 
-/// What one stage cost on this rank.
+/// The cost of one stage on this rank.
 struct StageCost {
   std::string name;
   double wall_seconds = 0;

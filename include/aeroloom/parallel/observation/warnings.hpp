@@ -10,7 +10,7 @@
 
 namespace aeroloom::parallel {
 
-/// What log_warning() has printed, once for each text.
+/// Warnings that log_warning() has printed, once for each text.
 struct Warning {
   std::string message;
   Rank rank = 0;           ///< the first that said it

@@ -6,7 +6,7 @@
 
 namespace aeroloom::parallel {
 
-/// What a sandboxed task does before its work.
+/// A fault that a sandboxed task has before its work, so that tests see what comes of it.
 enum class Fault : std::uint8_t { none, throws, aborts, hangs, exhausts_memory };
 
 /// Acts as the fault says; returns for `none` only. Throws std::runtime_error for `throws`, std::bad_alloc
@@ -19,9 +19,9 @@ struct FaultRequest {
   std::int64_t number = -1;
 };
 
-/// What the environment variable AEROLOOM_FAULT asks for: `TASK=FAULT` or `TASK=FAULT@NUMBER`. Tasks:
-/// "domain", the preparation of the CAD; "zone", with the number of the zone. Throws std::invalid_argument
-/// for what is neither.
+/// The fault that the environment variable AEROLOOM_FAULT asks for: `TASK=FAULT` or `TASK=FAULT@NUMBER`.
+/// Tasks: "domain", the preparation of the CAD; "zone", with the number of the zone. Throws
+/// std::invalid_argument for what is neither.
 FaultRequest requested_fault(std::string_view task);
 
 }  // namespace aeroloom::parallel

@@ -34,8 +34,8 @@ public:
   TaskStore(const TaskStore&) = delete;
   TaskStore& operator=(const TaskStore&) = delete;
 
-  /// What was kept under the key by any rank of an earlier run; nothing where it is not there or not what it
-  /// was. Not collective.
+  /// The bytes that any rank of an earlier run has kept under the key; none where they are not there or not
+  /// what they were. Not collective.
   std::optional<Bytes> find(const Digest& key);
   /// Keeps a result. Where that fails, on a full disk, warns once, and keeps nothing from then on. Not
   /// collective.

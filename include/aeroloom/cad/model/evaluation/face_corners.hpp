@@ -35,7 +35,7 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId face);
 /// The face beyond an edge of a face; no_entity where not exactly two faces pass it, the other one once.
 FaceId face_beyond(const Model& model, FaceId face, EdgeId edge);
 
-/// What lies beyond the two edges of a corner: two faces that have no further edge at its vertex in common,
+/// The faces beyond the two edges of a corner: two faces that have no further edge at its vertex in common,
 /// or that meet there in one as at the section of a wedge; or anything else.
 enum class BeyondCorner { two_faces, faces_that_meet, other };
 BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner);

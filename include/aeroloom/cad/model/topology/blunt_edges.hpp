@@ -35,7 +35,7 @@ struct BluntEdge {
   std::vector<BluntStation> stations = {};  ///< from start to end; where the shape is that of a blunt edge
 };
 
-/// What a narrow face turned out to be.
+/// The verdict on a narrow face.
 struct BluntEdgeFinding {
   enum class Kind {
     closable,
