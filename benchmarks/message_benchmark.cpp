@@ -92,7 +92,7 @@ private:
     }
     const parallel::NeighbourExchange neighbours(_communicator, sends, receives);
     for (std::int64_t i = 0; i < _asked.neighbour.count; ++i) {
-      Bytes in(neighbours.received_items());
+      Bytes in(_sent.size());  // each rank has as much for the ranks behind it
       neighbours.exchange(std::span<const std::byte>(_sent), std::span<std::byte>(in));
     }
   }

@@ -1,6 +1,7 @@
 #include "aeroloom/case/case.hpp"
 
 #include "case/case_keys.hpp"
+#include "case/source_keys.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -66,8 +67,13 @@ std::string locate(const std::string& geometry_file, const std::string& case_fil
 Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& name) {
   check_geometry(keys, draft, name);
   check_sizing(keys, draft.result.sizing);
+  check_sources(keys, draft.sources);
   Case result = draft.result;
   result.patches.assign(draft.patches.begin(), draft.patches.end());
+  result.sizing.sources.assign(draft.sources.begin(), draft.sources.end());
+  for (const PatchRule& rule : result.patches) {
+    if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
+  }
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   if (draft.far_field_given) result.domain.far_field = draft.far_field;
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
@@ -121,9 +127,11 @@ std::string resolved_yaml(const Case& input) {
     draft.far_field_given = true;
   }
   draft.patches.assign(input.patches.begin(), input.patches.end());
+  draft.sources.assign(input.sizing.sources.begin(), input.sizing.sources.end());
   KeyTable keys;
   declare_case_keys(keys, draft);
   for (const PatchRule& rule : input.patches) keys.add_named("patches", rule.name);
+  for (const SourceRule& rule : input.sizing.sources) keys.add_named("sizing.sources", rule.name);
   return keys.write();
 }
 

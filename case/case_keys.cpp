@@ -1,6 +1,7 @@
 #include "case/case_keys.hpp"
 
 #include "aeroloom/sizing/size_field.hpp"
+#include "case/source_keys.hpp"
 
 #include <string>
 
@@ -26,7 +27,8 @@ void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
                       "from the model; none where `minimum` and `maximum` are given", "0.5"}));
 }
 
-void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
+void declare_sizing(KeyTable& keys, CaseDraft& draft) {
+  SizingRequest& sizing = draft.result.sizing;
   const sizing::SizingOptions preset;
   declare_bounds(keys, sizing);
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
@@ -61,6 +63,7 @@ void declare_sizing(KeyTable& keys, SizingRequest& sizing) {
       "Features finer than the minimum, and after them gaps between walls, come on top of the target, "
       "up to this many times it in all. Beyond it strips get triangles longer than wide, and the log, "
       "the report and `check` name them with what they would take.");
+  declare_sources(keys, draft.sources);
 }
 
 void declare_surface(KeyTable& keys, Case& result) {
@@ -104,7 +107,7 @@ void declare_case_keys(KeyTable& root, CaseDraft& draft) {
   declare_sizing(
       root.section("sizing", common("How large elements are. What is left out is chosen from the model; the "
                                     "smallest of all sizes that are asked for somewhere wins there.")),
-      draft.result.sizing);
+      draft);
   declare_surface(root.section("surface", "How the surface is cut into pieces of work."), draft.result);
   declare_volume(root.section("volume", "How the volume is cut into pieces of work and filled."),
                  draft.result);
@@ -124,6 +127,7 @@ std::vector<KeyInfo> case_keys() {
   KeyTable keys;
   declare_case_keys(keys, draft);
   keys.add_named("patches", made_up_name);
+  keys.add_named("sizing.sources", made_up_name);
   return keys.infos();
 }
 

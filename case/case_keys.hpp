@@ -22,7 +22,9 @@ struct CaseDraft {
   cad::FarFieldOptions far_field;
   bool far_field_given = false;
   std::optional<double> sharpen_width;
-  std::deque<PatchRule> patches;  ///< they stay where they are while others are added
+  // They stay where they are while others are added.
+  std::deque<PatchRule> patches;
+  std::deque<SourceRule> sources;
 };
 
 /// The unit of lengths in the geometry's own unit.

@@ -33,6 +33,7 @@ Json::json_pointer place_of(const std::string& path) {
 /// A value of the key, from YAML.
 Json json_value(const KeyInfo& key, const std::string& yaml) {
   const YAML::Node node = YAML::Load(yaml);
+  if (key.kind == KeyKind::point) return node.as<std::vector<double>>();
   if (node.IsSequence()) return node.as<std::vector<std::string>>();
   const bool bare = key.kind == KeyKind::number || key.kind == KeyKind::integer || key.kind == KeyKind::flag;
   return bare ? Json::parse(yaml) : Json(node.Scalar());
@@ -85,6 +86,9 @@ void add_type(Json& schema, const KeyInfo& key) {
       break;
     case KeyKind::choices:
       add_list_of(schema, {{"enum", key.choices}});
+      break;
+    case KeyKind::point:
+      schema.update({{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}});
       break;
   }
 }

@@ -159,13 +159,18 @@ void declare_patches(KeyTable& root, CaseDraft& draft) {
         }
         const auto [place, is_new] = places.try_emplace(name, draft.patches.size());
         PatchRule& rule =
-            is_new ? draft.patches.emplace_back(PatchRule{name, {}, {}}) : draft.patches[place->second];
+            is_new ? draft.patches.emplace_back(PatchRule{name, {}, {}, {}}) : draft.patches[place->second];
         keys.texts(
             "faces", rule.faces,
             common({"List of patterns of faces' or patches' names (`*` any characters, `?` one): these "
                     "faces become this patch. A pattern without any match is an error that lists the "
                     "nearest names.",
                     "the patch of this name", "['wing_*', 'flap_?']"}));
+        keys.number(
+            "size", rule.size, Range::above(0, length_unit),
+            common({"Largest size of elements on the faces of the patch. Smaller sizes that are asked for "
+                    "there win; no other bound does.",
+                    "that of `sizing`", "0.05"}));
         using mesh::PatchType;
         std::vector<std::pair<std::string, std::optional<PatchType>>> types;
         for (const PatchType type : {PatchType::wall, PatchType::slip, PatchType::symmetry,

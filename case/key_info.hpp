@@ -40,11 +40,12 @@ enum class KeyKind {
   named,    ///< as a section, but of a name that the user makes up; the path has NAME there
   number,
   integer,
-  flag,    ///< true or false
-  text,    ///< not empty
-  texts,   ///< a list of texts, or one alone
-  choice,  ///< one of names
-  choices  ///< a list of such names, or one alone
+  flag,     ///< true or false
+  text,     ///< not empty
+  texts,    ///< a list of texts, or one alone
+  choice,   ///< one of names
+  choices,  ///< a list of such names, or one alone
+  point     ///< a list of three numbers
 };
 
 struct KeyInfo {

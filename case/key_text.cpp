@@ -56,6 +56,8 @@ std::string accepted_values(const KeyInfo& key) {
       return (key.choices.size() > 1 ? "one of " : "") + joined(key.choices);
     case KeyKind::choices:
       return "one or a list of " + joined(key.choices);
+    case KeyKind::point:
+      return "list of three numbers (length unit of the geometry)";
     case KeyKind::section:
     case KeyKind::named:
       break;

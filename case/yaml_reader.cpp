@@ -148,6 +148,15 @@ void KeyTable::texts(const std::string& name, std::vector<std::string>& target, 
   entry.listed = [&target] { return target; };
 }
 
+void KeyTable::point(const std::string& name, std::optional<geometry::Vec3>& target, const KeyDoc& doc) {
+  KeyEntry& entry = add(name, KeyKind::point, doc);
+  entry.read = [&target](const YamlValue& value) { target = value.point(); };
+  entry.listed = [&target]() -> std::vector<std::string> {
+    if (!target) return {};
+    return {shortest(target->x), shortest(target->y), shortest(target->z)};
+  };
+}
+
 void KeyTable::named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
                               std::function<void(const std::string&, KeyTable&)> declare) {
   KeyTable& below = section(name, doc);
@@ -156,7 +165,13 @@ void KeyTable::named_sections(const std::string& name, const KeyDoc& doc, const 
 }
 
 void KeyTable::add_named(const std::string& name, const std::string& made_up) {
-  find(name)->below->make_named(made_up);
+  KeyTable* table = this;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end = std::min(name.find('.', at), name.size());
+    table = table->find(name.substr(at, end - at))->below.get();
+    at = end + 1;
+  }
+  table->make_named(made_up);
 }
 
 KeyTable::KeyEntry& KeyTable::make_named(const std::string& name) {

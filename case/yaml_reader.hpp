@@ -3,6 +3,7 @@
 #pragma once
 
 #include "aeroloom/case/case_error.hpp"
+#include "aeroloom/geometry/vec.hpp"
 #include "case/key_info.hpp"
 #include "case/yaml_value.hpp"
 
@@ -43,6 +44,8 @@ public:
   void text(const std::string& name, std::string& target, const KeyDoc& doc);
   /// A list; the empty one is not written.
   void texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc);
+  /// A list of three numbers, in the length unit of the geometry. An empty optional is not written.
+  void point(const std::string& name, std::optional<geometry::Vec3>& target, const KeyDoc& doc);
   /// One of the names, each standing for a value of the enumeration.
   template <class Enum>
   void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values,
@@ -56,7 +59,7 @@ public:
   /// while there is none.
   void named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
                       std::function<void(const std::string&, KeyTable&)> declare);
-  /// Below the key of named_sections(), of which `name` is the name.
+  /// Below the key of named_sections(), of which `name` is the path ("sizing.sources").
   void add_named(const std::string& name, const std::string& made_up);
 
   /// Reads a file, later "a.b=value" overrides. Only what is given is assigned. Throws CaseError.

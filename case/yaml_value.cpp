@@ -143,6 +143,18 @@ std::vector<std::string> YamlValue::texts() const {
   return all;
 }
 
+geometry::Vec3 YamlValue::point() const {
+  if (!_node.IsSequence() || _node.size() != 3) refuse("a list of three numbers");
+  geometry::Vec3 point;
+  for (int axis = 0; axis < 3; ++axis) {
+    const YAML::Node item = _node[axis];
+    const std::optional<double> value = item.IsScalar() ? parse_number(item.Scalar()) : std::nullopt;
+    if (!value) refuse("a list of three numbers");
+    point[axis] = *value;
+  }
+  return point;
+}
+
 std::size_t YamlValue::choice(const std::vector<std::string>& names) const {
   const auto found = _node.IsScalar() ? std::find(names.begin(), names.end(), _node.Scalar()) : names.end();
   if (found == names.end()) refuse((names.size() > 1 ? "one of " : "") + joined(names));

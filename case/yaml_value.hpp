@@ -1,6 +1,8 @@
 /// Values of a YAML file, and what keys accept.
 #pragma once
 
+#include "aeroloom/geometry/vec.hpp"
+
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -41,6 +43,8 @@ public:
   std::string text() const;
   /// A list of texts, or one text alone.
   std::vector<std::string> texts() const;
+  /// A list of three finite numbers.
+  geometry::Vec3 point() const;
   /// The position among `names`.
   std::size_t choice(const std::vector<std::string>& names) const;
   /// The positions of a list, or of one alone, each once.

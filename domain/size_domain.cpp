@@ -167,6 +167,12 @@ SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& re
           {}};
 }
 
+sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
+  sizing::SizeDemands demands{{}, request.patch_sizes};
+  for (const cases::SourceRule& rule : request.sources) demands.regions.push_back(cases::region_of(rule));
+  return demands;
+}
+
 /// The purpose of a choice of sizes, and the sizes that it starts from.
 struct Aim {
   sizing::FieldFor purpose;
@@ -181,7 +187,8 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
   const std::optional<double> target = target_of(request);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
-  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields);
+  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields,
+                                              demands_of(request));
   const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
   const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;

@@ -30,7 +30,8 @@ std::vector<std::pair<FaceId, FaceSamples::Overview>> ModelSampler::look_over(co
   for (OwnFace& face : _faces) {
     FaceSamples once(_model.is_planar(face.id));
     FaceSamples& samples = _fields == Fields::several ? face.samples : once;
-    seen.emplace_back(face.id, samples.overview(_model, face.id, face.facets, _far_field[face.id], options));
+    seen.emplace_back(face.id, samples.overview(_model, face.id, face.facets, _far_field[face.id],
+                                                options_on(face.id, options)));
   }
   return seen;
 }

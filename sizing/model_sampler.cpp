@@ -77,13 +77,15 @@ std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& optio
 }  // namespace
 
 ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
-                           parallel::StageClock& clock, double layers, Fields fields)
+                           parallel::StageClock& clock, double layers, Fields fields, SizeDemands demands)
     : _communicator(communicator),
       _model(model),
       _clock(clock),
       _layers(layers),
       _fields(fields),
+      _demands(std::move(demands)),
       _root(model.bounds()),
+      _asked_on_faces(sizes_on_faces(model, _demands)),
       _areas(measure_faces(communicator, model, clock)) {
   parallel::agree(communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
@@ -110,7 +112,9 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
       _clock(before._clock),
       _layers(before._layers),
       _fields(before._fields),
+      _demands(std::move(before._demands)),
       _root(before._root),
+      _asked_on_faces(sizes_on_faces(joined, _demands)),
       _part_on_boundary(std::move(before._part_on_boundary)),
       _walls(std::move(before._walls)),
       _body_box(before._body_box) {
@@ -200,13 +204,14 @@ void ModelSampler::gather_triangles() {
   if (_body_box.empty()) _body_box = _model.bounds();
 }
 
-std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options, double coarser) {
+std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& given, double coarser) {
   std::vector<SizeSource> mine;
   const auto keep = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
   };
   for (OwnFace& face : _faces) {
     const bool far_field = _far_field[face.id];
+    const SizingOptions options = options_on(face.id, given);
     FaceSamples once(_model.is_planar(face.id));
     FaceSamples& samples = _fields == Fields::several ? face.samples : once;
     std::vector<SizeSource> sources =
@@ -218,7 +223,7 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& options, d
     if (options.proximity > 0 && face.gaps) keep(gap_sources(*face.gaps, options));
   }
   for (cad::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
-    keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), options));
+    keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), given));
   }
   return mine;
 }
@@ -269,6 +274,8 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : mine) source.size *= coarser;
+  const std::vector<SizeSource> in_regions = sample_regions(coarser);
+  mine.insert(mine.end(), in_regions.begin(), in_regions.end());
   return mine;
 }
 

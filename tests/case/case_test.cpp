@@ -327,5 +327,40 @@ TEST_F(CaseTest, FilesAreSoughtBesideTheCaseToo) {
   EXPECT_EQ(read_case(file, {"geometry.file=" + absolute}).domain.file, absolute);
 }
 
+TEST_F(CaseTest, SourcesComeBack) {
+  const Case input = read(
+      "geometry: {file: a.step}\nsizing:\n  sources:\n"
+      "    wake: {shape: cone, from: [1, 2, 3], to: [4, 5.5, -6], radius: 1, end_radius: 2, size: 0.1}\n"
+      "    spot: {center: [0, 1, 0], size: 0.2}\n"
+      "patches: {wing: {size: 0.05}}\n");
+  ASSERT_EQ(input.sizing.sources.size(), 2u);
+  const sizing::SizeRegion wake = region_of(input.sizing.sources[0]);
+  EXPECT_EQ(wake.name, "wake");
+  EXPECT_EQ(wake.end.y, 5.5);
+  EXPECT_EQ(wake.end_radius, 2);
+  ASSERT_EQ(input.sizing.patch_sizes.size(), 1u);
+  EXPECT_EQ(input.sizing.patch_sizes[0].patch, "wing");
+  const Case again = case_of_resolved(resolved_yaml(input));
+  ASSERT_EQ(again.sizing.sources.size(), 2u);
+  EXPECT_EQ(again.sizing.sources[1].name, "spot");
+  EXPECT_EQ(again.sizing.sources[1].size, 0.2);
+  EXPECT_EQ(region_of(again.sizing.sources[0]).end.z, -6);
+  EXPECT_EQ(again.sizing.patch_sizes[0].size, 0.05);
+}
+
+TEST_F(CaseTest, SourcesHaveWhatTheirShapeNeeds) {
+  const auto refused = [&](const std::string& source) {
+    return error_of("geometry: {file: a.step}\nsizing: {sources: {a: " + source + "}}\n");
+  };
+  EXPECT_NE(refused("{shape: sphere, center: [0, 0, 0], size: 1}")
+                .find("'sizing.sources.a' is a sphere: it needs 'radius'"),
+            std::string::npos);
+  EXPECT_NE(refused("{shape: point, center: [0, 0, 0], to: [1, 1, 1], size: 1}").find("it has no 'to'"),
+            std::string::npos);
+  EXPECT_NE(refused("{shape: point, center: [0, 0, 0]}").find("it needs 'size'"), std::string::npos);
+  EXPECT_NE(refused("{shape: point, center: [0, 0], size: 1}").find("three numbers"), std::string::npos);
+  EXPECT_NE(refused("{shape: point, centre: [0, 0, 0], size: 1}").find("center"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace aeroloom::cases

@@ -70,7 +70,7 @@ std::optional<Refilling> slid(const Cavity& cavity) {
     geometry::Vec3 p = cavity.points[v];
     for (int axis = 0; axis < 3; ++axis) p[axis] += p[axis] > 0 && p[axis] < 1 ? 0.01 : 0;
     named[v] = static_cast<mesh::LocalIndex>(cavity.points.size() + result.added.size());
-    result.added.push_back({p, 2, cavity.entity[v]});
+    result.added.push_back({p, mesh::CadDimension::face, cavity.entity[v]});
   }
   for (auto& tet : result.tets) {
     for (mesh::LocalIndex& v : tet) v = named[v];

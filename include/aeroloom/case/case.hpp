@@ -5,6 +5,7 @@
 #include "aeroloom/case/case_error.hpp"
 #include "aeroloom/case/patch_rules.hpp"
 #include "aeroloom/case/quality_gate.hpp"
+#include "aeroloom/case/source_rules.hpp"
 #include "aeroloom/improve/improve_options.hpp"
 #include "aeroloom/io/file_formats.hpp"
 #include "aeroloom/io/vtk/vtk_writer.hpp"
@@ -29,6 +30,8 @@ struct SizingRequest : sizing::GivenSizes {
   /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
   /// minimum come on top.
   double feature_budget = sizing::default_feature_budget;
+  std::vector<SourceRule> sources;             ///< regions with sizes of their own
+  std::vector<sizing::PatchSize> patch_sizes;  ///< of the patches that have any (PatchRule::size)
 };
 
 inline constexpr double default_target = 1'000'000;

@@ -16,6 +16,7 @@ struct PatchRule {
   /// Patterns of faces' or patches' names, with * and ?; none: the patch of this name.
   std::vector<std::string> faces;
   std::optional<mesh::PatchType> type;  ///< empty: what suits it by default
+  std::optional<double> size = {};      ///< largest size of elements on it, in the model's unit
 };
 
 /// A model with the patches of the case, and what each of them is.

@@ -6,6 +6,7 @@
 #include "aeroloom/sizing/face_samples.hpp"
 #include "aeroloom/sizing/model_sources.hpp"
 #include "aeroloom/sizing/proximity.hpp"
+#include "aeroloom/sizing/size_demands.hpp"
 #include "aeroloom/sizing/triangle_tree.hpp"
 
 #include <cstdint>
@@ -82,9 +83,10 @@ enum class Fields : bool { one, several };
 class ModelSampler {
 public:
   /// `layers`: elements across a gap that the fields to come may ask for, at most; `fields`: how many those
-  /// will be. Collective. Throws parallel::CollectiveError where the CAD library fails on a face.
+  /// will be; `demands`: what all of them ask for besides, whose patches the model has. Collective. Throws
+  /// parallel::CollectiveError where the CAD library fails on a face.
   ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
-               parallel::StageClock& clock, double layers, Fields fields);
+               parallel::StageClock& clock, double layers, Fields fields, SizeDemands demands = {});
 
   /// For the model with some faces joined: what belongs to all others is taken over. Collective.
   ModelSampler(ModelSampler&& before, const cad::Model& joined);
@@ -185,6 +187,10 @@ private:
   void measure_gaps(Notes notes);
   /// What all ranks have found. Collective.
   void gather_gaps();
+  /// The options as they hold on a face: a size of its patch binds every other one there.
+  SizingOptions options_on(cad::FaceId face, const SizingOptions& options) const;
+  /// What regions ask for, this rank's part; collective.
+  std::vector<SizeSource> sample_regions(double coarser) const;
   /// What the faces and edges of this rank ask for.
   std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser);
   /// What the faces, edges and corners of this rank ask for, all sizes `coarser` times as large. Collective,
@@ -204,7 +210,9 @@ private:
   parallel::StageClock& _clock;
   double _layers;
   Fields _fields;
+  SizeDemands _demands;
   RootCube _root;
+  std::vector<double> _asked_on_faces;  // sizes of their patches; 0: none
   std::vector<bool> _far_field;
   std::vector<double> _areas;
   std::vector<int> _owners;                       // ranks, by face

@@ -1,0 +1,137 @@
+#include "aeroloom/sizing/size_demands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace aeroloom::sizing {
+
+using geometry::Vec3;
+
+namespace {
+
+/// A point of the plane through the axis of a cylinder: along the axis, and off it.
+struct InPlane {
+  double along, off;
+};
+
+double distance_to_segment(InPlane p, InPlane a, InPlane b) {
+  const double x = b.along - a.along, y = b.off - a.off, length = x * x + y * y;
+  const double t = length > 0 ? ((p.along - a.along) * x + (p.off - a.off) * y) / length : 0;
+  const double c = std::clamp(t, 0.0, 1.0);
+  return std::hypot(p.along - a.along - c * x, p.off - a.off - c * y);
+}
+
+double distance_to_cylinder(const SizeRegion& region, Vec3 p) {
+  const Vec3 axis = region.end - region.start;
+  const double length = norm(axis);
+  if (length == 0) return std::max(0.0, distance(p, region.start) - region.start_radius);
+  const Vec3 direction = (1 / length) * axis;
+  const double along = dot(p - region.start, direction);
+  const InPlane q{along, norm(p - region.start - along * direction)};
+  const double radius =
+      region.start_radius + (region.end_radius - region.start_radius) * std::clamp(along / length, 0.0, 1.0);
+  if (along >= 0 && along <= length && q.off <= radius) return 0;
+  const std::array<InPlane, 4> outline{
+      {{0, 0}, {0, region.start_radius}, {length, region.end_radius}, {length, 0}}};
+  double least = distance_to_segment(q, outline[0], outline[1]);
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+    least = std::min(least, distance_to_segment(q, outline[i], outline[i + 1]));
+  return least;
+}
+
+/// Visits the cells of the octree, coarse ones first, that are near a region, and keeps this rank's part of
+/// those of the wanted level.
+class CellFinder {
+public:
+  CellFinder(const RootCube& root, const SizeRegion& region, double size, int rank, int ranks)
+      : _root(root), _region(region), _size(size), _level(root.level(size)), _rank(rank), _ranks(ranks) {}
+
+  std::vector<SizeSource> find() {
+    visit(_root.low, _root.edge, 0);
+    return std::move(_found);
+  }
+
+private:
+  /// Subtrees of so many levels go to one rank after the other: what is above them every rank visits.
+  static constexpr int levels_of_subtree = 4;
+
+  void visit(Vec3 low, double edge, int level) {
+    const double half = 0.5 * edge;
+    const Vec3 center = low + Vec3{half, half, half};
+    if (_region.distance_to(center) > std::numbers::sqrt3 * half) return;
+    if (level == std::max(0, _level - levels_of_subtree) && _next++ % _ranks != _rank) return;
+    if (level == _level) {
+      _found.push_back({center, _size});
+      return;
+    }
+    for (int child = 0; child < 8; ++child)
+      visit(low + half * Vec3{double(child & 1), double(child >> 1 & 1), double(child >> 2)}, half,
+            level + 1);
+  }
+
+  const RootCube& _root;
+  const SizeRegion& _region;
+  double _size;
+  int _level, _rank, _ranks;
+  std::int64_t _next = 0;
+  std::vector<SizeSource> _found;
+};
+
+}  // namespace
+
+double SizeRegion::distance_to(Vec3 p) const {
+  if (shape == Shape::sphere) return std::max(0.0, distance(p, start) - start_radius);
+  if (shape == Shape::cylinder) return distance_to_cylinder(*this, p);
+  const geometry::Box around = box();
+  Vec3 off;
+  for (int axis = 0; axis < 3; ++axis)
+    off[axis] = std::max({0.0, around.low[axis] - p[axis], p[axis] - around.high[axis]});
+  return norm(off);
+}
+
+geometry::Box SizeRegion::box() const {
+  geometry::Box result;
+  const auto add = [&](Vec3 p, double radius) {
+    result.add(p - Vec3{radius, radius, radius});
+    result.add(p + Vec3{radius, radius, radius});
+  };
+  add(start, shape == Shape::box ? 0 : start_radius);
+  if (shape != Shape::sphere) add(end, shape == Shape::box ? 0 : end_radius);
+  return result;
+}
+
+std::vector<double> sizes_on_faces(const cad::Model& model, const SizeDemands& demands) {
+  std::vector<double> sizes(model.face_count(), 0);
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    const std::string& patch = model.patches()[model.face(f).patch];
+    for (const PatchSize& asked : demands.patches) {
+      if (asked.patch == patch) sizes[f] = asked.size;
+    }
+  }
+  return sizes;
+}
+
+double cells_in(const RootCube& root, const SizeRegion& region, double size) {
+  const double edge = std::ldexp(root.edge, -root.level(size));
+  const Vec3 high = root.low + Vec3{root.edge, root.edge, root.edge};
+  const geometry::Box box = region.box();
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent = std::min(box.high[axis], high[axis]) - std::max(box.low[axis], root.low[axis]);
+    if (extent < 0) return 0;
+    cells *= extent / edge + 1;
+  }
+  if (region.shape != SizeRegion::Shape::cylinder) return cells;
+  const double radius = std::max(region.start_radius, region.end_radius) / edge + 1;
+  return std::min(cells,
+                  std::numbers::pi * radius * radius * (distance(region.start, region.end) / edge + 2));
+}
+
+std::vector<SizeSource> sources_in(const RootCube& root, const SizeRegion& region, double size, int rank,
+                                   int ranks) {
+  return CellFinder(root, region, size, rank, ranks).find();
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Sizes that a case asks for are those of the mesh: on patches within a fifth, in regions within what the lattice of an octree can
+follow, whose edges are 0.71 to 1.41 of a size. The mesh does not depend on the number of ranks.
+usage: sources_test.py PROGRAM"""
+import pathlib
+import statistics
+import sys
+
+from program import COARSE_TRANSPORT, Run
+
+
+REGIONS = {
+    "wake": ("{shape: box, low: [38, -2, -2], high: [46, 2, 2], size: 0.8}",
+             lambda x, y, z: 38.5 < x < 45.5 and abs(y) < 1.5 and abs(z) < 1.5, 0.8),
+    "ball": ("{shape: sphere, center: [10, 0, 14], radius: 3, size: 0.7}",
+             lambda x, y, z: (x - 10) ** 2 + y ** 2 + (z - 14) ** 2 < 6.25, 0.7),
+    "jet": ("{shape: cylinder, from: [20, 12, -8], to: [30, 12, -8], radius: 1.6, size: 0.6}",
+            lambda x, y, z: 20.5 < x < 29.5 and (y - 12) ** 2 + (z + 8) ** 2 < 1.4, 0.6),
+    "plume": ("{shape: cone, from: [20, -12, -8], to: [30, -12, -8], radius: 1.2, end_radius: 2.4, size: 0.7}",
+              lambda x, y, z: 20.5 < x < 29.5 and (y + 12) ** 2 + (z + 8) ** 2 < 0.9, 0.7),
+}
+PATCH, PATCH_SIZE = "wing_left_upper", 0.35
+CASE = COARSE_TRANSPORT.replace("sizing: {", "sizing: {sources: {" + ", ".join(
+    f"{name}: {text}" for name, (text, _, _) in REGIONS.items()) +
+    ", spot: {shape: point, center: [0, 20, 0], size: 0.5}, edge: {shape: line, from: [5, 0, -12], to: [15, 0, -12], size: 0.4}}, ") + \
+    f"patches: {{{PATCH}: {{size: {PATCH_SIZE}}}}}\noutput: {{pictures: false}}\n"
+
+
+def read(path):
+    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLPPolyDataReader
+    reader = vtkXMLPUnstructuredGridReader() if path.suffix == ".pvtu" else vtkXMLPPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def edges_of(grid, corners, keeps=lambda cell: True):
+    """Lengths and middles of edges of cells with so many corners."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    cells = grid.GetCells() if corners == 4 else grid.GetPolys()
+    nodes = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, corners)
+    pairs = {tuple(sorted((int(cell[a]), int(cell[b])))) for i, cell in enumerate(nodes) if keeps(i)
+             for a in range(corners) for b in range(a)}
+    for a, b in pairs:
+        yield float(((points[a] - points[b]) ** 2).sum() ** 0.5), tuple(0.5 * (points[a] + points[b]))
+
+
+def main():
+    program = pathlib.Path(sys.argv[1]).resolve()
+    runs = [Run(program, CASE, ranks) for ranks in (1, 3)]
+    for run in runs:
+        assert run.code == 0, run.text
+    assert runs[0].report["mesh"]["hash"] == runs[1].report["mesh"]["hash"]
+    edges = list(edges_of(read(runs[0].output / "mesh.pvtu"), 4))
+    for name, (_, is_inside, size) in REGIONS.items():
+        lengths = [length for length, middle in edges if is_inside(*middle)]
+        assert len(lengths) > 50, name
+        median = statistics.median(lengths)
+        print(f"{name}: {len(lengths)} edges, median {median:.3f} where {size} is asked for")
+        assert 0.71 * size < median < 1.41 * size, name
+    # At a point and along a line the edges that touch them; elsewhere sizes grow.
+    near = lambda place: min(length for length, middle in edges if sum((m - p) ** 2 for m, p in zip(middle, place)) < 1)
+    assert near((0, 20, 0)) < 0.6 and near((10, 0, -12)) < 0.5
+    surface = read(runs[0].output / "surface.pvtp")
+    patch = next(p["id"] for p in runs[0].report["patches"] if p["name"] == PATCH) if "id" in runs[0].report["patches"][0] else \
+        [p["name"] for p in runs[0].report["patches"]].index(PATCH)
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    patches = vtk_to_numpy(surface.GetCellData().GetArray("patch"))
+    lengths = [length for length, _ in edges_of(surface, 3, lambda cell: patches[cell] == patch)]
+    median = statistics.median(lengths)
+    print(f"{PATCH}: {len(lengths)} edges, median {median:.3f} where {PATCH_SIZE} is asked for")
+    assert 0.8 * PATCH_SIZE < median < 1.2 * PATCH_SIZE
+    # A size that nobody can hold is refused with the name of what asks for it.
+    for bad, words in (("sizing.sources.wake.size=1e-6", ["sizing.sources.wake", "Remedy"]),
+                       ("sizing.sources.ball.radius=-1", ["sizing.sources.ball.radius"]),
+                       ("sizing.sources.ball.low=[0,0,0]", ["sizing.sources.ball", "'low'"]),
+                       ("sizing.sources.jet.to=[0,0]", ["three numbers"])):
+        run = Run(program, CASE, 2, [bad])
+        assert run.code == 2 or run.code == 8, (bad, run.code, run.text)
+        assert all(word in run.text for word in words), (bad, run.text)
+
+
+if __name__ == "__main__":
+    main()
