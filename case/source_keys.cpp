@@ -43,30 +43,33 @@ std::vector<std::pair<std::string_view, bool>> given_keys(const SourceRule& rule
 }
 
 void declare_rule(SourceRule& rule, KeyTable& keys) {
-  std::vector<std::pair<std::string, SourceShape>> names;
+  std::vector<std::pair<std::string, std::optional<SourceShape>>> names;
   for (const ShapeKeys& each : shapes()) names.emplace_back(each.name, each.shape);
   keys.choice(
       "shape", rule.shape, names,
-      common("Shape of the region. `point` needs `center`; `line` `from` and `to`; `sphere` `center` and "
-             "`radius`; `box` `low` and `high`; `cylinder`, with plane ends, `from`, `to` and `radius`; "
-             "`cone` `end_radius` besides."));
+      common({"Shape of the region. A `cylinder` has plane ends; a `cone` has another radius at its other "
+              "end.",
+              "needed", "box"}));
   keys.number(
       "size", rule.size, Range::above(0, length_unit),
       common({"Largest size of elements in the region. Away from it sizes grow by `sizing.growth`. No other "
               "bound holds there but smaller sizes.",
               "needed", "0.05"}));
-  const auto point = [&](const char* name, std::optional<geometry::Vec3>& target, const char* text) {
-    keys.point(name, target, {text, "", "[0, 0, 0]"});
+  const auto point = [&](const char* name, std::optional<geometry::Vec3>& target, const char* text,
+                         const char* left_out) {
+    keys.point(name, target, {text, left_out, "[0, 0, 0]"});
   };
-  point("center", rule.center, "Centre of a point or sphere.");
-  point("low", rule.low, "A corner of a box.");
-  point("high", rule.high, "The opposite corner.");
-  point("from", rule.from, "One end of the axis of a line, cylinder or cone.");
-  point("to", rule.to, "The other end.");
-  keys.number("radius", rule.radius, Range::above(0, length_unit),
-              {"Radius of a sphere or cylinder; of a cone at `from`.", "", "0.5"});
+  point("center", rule.center, "Centre of the region.", "needed by `point` and `sphere`, others have none");
+  point("low", rule.low, "A corner of the box.", "needed by `box`, others have none");
+  point("high", rule.high, "The opposite corner.", "needed by `box`, others have none");
+  const char* with_axis = "needed by `line`, `cylinder` and `cone`, others have none";
+  point("from", rule.from, "One end of the axis.", with_axis);
+  point("to", rule.to, "The other end.", with_axis);
+  keys.number(
+      "radius", rule.radius, Range::above(0, length_unit),
+      {"Radius; of a cone at `from`.", "needed by `sphere`, `cylinder` and `cone`, others have none", "0.5"});
   keys.number("end_radius", rule.end_radius, Range::above(0, length_unit),
-              {"Radius of a cone at `to`.", "", "1"});
+              {"Radius of the cone at `to`.", "needed by `cone`, others have none", "1"});
 }
 
 }  // namespace
@@ -89,24 +92,28 @@ void declare_sources(KeyTable& sizing, std::deque<SourceRule>& rules) {
 void check_sources(const KeyTable& keys, const std::deque<SourceRule>& rules) {
   for (const SourceRule& rule : rules) {
     const std::string path = "sizing.sources." + rule.name;
+    const auto refuse = [&](const std::string& what, const std::string& text) {
+      throw CaseError(fmt::format("{}: '{}'{} {}", keys.where(path), path, what, text));
+    };
+    if (!rule.shape) refuse("", "needs 'shape'");
     const auto shape = std::find_if(shapes().begin(), shapes().end(),
                                     [&](const ShapeKeys& each) { return each.shape == rule.shape; });
-    const auto refuse = [&](const std::string& text) {
-      throw CaseError(fmt::format("{}: '{}' is a {}: {}", keys.where(path), path, shape->name, text));
-    };
+    const std::string is = fmt::format(" is a {}: it", shape->name);
     for (const auto& [key, given] : given_keys(rule)) {
       const bool needed = std::find(shape->keys.begin(), shape->keys.end(), key) != shape->keys.end();
-      if (needed && !given) refuse(fmt::format("it needs '{}'", key));
-      if (given && !needed) refuse(fmt::format("it has no '{}'", key));
+      if (needed && !given) refuse(is, fmt::format("needs '{}'", key));
+      if (given && !needed) refuse(is, fmt::format("has no '{}'", key));
     }
-    if (!rule.size) refuse("it needs 'size'");
+    if (!rule.size) refuse(is, "needs 'size'");
   }
 }
 
 sizing::SizeRegion region_of(const SourceRule& rule) {
   using Shape = sizing::SizeRegion::Shape;
-  sizing::SizeRegion region{.name = rule.name, .size = rule.size.value_or(0)};
-  switch (rule.shape) {
+  sizing::SizeRegion region;
+  region.name = rule.name;
+  region.size = rule.size.value_or(0);
+  switch (rule.shape.value_or(SourceShape::point)) {
     case SourceShape::box:
       region.shape = Shape::box;
       region.start = *rule.low, region.end = *rule.high;
@@ -114,7 +121,7 @@ sizing::SizeRegion region_of(const SourceRule& rule) {
     case SourceShape::point:
     case SourceShape::sphere:
       region.shape = Shape::sphere;
-      region.start = region.end = *rule.center;
+      region.start = region.end = rule.center.value_or(geometry::Vec3{});
       region.start_radius = rule.radius.value_or(0);
       break;
     case SourceShape::line:

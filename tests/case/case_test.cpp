@@ -331,7 +331,7 @@ TEST_F(CaseTest, SourcesComeBack) {
   const Case input = read(
       "geometry: {file: a.step}\nsizing:\n  sources:\n"
       "    wake: {shape: cone, from: [1, 2, 3], to: [4, 5.5, -6], radius: 1, end_radius: 2, size: 0.1}\n"
-      "    spot: {center: [0, 1, 0], size: 0.2}\n"
+      "    spot: {shape: point, center: [0, 1, 0], size: 0.2}\n"
       "patches: {wing: {size: 0.05}}\n");
   ASSERT_EQ(input.sizing.sources.size(), 2u);
   const sizing::SizeRegion wake = region_of(input.sizing.sources[0]);
@@ -356,6 +356,8 @@ TEST_F(CaseTest, SourcesHaveWhatTheirShapeNeeds) {
                 .find("'sizing.sources.a' is a sphere: it needs 'radius'"),
             std::string::npos);
   EXPECT_NE(refused("{shape: point, center: [0, 0, 0], to: [1, 1, 1], size: 1}").find("it has no 'to'"),
+            std::string::npos);
+  EXPECT_NE(refused("{center: [0, 0, 0], size: 1}").find("'sizing.sources.a' needs 'shape'"),
             std::string::npos);
   EXPECT_NE(refused("{shape: point, center: [0, 0, 0]}").find("it needs 'size'"), std::string::npos);
   EXPECT_NE(refused("{shape: point, center: [0, 0], size: 1}").find("three numbers"), std::string::npos);

@@ -14,7 +14,7 @@ enum class SourceShape { point, line, sphere, box, cylinder, cone };
 /// A source of sizes as it is written, in the model's unit.
 struct SourceRule {
   std::string name;
-  SourceShape shape = SourceShape::point;
+  std::optional<SourceShape> shape;
   std::optional<geometry::Vec3> center;     ///< of a point, sphere
   std::optional<geometry::Vec3> low, high;  ///< corners of a box
   std::optional<geometry::Vec3> from, to;   ///< ends of a line, cylinder, cone
