@@ -46,6 +46,9 @@ std::vector<std::string> values_of(const cases::KeyInfo& key) {
       return {"abc", "5", "''", "", "[a]", "{a: 1}"};
     case cases::KeyKind::texts:
       return {"abc", "5", "[a, b]", "[a, 7]", "[]", "", "[[a]]", "[{a: 1}]", "['']", "''", "{a: 1}", "[~]"};
+    case cases::KeyKind::point:
+      return {"[0, 1, 2]", "[0.5, -1e3, 2]", "[1, 2]",      "[1, 2, 3, 4]", "[a, 1, 2]", "5",
+              "",          "[~, 1, 2]",      "[[1, 2, 3]]", "{a: 1}",       "[]",        "abc"};
     case cases::KeyKind::choice:
     case cases::KeyKind::choices:
       break;
