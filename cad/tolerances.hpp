@@ -127,7 +127,8 @@ inline constexpr double kink = 5 * geometry::degree;
 /// shape.
 inline constexpr double smooth = 30 * geometry::degree;
 
-// Areas and volumes, relative. What areas are integrated to is `area_precision` (model/model_data.hpp).
+// Areas and volumes, relative. Areas of FacePlace and of the diagnosis are good to `area_precision`
+// (model/model_data.hpp).
 
 /// The CAD library's volumes of trimmed spline solids are right to about this (docs/real_cad.md); a boolean
 /// operation gone wrong is off by a body.

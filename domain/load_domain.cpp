@@ -63,14 +63,14 @@ cad::Diagnosis unpack_diagnosis(std::span<const std::byte> bytes) {
   return diagnosis;
 }
 
-/// In the child: errors of known kinds travel as data, the step at hand goes to standard error.
-/// For the message about a crash.
+/// The step at hand, for the message about a crash: a child prints it to standard error.
 void tell_step(const std::string& step) {
   if (!parallel::is_sandbox_child()) return parallel::set_crash_note("stage geometry, " + step);
   fmt::print(stderr, "\n{}", step);
   std::fflush(stderr);
 }
 
+/// In the child: errors of known kinds travel as data.
 template <class Work>
 Bytes answer(std::span<const std::byte> input, Work work) {
   const auto [fault, options] = parallel::from_wire<std::tuple<Fault, DomainOptions>>(input);

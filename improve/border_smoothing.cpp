@@ -171,8 +171,9 @@ private:
   void withdraw();
   bool allows(const Piece& piece, const std::vector<std::int32_t>& moved, LocalIndex cell) const;
   double worst_at(const Piece& piece, LocalIndex v, std::span<const LocalIndex> cells, Vec3 p) const;
-  /// Adds up what pieces say of each vertex, in their order, tells `keep` of each mover what all say of it,
-  /// and drops those for which it is false. `words` are those of the movers here. Collective.
+  /// Adds up the entries of all pieces for each vertex, in the order of pieces, calls keep(mover, sum) for
+  /// each mover, and drops the movers for which it is false. `entries` are those of the movers here.
+  /// Collective.
   template <class What, class Keep>
   void settle(const std::vector<What>& entries, const Keep& keep) {
     std::vector<What> of_copies(_shared.size());

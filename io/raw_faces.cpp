@@ -226,7 +226,8 @@ public:
   std::vector<mesh::Patch> take() { return std::move(_patches); }
 
 private:
-  /// Patch and regions; regions count for faces without a patch, `behind` as 0 for others between regions.
+  /// Patch and regions; regions count for faces without a patch, the second one as 0 for others between
+  /// regions.
   using Use = std::array<std::int32_t, 3>;
 
   static Use use_of(const BoundaryFace& face) {

@@ -25,6 +25,13 @@ struct RawMesh {
   std::vector<std::string> regions;  ///< the same on every rank, one at least
 };
 
+/// A mesh and what had to be done to it.
+struct Assembled {
+  FileMesh mesh;
+  mesh::GlobalIndex turned_cells = 0, dropped_points = 0;
+  mesh::GlobalIndex unnamed_faces = 0;   ///< without a patch in the file
+  mesh::GlobalIndex left_out_faces = 0;  ///< inside a region, of no cell, or given twice
+};
 /// Puts the shares together as a mesh of `parts` pieces (0: of what suits its size), in the order of the
 /// file: part k gets the k-th share of cells (tetrahedra first, then pyramids, then prisms) and owns the k-th
 /// share of vertices. repartition() makes compact parts. Cells whose corners come in mirrored order are
@@ -33,12 +40,6 @@ struct RawMesh {
 /// `REGION_to_REGION`. Throws CollectiveError (input) with `path` and the place: a point that does not exist
 /// or comes twice with different coordinates, a corner twice, coordinates that are no numbers, a tetrahedron
 /// without volume, cells that do not conform, no cells at all. Collective; the same for any number of ranks.
-struct Assembled {
-  FileMesh mesh;
-  mesh::GlobalIndex turned_cells = 0, dropped_points = 0;
-  mesh::GlobalIndex unnamed_faces = 0;   ///< without a patch in the file
-  mesh::GlobalIndex left_out_faces = 0;  ///< inside a region, of no cell, or given twice
-};
 Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
                    std::int32_t parts);
 

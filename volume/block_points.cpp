@@ -275,7 +275,7 @@ std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b) 
 
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
-SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last, FarBlocks far) {
+SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last) {
   const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
   SurfaceReach reach;
   reach.per_edge = source.frame.grid_distance(farthest);
@@ -290,7 +290,7 @@ SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, Bloc
         source.tree.range_of(GridBox::of(source.tree.cube(b)).dilated(farthest_of_all));
     const bool is_inside = lowest >= first && highest < last;
     if (!is_inside && source.table.is_met(b)) {
-      block.from_within = far == FarBlocks::from_within && sees_far_finer(source, b, block.nearest);
+      block.from_within = sees_far_finer(source, b, block.nearest);
       if (block.from_within) block.nearest = reach_from_within(source, b);
     }
     if (is_inside || may_have_core(source, b)) block.least = std::max(block.least, of_core);

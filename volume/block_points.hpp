@@ -92,10 +92,6 @@ geometry::Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int 
 /// asked.
 inline constexpr double core_clearance = 0.6;
 
-/// How regions are told in blocks far from a body, which are as large as it is far off and where one of its
-/// many triangles may be the nearest.
-enum class FarBlocks { by_nearest, from_within };
-
 /// The level from which on blocks are so much finer than one of `than` that they are looked at together.
 constexpr int far_finer_level(int than) {
   return than + 4;
@@ -105,8 +101,7 @@ std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b);
 
 /// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
 /// the region of points there. Retries included.
-SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                             FarBlocks far = FarBlocks::from_within);
+SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last);
 
 /// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the
 /// surface. `surface` has the triangles within this reach of these blocks. A function of place, sizes and the

@@ -57,6 +57,8 @@ void share_surface(const parallel::Communicator& communicator, const VolumeInput
   data.changes.assign(data.tree->block_count(), {});
   learn_what_is_far_finer(communicator, data.known(), data.source(input), clock);
   data.changes.assign(data.tree->block_count(), {});
+  // One rank has the whole surface at hand. Which triangles are looked at decides no region: any of them that
+  // is seen first tells the same.
   if (communicator.size() > 1) {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     data.reach = reach_of_blocks(data.source(input), data.tree->first(), data.tree->last());

@@ -50,7 +50,7 @@ struct KnownLattice {
 /// All blocks that touch this rank's, or hold corners of its triangles.
 void learn_what_touches(const parallel::Communicator& communicator, const KnownLattice& lattice,
                         std::span<const SurfaceTriangle> triangles, parallel::StageClock& clock);
-/// Where there are far finer blocks on the surface (see look_of_block), one of them.
+/// Where there are far finer blocks on the surface (see looks_of_block), one of them.
 void learn_what_is_far_finer(const parallel::Communicator& communicator, const KnownLattice& lattice,
                              const LatticeSource& source, parallel::StageClock& clock);
 /// Blocks across the borders of zones that halos of a width are told by (ZonesAround).

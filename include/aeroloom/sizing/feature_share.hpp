@@ -24,7 +24,7 @@ struct FeatureShare {
   double floor = 0;           ///< however thin, none asks for less
   double share = 1;           ///< predicted tetrahedra over those where nothing is finer than the minimum
   bool limited = false;       ///< by the budget: strips are not resolved
-  double resolved_share = 1;  ///< about, were they; as that of strips where it is within the budget
+  double resolved_share = 1;  ///< as `share`, about, if strips were resolved
   double minimum = 0;         ///< of everything else
   double gap_floor = 0;       ///< the smallest size that gaps may ask for; 0: the minimum
   double gap_share = 1;       ///< the part of `share` that these bring on top of the others

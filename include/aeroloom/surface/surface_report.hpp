@@ -80,7 +80,7 @@ struct SurfaceReport {
   std::vector<ClosedTip> closed_tips;       ///< by face, the same on every rank
   std::vector<NeedleGroup> needles;         ///< by face and cause, the same on every rank
   std::int64_t triangles = 0;
-  int mending_rounds = 0;    ///< rounds in which sizes had to fall
+  int mending_rounds = 0;    ///< rounds before the one that was accepted
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
 
   static constexpr auto fields() {

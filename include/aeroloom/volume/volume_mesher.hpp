@@ -48,11 +48,12 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
                         parallel::StageClock& clock);
 
 /// Fills the zones, scheduled largest first, and proves that they fit together. A zone that cannot be filled
-/// gets other perturbations of its points, then points farther off the surface, then is merged with a
-/// neighbour; where zones disagree the lowest of them counts. One mesh piece per zone and region, by zone,
-/// then region. The triangles of a face between two regions belong to pieces of its front region. After three
-/// rounds of that the zones there are merged. `input` is that of decompose(); `report` starts empty.
-/// Collective. Throws CollectiveError, VolumeFailure where there are triangles to look at.
+/// gets a wider halo, then other perturbations of its points, then points farther off the surface, and at
+/// last is merged with a neighbour. Where zones disagree the lowest of them keeps the tetrahedra in question;
+/// zones that still disagree after three rounds are merged. One mesh piece per zone and region, by zone, then
+/// region. The triangles of a face between two regions belong to pieces of its front region. `input` is that
+/// of decompose(); `report` starts empty. Collective. Throws CollectiveError, VolumeFailure where there are
+/// triangles to look at.
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
                                  Decomposition decomposition, parallel::StageClock& clock,
                                  VolumeReport& report);

@@ -12,7 +12,7 @@
 namespace aeroloom::parallel {
 
 /// A struct that lists its members, all of them in the order of their declaration:
-///   static constexpr auto fields() { return std::tuple(&Sharer::shared-vertex key, &Sharer::piece); }
+///   static constexpr auto fields() { return std::tuple(&Sharer::vertex_key, &Sharer::piece); }
 /// Members of a base come first. One that is forgotten does not compile, unless it fits into padding.
 template <class T>
 concept HasFields = requires {
