@@ -52,7 +52,9 @@ std::string advise(double tetrahedra, double limit, int ranks_here, int ranks) {
 }
 
 // Zones hold about two fifths of the tetrahedra, the rest comes from a table (volume.core_tetrahedra of the
-// report), and nearly all work on them.
+// report), and nearly all work on them. Spreads are of the size of those in tasks.csv of five runs: standard
+// deviations over the mean of 0.07 to 0.25 (zones), and over the predicted load of 0.19 to 0.34 (improved
+// pieces) and 0.18 to 0.46 (pieces of the surface), of which a spread is the square root of three.
 constexpr double part_of_zones = 0.4;
 
 /// Tasks, as many as come of pieces of that size. They are scheduled as if they were equal and take from

@@ -1,4 +1,5 @@
 // What users ask for at places and on patches, as part of what a sampler finds.
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/sizing/curvature_size.hpp"
 #include "aeroloom/sizing/model_sampler.hpp"
 #include "parallel/observation/memory_limit.hpp"
@@ -13,6 +14,7 @@ namespace aeroloom::sizing {
 namespace {
 
 /// What a source in a region and the leaf around it take, about: a row of each, and of trees over both.
+/// Added up, not measured.
 constexpr double bytes_per_region_cell = 200;
 
 }  // namespace
@@ -46,12 +48,14 @@ std::vector<SizeSource> ModelSampler::sample_regions(double coarser) const {
         "hold. Remedy: a larger size, or a smaller region, in the model's unit",
         largest->name, largest->size, most));
   std::vector<SizeSource> mine;
-  const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
-  for (const SizeRegion& region : _demands.regions) {
-    const auto more =
-        sources_in(_root, region, coarser * region.size, _communicator.rank(), _communicator.size());
-    mine.insert(mine.end(), more.begin(), more.end());
-  }
+  parallel::agree(_communicator, [&] {
+    const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
+    for (const SizeRegion& region : _demands.regions) {
+      const auto more =
+          sources_in(_root, region, coarser * region.size, _communicator.rank(), _communicator.size());
+      mine.insert(mine.end(), more.begin(), more.end());
+    }
+  });
   return mine;
 }
 
