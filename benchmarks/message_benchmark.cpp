@@ -25,8 +25,6 @@ using parallel::Communicator;
 using parallel::Messages;
 using parallel::Rank;
 
-constexpr std::int64_t usual_partners = 26;  // as study/exchange_model.cpp has it
-
 std::size_t part_of(std::int64_t bytes, std::int64_t parts) {
   return static_cast<std::size_t>(bytes / std::max<std::int64_t>(1, parts));
 }
@@ -37,8 +35,7 @@ public:
   StageMessages(const Communicator& communicator, const study::StageExchanges& exchanges, int recorded)
       : _communicator(communicator), _asked(exchanges.asked) {
     const std::int64_t ranks = communicator.size(), others = ranks - 1;
-    const auto known = static_cast<std::int64_t>(exchanges.partners);
-    _partners = std::min(others, recorded > 1 ? std::max(known, usual_partners) : usual_partners);
+    _partners = static_cast<std::int64_t>(study::partners_of(exchanges, recorded, communicator.size()));
     // Of what ranks have for each other the part that left its rank in the record.
     const std::int64_t leaving =
         recorded > 1 ? exchanges.sent.rendezvous.bytes : _asked.rendezvous.bytes * others / ranks;

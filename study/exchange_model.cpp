@@ -29,6 +29,11 @@ double leaving_part(const StageExchanges& exchanges, int recorded, int ranks) {
 
 }  // namespace
 
+double partners_of(const StageExchanges& exchanges, int recorded, int ranks) {
+  const bool is_known = exchanges.partners > 0 && recorded > 1;
+  return std::min(ranks - 1.0, is_known ? std::max(exchanges.partners, usual_partners) : usual_partners);
+}
+
 double exchange_seconds(const StageExchanges& exchanges, int recorded, int ranks, const Network& network) {
   if (ranks < 2) return 0;
   const parallel::ExchangeCounts& asked = exchanges.asked;
@@ -42,9 +47,7 @@ double exchange_seconds(const StageExchanges& exchanges, int recorded, int ranks
   // Sizes go up a tree, contents one after another into the root.
   messages += 0.5 * calls(asked.gather) * (steps + others);
   bytes += size(asked.gather) * others / ranks;
-  const double partners =
-      std::min(others, exchanges.partners > 0 && recorded > 1 ? std::max(exchanges.partners, usual_partners)
-                                                              : usual_partners);
+  const double partners = partners_of(exchanges, recorded, ranks);
   // Announcements are answered, then all agree that there are no more; contents follow.
   messages += calls(asked.rendezvous) * (2 * steps + 2 * partners);
   bytes += size(asked.rendezvous) / ranks * leaving_part(exchanges, recorded, ranks);

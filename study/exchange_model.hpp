@@ -12,6 +12,10 @@ struct Network {
   double bandwidth = 1e9;  ///< bytes per second that a rank can send
 };
 
+/// Ranks that one has messages for, of `ranks`: those of the record where it tells, but no fewer than around
+/// a part of space.
+double partners_of(const StageExchanges& exchanges, int recorded, int ranks);
+
 /// Seconds that the exchanges of a stage take on so many ranks, waiting for late ones not included; the model
 /// is in docs/scaling.md. `recorded` is the number of ranks of the record.
 double exchange_seconds(const StageExchanges& exchanges, int recorded, int ranks, const Network& network);
