@@ -34,6 +34,11 @@ void require(bool holds, const char* what, double value) {
   if (!holds) throw std::invalid_argument(fmt::format("sizing: {}, but it is {}", what, value));
 }
 
+/// Finest cells in a leaf of this level.
+std::uint64_t cells_in_leaf(int level) {
+  return 1ULL << 3 * (finest_level - level);
+}
+
 /// Rounds up, so that a float never falls below the bound its double kept.
 float round_up(double value) {
   const auto rounded = static_cast<float>(value);
@@ -92,15 +97,16 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   if (_previous != nullptr) split_as_before();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  if (!split_where_coarse(SeedTree(_communicator, seeds_at_sources(), _slope),
-                          most_leaves / growth_by_division))
+  const SharedSeeds at_sources(_communicator, seeds_at_sources());
+  if (!split_where_coarse(SeedTree(_communicator, {&at_sources}, _slope), most_leaves / growth_by_division))
     return std::nullopt;
   _cells.balance();
   const Octree octree = grow_octree();
-  const SeedTree seeds = plant_seeds(octree);
+  const SeedTree seeds = plant_seeds(octree, at_sources);
   std::vector<float> mine;
   parallel::agree(_communicator, [&] {
-    mine = sizes_at_corners(octree, seeds, own_range(_communicator, octree.keys.size()));
+    const Range own = CornerSizes::part_of(_communicator, octree.leaves(), _communicator.rank());
+    mine = CornerSizes::pack(octree.leaves(), own, sizes_at_corners(octree, seeds, own));
   });
   return finish(octree, std::move(mine));
 }
@@ -198,24 +204,33 @@ std::vector<FieldBuilder::PointSize> FieldBuilder::sizes_at_masters(const Octree
 }
 
 // A hanging node takes the mean of its masters in the end: where a source asks for its size they must, too.
-SeedTree FieldBuilder::plant_seeds(const Octree& octree) const {
+SeedTree FieldBuilder::plant_seeds(const Octree& octree, const SharedSeeds& at_sources) const {
   std::vector<PointSize> at_masters;
   parallel::agree(_communicator, [&] { at_masters = sizes_at_masters(octree); });
-  std::vector<SizeSeed> seeds = seeds_at_sources();
   const Pages& pages = _cells.pages();
   const auto owner = [&](const PointSize& at) { return pages.owner(pages.find(at.key)); };
   at_masters = parallel::deliver(_communicator, std::move(at_masters), owner);
   keep_smallest(at_masters);
+  std::vector<SizeSeed> seeds;
   for (const PointSize& at : at_masters) seeds.push_back({grid_point(at.key), 0, at.size});
-  return SeedTree(_communicator, seeds, _slope);
+  const SharedSeeds shared(_communicator, seeds);
+  return SeedTree(_communicator, {&at_sources, &shared}, _slope);
 }
 
 FieldBuilder::Octree FieldBuilder::grow_octree() const {
-  SplitCubes::Leaves own = _cells.leaves();
+  const SplitCubes::Leaves own = _cells.leaves();
   Octree octree;
-  octree.table = LeafTable(_communicator, _cells.pages(), own);
-  octree.keys = parallel::NodeArray<std::uint64_t>::gathered(_communicator, std::move(own.keys));
-  octree.levels = parallel::NodeArray<std::uint8_t>::gathered(_communicator, std::move(own.levels));
+  octree.levels = parallel::NodeArray<std::uint8_t>::gathered(_communicator, own.levels);
+  // Keys and table follow from the levels.
+  const auto write_keys = [&](parallel::Rank rank, std::size_t first, std::span<std::uint64_t> to) {
+    std::uint64_t next = _cells.pages().first_key(rank);
+    for (std::uint64_t& key : to) {
+      key = next;
+      next += cells_in_leaf(octree.levels[first++]);
+    }
+  };
+  octree.keys = parallel::NodeArray<std::uint64_t>::composed(_communicator, own.keys, write_keys);
+  octree.table = LeafTable(_communicator, _cells.pages(), own, octree.leaves());
   return octree;
 }
 
@@ -274,13 +289,13 @@ std::vector<float> FieldBuilder::sizes_at_corners(const Octree& octree, const Se
   return corner_sizes;
 }
 
-SizeField FieldBuilder::finish(const Octree& octree, std::vector<float> corner_sizes) const {
+SizeField FieldBuilder::finish(const Octree& octree, std::vector<float> own_sizes) const {
   SizeField field;
   field._options = _options;
   field._domain = _domain;
   field._low = _root.low;
   field._root_edge = _root.edge;
-  field._corner_sizes = parallel::NodeArray<float>::gathered(_communicator, std::move(corner_sizes));
+  field._corner_sizes = CornerSizes(_communicator, octree.leaves(), std::move(own_sizes));
   field._leaf_keys = octree.keys;
   field._leaf_levels = octree.levels;
   field._leaf_table = octree.table;

@@ -79,15 +79,16 @@ private:
   /// Corners that hanging corners of leaves hang on, with the smallest size that the sources of this rank ask
   /// for in those leaves.
   std::vector<PointSize> sizes_at_masters(const Octree& octree) const;
-  /// The tree of the sources' cells and of those.
-  SeedTree plant_seeds(const Octree& octree) const;
+  /// The tree of the sources' cells, given, and of those.
+  SeedTree plant_seeds(const Octree& octree, const SharedSeeds& at_sources) const;
   Octree grow_octree() const;
   /// False where that would take more cubes than that.
   bool split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes);
   /// The bound that no size may exceed at a point.
   double bound_at(GridPoint p) const;
   std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;
-  SizeField finish(const Octree& octree, std::vector<float> own_corner_sizes) const;
+  /// With the sizes at corners of this rank's leaves as they are held.
+  SizeField finish(const Octree& octree, std::vector<float> own_sizes) const;
 
   const parallel::Communicator& _communicator;
   parallel::StageClock& _clock;

@@ -91,6 +91,17 @@ Nodes above_pages(const Pages& pages) {
   return nodes;
 }
 
+/// Puts the branches of all pages, one page after another, into the nodes above.
+void fill_in_pages(const Pages& pages, const std::vector<std::int32_t>& of_pages, Nodes& above) {
+  auto next = of_pages.begin();
+  for (std::size_t page = 0; page < pages.count(); ++page) {
+    const std::size_t at = above.place(0, 2, pages.key(page), pages.level(page));
+    const auto end = next + static_cast<std::ptrdiff_t>(branches_of(pages.level(page)));
+    std::copy(next, end, above.entries().begin() + static_cast<std::ptrdiff_t>(at));
+    next = end;
+  }
+}
+
 }  // namespace
 
 LeafTable::LeafTable(CellSpans leaves) {
@@ -100,27 +111,31 @@ LeafTable::LeafTable(CellSpans leaves) {
   _entries = parallel::NodeArray<std::int32_t>(std::move(nodes.entries()));
 }
 
-LeafTable::LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own) {
+// A rank's nodes come after those above all pages and those of lower ranks; within its part they count
+// from 1.
+LeafTable::LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own,
+                     CellSpans all) {
+  const auto first_leaf = [&](parallel::Rank rank) {
+    return static_cast<std::size_t>(
+        std::lower_bound(all.keys.begin(), all.keys.end(), pages.first_key(rank)) - all.keys.begin());
+  };
   PartOfTable part = tabulate(pages, pages.of_rank(communicator.rank()), own);
   Nodes above = above_pages(pages);
-  const auto before = [&](std::size_t count) {
-    return static_cast<std::size_t>(communicator.exclusive_scan(static_cast<std::int64_t>(count)));
+  // The branches of pages count leaves and nodes of all.
+  const auto nodes = static_cast<std::int64_t>(part.entries.size() / branches);
+  const auto nodes_before = above.count() + static_cast<std::size_t>(communicator.exclusive_scan(nodes));
+  part.renumber(first_leaf(communicator.rank()), nodes_before - 1);
+  fill_in_pages(pages, communicator.all_gather_items<std::int32_t>(part.branches), above);
+  const std::vector<std::int32_t>& top = above.entries();
+  if (communicator.is_root()) part.entries.insert(part.entries.begin(), top.begin(), top.end());
+  const auto write = [&](parallel::Rank rank, std::size_t first, std::span<std::int32_t> to) {
+    const Range leaves{first_leaf(rank), rank + 1 < communicator.size() ? first_leaf(rank + 1) : all.size()};
+    PartOfTable other = tabulate(pages, pages.of_rank(rank), all.part(leaves));
+    if (rank == 0) to = {std::copy(top.begin(), top.end(), to.begin()), to.end()};
+    other.renumber(leaves.first, (rank == 0 ? above.count() : first / branches) - 1);
+    std::copy(other.entries.begin(), other.entries.end(), to.begin());
   };
-  // A rank's nodes count from 1.
-  const std::size_t nodes_before = above.count() + before(part.entries.size() / branches);
-  part.renumber(before(own.size()), nodes_before - 1);
-  const std::vector<std::int32_t> of_pages = communicator.all_gather_items<std::int32_t>(part.branches);
-  if (communicator.is_root()) {
-    auto next = of_pages.begin();
-    for (std::size_t page = 0; page < pages.count(); ++page) {
-      const std::size_t at = above.place(0, 2, pages.key(page), pages.level(page));
-      const auto end = next + static_cast<std::ptrdiff_t>(branches_of(pages.level(page)));
-      std::copy(next, end, above.entries().begin() + static_cast<std::ptrdiff_t>(at));
-      next = end;
-    }
-    part.entries.insert(part.entries.begin(), above.entries().begin(), above.entries().end());
-  }
-  _entries = parallel::NodeArray<std::int32_t>::gathered(communicator, std::move(part.entries));
+  _entries = parallel::NodeArray<std::int32_t>::composed(communicator, std::move(part.entries), write);
 }
 
 LeafTable LeafTable::shared(const parallel::Communicator& communicator) const {

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <span>
 #include <utility>
 
 namespace aeroloom::sizing {
@@ -48,18 +50,40 @@ struct SeedTree::Layer {
   std::vector<std::uint64_t> keys;
 };
 
-SeedTree::Layer SeedTree::lowest_layer(const std::vector<SizeSeed>& seeds, std::vector<double>& sizes) {
-  std::vector<std::pair<std::uint64_t, std::size_t>> order;
-  order.reserve(seeds.size());
-  for (std::size_t i = 0; i < seeds.size(); ++i) order.emplace_back(morton_key(seeds[i].low), i);
-  geometry::sort_by_key(order, [](const auto& each) { return each.first; });
+SharedSeeds::SharedSeeds(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own)
+    : _firsts{0} {
   std::vector<std::uint64_t> keys;
-  keys.reserve(order.size()), sizes.reserve(order.size());
-  for (const auto& [key, seed] : order) keys.push_back(key), sizes.push_back(seeds[seed].size);
+  std::vector<std::uint8_t> levels;
+  std::vector<double> sizes;
+  parallel::agree(communicator, [&] {
+    for (const SizeSeed& seed : own) {
+      keys.push_back(morton_key(seed.low)), sizes.push_back(seed.size);
+      const int level = std::bit_width(grid_size) - std::bit_width(seed.edge);
+      levels.push_back(seed.edge == 0 ? of_point : static_cast<std::uint8_t>(level));
+    }
+  });
+  for (const auto count : communicator.all_gather_values(static_cast<std::uint64_t>(own.size())))
+    _firsts.push_back(_firsts.back() + count);
+  _keys = parallel::NodeArray<std::uint64_t>::gathered(communicator, std::move(keys));
+  _levels = parallel::NodeArray<std::uint8_t>::gathered(communicator, std::move(levels));
+  _sizes = parallel::NodeArray<double>::gathered(communicator, std::move(sizes));
+}
+
+void SharedSeeds::append(parallel::Rank rank, std::vector<Keyed>& seeds) const {
+  for (std::size_t i = _firsts[rank]; i < _firsts[rank + 1]; ++i) {
+    const std::uint32_t edge = _levels[i] == of_point ? 0 : grid_size >> _levels[i];
+    seeds.push_back({_keys[i], {grid_point(_keys[i]), edge, _sizes[i]}});
+  }
+}
+
+SeedTree::Layer SeedTree::lowest_layer(const std::vector<SharedSeeds::Keyed>& seeds) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(seeds.size());
+  for (const auto& [key, seed] : seeds) keys.push_back(key);
   Layer layer;
   part_by_boundaries(keys, [&](std::size_t first, std::size_t last) {
     Group& to = layer.groups.emplace_back(first);
-    for (std::size_t i = first; i < last; ++i) to.put(i - first, seeds[order[i].second]);
+    for (std::size_t i = first; i < last; ++i) to.put(i - first, seeds[i].seed);
     layer.keys.push_back(keys[first]);
   });
   return layer;
@@ -75,24 +99,60 @@ SeedTree::Layer SeedTree::layer_above(const Layer& below) {
   return layer;
 }
 
-SeedTree::SeedTree(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own, double slope)
-    : _slope(slope), _steps_per_size(1 / slope) {
+/// What there is of a tree for the seeds of one rank: their sizes along the curve, and the lowest levels.
+struct SeedTree::PartOfRank {
   std::vector<double> sizes;
-  std::vector<Layer> mine;
-  parallel::agree(communicator, [&] {
-    mine.push_back(lowest_layer(own, sizes));
-    while (mine.size() < levels_of_ranks) mine.push_back(layer_above(mine.back()));
-  });
-  std::int64_t before = communicator.exclusive_scan(static_cast<std::int64_t>(sizes.size()));
-  _sizes = parallel::NodeArray<double>::gathered(communicator, std::move(sizes));
-  for (Layer& layer : mine) {
-    for (Group& each : layer.groups) each.first += static_cast<std::uint32_t>(before);
-    before = communicator.exclusive_scan(static_cast<std::int64_t>(layer.groups.size()));
-    _levels.push_back(parallel::NodeArray<Group>::gathered(communicator, std::move(layer.groups)));
+  std::vector<Layer> layers;
+  std::size_t below =
+      0;  ///< the number among all of the first seed, or group, that the next level is made of
+
+  PartOfRank() = default;
+  PartOfRank(std::span<const SharedSeeds* const> lists, parallel::Rank rank) {
+    std::vector<SharedSeeds::Keyed> seeds;
+    for (const SharedSeeds* list : lists) list->append(rank, seeds);
+    geometry::sort_by_key(seeds, [](const SharedSeeds::Keyed& each) { return each.key; });
+    for (const auto& [key, seed] : seeds) sizes.push_back(seed.size);
+    layers.push_back(lowest_layer(seeds));
+    while (layers.size() < levels_of_ranks) layers.push_back(layer_above(layers.back()));
+  }
+  /// The groups of a level, numbers of their members counted among all; the first has this number itself.
+  /// Level by level from the lowest on.
+  std::vector<Group>& numbered(std::size_t level, std::size_t first) {
+    for (Group& each : layers[level].groups) each.first += static_cast<std::uint32_t>(below);
+    below = first;
+    return layers[level].groups;
+  }
+};
+
+// Seeds travel. The tree does not: the parts of ranks of other nodes are made once more on each node.
+SeedTree::SeedTree(const parallel::Communicator& communicator,
+                   std::initializer_list<const SharedSeeds*> lists, double slope)
+    : _slope(slope), _steps_per_size(1 / slope) {
+  PartOfRank mine;
+  parallel::agree(communicator, [&] { mine = PartOfRank(lists, communicator.rank()); });
+  std::map<parallel::Rank, PartOfRank> others;
+  const auto before = [&](std::size_t count) {
+    return static_cast<std::size_t>(communicator.exclusive_scan(static_cast<std::int64_t>(count)));
+  };
+  mine.below = before(mine.sizes.size());
+  const auto write_sizes = [&](parallel::Rank rank, std::size_t first, std::span<double> to) {
+    PartOfRank& part = others[rank] = PartOfRank(lists, rank);
+    part.below = first;
+    std::copy(part.sizes.begin(), part.sizes.end(), to.begin());
+  };
+  _sizes = parallel::NodeArray<double>::composed(communicator, std::move(mine.sizes), write_sizes);
+  for (std::size_t level = 0; level < levels_of_ranks; ++level) {
+    std::vector<Group>& groups = mine.numbered(level, before(mine.layers[level].groups.size()));
+    const auto write = [&](parallel::Rank rank, std::size_t first, std::span<Group> to) {
+      const std::vector<Group>& theirs = others.at(rank).numbered(level, first);
+      std::copy(theirs.begin(), theirs.end(), to.begin());
+    };
+    _levels.push_back(parallel::NodeArray<Group>::composed(communicator, std::move(groups), write));
   }
   // The levels above are small, and every rank makes them.
   const std::span<const Group> last = _levels.back().items();
-  Layer above{{last.begin(), last.end()}, communicator.all_gather_items<std::uint64_t>(mine.back().keys)};
+  Layer above{{last.begin(), last.end()},
+              communicator.all_gather_items<std::uint64_t>(mine.layers.back().keys)};
   while (above.groups.size() > 1) {
     above = layer_above(above);
     _levels.emplace_back(above.groups);

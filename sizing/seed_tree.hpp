@@ -6,7 +6,9 @@
 #include "aeroloom/sizing/morton.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <tuple>
 #include <vector>
 
@@ -15,8 +17,31 @@ namespace aeroloom::sizing {
 /// A cube of the finest grid, or a point of it, in which a size is asked for.
 struct SizeSeed {
   GridPoint low;
-  std::uint32_t edge = 0;  ///< in finest cells; 0: the point alone
+  std::uint32_t edge = 0;  ///< in finest cells, a power of two; 0: the point alone
   double size = 0;
+};
+
+/// Seeds of all ranks, held once per node.
+class SharedSeeds {
+public:
+  SharedSeeds() = default;
+  /// Each rank gives seeds that lie along the curve before those of higher ranks. Collective.
+  SharedSeeds(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own);
+
+  struct Keyed {
+    std::uint64_t key;  ///< of the low corner
+    SizeSeed seed;
+  };
+  /// Adds those of a rank.
+  void append(parallel::Rank rank, std::vector<Keyed>& seeds) const;
+
+private:
+  static constexpr std::uint8_t of_point = 255;
+
+  std::vector<std::size_t> _firsts;           // per rank, and the end
+  parallel::NodeArray<std::uint64_t> _keys;   // of their low corners
+  parallel::NodeArray<std::uint8_t> _levels;  // a cube of half the grid's edge has 1
+  parallel::NodeArray<double> _sizes;
 };
 
 /// The boxes of up to eight neighbours along the Morton curve, seeds or groups of them, and the smallest size
@@ -43,9 +68,9 @@ struct SeedGroup {
 class SeedTree {
 public:
   SeedTree() = default;
-  /// `slope` counts in size per finest cell. Each rank gives seeds that lie along the curve before those of
-  /// higher ranks. Collective.
-  SeedTree(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own, double slope);
+  /// Of the seeds in several lists; `slope` counts in size per finest cell. Collective.
+  SeedTree(const parallel::Communicator& communicator, std::initializer_list<const SharedSeeds*> lists,
+           double slope);
 
   /// The least offer at a point, `bound` where none is below it. `near` makes the search quick where the last
   /// point was close by: the seed whose offer won there, -1 none. The result does not depend on it.
@@ -73,7 +98,8 @@ private:
   bool search(std::size_t level, std::size_t number, const Point& p, Best& best) const;
 
   struct Layer;
-  static Layer lowest_layer(const std::vector<SizeSeed>& seeds, std::vector<double>& sizes);
+  struct PartOfRank;
+  static Layer lowest_layer(const std::vector<SharedSeeds::Keyed>& seeds);
   static Layer layer_above(const Layer& below);
 
   /// The seeds along the Morton curve in groups; groups of those, and so on up to one.

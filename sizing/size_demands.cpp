@@ -16,7 +16,7 @@ struct InPlane {
   double along, off;
 };
 
-double distance_to_segment(InPlane p, InPlane a, InPlane b) {
+double distance_in_plane(InPlane p, InPlane a, InPlane b) {
   const double x = b.along - a.along, y = b.off - a.off, length = x * x + y * y;
   const double t = length > 0 ? ((p.along - a.along) * x + (p.off - a.off) * y) / length : 0;
   const double c = std::clamp(t, 0.0, 1.0);
@@ -35,9 +35,9 @@ double distance_to_cylinder(const SizeRegion& region, Vec3 p) {
   if (along >= 0 && along <= length && q.off <= radius) return 0;
   const std::array<InPlane, 4> outline{
       {{0, 0}, {0, region.start_radius}, {length, region.end_radius}, {length, 0}}};
-  double least = distance_to_segment(q, outline[0], outline[1]);
+  double least = distance_in_plane(q, outline[0], outline[1]);
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    least = std::min(least, distance_to_segment(q, outline[i], outline[i + 1]));
+    least = std::min(least, distance_in_plane(q, outline[i], outline[i + 1]));
   return least;
 }
 

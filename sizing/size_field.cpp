@@ -58,9 +58,9 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
   const auto leaf = static_cast<std::size_t>(_leaf_table.find(morton_key(cell)));
   const std::uint32_t edge = grid_size >> _leaf_levels[leaf];
   const double u = fraction(tx, cell.x, edge), v = fraction(ty, cell.y, edge), w = fraction(tz, cell.z, edge);
-  const float* h = _corner_sizes.data() + 8 * leaf;
-  const double low = blend(blend(h[0], h[1], u), blend(h[2], h[3], u), v);
-  const double high = blend(blend(h[4], h[5], u), blend(h[6], h[7], u), v);
+  const CornerSizes::Cube h = _corner_sizes.of_leaf(leaf);
+  const double low = blend(blend(h(0), h(1), u), blend(h(2), h(3), u), v);
+  const double high = blend(blend(h(4), h(5), u), blend(h(6), h(7), u), v);
   return std::min(_factor * blend(low, high, w), _options.maximum);
 }
 
@@ -77,9 +77,9 @@ SizeField SizeField::scaled(double factor) const {
 SizeField::Leaf SizeField::leaf(std::int64_t i) const {
   const GridPoint low = grid_point(_leaf_keys[i]);
   const double unit = _root_edge / grid_size;
-  const float* h = _corner_sizes.data() + 8 * i;
+  const CornerSizes::Cube h = _corner_sizes.of_leaf(i);
   double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) sum += h[corner];
+  for (int corner = 0; corner < 8; ++corner) sum += h(corner);
   return {_low + unit * geometry::Vec3{double(low.x), double(low.y), double(low.z)},
           unit * (grid_size >> _leaf_levels[i]), std::min(_factor * sum / 8, _options.maximum)};
 }

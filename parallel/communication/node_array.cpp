@@ -1,5 +1,7 @@
 #include "aeroloom/parallel/communication/node_array.hpp"
 
+#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/imposed_nodes.hpp"
 #include "parallel/communication/message_counting.hpp"
 #include "parallel/communication/session.hpp"
 #include "parallel/communication/transfers.hpp"
@@ -38,8 +40,13 @@ public:
   explicit NodeGroup(MPI_Comm all) {
     session::check(MPI_Comm_split_type(all, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &_group),
                    "finding the ranks of the node");
-    MPI_Comm_rank(_group, &_rank);
-    MPI_Comm_size(_group, &_size);
+    note_size();
+  }
+  /// Neighbours in the order of ranks instead, so many.
+  NodeGroup(const CommunicatorHandle& all, int ranks_per_node) {
+    session::check(MPI_Comm_split(all.communicator, all.rank / ranks_per_node, all.rank, &_group),
+                   "making the ranks of a node");
+    note_size();
   }
   ~NodeGroup() { release(_group); }
   NodeGroup(const NodeGroup&) = delete;
@@ -61,6 +68,11 @@ public:
   }
 
 private:
+  void note_size() {
+    MPI_Comm_rank(_group, &_rank);
+    MPI_Comm_size(_group, &_size);
+  }
+
   MPI_Comm _group = MPI_COMM_NULL;
   int _rank = 0, _size = 1;
 };
@@ -81,6 +93,8 @@ public:
   FirstRanks(const FirstRanks&) = delete;
   FirstRanks& operator=(const FirstRanks&) = delete;
 
+  /// Whether a rank shares its node with this one.
+  bool are_together(int rank, int other) const { return _leader_of[rank] == _leader_of[other]; }
   /// Of parts of ranks one after another each node has its ranks' own, and gets the others.
   void complete(std::byte* parts, const std::vector<std::uint64_t>& sizes) const {
     if (_group == MPI_COMM_NULL) return;
@@ -105,6 +119,8 @@ struct Nodes {
   FirstRanks first_ranks;
 
   explicit Nodes(const CommunicatorHandle& all) : node(all.communicator), first_ranks(all, node) {}
+  Nodes(const CommunicatorHandle& all, int ranks_per_node)
+      : node(all, ranks_per_node), first_ranks(all, node) {}
 };
 
 /// Made when first asked for, and kept as long as the group is. Collective then.
@@ -176,31 +192,91 @@ std::shared_ptr<const std::byte> NodeMemory::share(const Communicator& communica
   return behind_header(mapping);
 }
 
-std::shared_ptr<const std::byte> NodeMemory::gather(const Communicator& communicator,
-                                                    std::span<const std::byte> mine) {
-  const std::vector<std::uint64_t> sizes = communicator.all_sizes(mine.size());
-  const auto own = sizes.begin() + communicator.rank();
-  const std::uint64_t before = std::accumulate(sizes.begin(), own, std::uint64_t{0});
-  const std::uint64_t total = std::accumulate(own, sizes.end(), before);
-  const session::MessageScope timed;
-  const CommunicatorHandle& all = communicator.usable_handle();
-  session::count_all_gather(all, sizes);
-  if (all.size == 1 || total == 0) return nullptr;
-  const auto& [node, first_ranks] = nodes_of(*communicator._handle);
+namespace {
+
+/// Where the bytes of each rank begin, and the end.
+std::vector<std::uint64_t> offsets_of(const std::vector<std::uint64_t>& sizes) {
+  std::vector<std::uint64_t> offsets(sizes.size() + 1, 0);
+  std::partial_sum(sizes.begin(), sizes.end(), offsets.begin() + 1);
+  return offsets;
+}
+
+/// Memory of the node for so many bytes, which its ranks may write; nothing where it cannot be had on some
+/// node. Collective.
+Mapping map_on_nodes(const CommunicatorHandle& all, const NodeGroup& node, std::uint64_t bytes) {
   FileDescriptor file;
   Header header;
   Mapping mapping;
-  if (node.rank() == 0) mapping = make_file(total, file, header);
+  if (node.rank() == 0) mapping = make_file(bytes, file, header);
   node.broadcast(header);
   if (node.rank() != 0) mapping = open_file(header, O_RDWR, PROT_READ | PROT_WRITE);
-  if (!NodeGroup::holds_for_all(all.communicator, mapping != nullptr)) return nullptr;
-  std::byte* parts = mapping.get() + sizeof header;
-  if (!mine.empty()) std::memcpy(parts + before, mine.data(), mine.size());
+  return NodeGroup::holds_for_all(all.communicator, mapping != nullptr) ? mapping : nullptr;
+}
+
+/// Of a file, from its beginning.
+void protect(std::byte* start) {
+  Header header;
+  std::memcpy(&header, start, sizeof header);
+  mprotect(start, static_cast<std::size_t>(header.size), PROT_READ);
+}
+
+}  // namespace
+
+std::shared_ptr<const std::byte> NodeMemory::gather(const Communicator& communicator,
+                                                    std::span<const std::byte> mine) {
+  const std::vector<std::uint64_t> sizes = communicator.all_sizes(mine.size());
+  const std::vector<std::uint64_t> offsets = offsets_of(sizes);
+  const session::MessageScope timed;
+  const CommunicatorHandle& all = communicator.usable_handle();
+  session::count_all_gather(all, sizes);
+  if (all.size == 1 || offsets.back() == 0) return nullptr;
+  const auto& [node, first_ranks] = nodes_of(*communicator._handle);
+  const Mapping mapping = map_on_nodes(all, node, offsets.back());
+  if (!mapping) return nullptr;
+  std::byte* parts = mapping.get() + sizeof(Header);
+  if (!mine.empty()) std::memcpy(parts + offsets[all.rank], mine.data(), mine.size());
   node.wait();
   if (node.rank() == 0) first_ranks.complete(parts, sizes);
   node.wait();
-  mprotect(mapping.get(), static_cast<std::size_t>(header.size), PROT_READ);
+  protect(mapping.get());
   return behind_header(mapping);
+}
+
+NodeMemory::Composition NodeMemory::compose(const Communicator& communicator,
+                                            std::span<const std::byte> mine) {
+  Composition result;
+  result.offsets = offsets_of(communicator.all_sizes(mine.size()));
+  const session::MessageScope timed;
+  const CommunicatorHandle& all = communicator.usable_handle();
+  const auto& [node, first_ranks] = nodes_of(*communicator._handle);
+  const Mapping mapping = map_on_nodes(all, node, result.offsets.back());
+  result.is_of_node = mapping != nullptr;
+  if (mapping) {
+    result.memory = {mapping, mapping.get() + sizeof(Header)};
+  } else {
+    const auto own = std::make_shared<std::vector<std::byte>>(result.offsets.back());
+    result.memory = {own, own->data()};
+  }
+  int others = 0;
+  for (Rank rank = 0; rank < all.size; ++rank) {
+    if (rank == all.rank) continue;
+    if (!mapping) result.unwritten.push_back(rank);
+    if (mapping && !first_ranks.are_together(rank, all.rank) && others++ % node.size() == node.rank())
+      result.unwritten.push_back(rank);
+  }
+  if (!mine.empty()) std::memcpy(result.part(all.rank).data(), mine.data(), mine.size());
+  return result;
+}
+
+std::shared_ptr<const std::byte> NodeMemory::finish(Composition composition) {
+  if (composition.is_of_node) protect(composition.memory.get() - sizeof(Header));
+  return std::move(composition.memory);
+}
+
+Communicator impose_nodes(const Communicator& communicator, int ranks_per_node) {
+  const std::shared_ptr<CommunicatorHandle> all = session::duplicate(host_communicator(communicator));
+  all->nodes = std::make_shared<const Nodes>(*all, ranks_per_node);
+  return Communicator(all);
 }
 
 }  // namespace aeroloom::parallel

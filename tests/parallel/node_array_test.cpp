@@ -1,8 +1,12 @@
 #include "aeroloom/parallel/communication/node_array.hpp"
 
+#include "parallel/communication/imposed_nodes.hpp"
+
 #include <cstdint>
 #include <fstream>
+#include <span>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +68,50 @@ TEST(NodeArrayTest, GathersWhatRanksHaveInTheirOrder) {
     if (most == 100'000) {
       EXPECT_EQ(lies_in_shared_memory(all.data()), world.size() > 1);
     }
+  }
+}
+
+TEST(NodeArrayTest, IsComposedOfWhatNodesWriteThemselves) {
+  const Communicator world = Communicator::world();
+  for (const int ranks_per_node : {1, 2, 100}) {
+    const Communicator ranks = impose_nodes(world, ranks_per_node);
+    const auto node_of = [&](Rank r) { return r / ranks_per_node; };
+    const auto count_of = [](Rank r) { return r % 3 == 1 ? std::size_t{0} : std::size_t{1000} * (r + 1); };
+    const auto item = [](Rank r, std::size_t i) { return 1'000'000LL * r + static_cast<std::int64_t>(i); };
+    std::vector<std::int64_t> mine;
+    for (std::size_t i = 0; i < count_of(ranks.rank()); ++i) mine.push_back(item(ranks.rank(), i));
+    const auto write = [&](Rank rank, std::size_t first, std::span<std::int64_t> to) {
+      EXPECT_NE(node_of(rank), node_of(ranks.rank()));
+      std::size_t before = 0;
+      for (Rank r = 0; r < rank; ++r) before += count_of(r);
+      EXPECT_EQ(first, before);
+      EXPECT_EQ(to.size(), count_of(rank));
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] = item(rank, i);
+    };
+    const auto all = NodeArray<std::int64_t>::composed(ranks, mine, write);
+    std::size_t next = 0;
+    for (Rank r = 0; r < ranks.size(); ++r) {
+      for (std::size_t i = 0; i < count_of(r); ++i) ASSERT_EQ(all[next++], item(r, i));
+    }
+    EXPECT_EQ(all.size(), next);
+  }
+}
+
+TEST(NodeArrayTest, AllLearnThatOneCouldNotWrite) {
+  const Communicator ranks = impose_nodes(Communicator::world(), 1);
+  if (ranks.size() == 1) return;
+  const auto fail = [&](Rank, std::size_t, std::span<std::int64_t>) {
+    if (ranks.rank() == 0) throw std::runtime_error("no");
+  };
+  EXPECT_THROW(NodeArray<std::int64_t>::composed(ranks, squares(3), fail), CollectiveError);
+}
+
+TEST(NodeArrayTest, GathersFromNodeToNode) {
+  const Communicator ranks = impose_nodes(Communicator::world(), 2);
+  const auto all = NodeArray<std::int64_t>::gathered(ranks, {ranks.rank(), -1});
+  for (Rank r = 0; r < ranks.size(); ++r) {
+    EXPECT_EQ(all[2 * static_cast<std::size_t>(r)], r);
+    EXPECT_EQ(all[2 * static_cast<std::size_t>(r) + 1], -1);
   }
 }
 

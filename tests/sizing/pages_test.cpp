@@ -1,6 +1,7 @@
 #include "aeroloom/sizing/pages.hpp"
 
 #include "aeroloom/sizing/octree.hpp"
+#include "parallel/communication/imposed_nodes.hpp"
 #include "sizing/seed_tree.hpp"
 
 #include <algorithm>
@@ -46,6 +47,20 @@ Pages pages_of(const Communicator& ranks, const std::vector<Cell>& cells, std::i
     keys.push_back(cells[i].key), levels.push_back(cells[i].level);
   }
   return {ranks, {keys, levels}, most};
+}
+
+/// Of two lists, each with every other seed.
+SeedTree tree_of(const Communicator& ranks, const std::vector<SizeSeed>& own) {
+  std::vector<SizeSeed> odd, even;
+  for (std::size_t i = 0; i < own.size(); ++i) (i % 2 == 1 ? odd : even).push_back(own[i]);
+  const SharedSeeds first(ranks, odd), second(ranks, even);
+  return SeedTree(ranks, {&first, &second}, 0.3);
+}
+
+/// All ranks, on one node and as if on several.
+std::vector<Communicator> nodes_of_world() {
+  const Communicator world = Communicator::world();
+  return {world, aeroloom::parallel::impose_nodes(world, 1), aeroloom::parallel::impose_nodes(world, 2)};
 }
 
 std::uint64_t size_of(const Pages& pages, std::size_t page) {
@@ -107,7 +122,8 @@ TEST(Pages, OfOneSpotMayLeaveRanksWithout) {
 }
 
 TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
-  const Communicator world = Communicator::world();
+  const std::vector<Communicator> nodes = nodes_of_world();
+  const Communicator& world = nodes.front();
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const std::vector<Cell> cells = random_cells(seed, 40 * static_cast<int>(seed));
     SplitCubes alone, paged(world, pages_of(world, cells, 4));
@@ -123,31 +139,34 @@ TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
     ASSERT_EQ(world.all_gather_items<std::uint64_t>(mine.keys), expected.keys);
     ASSERT_EQ(world.all_gather_items<std::uint8_t>(mine.levels), expected.levels);
 
-    const LeafTable of_all(expected), of_pages(world, paged.pages(), mine);
-    std::mt19937_64 random(seed);
-    for (int i = 0; i < 5000; ++i) {
-      const std::uint64_t start = expected.keys[random() % expected.keys.size()];
-      const std::uint64_t key = i % 2 ? random() >> 4 : start + random() % 2;
-      ASSERT_EQ(of_pages.find(key), of_all.find(key));
+    const LeafTable of_all(expected);
+    for (const Communicator& ranks : nodes) {
+      const LeafTable of_pages(ranks, paged.pages(), mine, expected);
+      std::mt19937_64 random(seed);
+      for (int i = 0; i < 5000; ++i) {
+        const std::uint64_t start = expected.keys[random() % expected.keys.size()];
+        const std::uint64_t key = i % 2 ? random() >> 4 : start + random() % 2;
+        ASSERT_EQ(of_pages.find(key), of_all.find(key));
+      }
     }
   }
 }
 
 TEST(SeedTree, OfManyRanksFindsTheCheapest) {
-  const Communicator world = Communicator::world();
-  for (const int count : {1, 50, 3000}) {
-    std::vector<SizeSeed> seeds, mine;
-    std::mt19937_64 random(7);
-    for (const Cell& cell : random_cells(5, count))
-      seeds.push_back(
-          {grid_point(cell.key), grid_size >> cell.level, 1.0 + static_cast<double>(random() % 9999)});
-    const Range own = own_range(world, seeds.size());
-    for (std::size_t i = own.first; i < own.last; ++i) mine.push_back(seeds[i]);
-    const SeedTree whole(Communicator::self(), seeds, 0.3), shared(world, mine, 0.3);
-    for (int i = 0; i < 500; ++i) {
-      const GridPoint p = grid_point(random() >> 4);
-      std::int32_t near = -1, near_shared = -1;
-      ASSERT_EQ(shared.cheapest(p, 1e30, near_shared), whole.cheapest(p, 1e30, near));
+  for (const Communicator& world : nodes_of_world())
+    for (const int count : {1, 50, 3000}) {
+      std::vector<SizeSeed> seeds, mine;
+      std::mt19937_64 random(7);
+      for (const Cell& cell : random_cells(5, count))
+        seeds.push_back(
+            {grid_point(cell.key), grid_size >> cell.level, 1.0 + static_cast<double>(random() % 9999)});
+      const Range own = own_range(world, seeds.size());
+      for (std::size_t i = own.first; i < own.last; ++i) mine.push_back(seeds[i]);
+      const SeedTree whole = tree_of(Communicator::self(), seeds), shared = tree_of(world, mine);
+      for (int i = 0; i < 500; ++i) {
+        const GridPoint p = grid_point(random() >> 4);
+        std::int32_t near = -1, near_shared = -1;
+        ASSERT_EQ(shared.cheapest(p, 1e30, near_shared), whole.cheapest(p, 1e30, near));
+      }
     }
-  }
 }

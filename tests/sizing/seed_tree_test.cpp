@@ -10,6 +10,11 @@ using namespace aeroloom::sizing;
 
 namespace {
 
+SeedTree tree_of(const aeroloom::parallel::Communicator& alone, const std::vector<SizeSeed>& seeds) {
+  const SharedSeeds shared(alone, seeds);
+  return SeedTree(alone, {&shared}, 0.3);
+}
+
 class Random {
 public:
   explicit Random(unsigned seed) : _random(seed) {}
@@ -51,7 +56,7 @@ TEST(SeedTree, FindsTheCheapestToTheLastBitFromAnyStart) {
   Random random(3);
   for (const int count : {1, 7, 8, 9, 64, 65, 700, 5000}) {
     const std::vector<SizeSeed> seeds = random.seeds(count);
-    const SeedTree tree(alone, seeds, 0.3);
+    const SeedTree tree = tree_of(alone, seeds);
     std::int32_t follows = -1;
     for (int i = 0; i < 300; ++i) {
       const GridPoint p = i % 2 ? random.point() : GridPoint{random.below(5000), random.below(5000), 77};
@@ -74,7 +79,7 @@ TEST(SeedTree, WithoutSeedsTheBoundCounts) {
   const auto alone = aeroloom::parallel::Communicator::self();
   std::int32_t near = -1;
   EXPECT_EQ(SeedTree().cheapest({1, 2, 3}, 5, near), 5);
-  EXPECT_EQ(SeedTree(alone, {}, 0.3).cheapest({1, 2, 3}, 5, near), 5);
-  EXPECT_FALSE(SeedTree(alone, {}, 0.3).offers_less({1, 2, 3}, 5));
+  EXPECT_EQ(tree_of(alone, {}).cheapest({1, 2, 3}, 5, near), 5);
+  EXPECT_FALSE(tree_of(alone, {}).offers_less({1, 2, 3}, 5));
   EXPECT_EQ(near, -1);
 }

@@ -71,8 +71,8 @@ public:
   LeafTable() = default;
   /// Of all leaves of the root.
   explicit LeafTable(CellSpans leaves);
-  /// Each rank gives the leaves in its pages; held once per node. Collective.
-  LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own);
+  /// Each rank gives the leaves in its pages, and knows all; held once per node. Collective.
+  LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own, CellSpans all);
 
   /// Index of the leaf that holds the finest cell with this key.
   std::int32_t find(std::uint64_t key) const {

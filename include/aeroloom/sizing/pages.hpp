@@ -11,20 +11,24 @@
 
 namespace aeroloom::sizing {
 
-/// Cells of an octree by the Morton keys of their low corners, and their levels.
-struct CellSpans {
-  std::span<const std::uint64_t> keys;
-  std::span<const std::uint8_t> levels;
-
-  std::size_t size() const { return keys.size(); }
-};
-
 /// A range of numbers.
 struct Range {
   std::size_t first, last;
 
   std::size_t size() const { return last - first; }
 };
+
+/// Cells of an octree by the Morton keys of their low corners, and their levels.
+struct CellSpans {
+  std::span<const std::uint64_t> keys;
+  std::span<const std::uint8_t> levels;
+
+  std::size_t size() const { return keys.size(); }
+  CellSpans part(Range range) const {
+    return {keys.subspan(range.first, range.size()), levels.subspan(range.first, range.size())};
+  }
+};
+
 /// This rank's part of so many, which all ranks share alike.
 Range own_range(const parallel::Communicator& communicator, std::size_t count);
 
@@ -54,6 +58,12 @@ public:
   Range of_rank(parallel::Rank rank) const {
     const auto r = static_cast<std::size_t>(rank);
     return {_firsts[r], r + 1 < _firsts.size() ? _firsts[r + 1] : count()};
+  }
+
+  /// Where the pages of a rank begin, or would if it had any.
+  std::uint64_t first_key(parallel::Rank rank) const {
+    const std::size_t page = _firsts[static_cast<std::size_t>(rank)];
+    return page < count() ? _keys[page] : 1ULL << 3 * finest_level;
   }
 
 private:

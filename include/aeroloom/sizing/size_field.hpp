@@ -6,6 +6,7 @@
 #include "aeroloom/parallel/communication/node_array.hpp"
 #include "aeroloom/parallel/observation/timers.hpp"
 #include "aeroloom/parallel/storage/digest.hpp"
+#include "aeroloom/sizing/corner_sizes.hpp"
 #include "aeroloom/sizing/octree.hpp"
 
 #include <algorithm>
@@ -131,6 +132,7 @@ private:
   static auto fields_of(Field& field);
   /// The size at an offset from the low corner of the root cube.
   double interpolate(double dx, double dy, double dz) const;
+  CellSpans leaves() const { return {_leaf_keys.items(), _leaf_levels.items()}; }
 
   SizingOptions _options;
   geometry::Box _domain;                           // as asked for
@@ -140,7 +142,7 @@ private:
   parallel::NodeArray<std::uint64_t> _leaf_keys;   // Morton keys of the leaves' low corners, ascending
   parallel::NodeArray<std::uint8_t> _leaf_levels;  // 0 is the root
   LeafTable _leaf_table;
-  parallel::NodeArray<float> _corner_sizes;  // (leaves,8), corners in Morton order; times the factor
+  CornerSizes _corner_sizes;  // times the factor
 };
 
 /// The field of a model: curvature and chordal deviation of faces and edges, proximity, narrow strips, sharp

@@ -1,6 +1,7 @@
 /// Arrays that are the same on every rank, held once per node.
 #pragma once
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/parallel/communication/communicator.hpp"
 
 #include <cstddef>
@@ -24,6 +25,23 @@ public:
   /// be had on some node. Collective.
   static std::shared_ptr<const std::byte> gather(const Communicator& communicator,
                                                  std::span<const std::byte> mine);
+
+  /// The bytes of all ranks one after another, those of ranks of other nodes still to be written.
+  struct Composition {
+    std::shared_ptr<std::byte> memory;  ///< of the node where that can be had, else of this rank alone
+    bool is_of_node = false;
+    std::vector<std::uint64_t> offsets;  ///< per rank where its bytes begin, and the end
+    std::vector<Rank> unwritten;         ///< ranks whose bytes this rank has to write
+
+    std::span<std::byte> part(Rank rank) const {
+      const auto r = static_cast<std::size_t>(rank);
+      return {memory.get() + offsets[r], offsets[r + 1] - offsets[r]};
+    }
+  };
+  /// Ranks of a node share what is unwritten among them. Collective.
+  static Composition compose(const Communicator& communicator, std::span<const std::byte> mine);
+  /// The memory, to be read only. After all ranks have written their parts.
+  static std::shared_ptr<const std::byte> finish(Composition composition);
 };
 
 /// An array that does not change. Cheap to copy: copies refer to the same memory.
@@ -61,6 +79,30 @@ public:
     if (!result._owner && communicator.size() == 1) return NodeArray(std::move(mine));
     if (!result._owner) return NodeArray(communicator.template all_gather_items<T>(mine));
     result._items = {static_cast<const T*>(result._owner.get()), static_cast<std::size_t>(count)};
+    return result;
+  }
+
+  /// As gathered(), of items that follow from what every node knows already: parts of other nodes do not
+  /// travel, but are written here. `write(rank, first, items)` writes the part of a rank, whose first item is
+  /// number `first` of all; which ranks it is called for depends on the nodes. What it throws all ranks
+  /// throw, as a CollectiveError. Collective.
+  template <class Write>
+  static NodeArray composed(const Communicator& communicator, std::vector<T> mine, const Write& write) {
+    static_assert(is_exact<T>, "items lie in memory as they travel");
+    if (communicator.size() == 1) return NodeArray(std::move(mine));
+    NodeMemory::Composition parts =
+        NodeMemory::compose(communicator, std::as_bytes(std::span<const T>(mine)));
+    agree(communicator, [&] {
+      for (const Rank rank : parts.unwritten) {
+        const std::span<std::byte> bytes = parts.part(rank);
+        write(rank, (bytes.data() - parts.memory.get()) / sizeof(T),
+              std::span<T>(reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)));
+      }
+    });
+    NodeArray result;
+    const std::size_t count = parts.offsets.back() / sizeof(T);
+    result._owner = NodeMemory::finish(std::move(parts));
+    result._items = {static_cast<const T*>(result._owner.get()), count};
     return result;
   }
 
