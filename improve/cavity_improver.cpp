@@ -1,7 +1,7 @@
 #include "improve/cavity_improver.hpp"
 
 #include "aeroloom/improve/improver.hpp"
-#include "improve/reach.hpp"
+#include "improve/attainable_quality.hpp"
 #include "improve/scatter.hpp"
 #include "mesh/mixing.hpp"
 #include "mesh/shared_vertex_keys.hpp"
@@ -45,15 +45,16 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
     const Piece& piece = mesh.pieces[i];
     std::vector<cavities::CavityId>& mine = claims.emplace_back(piece.vertex_count(), cavities::no_cavity);
     if (bad.of_piece(i).empty()) continue;
-    const Reach reach = effort == Effort::unsparing ? Reach(measure) : Reach(piece, measure);
+    const AttainableQuality attainable =
+        effort == Effort::unsparing ? AttainableQuality(measure) : AttainableQuality(piece, measure);
     std::vector<char> beside;  // a border, once needed
     for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       const double quality = measure(p[0], p[1], p[2], p[3]);
-      if (quality >= reach(v)) continue;
+      if (quality >= attainable(v)) continue;
       // Beside a strip what was tried inside a piece is not tried again.
-      if (reach.is_limited(v) && !reach.is_severe(quality)) {
+      if (attainable.is_limited(v) && !attainable.is_severe(quality)) {
         if (shift > 0) continue;
         if (beside.empty()) beside = near_borders(piece);
         if (std::none_of(v, v + 4, [&](LocalIndex k) { return beside[k] != 0; })) continue;

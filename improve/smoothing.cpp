@@ -54,11 +54,11 @@ double ConeOptimiser::worst(const mesh::TetQuality& measure, Vec3 p, double floo
   return least;
 }
 
-// A place that promises nothing need not settle: projections cost more than measures of quality.
+// A place that promises nothing need not be projected: projections cost more than measures of quality.
 double ConeOptimiser::worst_on(const mesh::TetQuality& measure, Vec3& p, double floor, Locus& locus) {
   const Vec3 before = p;
   const double reached = worst(measure, p, floor);
-  if (reached <= floor || !locus.settle(p)) return floor;
+  if (reached <= floor || !locus.project(p)) return floor;
   return p == before ? reached : worst(measure, p, floor);
 }
 

@@ -93,10 +93,10 @@ std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communica
                     [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
                       met.clear();
                       for (const FaceUser& user : users) met.push_back(faces.candidate(user));
-                      const bool settled = met.size() == 2 && met[0].region == met[1].region &&
+                      const bool matched = met.size() == 2 && met[0].region == met[1].region &&
                                            mesh::opposite_direction(met[0].corners, met[1].corners) &&
                                            !may_be_on_another_rank(key);
-                      if (!settled) candidates.insert(candidates.end(), met.begin(), met.end());
+                      if (!matched) candidates.insert(candidates.end(), met.begin(), met.end());
                     });
   GlobalIndex count = 0;
   for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());

@@ -37,13 +37,14 @@ public:
     const std::size_t sides = first_side(_piece, _piece.total_cell_count());
     _links.behind.resize(sides);
     _links.boundary_face.assign(sides, -1);
-    match_faces(static_cast<std::size_t>(_piece.vertex_count()), PieceFaces(_piece),
-                [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) { settle(key, users); });
+    match_faces(
+        static_cast<std::size_t>(_piece.vertex_count()), PieceFaces(_piece),
+        [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) { link_face(key, users); });
     return std::move(_links);
   }
 
 private:
-  void settle(const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
+  void link_face(const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
     LocalIndex face = -1;
     std::array<FaceUser, 2> cells;
     std::size_t count = 0;

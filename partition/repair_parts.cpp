@@ -8,7 +8,7 @@
 namespace aeroloom::partition {
 namespace {
 
-/// Joining parts may narrow wedges and widening them tear parts: few rounds settle most. Chosen, not
+/// Joining parts may narrow wedges and widening them tear parts: few rounds mend most. Chosen, not
 /// measured.
 constexpr int repair_rounds = 6;
 /// The sum of what is missing around a wedge must fall by more than rounding, or moves would go back and
@@ -136,15 +136,15 @@ void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& par
     const auto [at, fresh] = heaviest.try_emplace(part_of[c], c);
     if (!fresh && loads[c] > loads[at->second]) at->second = c;
   }
-  // Stray components join a neighbour whose part is settled; those in the second row wait for the first.
-  std::vector<char> settled(loads.size(), 0);
-  for (const auto& [p, c] : heaviest) settled[c] = 1;
+  // Stray components join a neighbour that has a part; those in the second row wait for the first.
+  std::vector<char> placed(loads.size(), 0);
+  for (const auto& [p, c] : heaviest) placed[c] = 1;
   for (bool changed = true; changed;) {
     changed = false;
     std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part beyond: length
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
       const geometry::HalfEdge twin = surface.twins[h];
-      if (twin < 0 || settled[component[h / 3]] || !settled[component[twin / 3]]) continue;
+      if (twin < 0 || placed[component[h / 3]] || !placed[component[twin / 3]]) continue;
       border[{component[h / 3], part_of[component[twin / 3]]}] +=
           distance(surface.points[surface.start(h)], surface.points[surface.end(h)]);
     }
@@ -155,7 +155,7 @@ void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& par
     }
     for (const auto& [c, target] : best) {
       part_of[c] = target.second;
-      settled[c] = 1;
+      placed[c] = 1;
       changed = true;
     }
   }

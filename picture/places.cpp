@@ -60,7 +60,7 @@ struct Element {
   Vec3 middle() const { return (corners[0] + corners[1] + corners[2]) / 3; }
 };
 
-Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fold>& folds) {
+Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<EdgeNeighbour>& neighbours) {
   Element e;
   const LocalIndex* v = piece.cell(t);
   for (int i = 0; i < 3; ++i) e.corners[i] = piece.point(v[i]);
@@ -68,12 +68,12 @@ Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fol
   e.area = 0.5 * norm(vector);
   e.normal = -normalized(vector);
   for (int i = 0; i < 3; ++i) {
-    const Fold& fold = folds[3 * static_cast<std::size_t>(t) + i];
+    const EdgeNeighbour& neighbour = neighbours[3 * static_cast<std::size_t>(t) + i];
     e.size += norm(e.edge(i)) / 3;
-    e.inside[i] = !fold.several && fold.shown;
+    e.inside[i] = !neighbour.several && neighbour.shown;
     if (!e.inside[i]) continue;
-    e.turns[i] = turn(-e.normal, e.edge(i), fold);
-    e.bisectors[i] = normalized(e.normal - fold.normal);
+    e.turns[i] = angle_at(-e.normal, e.edge(i), neighbour);
+    e.bisectors[i] = normalized(e.normal - neighbour.normal);
   }
   return e;
 }
@@ -96,15 +96,15 @@ Curvature curvature_of(const Element& e) {
 
 /// Calls visit(element, vertices) for what is shown; vertices by global number.
 template <class Visit>
-void for_each_element(const DistributedMesh& surface, const mesh::Numbering& numbering, const Folds& folds,
-                      const Scene& scene, const Visit& visit) {
+void for_each_element(const DistributedMesh& surface, const mesh::Numbering& numbering,
+                      const EdgeNeighbours& neighbours, const Scene& scene, const Visit& visit) {
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (!scene.shown[p][t]) continue;
       const LocalIndex* v = piece.cell(t);
       const auto& numbers = numbering.vertices[p];
-      const Element e = element_of(piece, t, folds[p]);
+      const Element e = element_of(piece, t, neighbours[p]);
       if (e.area > 0) visit(e, std::array<mesh::GlobalIndex, 3>{numbers[v[0]], numbers[v[1]], numbers[v[2]]});
     }
   }
@@ -132,10 +132,10 @@ bool flow_divides(Vec3 normal, Vec3 along, double angle) {
 
 /// Bits of leading edges. Each sharp_turn edge comes from both of its triangles.
 std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                                    const Folds& folds, const Scene& scene) {
+                                    const EdgeNeighbours& neighbours, const Scene& scene) {
   std::vector<LineItem> items;
   const double diagonal = scene.box.diagonal();
-  for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+  for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
       if (e.turns[i] < sharp_turn) continue;
       if (flow_divides(e.bisectors[i], normalized(e.edge(i)), share_of_edge * e.turns[i]))
@@ -187,9 +187,10 @@ bool beats(const Sharpest& a, const Sharpest& b) {
 }
 
 std::optional<Place> find_sharpest(const Communicator& communicator, const DistributedMesh& surface,
-                                   const mesh::Numbering& numbering, const Folds& folds, const Scene& scene) {
+                                   const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
+                                   const Scene& scene) {
   Sharpest mine;
-  for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+  for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     const auto take = [&](double angle, const LineItem& item) {
       if (const Sharpest here{angle, item}; beats(here, mine)) mine = here;
     };
@@ -210,11 +211,11 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
 }  // namespace
 
 std::optional<Place> find_leading_edge(const Communicator& communicator, const DistributedMesh& surface,
-                                       const mesh::Numbering& numbering, const Folds& folds,
+                                       const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
                                        const Scene& scene) {
-  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, folds, scene);
+  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, neighbours, scene);
   std::vector<LineItem> items;
-  parallel::agree(communicator, [&] { items = leading_items(surface, numbering, folds, scene); });
+  parallel::agree(communicator, [&] { items = leading_items(surface, numbering, neighbours, scene); });
   std::vector<Line> lines = gather_lines(communicator, items);
   std::erase_if(lines,
                 [](const Line& line) { return line.extent() < least_length * line.items.front().size; });
@@ -229,15 +230,16 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
     }
   }
   found = shared(communicator, found);
-  return found ? found : find_sharpest(communicator, surface, numbering, folds, scene);
+  return found ? found : find_sharpest(communicator, surface, numbering, neighbours, scene);
 }
 
 std::optional<Place> find_junction(const Communicator& communicator, const DistributedMesh& surface,
-                                   const mesh::Numbering& numbering, const Folds& folds, const Scene& scene) {
+                                   const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
+                                   const Scene& scene) {
   if (!scene.has_body) return std::nullopt;
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] {
-    for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+    for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
       for (int i = 0; i < 3; ++i) {
         if (e.turns[i] < -inward_turn && vertices[i] < vertices[(i + 1) % 3])
           items.push_back(item_of_edge(e, i, vertices));

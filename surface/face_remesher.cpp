@@ -121,7 +121,7 @@ void FaceRemesher::note_change(std::int32_t vertex) {
   }
 }
 
-void FaceRemesher::settle() {
+void FaceRemesher::end_sweep() {
   _active.swap(_next);
   _next.assign(_active.size(), 0);
 }

@@ -40,7 +40,7 @@ public:
   /// One sweep of straighten_cuts().
   void straighten(const std::vector<std::int32_t>& part, double smallest_angle);
   /// Ends a sweep: the next one looks only at what this one changed.
-  void settle();
+  void end_sweep();
   /// Writes back triangles and vertices without those that vanished.
   void finish();
 

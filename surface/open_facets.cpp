@@ -114,10 +114,10 @@ OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& 
     }
     _lines.push_back(std::move(line));
   }
-  settle_line_ends();
+  match_line_ends();
 }
 
-void OpenFacets::settle_line_ends() {
+void OpenFacets::match_line_ends() {
   struct End {
     cad::VertexId vertex;
     std::int32_t point;
@@ -128,7 +128,7 @@ void OpenFacets::settle_line_ends() {
     ends.push_back({_model.edge(line.use.edge).first, line.nodes.front().point});
     ends.push_back({_model.edge(line.use.edge).last, line.nodes.back().point});
   }
-  const auto settle = [&](const Line& line, cad::VertexId vertex, Node& node) {
+  const auto match_end = [&](const Line& line, cad::VertexId vertex, Node& node) {
     const Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
     for (const End& end : ends) {
       if (end.vertex != vertex) continue;
@@ -137,8 +137,8 @@ void OpenFacets::settle_line_ends() {
   };
   for (Line& line : _lines) {
     if (line.nodes.empty()) continue;
-    settle(line, _model.edge(line.use.edge).first, line.nodes.front());
-    settle(line, _model.edge(line.use.edge).last, line.nodes.back());
+    match_end(line, _model.edge(line.use.edge).first, line.nodes.front());
+    match_end(line, _model.edge(line.use.edge).last, line.nodes.back());
   }
 }
 

@@ -59,7 +59,7 @@ public:
       }
     }
     bend_to_mesh_vertices();
-    settle_boundary();
+    separate_boundary();
     snap_interior();
   }
 
@@ -129,21 +129,21 @@ private:
   }
 
   /// Puts the boundary points between two mesh vertices on the side of these.
-  void settle_boundary() {
+  void separate_boundary() {
     for (const auto& loop : _loops) {
       bool any = false;
       for_each_segment(loop, [&](std::int32_t a, const std::vector<std::int32_t>& between, std::int32_t b) {
         any = true;
-        settle(between, _levels[a] + _levels[b]);
+        set_side(between, _levels[a] + _levels[b]);
       });
       if (any) continue;
       double sum = 0;
       for (const std::int32_t p : loop) sum += _levels[p];
-      settle(loop, sum);
+      set_side(loop, sum);
     }
   }
 
-  void settle(const std::vector<std::int32_t>& points, double side) {
+  void set_side(const std::vector<std::int32_t>& points, double side) {
     double size = 0;
     for (const std::int32_t p : points) size = std::max(size, std::abs(_levels[p]));
     if (size == 0) size = std::abs(side);

@@ -31,7 +31,7 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
     choose(source, points);
   }
   _ghosts.update(communicator, _core);
-  settle(communicator, source.tree, clock);
+  shrink_until_stable(communicator, source.tree, clock);
   {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     claim(source.tree);
@@ -164,8 +164,8 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
   return found;
 }
 
-void CoreLeaves::settle(const parallel::Communicator& communicator, const LatticeTree& tree,
-                        parallel::StageClock& clock) {
+void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree,
+                                     parallel::StageClock& clock) {
   LeafSurroundings around(tree);
   std::vector<std::size_t> open;  // own blocks that leaves may have to leave
   _beside_shell.assign(_ghosts.own_count(), 0);

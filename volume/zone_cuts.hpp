@@ -5,7 +5,7 @@
 #include "volume/block_points.hpp"
 #include "volume/core_border.hpp"
 #include "volume/lattice_tree.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include <cstdint>
 #include <span>

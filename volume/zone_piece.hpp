@@ -2,7 +2,7 @@
 #pragma once
 
 #include "aeroloom/mesh/distributed_mesh.hpp"
-#include "volume/zone_fill.hpp"
+#include "volume/zone_in_child.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <array>

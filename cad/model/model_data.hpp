@@ -92,7 +92,7 @@ struct FaceEvaluator {
 };
 
 /// Parameters of a point that lies on the face, from parameters near it.
-Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
+Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
 
 /// Coordinates that are known exactly, from axis-aligned planes (plane_snap.hpp).
 struct Snap {
@@ -115,7 +115,7 @@ struct Snap {
 class FaceCache;
 struct ClosedEdges;
 struct FaceIntegrals;
-struct JoinedFaces;
+struct JoinedModel;
 
 struct Model::Data {
   /// Over a face, seen from the middle of the model; its area is positive.
@@ -138,7 +138,7 @@ struct Model::Data {
   double gap = 0;
   std::shared_ptr<FaceCache> cache;           ///< of what is computed on demand; none where faces are joined
   std::shared_ptr<const ClosedEdges> closed;  ///< where strips are closed: edges that the shape does not have
-  std::shared_ptr<const JoinedFaces> joined;  ///< where faces are joined: evaluators and snaps are its base's
+  std::shared_ptr<const JoinedModel> joined;  ///< where faces are joined: evaluators and snaps are its base's
 
   /// "face 12 'wing_upper' near (x, y, z)", for messages.
   std::string describe_face(FaceId id) const;

@@ -109,7 +109,7 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
         const gp_Pnt on_curve = curve->Value(first + (last - first) * k / samples);
         const gp_Pnt2d guess = image->Value(low + (high - low) * k / samples);
         const Vec3 point{on_curve.X(), on_curve.Y(), on_curve.Z()};
-        const Vec2 uv = settle_on_face(evaluator, point, {guess.X(), guess.Y()}, tolerance);
+        const Vec2 uv = find_parameters(evaluator, point, {guess.X(), guess.Y()}, tolerance);
         const double width = distance(point, evaluator.surface.point(uv));
         if (width > gap.width) gap = {width, point};
       }

@@ -108,10 +108,10 @@ double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) 
       closer = distance(model.edge_point(id, next), point);
     }
     if (!(closer < away)) break;
-    const bool settled = std::abs(next - at) <= resolution;
+    const bool converged = std::abs(next - at) <= resolution;
     at = next;
     away = closer;
-    if (settled) break;
+    if (converged) break;
   }
   return at;
 }

@@ -58,7 +58,7 @@ public:
   }
 
   /// Nearest point of the same sheet around the guess: neither wrapped nor moved to another end.
-  Vec2 settle(Vec2 guess) const {
+  Vec2 slide_to(Vec2 guess) const {
     Distance at = evaluate(clamp(guess));
     for (int step = 0; step < settling_steps && at.value > 0.5 * _tolerance * _tolerance && descend(at);
          ++step) {
@@ -225,8 +225,8 @@ Projection search(const FaceEvaluator& face, Vec3 target, const Projection& best
 
 }  // namespace
 
-Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
-  return Projector(face, point, tolerance).settle(guess);
+Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
+  return Projector(face, point, tolerance).slide_to(guess);
 }
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {

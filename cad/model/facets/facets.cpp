@@ -96,7 +96,7 @@ Facets extract(const Model::Data& data, FaceId id, const MeshedFace& meshed) {
 
 /// Boundary nodes lie on their edges' curves; their parameters on the face come from there too, not from the
 /// parameter curves, which may run at another pace. Where that would turn a triangle over, they stay.
-void settle_boundary(const Model& model, FaceId id, Facets& facets) {
+void take_edge_parameters(const Model& model, FaceId id, Facets& facets) {
   const std::vector<Vec2> before = facets.uv;
   for (const Facets::BoundaryLine& line : facets.boundary) {
     for (std::size_t i = 1; i + 1 < line.nodes.size(); ++i) {
@@ -182,7 +182,7 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
     defect = find_defect(facets);
     if (defect.empty() && folded_share(facets) > tolerances::folded) defect = "facets folded over each other";
     if (!defect.empty()) continue;
-    settle_boundary(model, id, facets);
+    take_edge_parameters(model, id, facets);
     if (!evaluator.planar) refine_facets(model, id, deflection, angle, facets);
     spread_poles(model, id, facets);
     if (evaluator.reversed) {

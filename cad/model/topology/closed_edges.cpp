@@ -61,20 +61,20 @@ private:
     _closed.fates.resize(_base.edge_count());
     for (const BluntEdge& strip : _strips) {
       for (const auto& end : strip.ends) {
-        for (const EdgeId id : end) _closed.fates[id].kind = EdgeFate::Kind::collapsed;
+        for (const EdgeId id : end) _closed.fates[id].kind = BaseEdgeFate::Kind::collapsed;
       }
     }
     // Where a strip ends on the side of another, their common edge becomes a vertex of that side.
     for (BluntEdge& strip : _strips) {
       for (auto& border : strip.borders) {
         std::erase_if(border, [&](const BorderEdge& each) {
-          return _closed.fates[each.strip_use.edge].kind == EdgeFate::Kind::collapsed;
+          return _closed.fates[each.strip_use.edge].kind == BaseEdgeFate::Kind::collapsed;
         });
         if (border.empty()) refuse(strip, "another strip ends on all of its side");
         for (const BorderEdge& each : border) {
-          EdgeFate& fate = _closed.fates[each.strip_use.edge];
-          if (fate.kind != EdgeFate::Kind::kept) refuse(strip, "a strip beside it is closed");
-          fate.kind = EdgeFate::Kind::closed;
+          BaseEdgeFate& fate = _closed.fates[each.strip_use.edge];
+          if (fate.kind != BaseEdgeFate::Kind::kept) refuse(strip, "a strip beside it is closed");
+          fate.kind = BaseEdgeFate::Kind::closed;
         }
       }
     }
@@ -169,7 +169,7 @@ private:
   /// A face that runs out to a point at a vertex, narrower than the vertex moves, cannot follow it.
   void require_broad_corners() const {
     constexpr double away = 10, narrow = 2;  // in moves of the vertex: corners of a fifth of a radian; chosen
-    const auto is_kept = [&](EdgeId id) { return _closed.fates[id].kind == EdgeFate::Kind::kept; };
+    const auto is_kept = [&](EdgeId id) { return _closed.fates[id].kind == BaseEdgeFate::Kind::kept; };
     for (const FaceId id : _closed.base_faces) {
       for (const FaceCorner& corner : corners_of(_base, id)) {
         const Vec3 at = _base.vertex(corner.vertex);
@@ -196,8 +196,8 @@ private:
     }
     const std::vector<double> reaches = reaches_of_vertices(used);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
-      EdgeFate& fate = _closed.fates[id];
-      if (fate.kind != EdgeFate::Kind::kept || !used[id]) continue;
+      BaseEdgeFate& fate = _closed.fates[id];
+      if (fate.kind != BaseEdgeFate::Kind::kept || !used[id]) continue;
       fate.edge = static_cast<EdgeId>(to.edges.size());
       Edge edge = from.edges[id];
       EdgeEvaluator evaluator = from.edge_evaluators[id];
@@ -233,7 +233,7 @@ private:
     std::vector<double> reaches(_base.vertex_count(), unlimited);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
       const Edge& edge = _base.edge(id);
-      if (!used[id] || edge.degenerate || _closed.fates[id].kind != EdgeFate::Kind::kept) continue;
+      if (!used[id] || edge.degenerate || _closed.fates[id].kind != BaseEdgeFate::Kind::kept) continue;
       const double reach = reach_of_edge(id);
       for (const VertexId v : {edge.first, edge.last}) {
         if (reach > short_edge * distance(_places[v], _base.vertex(v)))
@@ -341,8 +341,8 @@ private:
   }
 
   void append_coedges(FaceId base_face, const EdgeUse& use, std::vector<EdgeUse>& loop) const {
-    const EdgeFate& fate = _closed.fates[use.edge];
-    if (fate.kind == EdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
+    const BaseEdgeFate& fate = _closed.fates[use.edge];
+    if (fate.kind == BaseEdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
     const std::size_t first = loop.size();
     for (const EdgeId id : fate.parts)
       loop.push_back({id, 0, use.reversed == _closed.part(id, base_face).is_along()});

@@ -22,7 +22,7 @@ struct BorderPart {
 };
 
 /// The fate of an edge of the base model.
-struct EdgeFate {
+struct BaseEdgeFate {
   enum class Kind : std::uint8_t { kept, closed, collapsed };
   Kind kind = Kind::kept;
   EdgeId edge = no_entity;    ///< kept: its number now
@@ -35,7 +35,7 @@ struct ClosedEdges {
   std::vector<EdgeId> base_edges;                 ///< per edge; no_entity for closed ones, which come last
   std::vector<char> moved;                        ///< per edge: the curve is not that of the base model
   std::vector<std::array<BorderPart, 2>> closed;  ///< per closed edge
-  std::vector<EdgeFate> fates;                    ///< per edge of the base model
+  std::vector<BaseEdgeFate> fates;                ///< per edge of the base model
 
   /// The part of a closed edge that lies on a face of the base model.
   const BorderPart& part(EdgeId id, FaceId base_face) const;

@@ -120,7 +120,7 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
   data->cache.reset();
   data->faces.clear();
   data->far_field.clear();
-  JoinedFaces joined{model, {}};
+  JoinedModel joined{model, {}};
   std::vector<FaceId> number(model.face_count(), no_entity);
   for (FaceId id = 0; id < model.face_count(); ++id) {
     if (taken[id] && members[id].empty()) continue;
@@ -145,7 +145,7 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
     std::sort(edge.faces.begin(), edge.faces.end());
     edge.faces.erase(std::unique(edge.faces.begin(), edge.faces.end()), edge.faces.end());
   }
-  data->joined = std::make_shared<const JoinedFaces>(std::move(joined));
+  data->joined = std::make_shared<const JoinedModel>(std::move(joined));
   return Model(std::move(data));
 }
 

@@ -58,7 +58,7 @@ std::optional<JoinedFace::Entry> JoinedFace::cross_border(std::int32_t sheet, Ve
   return entry;
 }
 
-JoinedFaces::Place JoinedFaces::locate(FaceId id, Vec2 uv) const {
+JoinedModel::Place JoinedModel::locate(FaceId id, Vec2 uv) const {
   const JoinedFace& face = faces.at(id);
   if (face.sheets.size() == 1) return {face.sheets.front().face, 0, uv};
   const std::int32_t sheet = face.sheet_at(uv);
@@ -68,7 +68,7 @@ JoinedFaces::Place JoinedFaces::locate(FaceId id, Vec2 uv) const {
 /// Goes from the guess's sheet to the next across the border nearest to the point, until the point's nearest
 /// one on a sheet is a foot of a perpendicular inside its loops. A surface that ends where its loops do holds
 /// points beyond at its end: those are no feet.
-Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
+Projection JoinedModel::project(FaceId id, Vec3 point, Vec2 guess) const {
   const JoinedFace& face = faces.at(id);
   const Place start = locate(id, guess);
   Projection found = base.project(start.face, point, start.uv), best = found;
@@ -95,7 +95,7 @@ Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
   return best;
 }
 
-Facets JoinedFaces::facets(FaceId id, double deflection, double angle, Model::Keep keep) const {
+Facets JoinedModel::facets(FaceId id, double deflection, double angle, Model::Keep keep) const {
   const JoinedFace& face = faces.at(id);
   if (face.sheets.size() == 1) return base.facets(face.sheets.front().face, deflection, angle, keep);
   Facets all;

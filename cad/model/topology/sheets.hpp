@@ -49,7 +49,7 @@ struct JoinedFace {
 };
 
 /// The faces of a model that has joined ones.
-struct JoinedFaces {
+struct JoinedModel {
   /// A face of the base model and a point of its parameter plane.
   struct Place {
     FaceId face;

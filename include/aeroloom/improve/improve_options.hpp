@@ -27,7 +27,8 @@ struct ImproveOptions {
   std::vector<PercentileTarget> percentiles = {};
 };
 
-/// The effort spent on tetrahedra beside strips that are narrower than their elements (reach.hpp).
+/// The effort spent on tetrahedra beside strips that are narrower than their elements
+/// (attainable_quality.hpp).
 enum class Effort : std::int8_t {
   sparing,   ///< what hardly ever gains there is left out, and the aim is what is within reach
   unsparing  ///< as much as elsewhere, and the worst alone decides: for few
