@@ -112,7 +112,7 @@ private:
   SharpCurves _sharp_curves;
   std::vector<std::vector<BadTet>> _bad;  // per piece
   std::vector<EdgeName> _edges;           // of bad tetrahedra on all ranks, ascending
-  std::vector<Wedge> _wedges;             // per edge
+  std::vector<EdgeWedge> _wedges;         // per edge
   std::vector<StripEdge> _strips;         // those of them across strips
   std::vector<PinningEntity> _entities;
   std::vector<UnresolvedFeature> _features;
@@ -131,8 +131,7 @@ void PinnedSearch::collect_edges() {
       bad.push_back({t, mesh::dihedral_range(p[0], p[1], p[2], p[3])});
       const LocalIndex* c = piece.cell(t);
       for (const auto& [a, b] : mesh::tetrahedron_edges) {
-        if (piece.vertex_dimension[c[a]] <= mesh::CadDimension::edge &&
-            piece.vertex_dimension[c[b]] <= mesh::CadDimension::edge)
+        if (is_on_curve(piece.vertex_dimension[c[a]]) && is_on_curve(piece.vertex_dimension[c[b]]))
           mine.push_back(name(i, c[a], c[b]));
       }
     }
@@ -175,9 +174,7 @@ bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
   PinningEntity entity;
   entity.angle = _target;
   for (const auto& [a, b] : mesh::tetrahedron_edges) {
-    if (piece.vertex_dimension[c[a]] > mesh::CadDimension::edge ||
-        piece.vertex_dimension[c[b]] > mesh::CadDimension::edge)
-      continue;
+    if (!is_on_curve(piece.vertex_dimension[c[a]]) || !is_on_curve(piece.vertex_dimension[c[b]])) continue;
     const std::int64_t edge = find(name(i, c[a], c[b]));
     if (edge < 0 || _wedges[edge].angle >= entity.angle) continue;
     entity.angle = _wedges[edge].angle;
@@ -201,8 +198,7 @@ std::vector<std::array<LocalIndex, 4>> PinnedSearch::sharp_corners(const Piece& 
     for (int k = 0; k < 3; ++k) {
       const LocalIndex tip = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
       if (piece.vertex_dimension[tip] != mesh::CadDimension::vertex ||
-          piece.vertex_dimension[a] > mesh::CadDimension::edge ||
-          piece.vertex_dimension[b] > mesh::CadDimension::edge) {
+          !is_on_curve(piece.vertex_dimension[a]) || !is_on_curve(piece.vertex_dimension[b])) {
         continue;
       }
       if (corner_angle(piece.point(tip), piece.point(a), piece.point(b)) < _target)
@@ -276,9 +272,8 @@ bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
 bool PinnedSearch::is_held(const Piece& piece, const BadTet& bad) const {
   if (_surface_may_change) return false;
   const LocalIndex* c = piece.cell(bad.tet);
-  return std::count_if(c, c + 4, [&](LocalIndex v) {
-           return piece.vertex_dimension[v] <= mesh::CadDimension::face;
-         }) >= 3;
+  return std::count_if(c, c + 4, [&](LocalIndex v) { return is_on_boundary(piece.vertex_dimension[v]); }) >=
+         3;
 }
 
 void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) {

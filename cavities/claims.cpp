@@ -75,7 +75,7 @@ void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& 
   std::vector<char> barred(piece.vertex_count(), 0);
   for (const mesh::LocalIndex v : piece.shared_vertices) barred[v] = 1;
   for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if ((piece.vertex_dimension[v] < mesh::CadDimension::region && !along_surface) || claims[v] != no_cavity)
+    if ((is_on_boundary(piece.vertex_dimension[v]) && !along_surface) || claims[v] != no_cavity)
       barred[v] = 1;
   }
   std::vector<CavityId> next(piece.vertex_count(), no_cavity);

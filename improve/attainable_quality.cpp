@@ -35,8 +35,7 @@ AttainableQuality::AttainableQuality(const mesh::Piece& piece, const mesh::TetQu
     : _target(measure.target()) {
   for (LocalIndex i = 0; i < piece.boundary_count(); ++i) {
     const LocalIndex* v = piece.boundary_triangle(i);
-    if (std::any_of(v, v + 3,
-                    [&](LocalIndex k) { return piece.vertex_dimension[k] > mesh::CadDimension::edge; }))
+    if (std::any_of(v, v + 3, [&](LocalIndex k) { return !is_on_curve(piece.vertex_dimension[k]); }))
       continue;
     const double least = std::sqrt(width_to_length(piece.point(v[0]), piece.point(v[1]), piece.point(v[2])));
     if (!(least < narrow * _target)) continue;

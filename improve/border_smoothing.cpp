@@ -86,7 +86,7 @@ public:
     std::vector<LocalIndex> slot(piece.vertex_count(), -1);
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
       const LocalIndex v = piece.shared_vertices[s];
-      if (piece.vertex_dimension[v] < mesh::CadDimension::region) continue;
+      if (is_on_boundary(piece.vertex_dimension[v])) continue;
       slot[v] = static_cast<LocalIndex>(_vertices.size());
       _vertices.push_back(v);
       _places.push_back(s);

@@ -86,8 +86,7 @@ void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   for (const mesh::TetFace& face : walls) {
     for (const LocalIndex v : face.vertices) stays[v] = 1;
   }
-  for (std::size_t v = 0; v < stays.size(); ++v)
-    stays[v] = stays[v] || cavity.dimension[v] < mesh::CadDimension::face;
+  for (std::size_t v = 0; v < stays.size(); ++v) stays[v] = stays[v] || is_on_curve(cavity.dimension[v]);
   _order.clear();
   for (const char wanted : {1, 0}) {
     for (std::size_t v = 0; v < stays.size(); ++v) {
@@ -129,7 +128,7 @@ cavities::Refilling CavityImprover::build_refilling(const cavities::Cavity& cavi
   for (LocalIndex v = 0; v < _piece.vertex_count(); ++v) {
     const auto before = static_cast<std::size_t>(_numbered[v]);
     const bool known = before < _order.size() &&
-                       (_numbered[v] < _staying || (_piece.vertex_dimension[v] < mesh::CadDimension::region &&
+                       (_numbered[v] < _staying || (is_on_boundary(_piece.vertex_dimension[v]) &&
                                                     _piece.point(v) == cavity.points[_order[before]]));
     if (known) {
       named[v] = _order[before];

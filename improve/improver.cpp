@@ -265,9 +265,9 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
   return total;
 }
 
-/// The part of all tetrahedra with a smaller angle. Collective.
-double part_below(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                  double angle) {
+/// The fraction of all tetrahedra with a smaller angle. Collective.
+double fraction_below(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                      double angle) {
   std::int64_t below = 0, cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
     cells += piece.cell_count();
@@ -309,7 +309,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
   std::sort(targets.begin(), targets.end(),
             [](const PercentileTarget& a, const PercentileTarget& b) { return a.angle < b.angle; });
   for (const PercentileTarget& target : targets) {
-    if (part_below(communicator, mesh, target.angle) <= target.part) continue;
+    if (fraction_below(communicator, mesh, target.angle) <= target.fraction) continue;
     ImproveOptions more = options;
     more.target_angle = std::min(target.angle, largest_target);
     total.add_changes(improve_for_target(communicator, mesh, more, clock, source, tasks));

@@ -28,7 +28,7 @@ void scatter(mesh::Piece& piece, double share, std::uint64_t seed) {
   std::vector<char> stays(piece.vertex_count(), 0);
   for (const LocalIndex v : piece.shared_vertices) stays[v] = 1;
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (stays[v] || piece.vertex_dimension[v] < mesh::CadDimension::region) continue;
+    if (stays[v] || is_on_boundary(piece.vertex_dimension[v])) continue;
     const Vec3 origin = piece.point(v);
     double shortest = std::numeric_limits<double>::max();
     stars.for_each(v, [&](LocalIndex, const mesh::AscendingCell& cell) {

@@ -28,8 +28,8 @@ public:
   std::int32_t run() {
     std::int32_t moves = 0;
     for (std::int32_t fan = 0; fan < _fans.count(); ++fan) {
-      Wedge worst{-1, 0, 0, _smallest};
-      visit_wedges(_surface, _fans, _part, fan, [&](const Wedge& wedge) {
+      FanWedge worst{-1, 0, 0, _smallest};
+      visit_wedges(_surface, _fans, _part, fan, [&](const FanWedge& wedge) {
         if (wedge.angle < worst.angle) worst = wedge;
       });
       if (worst.fan >= 0 && widen(worst)) ++moves;
@@ -38,7 +38,7 @@ public:
   }
 
 private:
-  bool widen(const Wedge& wedge) {
+  bool widen(const FanWedge& wedge) {
     std::vector<std::int32_t> triangles;
     const std::int32_t size = _fans.size(wedge.fan);
     for (std::int32_t i = wedge.from; i != wedge.to; i = _fans.closed[wedge.fan] ? (i + 1) % size : i + 1) {
@@ -82,7 +82,7 @@ private:
     double missing = 0;
     for (const std::int32_t fan : fans) {
       visit_wedges(_surface, _fans, _part, fan,
-                   [&](const Wedge& wedge) { missing += std::max(0.0, _smallest - wedge.angle); });
+                   [&](const FanWedge& wedge) { missing += std::max(0.0, _smallest - wedge.angle); });
     }
     return missing;
   }

@@ -153,7 +153,7 @@ std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::
 }
 
 /// The item half way along the line.
-const LineItem& middle_of(const Line& line) {
+const LineItem& middle_of(const SurfaceLine& line) {
   int axis = 0;
   for (int k = 1; k < 3; ++k) axis = line.box.size()[k] > line.box.size()[axis] ? k : axis;
   const double middle = line.box.center()[axis];
@@ -162,7 +162,7 @@ const LineItem& middle_of(const Line& line) {
   });
 }
 
-Place place_at(const Line& line, const LineItem& item, bool is_upstream) {
+Place place_at(const SurfaceLine& line, const LineItem& item, bool is_upstream) {
   const LineItem mean = smoothed(line, item);
   return {item.point, mean.normal, mean.along, mean.size, is_upstream};
 }
@@ -216,15 +216,15 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
   if (!scene.has_body) return find_sharpest(communicator, surface, numbering, neighbours, scene);
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] { items = leading_items(surface, numbering, neighbours, scene); });
-  std::vector<Line> lines = gather_lines(communicator, items);
-  std::erase_if(lines,
-                [](const Line& line) { return line.extent() < least_length * line.items.front().size; });
+  std::vector<SurfaceLine> lines = gather_lines(communicator, items);
+  std::erase_if(
+      lines, [](const SurfaceLine& line) { return line.extent() < least_length * line.items.front().size; });
   std::optional<Place> found;
   if (!lines.empty()) {
     double longest = 0;
-    for (const Line& line : lines) longest = std::max(longest, line.extent());
-    std::erase_if(lines, [longest](const Line& line) { return line.extent() < as_long * longest; });
-    for (const Line& line : lines) {
+    for (const SurfaceLine& line : lines) longest = std::max(longest, line.extent());
+    std::erase_if(lines, [longest](const SurfaceLine& line) { return line.extent() < as_long * longest; });
+    for (const SurfaceLine& line : lines) {
       const LineItem& middle = middle_of(line);
       if (!found || middle.point.y < found->point.y) found = place_at(line, middle, true);
     }
@@ -246,9 +246,10 @@ std::optional<Place> find_junction(const Communicator& communicator, const Distr
       }
     });
   });
-  const std::vector<Line> lines = gather_lines(communicator, items);
-  const auto longest = std::max_element(lines.begin(), lines.end(),
-                                        [](const Line& a, const Line& b) { return a.extent() < b.extent(); });
+  const std::vector<SurfaceLine> lines = gather_lines(communicator, items);
+  const auto longest =
+      std::max_element(lines.begin(), lines.end(),
+                       [](const SurfaceLine& a, const SurfaceLine& b) { return a.extent() < b.extent(); });
   std::optional<Place> found;
   if (longest != lines.end() && longest->items.size() > least_edges) {
     const auto first =

@@ -86,7 +86,7 @@ private:
   bool split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes);
   /// The bound that no size may exceed at a point.
   double bound_at(GridPoint p) const;
-  std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;
+  std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, IndexRange range) const;
   SizeField finish(const Octree& octree, std::vector<float> own_corner_sizes) const;
 
   const parallel::Communicator& _communicator;

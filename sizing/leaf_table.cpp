@@ -64,7 +64,7 @@ struct PartOfTable {
   }
 };
 
-PartOfTable tabulate(const Pages& pages, Range own, CellSpans leaves) {
+PartOfTable tabulate(const Pages& pages, IndexRange own, CellSpans leaves) {
   Nodes nodes;
   PartOfTable part;
   std::size_t leaf = 0;

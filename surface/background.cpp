@@ -103,7 +103,7 @@ class SupportBuilder {
 public:
   SupportBuilder(const Model& model, const Subface& subface, const Background& background,
                  std::vector<std::int32_t>& part)
-      : _model(model), _seed(subface), _loops(background.loops), _part(part) {
+      : _model(model), _subface(subface), _loops(background.loops), _part(part) {
     const FaceMesh& mesh = background.mesh;
     const CornerParameters parameters(model, mesh);
     _support.face = mesh.face;
@@ -168,17 +168,17 @@ private:
                                      _loops.inside.begin() + segment->end);
     if (segment->from != from) std::reverse(inside.begin(), inside.end());
     std::vector<double> along{0};
-    Vec3 last = _seed.vertices.points[from];
+    Vec3 last = _subface.vertices.points[from];
     for (const std::int32_t v : inside) {
-      along.push_back(along.back() + distance(last, _seed.vertices.points[v]));
-      last = _seed.vertices.points[v];
+      along.push_back(along.back() + distance(last, _subface.vertices.points[v]));
+      last = _subface.vertices.points[v];
     }
-    const double length = along.back() + distance(last, _seed.vertices.points[to]);
+    const double length = along.back() + distance(last, _subface.vertices.points[to]);
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const double fraction = along[i + 1] / length;
       const Vec2 guess = (1 - fraction) * start_uv(_support, h) + fraction * end_uv(_support, h);
-      divisions.push_back({h, fraction, add_point(_seed.vertices.points[inside[i]], inside[i]),
-                           near(_seed.vertices.uv[inside[i]], guess)});
+      divisions.push_back({h, fraction, add_point(_subface.vertices.points[inside[i]], inside[i]),
+                           near(_subface.vertices.uv[inside[i]], guess)});
     }
   }
 
@@ -193,7 +193,7 @@ private:
   }
 
   const Model& _model;
-  const Subface& _seed;
+  const Subface& _subface;
   const CoarseLoops& _loops;
   std::vector<std::int32_t>& _part;
   Support _support;

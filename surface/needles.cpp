@@ -73,7 +73,7 @@ public:
 private:
   /// The vertex of the curves, -1 for others.
   CurveVertex curve_vertex(const Piece& piece, LocalIndex v) const {
-    if (piece.vertex_dimension[v] > mesh::CadDimension::edge) return -1;
+    if (!is_on_curve(piece.vertex_dimension[v])) return -1;
     const auto at = std::lower_bound(piece.shared_vertices.begin(), piece.shared_vertices.end(), v);
     return _curves.vertex_of(piece.shared_keys[at - piece.shared_vertices.begin()]);
   }

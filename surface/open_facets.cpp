@@ -13,7 +13,7 @@
 namespace aeroloom::surface {
 namespace {
 
-using cad::EdgeUse;
+using cad::Coedge;
 using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
@@ -65,7 +65,7 @@ void drop_opposite_pairs(Support& support) {
   support.corner_uv.resize(kept);
 }
 
-[[noreturn]] void fail(const Model& model, cad::FaceId face, const EdgeUse& use, Vec3 at) {
+[[noreturn]] void fail(const Model& model, cad::FaceId face, const Coedge& use, Vec3 at) {
   throw SurfaceError(fmt::format(
       "face {} (patch {}): its triangulation does not follow edge {} near ({:.6g}, {:.6g}, {:.6g}); repair "
       "this face in "

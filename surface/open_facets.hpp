@@ -35,7 +35,7 @@ private:
     CurveVertex vertex;  // -1: none
   };
   struct Line {
-    cad::EdgeUse use;
+    cad::Coedge use;
     bool constraining;
     std::vector<Node> nodes;
   };

@@ -52,7 +52,7 @@ FacePlace place_of(const TopoDS_Face& face);
 
 /// The parameter curve of one coedge along an edge.
 struct UseCurve {
-  EdgeUse use;
+  Coedge use;
   Geom2dAdaptor_Curve curve;
   double first = 0, last = 0;  ///< parameters of the curve at the ends of the edge's interval
 };
@@ -88,7 +88,7 @@ struct FaceEvaluator {
   Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
   std::vector<UseCurve> uses;  ///< by (edge, use)
 
-  const UseCurve& use(const EdgeUse& wanted) const;
+  const UseCurve& use(const Coedge& wanted) const;
 };
 
 /// Parameters of a point that lies on the face, from parameters near it.

@@ -237,7 +237,7 @@ PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent conten
       if (places[v] == 0) uses.emplace_back(piece.part.numbers[v], uses.size());
     }
   }
-  if (uses.size() > static_cast<std::size_t>(std::numeric_limits<PartIndex>::max()))
+  if (uses.size() > static_cast<std::size_t>(std::numeric_limits<PointIndex>::max()))
     throw std::length_error("a file would get more points than its 32-bit numbers can count");
   std::sort(uses.begin(), uses.end());
   std::vector<std::size_t> first_use(uses.size());
@@ -245,14 +245,14 @@ PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent conten
     if (uses[i].first != uses[first].first) first = i;
     first_use[uses[i].second] = uses[first].second;
   }
-  std::vector<PartIndex> place_of(uses.size());
+  std::vector<PointIndex> place_of(uses.size());
   std::size_t use = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     for (std::size_t v = 0; v < points.of_piece[p].size(); ++v) {
-      PartIndex& place = points.of_piece[p][v];
+      PointIndex& place = points.of_piece[p][v];
       if (place < 0) continue;
       if (first_use[use] == use) {
-        place_of[use] = static_cast<PartIndex>(points.numbers.size());
+        place_of[use] = static_cast<PointIndex>(points.numbers.size());
         points.numbers.push_back(pieces[p].part.numbers[v]);
         const auto point = pieces[p].part.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * v);
         points.coordinates.insert(points.coordinates.end(), point, point + 3);

@@ -83,7 +83,7 @@ TEST(Pages, AreSharedAlikeInTheirOrder) {
   for (const Cell& cell : cells) of_pages[pages.find(cell.key)] += 1;
   std::size_t next = 0;
   for (Rank rank = 0; rank < world.size(); ++rank) {
-    const Range own = pages.of_rank(rank);
+    const IndexRange own = pages.of_rank(rank);
     ASSERT_EQ(own.first, next);
     next = own.last;
     for (std::size_t page = own.first; page < own.last; ++page) {
@@ -111,7 +111,7 @@ TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const std::vector<Cell> cells = random_cells(seed, 40 * static_cast<int>(seed));
     SplitCubes alone, paged(world, pages_of(world, cells, 4));
-    const Range own = paged.own_pages();
+    const IndexRange own = paged.own_pages();
     for (const Cell& cell : cells) {
       alone.split(cell.key, cell.level - 1);
       const std::size_t page = paged.pages().find(cell.key);
@@ -141,7 +141,7 @@ TEST(SeedTree, OfManyRanksFindsTheCheapest) {
     for (const Cell& cell : random_cells(5, count))
       seeds.push_back(
           {grid_point(cell.key), grid_size >> cell.level, 1.0 + static_cast<double>(random() % 9999)});
-    const Range own = own_range(world, seeds.size());
+    const IndexRange own = own_range(world, seeds.size());
     for (std::size_t i = own.first; i < own.last; ++i) mine.push_back(seeds[i]);
     const SeedTree whole(Communicator::self(), seeds, 0.3), shared(world, mine, 0.3);
     for (int i = 0; i < 500; ++i) {

@@ -30,12 +30,12 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
   std::vector<FaceCorner> corners;
   for (const auto& whole_loop : face.loops) {
     // At a pole the edges before and behind it meet.
-    std::vector<EdgeUse> loop;
-    for (const EdgeUse& use : whole_loop) {
+    std::vector<Coedge> loop;
+    for (const Coedge& use : whole_loop) {
       if (!model.edge(use.edge).degenerate) loop.push_back(use);
     }
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const EdgeUse &arriving = loop[i], &leaving = loop[(i + 1) % loop.size()];
+      const Coedge &arriving = loop[i], &leaving = loop[(i + 1) % loop.size()];
       if (model.is_seam(arriving.edge) || model.is_seam(leaving.edge)) continue;
       const Edge& edge = model.edge(leaving.edge);
       corners.push_back({id, leaving.reversed ? edge.last : edge.first, arriving, leaving});
@@ -50,7 +50,7 @@ FaceId face_beyond(const Model& model, FaceId face, EdgeId id) {
   const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
   int uses = 0;
   for (const auto& loop : model.face(other).loops) {
-    for (const EdgeUse& use : loop) uses += use.edge == id;
+    for (const Coedge& use : loop) uses += use.edge == id;
   }
   return uses == 1 ? other : no_entity;
 }
@@ -60,7 +60,7 @@ BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner) {
                second = face_beyond(model, corner.face, corner.leaving.edge);
   if (first == no_entity || second == no_entity || first == second) return BeyondCorner::other;
   for (const auto& loop : model.face(first).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       const Edge& edge = model.edge(use.edge);
       const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
       if (at_corner && std::find(edge.faces.begin(), edge.faces.end(), second) != edge.faces.end())

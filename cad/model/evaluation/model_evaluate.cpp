@@ -117,7 +117,7 @@ double Model::edge_curvature(EdgeId id, double parameter) const {
 
 // Curve and parameter curve of an edge trace the same line, in many files not at the same pace: the parameter
 // curve gives a guess, the point of the edge decides.
-Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
+Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
   if (const JoinedModel* joined = _data->joined.get()) {
     const JoinedFace& all = joined->faces.at(face);
     if (all.sheets.size() == 1) return joined->base.edge_uv(all.sheets.front().face, use, parameter);
@@ -259,7 +259,7 @@ bool Model::is_seam(EdgeId id) const {
   if (edge.faces.size() != 1) return false;
   int uses = 0;
   for (const auto& loop : _data->faces[edge.faces.front()].loops) {
-    for (const EdgeUse& use : loop) uses += use.edge == id;
+    for (const Coedge& use : loop) uses += use.edge == id;
   }
   return uses > 1;
 }

@@ -192,9 +192,9 @@ std::int32_t FacetRefiner::add_triangle(const Triangle& triangle) {
 }
 
 std::int32_t FacetRefiner::partner(const BoundarySide& side) const {
-  const EdgeUse& use = _facets.boundary[side.line].use;
+  const Coedge& use = _facets.boundary[side.line].use;
   for (std::size_t l = 0; l < _facets.boundary.size(); ++l) {
-    const EdgeUse& other = _facets.boundary[l].use;
+    const Coedge& other = _facets.boundary[l].use;
     if (other.edge != use.edge || other.use == use.use) continue;
     const auto found = _side_at.find({static_cast<std::int32_t>(l), side.low});
     if (found != _side_at.end() && _sides[found->second].high == side.high) return found->second;

@@ -52,7 +52,7 @@ MeshedFace triangulate(const FaceEvaluator& evaluator, double deflection, double
   return meshed;
 }
 
-Facets::BoundaryLine boundary_line(const MeshedFace& meshed, const EdgeEvaluator& edge, const EdgeUse& use,
+Facets::BoundaryLine boundary_line(const MeshedFace& meshed, const EdgeEvaluator& edge, const Coedge& use,
                                    bool second) {
   TopoDS_Edge copied = TopoDS::Edge(meshed.copy.ModifiedShape(edge.shape));
   copied.Orientation(second ? TopAbs_REVERSED : TopAbs_FORWARD);

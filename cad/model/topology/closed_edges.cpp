@@ -191,7 +191,7 @@ private:
     std::vector<char> used(_base.edge_count(), 0);
     for (const FaceId id : _closed.base_faces) {
       for (const auto& loop : from.faces[id].loops) {
-        for (const EdgeUse& use : loop) used[use.edge] = 1;
+        for (const Coedge& use : loop) used[use.edge] = 1;
       }
     }
     const std::vector<double> reaches = reaches_of_vertices(used);
@@ -283,9 +283,9 @@ private:
   }
 
   /// As the neighbour's loop passes the edge.
-  EdgeUse coedge(const BorderEdge& border) const {
+  Coedge coedge(const BorderEdge& border) const {
     for (const auto& loop : _base.face(border.neighbour).loops) {
-      for (const EdgeUse& use : loop) {
+      for (const Coedge& use : loop) {
         if (use.edge == border.strip_use.edge) return use;
       }
     }
@@ -295,8 +295,8 @@ private:
   void rewrite_loops() {
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
       for (auto& loop : _data->faces[id].loops) {
-        std::vector<EdgeUse> now;
-        for (const EdgeUse& use : loop) append_coedges(_closed.base_faces[id], use, now);
+        std::vector<Coedge> now;
+        for (const Coedge& use : loop) append_coedges(_closed.base_faces[id], use, now);
         if (now.empty()) {
           throw CadError(fmt::format("face '{}' would vanish if the strips beside it were closed",
                                      _data->faces[id].name));
@@ -308,7 +308,7 @@ private:
     for (Edge& edge : _data->edges) edge.faces.clear();
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
       for (const auto& loop : _data->faces[id].loops) {
-        for (const EdgeUse& use : loop) {
+        for (const Coedge& use : loop) {
           auto& users = _data->edges[use.edge].faces;
           if (users.empty() || users.back() != id) users.push_back(id);
         }
@@ -319,14 +319,14 @@ private:
   /// Where a strip's end was all that kept two parts of a loop apart, the face would touch itself there.
   void require_simple(FaceId id) {
     std::map<VertexId, int> before, allowed, now;  // how often loops come by
-    const auto count = [](const Edge& edge, const EdgeUse& use, std::map<VertexId, int>& visits) {
+    const auto count = [](const Edge& edge, const Coedge& use, std::map<VertexId, int>& visits) {
       ++visits[use.reversed ? edge.last : edge.first];
     };
     for (const auto& loop : _base.face(_closed.base_faces[id]).loops) {
-      for (const EdgeUse& use : loop) count(_base.edge(use.edge), use, before);
+      for (const Coedge& use : loop) count(_base.edge(use.edge), use, before);
     }
     for (const auto& loop : _data->faces[id].loops) {
-      for (const EdgeUse& use : loop) count(_data->edges[use.edge], use, now);
+      for (const Coedge& use : loop) count(_data->edges[use.edge], use, now);
     }
     for (const auto& [v, visits] : before) {
       int& most = allowed[_roots->root(v)];
@@ -340,7 +340,7 @@ private:
     }
   }
 
-  void append_coedges(FaceId base_face, const EdgeUse& use, std::vector<EdgeUse>& loop) const {
+  void append_coedges(FaceId base_face, const Coedge& use, std::vector<Coedge>& loop) const {
     const BaseEdgeFate& fate = _closed.fates[use.edge];
     if (fate.kind == BaseEdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
     const std::size_t first = loop.size();

@@ -167,7 +167,7 @@ const BorderPart& ClosedEdges::part(EdgeId id, FaceId base_face) const {
   return parts[0].face == base_face ? parts[0] : parts[1];
 }
 
-Vec2 ClosedEdges::base_uv(FaceId id, const EdgeUse& use, double parameter) const {
+Vec2 ClosedEdges::base_uv(FaceId id, const Coedge& use, double parameter) const {
   const FaceId face = base_faces[id];
   if (base_edges[use.edge] != no_entity)
     return base.edge_uv(face, {base_edges[use.edge], use.use, use.reversed}, parameter);

@@ -65,8 +65,8 @@ void take_uses(const Model& base, JoinedFace& joined, Face& face) {
   face.loops.clear();
   for (std::size_t s = 0; s < joined.sheets.size(); ++s) {
     for (auto loop : base.face(joined.sheets[s].face).loops) {
-      for (EdgeUse& use : loop) {
-        const EdgeUse own = use;
+      for (Coedge& use : loop) {
+        const Coedge own = use;
         const bool taken =
             std::any_of(joined.uses.begin(), joined.uses.end(), [&](const JoinedFace::Use& other) {
               return other.use.edge == use.edge && other.use.use == use.use;

@@ -37,8 +37,8 @@ Vec2 JoinedFace::from_member(std::int32_t sheet, Vec2 uv) const {
   return {std::clamp(uv.x + s.shift, s.low, s.high), uv.y};
 }
 
-const JoinedFace::Use& JoinedFace::use(const EdgeUse& wanted) const {
-  const auto found = std::lower_bound(uses.begin(), uses.end(), wanted, [](const Use& a, const EdgeUse& b) {
+const JoinedFace::Use& JoinedFace::use(const Coedge& wanted) const {
+  const auto found = std::lower_bound(uses.begin(), uses.end(), wanted, [](const Use& a, const Coedge& b) {
     return std::pair(a.use.edge, a.use.use) < std::pair(b.edge, b.use);
   });
   return *found;

@@ -20,13 +20,13 @@ struct CellSpans {
 };
 
 /// A range of numbers.
-struct Range {
+struct IndexRange {
   std::size_t first, last;
 
   std::size_t size() const { return last - first; }
 };
 /// This rank's part of so many, which all ranks share alike.
-Range own_range(const parallel::Communicator& communicator, std::size_t count);
+IndexRange own_range(const parallel::Communicator& communicator, std::size_t count);
 
 /// Cubes that tile the root, in their order along the Morton curve, each with the rank that makes what lies
 /// in it: neighbours along the curve, about as much for each. Which there are is known on every rank, and
@@ -51,7 +51,7 @@ public:
                                        _firsts.begin()) -
            1;
   }
-  Range of_rank(parallel::Rank rank) const {
+  IndexRange of_rank(parallel::Rank rank) const {
     const auto r = static_cast<std::size_t>(rank);
     return {_firsts[r], r + 1 < _firsts.size() ? _firsts[r + 1] : count()};
   }

@@ -14,7 +14,7 @@ namespace aeroloom::cad {
 struct FaceCorner {
   FaceId face = no_entity;
   VertexId vertex = no_entity;
-  EdgeUse arriving, leaving;
+  Coedge arriving, leaving;
 };
 
 /// One of the two ends of an edge, as a vertex sees it.
@@ -24,7 +24,7 @@ struct EdgeEnd {
 
   static constexpr auto fields() { return std::tuple(&EdgeEnd::edge, &EdgeEnd::first); }
 };
-inline EdgeEnd end_at_corner(const EdgeUse& use, bool leaving) {
+inline EdgeEnd end_at_corner(const Coedge& use, bool leaving) {
   return {use.edge, leaving != use.reversed};
 }
 

@@ -11,7 +11,7 @@ namespace aeroloom::cad {
 
 /// An edge on the way along one long border of a strip.
 struct BorderEdge {
-  EdgeUse strip_use;             ///< as the strip's loop passes it
+  Coedge strip_use;              ///< as the strip's loop passes it
   bool against = false;          ///< the border runs against the edge's parameter
   FaceId neighbour = no_entity;  ///< the face beyond
 };

@@ -1,4 +1,4 @@
-#include "surface/face_mesher.hpp"
+#include "surface/piece_mesher.hpp"
 
 #include "cad/model/evaluation/face_width.hpp"
 #include "surface/support_mesher.hpp"
