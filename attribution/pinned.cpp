@@ -34,14 +34,14 @@ double largest_allowed(double target) {
   return straight - weight * target;
 }
 
-double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {
-  return geometry::degrees_per_radian * std::atan2(norm(cross(a - tip, b - tip)), dot(a - tip, b - tip));
+double corner_angle(Vec3 apex, Vec3 a, Vec3 b) {
+  return geometry::degrees_per_radian * std::atan2(norm(cross(a - apex, b - apex)), dot(a - apex, b - apex));
 }
 
 class PinnedSearch {
 public:
   PinnedSearch(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-               const mesh::Numbering& numbering, double target, const mesh::CellsBeyond& suspects,
+               const mesh::Numbering& numbering, double target, const mesh::CellsOutside& suspects,
                bool surface_may_change)
       : _communicator(communicator),
         _mesh(mesh),
@@ -103,7 +103,7 @@ private:
   const parallel::Communicator& _communicator;
   const mesh::DistributedMesh& _mesh;
   const mesh::Numbering& _numbering;
-  const mesh::CellsBeyond& _suspects;
+  const mesh::CellsOutside& _suspects;
   double _target;
   bool _surface_may_change;
   mesh::TetQuality _measure;
@@ -196,13 +196,13 @@ std::vector<std::array<LocalIndex, 4>> PinnedSearch::sharp_corners(const Piece& 
   for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int k = 0; k < 3; ++k) {
-      const LocalIndex tip = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
-      if (piece.vertex_dimension[tip] != mesh::CadDimension::vertex ||
+      const LocalIndex apex = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+      if (piece.vertex_dimension[apex] != mesh::CadDimension::vertex ||
           !is_on_curve(piece.vertex_dimension[a]) || !is_on_curve(piece.vertex_dimension[b])) {
         continue;
       }
-      if (corner_angle(piece.point(tip), piece.point(a), piece.point(b)) < _target)
-        corners.push_back({tip, a, b, t});
+      if (corner_angle(piece.point(apex), piece.point(a), piece.point(b)) < _target)
+        corners.push_back({apex, a, b, t});
     }
   }
   return corners;
@@ -213,15 +213,15 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
   const Piece& piece = _mesh.pieces[i];
   const LocalIndex* c = piece.cell(bad.tet);
   const auto has = [c](LocalIndex v) { return c[0] == v || c[1] == v || c[2] == v || c[3] == v; };
-  for (const auto& [tip, a, b, triangle] : corners) {
-    if (!has(tip) || !has(a) || !has(b)) continue;
+  for (const auto& [apex, a, b, triangle] : corners) {
+    if (!has(apex) || !has(a) || !has(b)) continue;
     const std::int32_t face = piece.triangle_face[triangle];
     _entities.push_back({.kind = PinningEntity::Kind::curves,
                          .faces = {face, face},
-                         .vertex = piece.vertex_entity[tip],
-                         .angle = corner_angle(piece.point(tip), piece.point(a), piece.point(b)),
+                         .vertex = piece.vertex_entity[apex],
+                         .angle = corner_angle(piece.point(apex), piece.point(a), piece.point(b)),
                          .smallest_dihedral = bad.angles.smallest,
-                         .at = piece.point(tip),
+                         .at = piece.point(apex),
                          .tetrahedra = 1});
     return true;
   }
@@ -361,7 +361,7 @@ mesh::DihedralRange suspect_angles(double target_angle) {
 
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,
-                         const mesh::CellsBeyond& suspects, bool surface_may_change) {
+                         const mesh::CellsOutside& suspects, bool surface_may_change) {
   return PinnedSearch(communicator, mesh, numbering, target_angle, suspects, surface_may_change).run();
 }
 

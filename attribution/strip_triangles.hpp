@@ -10,8 +10,8 @@
 
 namespace aeroloom::attribution {
 
-/// A triangle is one of a strip when its height over a side on one curve is at most this part of that side.
-/// Chosen, not measured.
+/// A triangle is one of a strip when its height over a side on one curve is at most this fraction of that
+/// side. Chosen, not measured.
 inline constexpr double strip_fraction = 0.4;
 
 struct StripTriangle {

@@ -69,7 +69,7 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
 }
 
 // Other tetrahedra have their vertices in common with the walls: faces that are no triangles of the surface
-// mesh. Vertices on CAD curves may be known beyond.
+// mesh. Vertices on CAD curves may be known in other pieces.
 void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   std::vector<mesh::TetFace> walls = mesh::boundary_faces(cavity.tets);
   std::vector<std::array<LocalIndex, 3>> free;
@@ -197,7 +197,7 @@ std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavit
                                                                      int trials, std::uint64_t seed,
                                                                      ImproveReport& report) {
   // Of the vertices' shortest edges; the only value that was tried.
-  constexpr double share = 0.3;
+  constexpr double fraction = 0.3;
   order_vertices(cavity);
   build_piece(cavity);
   const Piece start = _piece;
@@ -206,7 +206,7 @@ std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavit
   ImproveReport changes;
   for (int trial = 0; trial < trials && best.second < 0; ++trial) {
     _piece = start;
-    if (trial > 0) scatter(_piece, share, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
+    if (trial > 0) scatter(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
     const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::unsparing);
     const auto now = judge(_piece, _measure);
     if (now <= best) continue;

@@ -12,7 +12,7 @@ namespace aeroloom::improve {
 namespace {
 
 /// Of the target: what a change may leave for the sweeps to mend. Chosen, not measured.
-constexpr double least_share = 0.2;
+constexpr double least_fraction = 0.2;
 constexpr int sweeps_after = 8;  // chosen, not measured
 
 /// Whether two faces on the boundary enclose less than twice the target angle, which no two tetrahedra can
@@ -82,7 +82,7 @@ bool CornerTrials::relieve(TetMesh& mesh, LocalIndex t) {
   const AttainableQuality strips(start, mesh.measure());
   const AttainableQuality everywhere(mesh.measure());
   const ChangeLimits limits(_field, &strips, _effort);
-  CornerRelief relief(limits, least_share);
+  CornerRelief relief(limits, least_fraction);
   mesh::Piece piece = start;
   TetMesh untouched(piece, mesh.measure());
   const std::vector<Relief>& found = relief.find(untouched, 0);

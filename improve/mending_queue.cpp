@@ -123,10 +123,11 @@ bool MendingQueue::worth_trying(LocalIndex t, Means means) const {
 
 bool MendingQueue::mend(LocalIndex t, Means means) {
   if (swap(t) || smooth(t)) return true;
-  const double share = _mesh.quality(t) / target_of(t);
-  if (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) return true;
+  const double fraction = _mesh.quality(t) / target_of(t);
+  if (means >= Means::moving_cavities && fraction < worth_moving && (contract(t) || move_cavity(t)))
+    return true;
   if (is_spared(t)) return false;
-  return (means >= Means::new_vertices && share < worth_adding && insert_vertex(t)) ||
+  return (means >= Means::new_vertices && fraction < worth_adding && insert_vertex(t)) ||
          (means >= Means::moving_cavities && slide(t)) || (means >= Means::new_vertices && reconnect(t));
 }
 

@@ -131,7 +131,7 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
       FaceLocus locus(model, entity, *uv, gentle);
       moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_sliding_gain);
     }
-  } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand beyond
+  } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand on the other side
     if (const auto parameter = _locator.on_edge(entity, mesh.point(vertex), tolerance)) {
       EdgeLocus locus(model, entity, *parameter, gentle);
       moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_sliding_gain);

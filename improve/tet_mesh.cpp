@@ -226,7 +226,7 @@ void TetMesh::finish() {
   remove_unused_vertices();
 }
 
-// Slots beyond the original ones are merged in behind the original slot their cavity had, in order of their
+// Slots beyond the original ones are merged in after the original slot their cavity had, in order of their
 // making.
 void TetMesh::order_cells() {
   std::vector<LocalIndex> added(_place.size());

@@ -165,14 +165,14 @@ private:
     for (std::size_t f = 1; f < faces; ++f) {
       if (group[f].order < given->order) given = &group[f];
     }
-    if (given != nullptr) face.corners = turned_like(given->corners, cells[0].corners);
+    if (given != nullptr) face.corners = oriented_like(given->corners, cells[0].corners);
     face.order = given != nullptr ? given->order : -1;
     face.patch = given != nullptr ? given->patch : none;
   }
 
   /// The corners as the file has them, from the first one, in the direction of the cell's side; those of the
   /// side where the file goes crosswise.
-  static FaceKey<GlobalIndex> turned_like(FaceKey<GlobalIndex> corners, const FaceKey<GlobalIndex>& side) {
+  static FaceKey<GlobalIndex> oriented_like(FaceKey<GlobalIndex> corners, const FaceKey<GlobalIndex>& side) {
     if (mesh::opposite_direction(corners, side)) std::swap(corners[1], corners[corners[3] < 0 ? 2 : 3]);
     return mesh::same_direction(corners, side) ? corners : side;
   }

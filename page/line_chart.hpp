@@ -17,7 +17,7 @@ struct ChartLine {
 struct LineChart {
   std::string title, x_name, y_name;  ///< plain text
   bool logarithmic = false;           ///< both axes; x is so always
-  bool percent = false;               ///< numbers of y are parts of one
+  bool percent = false;               ///< numbers of y are fractions
   double y_least = 0;                 ///< where y begins, of a linear axis
 };
 

@@ -141,7 +141,7 @@ void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& par
   for (const auto& [p, c] : heaviest) placed[c] = 1;
   for (bool changed = true; changed;) {
     changed = false;
-    std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part beyond: length
+    std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part on the other side: length
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
       const geometry::HalfEdge twin = surface.twins[h];
       if (twin < 0 || placed[component[h / 3]] || !placed[component[twin / 3]]) continue;

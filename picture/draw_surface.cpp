@@ -44,7 +44,7 @@ public:
               brightness(_camera.view,
                          shading_normal(normal, neighbours.data() + 3 * static_cast<std::size_t>(t))));
       TriangleStyle style{colour, mix(colour, ink, 0.8), 1.1};
-      if (_look.edge_opacity > 0) style.line_opacity.fill(_look.edge_opacity * visible_share(corners));
+      if (_look.edge_opacity > 0) style.line_opacity.fill(_look.edge_opacity * visible_fraction(corners));
       _canvas.draw_triangle(corners, style);
       for (int i = 0; i < 3; ++i) {
         const EdgeNeighbour& neighbour = neighbours[3 * static_cast<std::size_t>(t) + i];
@@ -72,7 +72,7 @@ private:
   }
 
   /// Lines get lighter where they come closer than a few pixels.
-  static double visible_share(const std::array<ScreenPoint, 3>& c) {
+  static double visible_fraction(const std::array<ScreenPoint, 3>& c) {
     const double area =
         std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
     double longest = 0;

@@ -33,7 +33,7 @@ struct TriangleSide {
 };
 
 /// Tells the sides of one edge apart.
-std::tuple<mesh::PieceId, std::int32_t> turn_of(const TriangleSide& side) {
+std::tuple<mesh::PieceId, std::int32_t> place_of(const TriangleSide& side) {
   return {side.piece, side.item};
 }
 
@@ -83,9 +83,9 @@ void tell_each(std::span<const Member> run, const Tell& tell) {
 
 }  // namespace
 
-double angle_at(Vec3 normal, Vec3 edge, const EdgeNeighbour& beyond) {
+double angle_at(Vec3 normal, Vec3 edge, const EdgeNeighbour& neighbour) {
   // Normals point into the wall: what is convex for the flow is concave from there.
-  return -std::atan2(dot(cross(normal, beyond.normal), normalized(edge)), dot(normal, beyond.normal));
+  return -std::atan2(dot(cross(normal, neighbour.normal), normalized(edge)), dot(normal, neighbour.normal));
 }
 
 EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
@@ -100,7 +100,7 @@ EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
     std::vector<TriangleSide> sides = sides_of(surface, numbering, shown, p);
     std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
-      return a.ends != b.ends ? a.ends < b.ends : turn_of(a) < turn_of(b);
+      return a.ends != b.ends ? a.ends < b.ends : place_of(a) < place_of(b);
     });
     mesh::for_each_key(sides, &TriangleSide::ends, [&](std::span<const TriangleSide> run) {
       const std::int32_t item = run.front().item;
@@ -117,7 +117,7 @@ EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
   parallel::agree(communicator, [&] {
     for (std::size_t p = 0; p < surface.pieces.size(); ++p) match_within(p);
   });
-  const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, turn_of);
+  const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, place_of);
   const auto answers = meeting.answer<Answer>([](const auto& run, const auto& reply) {
     tell_each(run, [&](const mesh::Guest<TriangleSide>& guest, const EdgeNeighbour& neighbour) {
       reply(guest, {guest.item.place, guest.item.item, neighbour});

@@ -12,7 +12,7 @@
 
 namespace aeroloom::picture {
 
-/// The triangle beyond an edge.
+/// The triangle on the other side of an edge.
 struct EdgeNeighbour {
   geometry::Vec3 normal;   ///< unit, as its own; zero where there is no triangle
   std::int32_t face = -1;  ///< CAD face
@@ -27,7 +27,7 @@ struct EdgeNeighbour {
   }
 };
 
-/// Per local piece, three for each triangle: beyond the edge from its corner i to corner i + 1.
+/// Per local piece, three for each triangle: over the edge from its corner i to corner i + 1.
 using EdgeNeighbours = std::vector<std::vector<EdgeNeighbour>>;
 
 /// Edges within a piece are matched there; those with one triangle in it travel. Where several triangles
@@ -40,6 +40,6 @@ EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
 /// The angle in radians by which the surface turns at the edge with this direction, counter-clockwise around
 /// a triangle with this normal: positive where the wall is convex for who stands in the flow, as at a leading
 /// edge; negative in a crease, as between wing and fuselage.
-double angle_at(geometry::Vec3 normal, geometry::Vec3 edge, const EdgeNeighbour& beyond);
+double angle_at(geometry::Vec3 normal, geometry::Vec3 edge, const EdgeNeighbour& neighbour);
 
 }  // namespace aeroloom::picture

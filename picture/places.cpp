@@ -27,7 +27,7 @@ constexpr double corner = 75 * degree;      ///< coarse triangles on a rounding 
 /// The flow comes from before a line, within 73 degrees of its normal.
 constexpr double least_upstream = 0.3;
 /// Of the turn of an edge or triangle: the flow that it divides comes from within that.
-constexpr double share_of_edge = 0.45, share_of_triangle = 0.75;
+constexpr double fraction_of_edge = 0.45, fraction_of_triangle = 0.75;
 constexpr double most_of_triangle = 30 * degree;
 /// Curvature over the inverse of the diagonal: of a leading edge, which is curved one way, and of the
 /// sharpest place.
@@ -54,7 +54,7 @@ struct Element {
   double area = 0, size = 0;
   std::array<double, 3> turns = {0, 0, 0};             ///< at the edge from corner i, radians
   std::array<Vec3, 3> bisectors;                       ///< half way between the normals of both sides
-  std::array<bool, 3> inside = {false, false, false};  ///< whether what lies beyond is shown
+  std::array<bool, 3> inside = {false, false, false};  ///< whether the neighbour there is shown
 
   Vec3 edge(int i) const { return corners[(i + 1) % 3] - corners[i]; }
   Vec3 middle() const { return (corners[0] + corners[1] + corners[2]) / 3; }
@@ -138,14 +138,14 @@ std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::
   for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
       if (e.turns[i] < sharp_turn) continue;
-      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), share_of_edge * e.turns[i]))
+      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), fraction_of_edge * e.turns[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
     if (curvature.largest * diagonal < least_curvature ||
         std::abs(curvature.smallest) > most_of_other * curvature.largest)
       return;
-    const double angle = std::min(share_of_triangle * curvature.largest * e.size, most_of_triangle);
+    const double angle = std::min(fraction_of_triangle * curvature.largest * e.size, most_of_triangle);
     if (flow_divides(e.normal, curvature.along, angle))
       items.push_back(item_of_triangle(e, curvature, vertices));
   });

@@ -183,10 +183,11 @@ Picture views_picture(const Subject& subject) {
   const double wide = seen[2].size().x + right, tall = seen[0].size().y + seen[2].size().y;
   const double scale = std::min((width - 4 * gap) / wide, (most - 4 * gap) / tall);
   const int left = static_cast<int>(width * seen[2].size().x / wide);
-  const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, no_extent);
+  const double view_from_aft = (width - left) * seen[1].size().y / std::max(seen[1].size().x, no_extent);
   const int lower = static_cast<int>(std::lround(scale * seen[2].size().y + 2 * gap));
-  const int upper = static_cast<int>(std::lround(std::max(
-      scale * seen[0].size().y + 2 * gap, std::min(behind + 2 * gap, static_cast<double>(most - lower)))));
+  const int upper = static_cast<int>(
+      std::lround(std::max(scale * seen[0].size().y + 2 * gap,
+                           std::min(view_from_aft + 2 * gap, static_cast<double>(most - lower)))));
   const std::array<Window, 4> windows = {{{0, 0, left, upper},
                                           {left, 0, width - left, upper},
                                           {0, upper, left, lower},

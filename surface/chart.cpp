@@ -18,8 +18,8 @@ namespace {
 using geometry::degree;
 /// Below this spread of normals a parallel projection stretches by less than 7 %.
 constexpr double projection_spread = 20 * degree;
-/// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,
-/// and one that is the best to be had.
+/// Slivers may fold as long as they carry no more than this fraction of the area: a chart that obeys its
+/// limits, and one that is the best to be had.
 constexpr double acceptable_fold = 1e-4, bearable_fold = 1e-3;
 /// The limit for parts that lie over others: chords of curves that meet at a sharp angle cross near their
 /// meeting point.

@@ -13,7 +13,7 @@ using mesh::LocalIndex;
 using mesh::Piece;
 using sizing::SizeSource;
 
-/// Sizes at a short side, in its length; less of a fall than this part of the size there is not worth a
+/// Sizes at a short side, in its length; less of a fall than this fraction of the size there is not worth a
 /// round.
 constexpr double sides = 2, worthwhile = 0.8;
 /// A leg that is shorter than this, over the longest of short ones, is a short one whose size has been

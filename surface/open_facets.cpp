@@ -18,14 +18,14 @@ using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
-/// A facet node moves to a curve vertex within this part of the distance to the next node or vertex. Farther
-/// away it is a point of its own. Chosen, not measured.
-constexpr double reuse_part = 1e-4;
-/// Two coedges along a seam have a node in common where their parameters agree to this part of the distance
-/// to the next. Chosen, not measured.
-constexpr double same_parameter_part = 1e-7;
-/// Points closer than this part of the face's extent are one, unless both are mesh vertices. Rounding leaves
-/// them less than that apart.
+/// A facet node moves to a curve vertex within this fraction of the distance to the next node or vertex.
+/// Farther away it is a point of its own. Chosen, not measured.
+constexpr double reuse_fraction = 1e-4;
+/// Two coedges along a seam have a node in common where their parameters agree to this fraction of the
+/// distance to the next. Chosen, not measured.
+constexpr double same_parameter_fraction = 1e-7;
+/// Points closer than this fraction of the face's extent are one, unless both are mesh vertices. Rounding
+/// leaves them less than that apart.
 constexpr double no_distance = 1e-10;
 
 using Joining = geometry::DisjointSets<std::int32_t>;
@@ -153,7 +153,7 @@ void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
       wanted.push_back({parameters[i], chain[i], curves.points[chain[i]]});
     }
-    plan(line, wanted, reuse_part, table, divisions);
+    plan(line, wanted, reuse_fraction, table, divisions);
   }
   divide(std::move(divisions));
 }
@@ -176,7 +176,7 @@ void OpenFacets::match_seams() {
     for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i) {
       wanted.push_back({other->nodes[i].parameter, -1, _support.points[other->nodes[i].point]});
     }
-    plan(line, wanted, same_parameter_part, table, divisions);
+    plan(line, wanted, same_parameter_fraction, table, divisions);
   }
   divide(std::move(divisions));
 }

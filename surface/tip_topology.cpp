@@ -57,13 +57,13 @@ struct Closing {
   static constexpr auto fields() { return std::tuple(&Closing::tip, &Closing::pairs); }
 };
 
-/// How the triangles beyond a tip's first `pairs` pairs know its vertices.
+/// How the triangles after a tip's first `pairs` pairs know its vertices.
 class Surroundings {
 public:
   Surroundings(const Piece& piece, const std::vector<std::int32_t>& ranks, std::int32_t pairs)
       : _piece(piece), _ranks(ranks), _pairs(pairs) {}
 
-  /// One triangle, beyond the last pair, has both vertices of a pair, and what closes does not fold others.
+  /// One triangle, after the last pair, has both vertices of a pair, and what closes does not fold others.
   bool let_close() {
     std::map<LocalIndex, std::vector<LocalIndex>> neighbours;  // of the vertices of the last pair
     int closing = 0;

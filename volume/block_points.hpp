@@ -45,7 +45,7 @@ inline int slot_at(int x, int y, int z) {
   return slots[x + 2 * y + 4 * z];
 }
 
-/// Which block and slot a point of the lattice has, by a running number: its shared-vertex key behind those
+/// Which block and slot a point of the lattice has, by a running number: its shared-vertex key after those
 /// of the surface.
 inline std::int64_t lattice_number(const LatticeTree& tree, BlockIndex block, int slot) {
   return tree.number(block) * slots_per_block + slot;

@@ -89,9 +89,9 @@ void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) 
 bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const {
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, b = (axis + 1) % 3, d = (axis + 2) % 3, sign = side % 2 == 0 ? -1 : 1;
-    HalfPlace beyond = leaf;
-    beyond[axis] += sign;
-    const LeafSurroundings::Cube& cube = around.cube(beyond);
+    HalfPlace across = leaf;
+    across[axis] += sign;
+    const LeafSurroundings::Cube& cube = around.cube(across);
     if (cube.size != LeafSurroundings::Size::same || is_core(cube.leaf)) continue;
     const int on_edges = around.points_on_edges(leaf, side);
     if (on_edges == 4) return true;
@@ -143,9 +143,9 @@ void CoreLeaves::claim(const LatticeTree& tree) {
         continue;
       const HalfPlace leaf = around.place_of(child);
       for (int side = 0; side < 6; ++side) {
-        HalfPlace beyond = leaf;
-        beyond[side / 2] += side % 2 == 0 ? -1 : 1;
-        const LeafSurroundings::Cube& cube = around.cube(beyond);
+        HalfPlace across = leaf;
+        across[side / 2] += side % 2 == 0 ? -1 : 1;
+        const LeafSurroundings::Cube& cube = around.cube(across);
         if (cube.size == LeafSurroundings::Size::same && is_core(cube.leaf) &&
             _present[_ghosts.place(cube.leaf.block)].region == _present[i].region &&
             around.points_on_edges(leaf, side) == 0)

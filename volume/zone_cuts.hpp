@@ -104,8 +104,7 @@ private:
   }
 
   ZoneIndex _count;
-  std::vector<Cut>
-      _cuts;  // of n zones: the cut between the n / 2 lower ones and the others, theirs behind it
+  std::vector<Cut> _cuts;  // of n zones: the cut between the n / 2 lower ones and the others, theirs after it
 };
 
 }  // namespace aeroloom::volume

@@ -17,7 +17,7 @@ struct ZoneFilling {
   bool filled = false;
   std::string failure;                ///< why not, one line or more
   OwnedCells owned;                   ///< cells ordered along a space-filling curve
-  std::vector<geometry::Vec3> added;  ///< points of TetGen, numbered behind the given ones
+  std::vector<geometry::Vec3> added;  ///< points of TetGen, numbered after the given ones
   double cpu_seconds = 0;             ///< of the child
   std::int64_t child_peak_bytes = 0;
 };

@@ -219,8 +219,8 @@ private:
   bool are_beside(const EdgePiece& a, const EdgePiece& b) {
     const bool alike = std::minmax(a.start, a.end) == std::minmax(b.start, b.end);
     if (!alike) return false;
-    for (const double share : {0.5, 0.25, 0.75}) {
-      const Vec3 at = samples(a.edge).point(a.first + share * (a.last - a.first));
+    for (const double fraction : {0.5, 0.25, 0.75}) {
+      const Vec3 at = samples(a.edge).point(a.first + fraction * (a.last - a.first));
       if (samples(b.edge).nearest(at, looked_for * _tolerance).away > beside * _tolerance) return false;
     }
     return true;
@@ -298,13 +298,13 @@ private:
       made = TopoDS::Vertex(_vertices(root + 1).Oriented(TopAbs_FORWARD));
       return made;
     }
-    const auto [at, reach] = _united.middle(root);
+    const auto [at, radius] = _united.middle(root);
     double tolerance = Precision::Confusion();
     for (int v = 0; v < _vertices.Extent(); ++v) {
       if (_united.root(v) == root)
         tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Vertex(_vertices(v + 1))));
     }
-    BRep_Builder().MakeVertex(made, gp_Pnt(at.x, at.y, at.z), holding * reach + tolerance);
+    BRep_Builder().MakeVertex(made, gp_Pnt(at.x, at.y, at.z), holding * radius + tolerance);
     return made;
   }
 

@@ -58,14 +58,14 @@ std::span<const Block> blocks_of(const FilePart& part, PartContent content) {
 /// The plan for a file, the same on every rank.
 struct FilePlan {
   parallel::Rank writer = 0;
-  std::size_t turn = 0;  ///< the files of this writer before it
+  std::size_t round = 0;  ///< the files of this writer before it
 };
 
 /// Which part goes into which file, a function of the mesh alone, and who writes that.
 struct Plan {
   std::vector<std::size_t> file_of;  ///< per part
   std::vector<FilePlan> files;
-  std::size_t turns = 0;  ///< that the busiest writer takes
+  std::size_t rounds = 0;  ///< that the busiest writer takes
 
   const FilePlan& plan_of(const PartPiece& piece) const { return files[file_of[piece.part.id]]; }
 };
@@ -92,14 +92,14 @@ std::vector<PlaceRow> gather_rows(const parallel::Communicator& communicator,
 Plan plan_files(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
                 PartContent content, mesh::GlobalIndex items_per_file) {
   Plan plan;
-  std::vector<std::size_t> turns(communicator.size(), 0);
+  std::vector<std::size_t> rounds(communicator.size(), 0);
   std::map<parallel::Rank, mesh::GlobalIndex> held;  // of the file that is being filled
   mesh::GlobalIndex filled = 0;
   const auto close = [&] {
     const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
     const parallel::Rank writer = std::max_element(held.begin(), held.end(), less)->first;
-    plan.files.push_back({writer, turns[writer]++});
-    plan.turns = std::max(plan.turns, turns[writer]);
+    plan.files.push_back({writer, rounds[writer]++});
+    plan.rounds = std::max(plan.rounds, rounds[writer]);
     held.clear();
     filled = 0;
   };
@@ -180,13 +180,13 @@ PartPiece view(const BroughtPiece& brought) {
   return piece;
 }
 
-/// Brings the parts that the files of this turn lack on their writers.
+/// Brings the parts that the files of this round lack on their writers.
 std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicator,
-                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t turn) {
+                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t round) {
   std::map<parallel::Rank, parallel::Packer> packers;
   for (const PartPiece& piece : mine) {
     const FilePlan& file = plan.plan_of(piece);
-    if (file.turn == turn && file.writer != communicator.rank())
+    if (file.round == round && file.writer != communicator.rank())
       parallel::pack(packers[file.writer], arrays_of(piece));
   }
   std::vector<parallel::Parcel> parcels;
@@ -201,14 +201,14 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   return pieces;
 }
 
-/// The parts of this rank's file of a turn, ascending; none where its files are written.
-std::vector<PartPiece> pieces_of_turn(const parallel::Communicator& communicator,
-                                      std::span<const PartPiece> mine, const Plan& plan, std::size_t turn,
-                                      const std::vector<BroughtPiece>& brought) {
+/// The parts of this rank's file of a round, ascending; none where its files are written.
+std::vector<PartPiece> pieces_of_round(const parallel::Communicator& communicator,
+                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t round,
+                                       const std::vector<BroughtPiece>& brought) {
   std::vector<PartPiece> pieces;
   for (const PartPiece& piece : mine) {
     const FilePlan& file = plan.plan_of(piece);
-    if (file.turn == turn && file.writer == communicator.rank()) pieces.push_back(piece);
+    if (file.round == round && file.writer == communicator.rank()) pieces.push_back(piece);
   }
   for (const BroughtPiece& other : brought) pieces.push_back(view(other));
   std::sort(pieces.begin(), pieces.end(),
@@ -285,10 +285,10 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
     if (communicator.is_root()) prepare_folder(files);
   });
   const Plan plan = plan_files(communicator, mine, content, items_per_file);
-  parallel::Progress progress("output", static_cast<std::int64_t>(plan.turns), "files");
-  for (std::size_t turn = 0; turn < plan.turns; ++turn) {
-    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, turn);
-    const std::vector<PartPiece> pieces = pieces_of_turn(communicator, mine, plan, turn, brought);
+  parallel::Progress progress("output", static_cast<std::int64_t>(plan.rounds), "files");
+  for (std::size_t round = 0; round < plan.rounds; ++round) {
+    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, round);
+    const std::vector<PartPiece> pieces = pieces_of_round(communicator, mine, plan, round, brought);
     parallel::agree(communicator, [&] {
       if (!pieces.empty()) write(pieces, files.part_path(plan.file_of[pieces[0].part.id]));
     });

@@ -135,8 +135,8 @@ Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
   const Edge& edge = _data->edges[use.edge];
   double at = parameter;
   if (on_face.first != edge.first_parameter || on_face.last != edge.last_parameter) {
-    const double share = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
-    at = on_face.first + share * (on_face.last - on_face.first);
+    const double fraction = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
+    at = on_face.first + fraction * (on_face.last - on_face.first);
   }
   const gp_Pnt2d guess = on_face.curve.Value(at);
   const bool is_end = parameter == edge.first_parameter || parameter == edge.last_parameter;

@@ -12,8 +12,8 @@ namespace {
 // follow. A pass halves the worst facets, so that two dozen reach any deflection; chosen, not measured.
 constexpr int passes = 24;
 constexpr std::size_t most_growth = 20, least_allowance = 20000;
-/// Facets whose longest side is shorter, over the deflection, are good however they are turned: dividing them
-/// gains nothing that anyone sees.
+/// Facets whose longest side is shorter, over the deflection, are good however they are oriented: dividing
+/// them gains nothing that anyone sees.
 constexpr double shortest_side = 0.1;
 /// Twice the area over the square of the longest side, below which a facet is mended by taking a point away.
 constexpr double flat = 0.1;

@@ -29,7 +29,8 @@ namespace aeroloom::cad {
 namespace {
 
 /// A private copy of a face to triangulate. Edges remember the polygons of every face meshed before, and the
-/// triangulator reuses them: on the face itself the result would depend on its neighbours' turn.
+/// triangulator reuses them: on the face itself the result would depend on which neighbour was triangulated
+/// first.
 struct MeshedFace {
   TopoDS_Face face;
   BRepBuilderAPI_Copy copy;
@@ -177,8 +178,8 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
   std::string defect;
   // The library leaves holes and folds at some deflections and not at others: a finer one is tried where it
   // did.
-  for (const double share : {1.0, 0.5, 0.25, 0.1, 0.02}) {
-    Facets facets = extract(data, id, triangulate(evaluator, share * deflection, angle));
+  for (const double fraction : {1.0, 0.5, 0.25, 0.1, 0.02}) {
+    Facets facets = extract(data, id, triangulate(evaluator, fraction * deflection, angle));
     defect = find_defect(facets);
     if (defect.empty() && folded_share(facets) > tolerances::folded) defect = "facets folded over each other";
     if (!defect.empty()) continue;

@@ -194,14 +194,14 @@ private:
         for (const Coedge& use : loop) used[use.edge] = 1;
       }
     }
-    const std::vector<double> reaches = reaches_of_vertices(used);
+    const std::vector<double> radii = radii_of_vertices(used);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
       BaseEdgeFate& fate = _closed.fates[id];
       if (fate.kind != BaseEdgeFate::Kind::kept || !used[id]) continue;
       fate.edge = static_cast<EdgeId>(to.edges.size());
       Edge edge = from.edges[id];
       EdgeEvaluator evaluator = from.edge_evaluators[id];
-      const EndMove first = end_move(reaches, id, edge.first), last = end_move(reaches, id, edge.last);
+      const EndMove first = end_move(radii, id, edge.first), last = end_move(radii, id, edge.last);
       const bool moved = first.by != Vec3{} || last.by != Vec3{};
       if (moved && !edge.degenerate) {
         evaluator.curve = GeomAdaptor_Curve(move_ends(evaluator.curve, first, last), edge.first_parameter,
@@ -216,36 +216,37 @@ private:
     }
   }
 
-  /// From one end of an edge to the other; a part of the length where both are one.
-  double reach_of_edge(EdgeId id) const {
-    constexpr double share_of_closed_edge = 0.25;  // to either side of its vertex, so that half of it stays
+  /// From one end of an edge to the other; a fraction of the length where both are one.
+  double radius_of_edge(EdgeId id) const {
+    constexpr double fraction_of_closed_edge =
+        0.25;  // to either side of its vertex, so that half of it stays
     const Edge& edge = _base.edge(id);
-    if (edge.first == edge.last) return share_of_closed_edge * rough_length(_base, id);
+    if (edge.first == edge.last) return fraction_of_closed_edge * rough_length(_base, id);
     return distance(_base.vertex(edge.first), _base.vertex(edge.last));
   }
 
   /// How far around each vertex of the base model edges follow its move: as far as the shortest of them goes,
   /// but for very short ones.
-  std::vector<double> reaches_of_vertices(const std::vector<char>& used) const {
+  std::vector<double> radii_of_vertices(const std::vector<char>& used) const {
     constexpr double short_edge =
         20;  // in moves: over less, a move would show as a bend of more than 3 degrees
     constexpr double unlimited = std::numeric_limits<double>::infinity();
-    std::vector<double> reaches(_base.vertex_count(), unlimited);
+    std::vector<double> radii(_base.vertex_count(), unlimited);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
       const Edge& edge = _base.edge(id);
       if (!used[id] || edge.degenerate || _closed.fates[id].kind != BaseEdgeFate::Kind::kept) continue;
-      const double reach = reach_of_edge(id);
+      const double radius = radius_of_edge(id);
       for (const VertexId v : {edge.first, edge.last}) {
-        if (reach > short_edge * distance(_places[v], _base.vertex(v)))
-          reaches[v] = std::min(reaches[v], reach);
+        if (radius > short_edge * distance(_places[v], _base.vertex(v)))
+          radii[v] = std::min(radii[v], radius);
       }
     }
-    return reaches;
+    return radii;
   }
 
-  EndMove end_move(const std::vector<double>& reaches, EdgeId id, VertexId v) const {
+  EndMove end_move(const std::vector<double>& radii, EdgeId id, VertexId v) const {
     const Vec3 from = _base.vertex(v);
-    return {from, _places[v] - from, std::min(reaches[v], reach_of_edge(id))};
+    return {from, _places[v] - from, std::min(radii[v], radius_of_edge(id))};
   }
 
   /// The edges that take a strip's place.

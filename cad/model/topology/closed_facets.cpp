@@ -18,8 +18,8 @@ double interpolate(const std::vector<double>& from, const std::vector<double>& t
   });
   const std::size_t i = static_cast<std::size_t>(above - from.begin());
   if (at == from[i]) return to[i];
-  const double share = std::clamp((at - from[i - 1]) / (from[i] - from[i - 1]), 0.0, 1.0);
-  return (1 - share) * to[i - 1] + share * to[i];
+  const double fraction = std::clamp((at - from[i - 1]) / (from[i] - from[i - 1]), 0.0, 1.0);
+  return (1 - fraction) * to[i - 1] + fraction * to[i];
 }
 
 /// Facets of one face on their way from the base model.

@@ -31,7 +31,7 @@ void require_joinable(const Model& model, const std::vector<FaceId>& group) {
 }
 
 /// The interval of u that a member's points can have: its loops, and as far around as guesses stray.
-std::pair<double, double> reach_in_u(const FaceEvaluator& face) {
+std::pair<double, double> interval_of_u(const FaceEvaluator& face) {
   const double extent = face.uv_high.x - face.uv_low.x, repeats = face.u.repeats_after();
   const double margin = std::max(extent, straying_periods * repeats);
   const double low = face.uv_low.x - margin, high = face.uv_high.x + margin;
@@ -47,7 +47,7 @@ std::vector<Sheet> lay_out(const Model& base, const std::vector<FaceId>& members
     Sheet sheet{id};
     if (members.size() > 1) {
       const FaceEvaluator& evaluator = base.data().face_evaluators[id];
-      const auto [low, high] = reach_in_u(evaluator);
+      const auto [low, high] = interval_of_u(evaluator);
       const double width = high - low;
       sheet.shift = sheets.empty() ? 0 : next - low;
       sheet.low = low + sheet.shift;

@@ -34,7 +34,7 @@ bool bounds_material(const TopoDS_Shape& part) {
   return part.Orientation() == TopAbs_FORWARD || part.Orientation() == TopAbs_REVERSED;
 }
 
-/// Visits the edges of a face loop by loop, oriented as in the face turned forward. Edges lying inside the
+/// Visits the edges of a face loop by loop, oriented as in the face oriented forward. Edges lying inside the
 /// face bound no material and are passed over.
 template <class Visit>
 void for_each_edge(const TopoDS_Shape& face, Visit&& visit) {

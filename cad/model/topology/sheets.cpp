@@ -86,10 +86,10 @@ Projection JoinedModel::project(FaceId id, Vec3 point, Vec2 guess) const {
     if (better) best = found, best_sheet = sheet, best_inside = inside;
     const bool held = is_at_end(base.data().face_evaluators[face.sheets[sheet].face], found.uv);
     if (inside && (!held || away <= tolerance)) break;
-    const auto beyond = face.cross_border(sheet, point, seen);
-    if (!beyond) break;
-    sheet = beyond->sheet;
-    found = base.project(face.sheets[sheet].face, point, beyond->uv);
+    const auto entered = face.cross_border(sheet, point, seen);
+    if (!entered) break;
+    sheet = entered->sheet;
+    found = base.project(face.sheets[sheet].face, point, entered->uv);
   }
   best.uv = face.from_member(best_sheet, best.uv);
   return best;
