@@ -160,8 +160,9 @@ private:
     const geometry::Vec3 at = support.points.front();
     throw SurfaceError(fmt::format(
         "face {} (patch {}): no chart can be found for its part near ({:.6g}, {:.6g}, {:.6g}), where the "
-        "size is {:.4g}; where the face is rounder than that, ask for a smaller size (sizing.minimum, "
-        "sizing.curvature_angle); else it may fold over itself: repair it in the CAD program",
+        "size is {:.4g}; where the face is rounder than that, ask for a smaller size "
+        "(SizingOptions::minimum, "
+        "SizingOptions::curvature_angle); else it may fold over itself: repair it in the CAD program",
         _model.face(support.face).name, _model.patches()[_model.face(support.face).patch], at.x, at.y, at.z,
         _field(at)));
   }

@@ -40,14 +40,15 @@ std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const
 
 /// The box of a shape's geometry, without the gaps that tolerances and control points would add.
 Box tight_box(const TopoDS_Shape& shape);
-/// Of all of them: faces within the box of the others' edges and faces cost next to nothing.
+/// The box of several shapes' geometry: faces within the box of the others' edges and faces cost next to
+/// nothing.
 Box tight_box(const std::vector<TopoDS_Shape>& shapes);
 
-/// Relative error of areas. Without one the CAD library takes the most points its rules have in every span of
-/// a spline, ten times as long.
+/// Relative error of areas in FacePlace and in the diagnosis; Model::face_area is more precise. Without one
+/// the CAD library takes the most points its rules have in every span of a spline, ten times as long.
 inline constexpr double area_precision = 1e-3;
 
-/// Area and centre to `area_precision`, the box as above.
+/// Area and centre of a face to `area_precision`, and the box of its geometry.
 FacePlace place_of(const TopoDS_Face& face);
 
 /// The parameter curve of one coedge along an edge.

@@ -36,8 +36,8 @@
 namespace aeroloom::cad {
 namespace {
 
-/// A shape that is open wider than this fraction of its faces' area is a sheet, not a body with an opening: an
-/// open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
+/// A shape that is open wider than this fraction of its faces' area is a sheet, not a body with an opening:
+/// an open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
 constexpr double widest_opening = 0.5;
 
 struct Sewn {
