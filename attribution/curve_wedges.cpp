@@ -45,13 +45,11 @@ void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* c = piece.cell(t);
     int curved = 0;
-    for (int k = 0; k < 4; ++k) curved += piece.vertex_dimension[c[k]] <= mesh::CadDimension::edge;
+    for (int k = 0; k < 4; ++k) curved += is_on_curve(piece.vertex_dimension[c[k]]);
     if (curved < 2) continue;
     for (int e = 0; e < 6; ++e) {
       const auto& [a, b] = mesh::tetrahedron_edges[e];
-      if (piece.vertex_dimension[c[a]] > mesh::CadDimension::edge ||
-          piece.vertex_dimension[c[b]] > mesh::CadDimension::edge)
-        continue;
+      if (!is_on_curve(piece.vertex_dimension[c[a]]) || !is_on_curve(piece.vertex_dimension[c[b]])) continue;
       const std::int64_t edge = find_edge(edges, name_edge(piece, names, c[a], c[b]));
       if (edge < 0) continue;
       const auto& [u, v] = mesh::tetrahedron_edges[5 - e];
@@ -64,9 +62,7 @@ void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int k = 0; k < 3; ++k) {
       const LocalIndex a = v[k], b = v[(k + 1) % 3];
-      if (piece.vertex_dimension[a] > mesh::CadDimension::edge ||
-          piece.vertex_dimension[b] > mesh::CadDimension::edge)
-        continue;
+      if (!is_on_curve(piece.vertex_dimension[a]) || !is_on_curve(piece.vertex_dimension[b])) continue;
       const std::int64_t edge = find_edge(edges, name_edge(piece, names, a, b));
       if (edge >= 0) mine.push_back({edge, piece.id, 0, {piece.triangle_face[t], -1}});
     }
@@ -95,9 +91,9 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
   return found != edges.end() && *found == edge ? found - edges.begin() : -1;
 }
 
-std::vector<Wedge> measure_wedges(const parallel::Communicator& communicator,
-                                  const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                  const std::vector<EdgeName>& edges) {
+std::vector<EdgeWedge> measure_wedges(const parallel::Communicator& communicator,
+                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                      const std::vector<EdgeName>& edges) {
   std::vector<EdgeShare> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
@@ -107,7 +103,7 @@ std::vector<Wedge> measure_wedges(const parallel::Communicator& communicator,
   std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
     return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
   });
-  std::vector<Wedge> wedges(edges.size());
+  std::vector<EdgeWedge> wedges(edges.size());
   for (const EdgeShare& share : all) {
     wedges[share.edge].angle += share.angle;
     for (const std::int32_t face : share.faces) add_face(wedges[share.edge].faces, face);

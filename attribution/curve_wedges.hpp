@@ -12,7 +12,7 @@
 namespace aeroloom::attribution {
 
 /// The angle of a region's tetrahedra around an edge, and the CAD faces on either side.
-struct Wedge {
+struct EdgeWedge {
   double angle = 0;                           ///< degrees, of all tetrahedra of the region there
   std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces of the region's boundary triangles; -1: unknown
 };
@@ -24,8 +24,8 @@ EdgeName name_edge(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex
 std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge);
 
 /// Of each edge of the list (ascending, the same on every rank). Collective; the same on every rank.
-std::vector<Wedge> measure_wedges(const parallel::Communicator& communicator,
-                                  const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                  const std::vector<EdgeName>& edges);
+std::vector<EdgeWedge> measure_wedges(const parallel::Communicator& communicator,
+                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                      const std::vector<EdgeName>& edges);
 
 }  // namespace aeroloom::attribution

@@ -34,14 +34,14 @@ double largest_allowed(double target) {
   return straight - weight * target;
 }
 
-double corner_angle(Vec3 tip, Vec3 a, Vec3 b) {
-  return geometry::degrees_per_radian * std::atan2(norm(cross(a - tip, b - tip)), dot(a - tip, b - tip));
+double corner_angle(Vec3 apex, Vec3 a, Vec3 b) {
+  return geometry::degrees_per_radian * std::atan2(norm(cross(a - apex, b - apex)), dot(a - apex, b - apex));
 }
 
 class PinnedSearch {
 public:
   PinnedSearch(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-               const mesh::Numbering& numbering, double target, const mesh::CellsBeyond& suspects,
+               const mesh::Numbering& numbering, double target, const mesh::CellsOutside& suspects,
                bool surface_may_change)
       : _communicator(communicator),
         _mesh(mesh),
@@ -103,7 +103,7 @@ private:
   const parallel::Communicator& _communicator;
   const mesh::DistributedMesh& _mesh;
   const mesh::Numbering& _numbering;
-  const mesh::CellsBeyond& _suspects;
+  const mesh::CellsOutside& _suspects;
   double _target;
   bool _surface_may_change;
   mesh::TetQuality _measure;
@@ -112,7 +112,7 @@ private:
   SharpCurves _sharp_curves;
   std::vector<std::vector<BadTet>> _bad;  // per piece
   std::vector<EdgeName> _edges;           // of bad tetrahedra on all ranks, ascending
-  std::vector<Wedge> _wedges;             // per edge
+  std::vector<EdgeWedge> _wedges;         // per edge
   std::vector<StripEdge> _strips;         // those of them across strips
   std::vector<PinningEntity> _entities;
   std::vector<UnresolvedFeature> _features;
@@ -131,8 +131,7 @@ void PinnedSearch::collect_edges() {
       bad.push_back({t, mesh::dihedral_range(p[0], p[1], p[2], p[3])});
       const LocalIndex* c = piece.cell(t);
       for (const auto& [a, b] : mesh::tetrahedron_edges) {
-        if (piece.vertex_dimension[c[a]] <= mesh::CadDimension::edge &&
-            piece.vertex_dimension[c[b]] <= mesh::CadDimension::edge)
+        if (is_on_curve(piece.vertex_dimension[c[a]]) && is_on_curve(piece.vertex_dimension[c[b]]))
           mine.push_back(name(i, c[a], c[b]));
       }
     }
@@ -175,9 +174,7 @@ bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
   PinningEntity entity;
   entity.angle = _target;
   for (const auto& [a, b] : mesh::tetrahedron_edges) {
-    if (piece.vertex_dimension[c[a]] > mesh::CadDimension::edge ||
-        piece.vertex_dimension[c[b]] > mesh::CadDimension::edge)
-      continue;
+    if (!is_on_curve(piece.vertex_dimension[c[a]]) || !is_on_curve(piece.vertex_dimension[c[b]])) continue;
     const std::int64_t edge = find(name(i, c[a], c[b]));
     if (edge < 0 || _wedges[edge].angle >= entity.angle) continue;
     entity.angle = _wedges[edge].angle;
@@ -199,14 +196,13 @@ std::vector<std::array<LocalIndex, 4>> PinnedSearch::sharp_corners(const Piece& 
   for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const LocalIndex* v = piece.boundary_triangle(t);
     for (int k = 0; k < 3; ++k) {
-      const LocalIndex tip = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
-      if (piece.vertex_dimension[tip] != mesh::CadDimension::vertex ||
-          piece.vertex_dimension[a] > mesh::CadDimension::edge ||
-          piece.vertex_dimension[b] > mesh::CadDimension::edge) {
+      const LocalIndex apex = v[k], a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+      if (piece.vertex_dimension[apex] != mesh::CadDimension::vertex ||
+          !is_on_curve(piece.vertex_dimension[a]) || !is_on_curve(piece.vertex_dimension[b])) {
         continue;
       }
-      if (corner_angle(piece.point(tip), piece.point(a), piece.point(b)) < _target)
-        corners.push_back({tip, a, b, t});
+      if (corner_angle(piece.point(apex), piece.point(a), piece.point(b)) < _target)
+        corners.push_back({apex, a, b, t});
     }
   }
   return corners;
@@ -217,15 +213,15 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
   const Piece& piece = _mesh.pieces[i];
   const LocalIndex* c = piece.cell(bad.tet);
   const auto has = [c](LocalIndex v) { return c[0] == v || c[1] == v || c[2] == v || c[3] == v; };
-  for (const auto& [tip, a, b, triangle] : corners) {
-    if (!has(tip) || !has(a) || !has(b)) continue;
+  for (const auto& [apex, a, b, triangle] : corners) {
+    if (!has(apex) || !has(a) || !has(b)) continue;
     const std::int32_t face = piece.triangle_face[triangle];
     _entities.push_back({.kind = PinningEntity::Kind::curves,
                          .faces = {face, face},
-                         .vertex = piece.vertex_entity[tip],
-                         .angle = corner_angle(piece.point(tip), piece.point(a), piece.point(b)),
+                         .vertex = piece.vertex_entity[apex],
+                         .angle = corner_angle(piece.point(apex), piece.point(a), piece.point(b)),
                          .smallest_dihedral = bad.angles.smallest,
-                         .at = piece.point(tip),
+                         .at = piece.point(apex),
                          .tetrahedra = 1});
     return true;
   }
@@ -276,9 +272,8 @@ bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
 bool PinnedSearch::is_held(const Piece& piece, const BadTet& bad) const {
   if (_surface_may_change) return false;
   const LocalIndex* c = piece.cell(bad.tet);
-  return std::count_if(c, c + 4, [&](LocalIndex v) {
-           return piece.vertex_dimension[v] <= mesh::CadDimension::face;
-         }) >= 3;
+  return std::count_if(c, c + 4, [&](LocalIndex v) { return is_on_boundary(piece.vertex_dimension[v]); }) >=
+         3;
 }
 
 void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) {
@@ -366,7 +361,7 @@ mesh::DihedralRange suspect_angles(double target_angle) {
 
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,
-                         const mesh::CellsBeyond& suspects, bool surface_may_change) {
+                         const mesh::CellsOutside& suspects, bool surface_may_change) {
   return PinnedSearch(communicator, mesh, numbering, target_angle, suspects, surface_may_change).run();
 }
 

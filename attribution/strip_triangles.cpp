@@ -58,7 +58,7 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
     for (int i = 0; i < 3; ++i) {
       for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
         if (piece.vertex_dimension[v[i]] != mesh::CadDimension::vertex ||
-            piece.vertex_dimension[v[k]] > mesh::CadDimension::edge)
+            !is_on_curve(piece.vertex_dimension[v[k]]))
           continue;
         const std::int32_t vertex = piece.vertex_entity[v[i]], entity = piece.vertex_entity[v[k]];
         const bool between_vertices = piece.vertex_dimension[v[k]] == mesh::CadDimension::vertex;
@@ -157,14 +157,14 @@ std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<Curve
   StripJudge judge(piece, curves);
   for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const LocalIndex* v = piece.boundary_triangle(t);
-    if (std::any_of(v, v + 3,
-                    [&](LocalIndex w) { return piece.vertex_dimension[w] > mesh::CadDimension::edge; }))
+    if (std::any_of(v, v + 3, [&](LocalIndex w) { return !is_on_curve(piece.vertex_dimension[w]); }))
       continue;
     for (int i = 0; i < 3; ++i) {
       const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];
       const Vec3 side = piece.point(b) - piece.point(a);
       const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
-      if (area2 > strip_part * dot(side, side) || !judge.is_strip(a, b, c, piece.triangle_face[t])) continue;
+      if (area2 > strip_fraction * dot(side, side) || !judge.is_strip(a, b, c, piece.triangle_face[t]))
+        continue;
       strips.push_back({t, {a, b, c}, area2 / norm(side)});
       break;
     }

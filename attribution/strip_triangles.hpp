@@ -10,9 +10,9 @@
 
 namespace aeroloom::attribution {
 
-/// A triangle is one of a strip when its height over a side on one curve is at most this part of that side.
-/// Chosen, not measured.
-inline constexpr double strip_part = 0.4;
+/// A triangle is one of a strip when its height over a side on one curve is at most this fraction of that
+/// side. Chosen, not measured.
+inline constexpr double strip_fraction = 0.4;
 
 struct StripTriangle {
   mesh::LocalIndex triangle = 0;            ///< among the boundary triangles of its piece
@@ -21,7 +21,7 @@ struct StripTriangle {
 };
 
 /// Per piece of this rank the boundary triangles with two vertices on one curve and the third on another that
-/// has neither of them and runs along, and a height of `strip_part` at most. Which curves meet at a CAD
+/// has neither of them and runs along, and a height of `strip_fraction` at most. Which curves meet at a CAD
 /// vertex is read off the mesh: a curve is where triangles of two CAD faces meet. Collective.
 std::vector<std::vector<StripTriangle>> find_strip_triangles(const parallel::Communicator& communicator,
                                                              const mesh::DistributedMesh& mesh,

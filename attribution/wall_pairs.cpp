@@ -51,7 +51,7 @@ VertexFaces::VertexFaces(const parallel::Communicator& communicator, const mesh:
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       for (int i = 0; i < 3; ++i) {
         const LocalIndex v = piece.boundary_triangle(t)[i];
-        if (piece.vertex_dimension[v] <= mesh::CadDimension::edge)
+        if (is_on_curve(piece.vertex_dimension[v]))
           mine.push_back({static_cast<std::int32_t>(piece.vertex_dimension[v]), piece.vertex_entity[v],
                           piece.triangle_face[t]});
       }
@@ -66,7 +66,7 @@ void VertexFaces::list(const Piece& piece, LocalIndex vertex, std::vector<std::i
   const mesh::CadDimension dimension = piece.vertex_dimension[vertex];
   const std::int32_t entity = piece.vertex_entity[vertex];
   if (dimension == mesh::CadDimension::face) faces.push_back(entity);
-  if (dimension > mesh::CadDimension::edge) return;
+  if (!is_on_curve(dimension)) return;
   const Classification first{static_cast<std::int32_t>(dimension), entity,
                              std::numeric_limits<std::int32_t>::min()};
   for (auto row = std::lower_bound(_rows.begin(), _rows.end(), first);
@@ -96,7 +96,7 @@ std::optional<WallPair> WallFinder::find(const Piece& piece, LocalIndex tet) {
       if (walls && (!nearest || walls->gap < nearest->gap)) nearest = walls;
     }
   }
-  if (nearest && nearest->gap > gap_part * longest_edge(points)) return std::nullopt;
+  if (nearest && nearest->gap > gap_fraction * longest_edge(points)) return std::nullopt;
   return nearest;
 }
 

@@ -14,9 +14,9 @@
 
 namespace aeroloom::attribution {
 
-/// A tetrahedron reaches between walls where they are apart by at most this part of its longest edge. Chosen,
-/// not measured.
-inline constexpr double gap_part = 0.4;
+/// A tetrahedron reaches between walls where they are apart by at most this fraction of its longest edge.
+/// Chosen, not measured.
+inline constexpr double gap_fraction = 0.4;
 
 /// Which CAD faces the vertices of a mesh lie on. Those of CAD vertices and curves are read off the boundary
 /// triangles around them.
@@ -54,7 +54,7 @@ public:
   explicit WallFinder(const VertexFaces& of_vertices) : _of_vertices(of_vertices) {}
 
   /// The nearest two faces that a tetrahedron of the piece reaches between: each of its vertices lies on one
-  /// of them or both, not all of them on one, and the faces are apart there by at most `gap_part` of its
+  /// of them or both, not all of them on one, and the faces are apart there by at most `gap_fraction` of its
   /// longest edge. Nothing where there are none.
   std::optional<WallPair> find(const mesh::Piece& piece, mesh::LocalIndex tet);
 

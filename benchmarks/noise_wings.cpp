@@ -64,8 +64,8 @@ std::vector<std::pair<double, double>> parts_of(double first, double last, const
 }
 
 /// The faces of a ruled surface, cut along the section and along the span.
-void add_side(const Section& a, const Section& b, double sign, const Cut* chordwise, const Cut* spanwise,
-              std::vector<TopoDS_Face>& faces) {
+void add_side(const SpanSection& a, const SpanSection& b, double sign, const Cut* chordwise,
+              const Cut* spanwise, std::vector<TopoDS_Face>& faces) {
   const Handle(Geom_Surface) surface = GeomFill::Surface(side_of(a, sign), side_of(b, sign));
   double u0, u1, v0, v1;
   surface->Bounds(u0, u1, v0, v1);
@@ -75,7 +75,7 @@ void add_side(const Section& a, const Section& b, double sign, const Cut* chordw
   }
 }
 
-TopoDS_Face cap(const Section& section) {
+TopoDS_Face cap(const SpanSection& section) {
   BRepBuilderAPI_MakeWire wire(
       BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
       BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge(),
@@ -90,7 +90,8 @@ TopoDS_Face polygon(const std::vector<gp_Pnt>& corners) {
   return BRepBuilderAPI_MakeFace(wire.Wire()).Face();
 }
 
-void add_end(const Section& a, const Section& b, const Cut* spanwise, std::vector<TopoDS_Face>& faces) {
+void add_end(const SpanSection& a, const SpanSection& b, const Cut* spanwise,
+             std::vector<TopoDS_Face>& faces) {
   const auto at = [&](double share, double sign) {
     const gp_Pnt p = point_of(a, 1, sign), q = point_of(b, 1, sign);
     return gp_Pnt(p.XYZ() + share * (q.XYZ() - p.XYZ()));
@@ -99,7 +100,7 @@ void add_end(const Section& a, const Section& b, const Cut* spanwise, std::vecto
     faces.push_back(polygon({at(from, -1), at(from, 1), at(to, 1), at(to, -1)}));
 }
 
-std::vector<TopoDS_Face> wing(const Section& root, const Section& tip, const Cut* chordwise,
+std::vector<TopoDS_Face> wing(const SpanSection& root, const SpanSection& tip, const Cut* chordwise,
                               const Cut* spanwise) {
   std::vector<TopoDS_Face> faces;
   add_side(root, tip, 1, chordwise, spanwise, faces);
@@ -109,7 +110,7 @@ std::vector<TopoDS_Face> wing(const Section& root, const Section& tip, const Cut
 }
 
 /// The section in three faces: above the strip, the strip, below it.
-void add_cut_section(const Section& section, double width, std::vector<TopoDS_Face>& faces) {
+void add_cut_section(const SpanSection& section, double width, std::vector<TopoDS_Face>& faces) {
   const Handle(Geom_BSplineCurve) upper = side_of(section, 1), lower = side_of(section, -1);
   double low = upper->FirstParameter(), high = 0.2;  // where the upper side is as high as the strip
   for (int i = 0; i < 100; ++i) {
@@ -169,8 +170,9 @@ TopoDS_Solid solid_of(const std::vector<TopoDS_Face>& faces, double width) {
 
 std::vector<std::vector<TopoDS_Face>> bodies(const std::string& kind, const Sizes& sizes) {
   const double end = kind == "edge" ? sizes.width / sizes.chord : 0.02;
-  const Section root{0, 0, sizes.chord, end}, tip{0.2 * sizes.chord, sizes.length, 0.7 * sizes.chord, end};
-  const Section middle{0.1 * sizes.chord, 0.5 * sizes.length, 0.85 * sizes.chord, end};
+  const SpanSection root{0, 0, sizes.chord, end},
+      tip{0.2 * sizes.chord, sizes.length, 0.7 * sizes.chord, end};
+  const SpanSection middle{0.1 * sizes.chord, 0.5 * sizes.length, 0.85 * sizes.chord, end};
   if (kind == "collar" || kind == "slit") return {pod(sizes, kind == "slit")};
   if (kind == "regions") {
     std::vector<TopoDS_Face> inner = wing(root, middle, nullptr, nullptr),

@@ -102,9 +102,8 @@ private:
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
       const bool cut = std::any_of(v, v + 3, [&](mesh::LocalIndex at) { return on_cut[at] != 0; });
-      const bool curve = std::any_of(v, v + 3, [&](mesh::LocalIndex at) {
-        return piece.vertex_dimension[at] < mesh::CadDimension::face;
-      });
+      const bool curve =
+          std::any_of(v, v + 3, [&](mesh::LocalIndex at) { return is_on_curve(piece.vertex_dimension[at]); });
       const TriangleGroup group = cut ? (curve ? at_cut_and_curve : at_cut) : (curve ? at_curve : inside);
       const geometry::Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
       const double angle = mesh::smallest_angle(p[0], p[1], p[2]);

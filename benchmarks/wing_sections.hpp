@@ -22,7 +22,7 @@ namespace aeroloom::wings {
 
 /// A section of the wing: where its leading edge is, its chord, the thickness of its trailing edge over
 /// chord.
-struct Section {
+struct SpanSection {
   double x, y, chord, trailing_edge;
 };
 
@@ -36,13 +36,13 @@ inline double half_thickness(double x, double trailing_edge) {
   return 5 * thickness * closed + 0.5 * trailing_edge * x;
 }
 
-inline gp_Pnt point_of(const Section& section, double x, double sign) {
+inline gp_Pnt point_of(const SpanSection& section, double x, double sign) {
   return {section.x + section.chord * x, section.y,
           sign * section.chord * half_thickness(x, section.trailing_edge)};
 }
 
 /// One side from the leading to the trailing edge; the same parameters on every section.
-inline Handle(Geom_BSplineCurve) side_of(const Section& section, double sign) {
+inline Handle(Geom_BSplineCurve) side_of(const SpanSection& section, double sign) {
   const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, intervals + 1);
   const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, intervals + 1);
   for (int i = 0; i <= intervals; ++i) {

@@ -40,7 +40,7 @@ TopoDS_Face between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) 
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), 1e-9).Face();
 }
 
-TopoDS_Face cap(const Section& section) {
+TopoDS_Face cap(const SpanSection& section) {
   BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
                                BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge());
   if (section.trailing_edge > 0) {
@@ -49,14 +49,14 @@ TopoDS_Face cap(const Section& section) {
   return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
 }
 
-TopoDS_Face trailing_edge(const Section& root, const Section& tip) {
+TopoDS_Face trailing_edge(const SpanSection& root, const SpanSection& tip) {
   BRepBuilderAPI_MakePolygon wire(point_of(root, 1, -1), point_of(root, 1, 1), point_of(tip, 1, 1));
   if (tip.trailing_edge > 0) wire.Add(point_of(tip, 1, -1));
   wire.Close();
   return BRepBuilderAPI_MakeFace(wire.Wire()).Face();
 }
 
-std::vector<TopoDS_Face> faces_between(const Section& root, const Section& tip) {
+std::vector<TopoDS_Face> faces_between(const SpanSection& root, const SpanSection& tip) {
   return {between(side_of(root, 1), side_of(tip, 1)), between(side_of(root, -1), side_of(tip, -1)), cap(root),
           cap(tip), trailing_edge(root, tip)};
 }

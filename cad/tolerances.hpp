@@ -24,7 +24,7 @@ inline constexpr double rounding = 1e-12;
 /// Of determinants and squared lengths, over the product or the larger one: `rounding` does not do for
 /// squares, a sine of 1e-7 still has a direction.
 inline constexpr double rounding_of_squares = 1e-14;
-/// A step that changes a parameter by less, as a share of its range, changes nothing: 45 units in the last
+/// A step that changes a parameter by less, as a fraction of its range, changes nothing: 45 units in the last
 /// place.
 inline constexpr double parameter_rounding = 1e-14;
 
@@ -35,8 +35,8 @@ inline constexpr double foot = 1e-11;
 /// than `foot`, since the distance itself is compared and an edge of a file lies off its face; less than
 /// `coincident`.
 inline constexpr double foot_beside = 1e-10;
-/// A foot that only measures a distance need be no nearer than this share of the tolerance that the distance
-/// is compared with: three digits of what a message says are right.
+/// A foot that only measures a distance need be no nearer than this fraction of the tolerance that the
+/// distance is compared with: three digits of what a message says are right.
 inline constexpr double foot_that_measures = 1e-3;
 
 /// Two places are one (of a diagonal): planes that share a position, a surface that is a plane, a point on
@@ -45,13 +45,13 @@ inline constexpr double coincident = 1e-9;
 /// A plane is normal to an axis when its normal leaves it by less (radians): over the whole domain the plane
 /// then leaves the exact one by no more than `coincident`.
 inline constexpr double parallel = coincident;
-/// Two parameters are one, or a step along an edge is too short to be looked at (share of the range).
+/// Two parameters are one, or a step along an edge is too short to be looked at (fraction of the range).
 inline constexpr double same_parameter = 1e-9;
 /// A point is on a loop of a face (in its parameters, whatever their range): what the CAD library's
 /// classifier of points is given, which takes no share.
 inline constexpr double on_loop = 1e-9;
 
-// Where a derivative vanishes or jumps: a direction is taken a little beside (share of the range).
+// Where a derivative vanishes or jumps: a direction is taken a little beside (fraction of the range).
 
 /// From an end of an edge, where a chord stands for the direction, and from a singular point of a surface.
 /// Small enough for any curvature, large enough that rounding leaves nine digits of the chord.
@@ -76,10 +76,10 @@ inline constexpr double bearable_spacings = 10;
 /// What a file says twice about one place differs by less (of the diagonal of the bodies or of the domain):
 /// an edge and its parameter curve on a face, edges and the plane they lie on, sides of bodies that touch.
 inline constexpr double same_place = 1e-6;
-/// A parameter curve that is interpolated follows the exact one (share of the curve's extent in parameters):
-/// less than `same_place`, so that it adds little to what the file leaves.
+/// A parameter curve that is interpolated follows the exact one (fraction of the curve's extent in
+/// parameters): less than `same_place`, so that it adds little to what the file leaves.
 inline constexpr double interpolated = 1e-7;
-/// A parameter curve that replaces one of the file must leave this share of the distance at most: else the
+/// A parameter curve that replaces one of the file must leave this fraction of the distance at most: else the
 /// two curves differ in shape, not in pace, and the file's one stays.
 inline constexpr double better_pace = 0.1;
 /// What faces are sewn with, one after the other (of the diagonal of those that do not close). Three quarters
@@ -90,7 +90,7 @@ inline constexpr double sewing[] = {1e-7, 1e-6, 1e-5, 1e-4};
 inline constexpr double cautioned_sewing = 2e-5;
 /// What faces are sewn with and what noise is, over the smallest size asked for, at most: gaps and strips
 /// that elements would show are the user's to close.
-inline constexpr double share_of_size = 0.1;
+inline constexpr double fraction_of_size = 0.1;
 /// Strips and edges that are smaller are what rounding left and no features (of the diagonal of the bodies):
 /// twice `same_place`, a side of a strip on either side of it.
 inline constexpr double noise = 2e-6;
@@ -111,7 +111,7 @@ inline constexpr double narrowest_opening = 1e-3;
 /// `aeroloom check` names edges that are shorter (of the diagonal). As long as `most_noise`: below it nothing
 /// is left where noise was closed.
 inline constexpr double short_edge = 1e-5;
-/// `aeroloom check` names faces that are narrower (of the diagonal) and narrower than a share of their
+/// `aeroloom check` names faces that are narrower (of the diagonal) and narrower than a fraction of their
 /// length. Wider than `short_edge`: a narrow face asks for small elements all along, an edge at one place.
 inline constexpr double sliver_width = 1e-4, sliver_slenderness = 0.01;
 /// A body is symmetric about y = 0 when its two ends are as far away but for less (of its extent along y).

@@ -96,8 +96,9 @@ void declare_volume(KeyTable& keys, Case& result) {
               Range::between(0, 0.01, "mean edges of the lattice"),
               "Perturbation of lattice points, which keeps them from lying on common spheres.");
   keys.number("halo", result.volume.halo, Range::between(0.5, 5, "largest sizes nearby"),
-              "Width of what a zone knows around it. Zones with narrower ones may disagree, wider ones cost "
-              "time.");
+              sets("VolumeOptions::halo",
+                   "Width of what a zone knows around it. Zones with narrower ones may disagree, wider ones "
+                   "cost time."));
 }
 
 }  // namespace

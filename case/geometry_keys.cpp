@@ -66,10 +66,11 @@ void declare_trailing_edges(KeyTable& keys, CaseDraft& draft) {
       "saves the small tetrahedra that their thickness asks for "
       "([Blunt trailing edges](trailing_edges.md#closing-them)). `keep`: they are meshed as they are.");
   keys.texts("sharpen_faces", trailing.faces,
-             {"List of patterns: only strips are closed whose face's or patch's name matches one; `*` stands "
-              "for any characters, `?` for one. A pattern without any match is an error. Needs "
-              "`trailing_edges: sharpen`.",
-              "all", "['wing*', fin_te]"});
+             sets("TrailingEdgeOptions::faces",
+                  {"List of patterns: only strips are closed whose face's or patch's name matches one; `*` "
+                   "stands for any characters, `?` for one. A pattern without any match is an error. Needs "
+                   "`trailing_edges: sharpen`.",
+                   "all", "['wing*', fin_te]"}));
   keys.number(
       "sharpen_width", draft.sharpen_width, Range::above(0, length_unit),
       {"Strips up to this width are closed. Needs `trailing_edges: sharpen`.",
@@ -119,9 +120,11 @@ void declare_far_field(KeyTable& keys, CaseDraft& draft) {
                               {"cylinder", FarFieldShape::cylinder}},
                              common("Shape of the far field, around the body's centre. `hemisphere` makes a "
                                     "half model."));
-  keys.number("extent", draft.far_field.extent, Range::above(0, "reference lengths"),
-              common("How far away the far field is: radius, half side of the box, radius and half length of "
-                     "the cylinder. The reference length is the largest extent of the body."));
+  keys.number(
+      "extent", draft.far_field.extent, Range::above(0, "reference lengths"),
+      sets("FarFieldOptions::extent",
+           common("How far away the far field is: radius, half side of the box, radius and half length "
+                  "of the cylinder. The reference length is the largest extent of the body.")));
   keys.choice<Axis>("axis", draft.far_field.axis, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
                     "Axis of the cylinder.");
   keys.choice<Symmetry>(

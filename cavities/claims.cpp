@@ -53,8 +53,8 @@ void spread_claims(const mesh::SharedVertices& shared, CavityClaims& claims) {
       [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { claims[p][v] = of_copies[copy]; });
 }
 
-void settle_claims(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
-                   CavityClaims& claims) {
+void withdraw_contested_claims(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                               CavityClaims& claims) {
   std::vector<std::vector<char>> contested;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     contested.push_back(find_contested(mesh.pieces[p], claims[p]));
@@ -75,7 +75,7 @@ void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& 
   std::vector<char> barred(piece.vertex_count(), 0);
   for (const mesh::LocalIndex v : piece.shared_vertices) barred[v] = 1;
   for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if ((piece.vertex_dimension[v] < mesh::CadDimension::region && !along_surface) || claims[v] != no_cavity)
+    if ((is_on_boundary(piece.vertex_dimension[v]) && !along_surface) || claims[v] != no_cavity)
       barred[v] = 1;
   }
   std::vector<CavityId> next(piece.vertex_count(), no_cavity);
@@ -91,11 +91,11 @@ void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& 
   }
   for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
     const mesh::LocalIndex* v = piece.cell(c);
-    const CavityId settled = cavity_of(claims, v, 4), cavity = cavity_of(next, v, 4);
+    const CavityId now = cavity_of(claims, v, 4), cavity = cavity_of(next, v, 4);
     if (cavity == no_cavity) continue;
     for (int k = 0; k < 4; ++k) {
       const CavityId other = next[v[k]];
-      if (other == no_cavity || (other == cavity && (settled == no_cavity || settled == other))) continue;
+      if (other == no_cavity || (other == cavity && (now == no_cavity || now == other))) continue;
       for (int i = 0; i < 4; ++i) barred[v[i]] = 1;
     }
   }

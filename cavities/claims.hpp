@@ -9,8 +9,8 @@ namespace aeroloom::cavities {
 void spread_claims(const mesh::SharedVertices& shared, CavityClaims& claims);
 
 /// Withdraws claims of vertices with a neighbour in another cavity, in any piece. Collective.
-void settle_claims(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
-                   CavityClaims& claims);
+void withdraw_contested_claims(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                               CavityClaims& claims);
 
 /// Adds the inner vertices next to each cavity, those on the surface too where asked for: to it, if they are
 /// next to no other.

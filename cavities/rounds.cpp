@@ -365,14 +365,14 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_key_rounds) throw std::logic_error("refill_cavities: too many rounds");
-  CavityClaims settled = request.claims;
-  spread_claims(shared, settled);
-  settle_claims(mesh, shared, settled);
+  CavityClaims uncontested = request.claims;
+  spread_claims(shared, uncontested);
+  withdraw_contested_claims(mesh, shared, uncontested);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (int ring = 0; ring < request.extent.rings; ++ring)
-      widen(mesh.pieces[p], request.extent.along_surface, settled[p]);
+      widen(mesh.pieces[p], request.extent.along_surface, uncontested[p]);
   }
-  Contribution mine = collect(mesh, settled, round);
+  Contribution mine = collect(mesh, uncontested, round);
   const CavityTable table = list_cavities(communicator, mine);
   std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);
   std::vector<Outcome> outcomes;

@@ -52,7 +52,7 @@ struct AddedVertex {
 /// Tetrahedra that take the place of a cavity's. They cover the same region with the same boundary faces,
 /// but for those on the surface mesh where `triangles` says so: the faces they leave open there.
 struct Refilling {
-  std::vector<AddedVertex> added;  ///< numbered behind those of the cavity
+  std::vector<AddedVertex> added;  ///< numbered after those of the cavity
   std::vector<std::array<mesh::LocalIndex, 4>> tets;
   std::optional<std::vector<CavityTriangle>> triangles;  ///< in the place of the cavity's
 
@@ -68,7 +68,7 @@ using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
 /// piece claims a shared vertex, the others do too; where they differ the higher number counts.
 using CavityClaims = std::vector<std::vector<CavityId>>;
 
-/// The effect of a round on a piece: the cells that are left kept their order, and new ones stand behind
+/// The effect of a round on a piece: the cells that are left kept their order, and new ones stand after
 /// them.
 struct PieceChange {
   std::vector<mesh::LocalIndex> left;  ///< cells that went, ascending, as they were numbered before

@@ -20,7 +20,7 @@ const mesh::TetFace* find_face(const std::vector<mesh::TetFace>& faces,
 
 CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
                        const Refilling& refilling) {
-  // Boundary faces of the cavity, with the old and the new tetrahedron behind them.
+  // Boundary faces of the cavity, with the old and the new tetrahedron inside them.
   const std::vector<mesh::TetFace> given = mesh::boundary_faces(cavity.tets);
   std::vector<mesh::TetFace> taken;
   std::vector<std::array<std::int32_t, 4>> across(refilling.tets.size(), {-1, -1, -1, -1});

@@ -38,7 +38,7 @@ public:
 private:
   friend class Brick;
   Octants _local;
-  std::vector<std::int64_t> _firsts;  // per rank, and one beyond
+  std::vector<std::int64_t> _firsts;  // per rank, and the end
   std::vector<std::uint64_t>
       _keys;                  // per rank: where its leaves begin, those of a rank without any the next's
   int _tree_level = 0;        // of p4est, that it was made with

@@ -36,13 +36,13 @@ void recover_edges(const FrontInput& boundary, Delaunay& plane) {
 /// Spreads from the left of every edge up to the next edges.
 void mark_inside(const FrontInput& boundary, Delaunay& plane) {
   std::vector<std::int32_t> stack;
-  const auto reach = [&](std::int32_t t) {
+  const auto visit = [&](std::int32_t t) {
     if (state_of(plane.mesh.triangles[t]) != TriangleState::outside) return;
     set_state(plane.mesh.triangles[t], TriangleState::waiting);
     stack.push_back(t);
   };
   for (const auto& [a, b] : boundary.edges) {
-    reach(geometry::triangle_of(plane.mesh.find(a, b)));
+    visit(geometry::triangle_of(plane.mesh.find(a, b)));
     while (!stack.empty()) {
       const std::int32_t t = stack.back();
       stack.pop_back();
@@ -50,7 +50,7 @@ void mark_inside(const FrontInput& boundary, Delaunay& plane) {
         const geometry::LinkedEdge edge = geometry::linked_edge(t, i), other = plane.mesh.twin(edge);
         if (other == geometry::no_linked_edge)
           throw FrontError("the boundary is open or runs clockwise around the region", {});
-        if (!plane.mesh.is_fixed(edge)) reach(geometry::triangle_of(other));
+        if (!plane.mesh.is_fixed(edge)) visit(geometry::triangle_of(other));
       }
     }
   }

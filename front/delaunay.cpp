@@ -133,10 +133,10 @@ bool Delaunay::find_cavity(Vec2 point, std::int32_t start) {
     const geometry::LinkedEdge outside = triangle.links[i];
     const std::uint32_t flags = triangle.flags >> i & 0b1001u;
     if (outside != geometry::no_linked_edge && !(flags & 1u)) {
-      auto& beyond = mesh.triangles[geometry::triangle_of(outside)];
-      const auto& v = beyond.vertices;
-      if (beyond.mark != _mark && circle_side(points[v[0]], points[v[1]], points[v[2]], point) > 0) {
-        beyond.mark = _mark;
+      auto& neighbour = mesh.triangles[geometry::triangle_of(outside)];
+      const auto& v = neighbour.vertices;
+      if (neighbour.mark != _mark && circle_side(points[v[0]], points[v[1]], points[v[2]], point) > 0) {
+        neighbour.mark = _mark;
         _inside.push_back(geometry::triangle_of(outside));
         const int j = geometry::corner_of(outside);
         _stack.push_back(geometry::linked_edge(geometry::triangle_of(outside), geometry::previous_corner(j)));

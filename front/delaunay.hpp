@@ -64,7 +64,7 @@ public:
   /// Makes (a,b) an edge that no later step removes. False when a vertex or a fixed edge is in the way.
   bool recover(std::int32_t a, std::int32_t b);
 
-  /// One edge of a cavity, its inside on the left, with what lies beyond it.
+  /// One edge of a cavity, its inside on the left, with its triangle on the other side.
   struct CavityEdge {
     std::int32_t origin, target;
     geometry::LinkedEdge outside;

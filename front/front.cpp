@@ -134,7 +134,7 @@ void Front::assess(geometry::LinkedTriangle& triangle) const {
   set_state(triangle, accepted ? TriangleState::accepted : TriangleState::waiting);
 }
 
-/// Queues the edge when its triangle waits and what is beyond does not.
+/// Queues the edge when its triangle waits and the neighbour does not.
 void Front::offer(geometry::LinkedEdge edge) {
   if (state_of(_mesh.triangles[geometry::triangle_of(edge)]) != TriangleState::waiting ||
       _mesh.is_tagged(edge))
@@ -182,8 +182,8 @@ bool Front::place_ideal(geometry::LinkedEdge edge, Candidate& best) {
   const double length = distance(a, b), half = 0.5 * length;
   const Vec2 normal = Vec2{a.y - b.y, b.x - a.x} / length;
   const Vec2 apex = _plane.points[_mesh.apex(edge)] - middle;
-  const double reach = (dot(apex, apex) - half * half) / (2 * dot(apex, normal));
-  if (!(reach > 0)) return false;
+  const double center_height = (dot(apex, apex) - half * half) / (2 * dot(apex, normal));
+  if (!(center_height > 0)) return false;
 
   const double edge_size = 0.5 * (_sizes[va] + _sizes[vb]);
   const auto spacing_for = [&](double size) {
@@ -193,7 +193,7 @@ bool Front::place_ideal(geometry::LinkedEdge edge, Candidate& best) {
     // Leaning towards equal areas: where the front's edges have got shorter than wanted, it moves in longer
     // steps.
     const double step = std::sqrt((spacing * spacing - half * half) * std::sqrt(spacing / length));
-    const double height = std::min(step, reach);
+    const double height = std::min(step, center_height);
     best.spacing = spacing;
     best.point = middle + height * normal;
     best.size = size_at(best.point, edge_size, height, best.hint);

@@ -62,17 +62,17 @@ void PlaneGrid::for_each_cell(const std::array<Vec2, 3>& corners, Visit visit) c
     // The least and largest x of the triangle within the row.
     const double from = _low.y + (row - margin) * _cell, to = _low.y + (row + 1 + margin) * _cell;
     double left = 1e300, right = -1e300;
-    const auto reach = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
+    const auto include = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
     for (int i = 0; i < 3; ++i) {
       const Vec2 a = corners[i], b = corners[(i + 1) % 3];
       const double least = std::min(a.y, b.y), most = std::max(a.y, b.y);
       if (most < from || least > to) continue;
       if (least == most) {
-        reach(a.x), reach(b.x);
+        include(a.x), include(b.x);
         continue;
       }
       for (const double y : {std::clamp(from, least, most), std::clamp(to, least, most)}) {
-        reach(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+        include(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
       }
     }
     if (left > right) continue;

@@ -148,7 +148,7 @@ void TriangleLinks::contract(LinkedEdge edge) {
   const std::int32_t removed[2] = {triangle_of(edge), triangle_of(twin(edge))};
   for (const std::int32_t t : fan) triangles[t].vertices[corner(t, gone)] = kept;
   for (const LinkedEdge e : {edge, twin(edge)}) {
-    // The triangle's other two edges become one; that which was the vanished vertex's has a triangle beyond.
+    // The triangle's other two edges become one; that which was the vanished vertex's has a neighbour.
     auto& triangle = triangles[triangle_of(e)];
     LinkedEdge first = triangle.links[next_corner(corner_of(e))],
                second = triangle.links[previous_corner(corner_of(e))];

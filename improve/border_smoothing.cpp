@@ -30,18 +30,18 @@ int group_of(SharedVertexKey vertex_key) {
 struct VertexState {
   mesh::PieceId first = std::numeric_limits<mesh::PieceId>::max();  ///< the lowest of those pieces
   std::int32_t tets = 0;
-  double ratios = 0;  ///< mean ratios, summed
-  double sum = 0;     ///< InverseRatios
-  double reach = 0;   ///< distances to one corner of each tetrahedron, summed
+  double ratios = 0;    ///< mean ratios, summed
+  double sum = 0;       ///< InverseRatios
+  double edge_sum = 0;  ///< one edge at the vertex of each tetrahedron, summed
   double worst = std::numeric_limits<double>::max();
   Vec3 gradient;
 
   static constexpr auto fields() {
     return std::tuple(&VertexState::first, &VertexState::tets, &VertexState::ratios, &VertexState::sum,
-                      &VertexState::reach, &VertexState::worst, &VertexState::gradient);
+                      &VertexState::edge_sum, &VertexState::worst, &VertexState::gradient);
   }
   void add(const VertexState& other) {
-    tets += other.tets, ratios += other.ratios, sum += other.sum, reach += other.reach;
+    tets += other.tets, ratios += other.ratios, sum += other.sum, edge_sum += other.edge_sum;
     first = std::min(first, other.first);
     worst = std::min(worst, other.worst);
     gradient += other.gradient;
@@ -86,7 +86,7 @@ public:
     std::vector<LocalIndex> slot(piece.vertex_count(), -1);
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
       const LocalIndex v = piece.shared_vertices[s];
-      if (piece.vertex_dimension[v] < mesh::CadDimension::region) continue;
+      if (is_on_boundary(piece.vertex_dimension[v])) continue;
       slot[v] = static_cast<LocalIndex>(_vertices.size());
       _vertices.push_back(v);
       _places.push_back(s);
@@ -175,11 +175,11 @@ private:
   /// each mover, and drops the movers for which it is false. `entries` are those of the movers here.
   /// Collective.
   template <class What, class Keep>
-  void settle(const std::vector<What>& entries, const Keep& keep) {
+  void sum_and_filter(const std::vector<What>& entries, const Keep& keep) {
     std::vector<What> of_copies(_shared.size());
     for (std::size_t m = 0; m < _movers.size(); ++m) of_copies[_movers[m].copy] = entries[m];
-    _shared.reduce_and_scatter(of_copies, [](What total, const What& word) {
-      total.add(word);
+    _shared.reduce_and_scatter(of_copies, [](What total, const What& entry) {
+      total.add(entry);
       return total;
     });
     std::erase_if(_movers, [&](Mover& mover) { return !keep(mover, of_copies[mover.copy]); });
@@ -214,7 +214,7 @@ VertexState BorderSmoothing::measure_state(const Piece& piece, LocalIndex v,
     const Vec3 p[4] = {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
     here.ratios += mesh::mean_ratio(p[0], p[1], p[2], p[3]);
     here.worst = std::min(here.worst, _measure(p[0], p[1], p[2], p[3]));
-    here.reach += distance(origin, c[0] == v ? p[1] : p[0]);
+    here.edge_sum += distance(origin, c[0] == v ? p[1] : p[0]);
   }
   here.tets = static_cast<std::int32_t>(cells.size());
   gather(piece, v, cells);
@@ -234,7 +234,7 @@ void BorderSmoothing::choose(int group) {
       entries.push_back(measure_state(piece, _stars[p].vertex(s), _stars[p].cells(s)));
     }
   }
-  settle(entries, [](Mover& mover, const VertexState& all) {
+  sum_and_filter(entries, [](Mover& mover, const VertexState& all) {
     mover.all = all;
     return all.tets > 0 && all.ratios < MeanRatioSmoothing::good_enough * all.tets &&
            norm(all.gradient) > 0 && all.sum > InverseRatios::invalid;
@@ -244,12 +244,12 @@ void BorderSmoothing::choose(int group) {
 void BorderSmoothing::find_steps() {
   std::vector<MovedSum> entries;
   for (Mover& mover : _movers) {
-    mover.step = MeanRatioSmoothing::first_step * mover.all.reach / mover.all.tets;
+    mover.step = MeanRatioSmoothing::first_step * mover.all.edge_sum / mover.all.tets;
     const Piece& piece = _mesh.pieces[mover.piece];
     gather(piece, star_vertex(mover), cells_of(mover));
     entries.push_back({_ratios(piece.point(star_vertex(mover)) + mover.step * mover.direction())});
   }
-  settle(entries, [](Mover& mover, const MovedSum& there) {
+  sum_and_filter(entries, [](Mover& mover, const MovedSum& there) {
     if (!(there.sum > InverseRatios::invalid)) return true;
     const Peak peak = peak_along(norm(mover.all.gradient), mover.step, there.sum - mover.all.sum);
     mover.step = peak.step;
@@ -287,7 +287,7 @@ void BorderSmoothing::try_steps() {
     }
     entries.push_back(trials);
   }
-  settle(entries, [&](Mover& mover, const Trials& all) {
+  sum_and_filter(entries, [&](Mover& mover, const Trials& all) {
     for (int i = 0; i < trial_count; ++i) {
       if (all.sum[i] < mover.wanted() || all.worst[i] < mover.all.worst) continue;
       mover.to = place(mover, i);
@@ -329,7 +329,7 @@ void BorderSmoothing::withdraw() {
     }
     for (const Mover& mover : _movers) _moved[mover.piece][star_vertex(mover)] = -1;
     if (_communicator.sum(vetoes) == 0) return;
-    settle(entries, [](Mover&, const Veto& veto) { return veto.any == 0; });
+    sum_and_filter(entries, [](Mover&, const Veto& veto) { return veto.any == 0; });
   }
 }
 

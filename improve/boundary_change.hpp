@@ -2,6 +2,7 @@
 /// face.
 #pragma once
 
+#include "aeroloom/geometry/half_edges.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <array>
@@ -9,8 +10,8 @@
 
 namespace aeroloom::improve {
 
-/// The corners of a boundary triangle, counter-clockwise seen from outside.
-using TriangleCorners = std::array<LocalIndex, 3>;
+/// Of a boundary triangle counter-clockwise seen from outside.
+using geometry::TriangleCorners;
 using TrianglePoints = std::array<Vec3, 3>;
 
 inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corners) {

@@ -1,7 +1,7 @@
 #include "improve/cavity_improver.hpp"
 
 #include "aeroloom/improve/improver.hpp"
-#include "improve/reach.hpp"
+#include "improve/attainable_quality.hpp"
 #include "improve/scatter.hpp"
 #include "mesh/mixing.hpp"
 #include "mesh/shared_vertex_keys.hpp"
@@ -45,15 +45,16 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
     const Piece& piece = mesh.pieces[i];
     std::vector<cavities::CavityId>& mine = claims.emplace_back(piece.vertex_count(), cavities::no_cavity);
     if (bad.of_piece(i).empty()) continue;
-    const Reach reach = effort == Effort::unsparing ? Reach(measure) : Reach(piece, measure);
+    const AttainableQuality attainable =
+        effort == Effort::unsparing ? AttainableQuality(measure) : AttainableQuality(piece, measure);
     std::vector<char> beside;  // a border, once needed
     for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       const double quality = measure(p[0], p[1], p[2], p[3]);
-      if (quality >= reach(v)) continue;
+      if (quality >= attainable(v)) continue;
       // Beside a strip what was tried inside a piece is not tried again.
-      if (reach.is_limited(v) && !reach.is_severe(quality)) {
+      if (attainable.is_limited(v) && !attainable.is_severe(quality)) {
         if (shift > 0) continue;
         if (beside.empty()) beside = near_borders(piece);
         if (std::none_of(v, v + 4, [&](LocalIndex k) { return beside[k] != 0; })) continue;
@@ -68,7 +69,7 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
 }
 
 // Other tetrahedra have their vertices in common with the walls: faces that are no triangles of the surface
-// mesh. Vertices on CAD curves may be known beyond.
+// mesh. Vertices on CAD curves may be known in other pieces.
 void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   std::vector<mesh::TetFace> walls = mesh::boundary_faces(cavity.tets);
   std::vector<std::array<LocalIndex, 3>> free;
@@ -85,8 +86,7 @@ void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   for (const mesh::TetFace& face : walls) {
     for (const LocalIndex v : face.vertices) stays[v] = 1;
   }
-  for (std::size_t v = 0; v < stays.size(); ++v)
-    stays[v] = stays[v] || cavity.dimension[v] < mesh::CadDimension::face;
+  for (std::size_t v = 0; v < stays.size(); ++v) stays[v] = stays[v] || is_on_curve(cavity.dimension[v]);
   _order.clear();
   for (const char wanted : {1, 0}) {
     for (std::size_t v = 0; v < stays.size(); ++v) {
@@ -128,7 +128,7 @@ cavities::Refilling CavityImprover::build_refilling(const cavities::Cavity& cavi
   for (LocalIndex v = 0; v < _piece.vertex_count(); ++v) {
     const auto before = static_cast<std::size_t>(_numbered[v]);
     const bool known = before < _order.size() &&
-                       (_numbered[v] < _staying || (_piece.vertex_dimension[v] < mesh::CadDimension::region &&
+                       (_numbered[v] < _staying || (is_on_boundary(_piece.vertex_dimension[v]) &&
                                                     _piece.point(v) == cavity.points[_order[before]]));
     if (known) {
       named[v] = _order[before];
@@ -197,7 +197,7 @@ std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavit
                                                                      int trials, std::uint64_t seed,
                                                                      ImproveReport& report) {
   // Of the vertices' shortest edges; the only value that was tried.
-  constexpr double share = 0.3;
+  constexpr double fraction = 0.3;
   order_vertices(cavity);
   build_piece(cavity);
   const Piece start = _piece;
@@ -206,7 +206,7 @@ std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavit
   ImproveReport changes;
   for (int trial = 0; trial < trials && best.second < 0; ++trial) {
     _piece = start;
-    if (trial > 0) scatter(_piece, share, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
+    if (trial > 0) scatter(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
     const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::unsparing);
     const auto now = judge(_piece, _measure);
     if (now <= best) continue;

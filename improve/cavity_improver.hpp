@@ -13,9 +13,9 @@
 
 namespace aeroloom::improve {
 
-/// Claims the stars of all vertices of tetrahedra that miss what is within reach (reach.hpp; the target,
-/// where nothing is to be spared), grouped by place; `shift` as in cavities::cavity_at. Returns their number
-/// on this rank.
+/// Claims the stars of all vertices of tetrahedra that miss the attainable quality (attainable_quality.hpp;
+/// the target, where nothing is to be spared), grouped by place; `shift` as in cavities::cavity_at. Returns
+/// their number on this rank.
 std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad,
                            const mesh::TetQuality& measure, int shift, Effort effort,
                            cavities::CavityClaims& claims);

@@ -11,7 +11,7 @@ constexpr int rounds = 3;            // of growing the cavity and placing the po
 constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain; chosen, not measured
 constexpr double flat = 0.1;         // of the target: tetrahedra of less than about a degree
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
-// Of the target: what a cavity that does not reach it has to gain. Without a floor, one that adds tetrahedra
+// Of the target: what a cavity that stays below it has to gain. Without a floor, one that adds tetrahedra
 // is followed by others without end.
 constexpr double gain_when_moved = 0.05;
 constexpr double gain_when_added = 0.12;
@@ -59,7 +59,7 @@ void CavityInsertion::swallow(const TetMesh& mesh, LocalIndex t) {
   add_walls(mesh, t);
 }
 
-// The neighbour behind the worst wall that has one joins, whether that helps at once or not: where a wall
+// The neighbour over the worst wall that has one joins, whether that helps at once or not: where a wall
 // runs through the point, only the tetrahedra on both sides of it together help. The best state on the way is
 // kept.
 void CavityInsertion::grow(const TetMesh& mesh) {
@@ -142,11 +142,11 @@ bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, int start,
   _point = start_in(mesh.points(t), start);
   if (propose(mesh, mesh.vertex_count(), cavity)) return true;
   const bool is_flat = mesh.quality(t) < flat * mesh.measure().target();
-  return start == 0 && is_flat && start_behind(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
+  return start == 0 && is_flat && start_at_neighbour(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
 }
 
 // From inside a tetrahedron that lies flat on the boundary every cone is flat.
-bool CavityInsertion::start_behind(const TetMesh& mesh, LocalIndex t) {
+bool CavityInsertion::start_at_neighbour(const TetMesh& mesh, LocalIndex t) {
   _tets.assign(1, t);
   bool on_boundary = false;
   for (int f = 0; f < 4; ++f) {

@@ -9,7 +9,7 @@
 
 namespace aeroloom::improve {
 
-/// Grows a cavity by the neighbour behind its worst face as long as the cones from the point gain, and places
+/// Grows a cavity by the neighbour over its worst face as long as the cones from the point gain, and places
 /// the point best (a greedy form of the vertex insertion of Klingner and Shewchuk, 16th International Meshing
 /// Roundtable, 2007, doi:10.1007/978-3-540-75103-8_1).
 class CavityInsertion {
@@ -36,7 +36,7 @@ private:
   };
   bool propose(TetMesh& mesh, LocalIndex apex, Replacement& cavity);
   /// Begins with a tetrahedron on the boundary and its neighbours; false where it is not on the boundary.
-  bool start_behind(const TetMesh& mesh, LocalIndex t);
+  bool start_at_neighbour(const TetMesh& mesh, LocalIndex t);
   void collect_walls(const TetMesh& mesh);
   void grow(const TetMesh& mesh);
   void add_walls(const TetMesh& mesh, LocalIndex t);

@@ -78,17 +78,17 @@ bool ChangeLimits::allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std
 }
 
 bool ChangeLimits::is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const {
-  return _reach && std::any_of(tets.begin(), tets.end(),
-                               [&](LocalIndex t) { return _reach->is_limited(mesh.corners(t)); });
+  return _attainable && std::any_of(tets.begin(), tets.end(),
+                                    [&](LocalIndex t) { return _attainable->is_limited(mesh.corners(t)); });
 }
 
 bool ChangeLimits::allow(const TetMesh& mesh, const Replacement& cavity) const {
   if (!allow_sizes(mesh, cavity)) return false;
   double poorest = decent_ratio;
   for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));
-  if (_reach && (_effort == Effort::unsparing || _reach->is_severe(cavity.before)) &&
+  if (_attainable && (_effort == Effort::unsparing || _attainable->is_severe(cavity.before)) &&
       is_beside_strip(mesh, cavity.old_tets)) {
-    poorest *= _reach->is_severe(cavity.before) ? flattening : unsparing_flattening;
+    poorest *= _attainable->is_severe(cavity.before) ? flattening : unsparing_flattening;
   }
   return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
     return ratio_of({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])}) >= poorest;
@@ -106,7 +106,7 @@ bool ChangeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<
     after = std::min(after, ratio_of(p));
     p[mesh.local_vertex(t, vertex)] = origin;
     before = std::min(before, ratio_of(p));
-    severe = severe || (beside_strip && _reach->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
+    severe = severe || (beside_strip && _attainable->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
   }
   return after >= (severe ? flattening * before : before);
 }

@@ -3,7 +3,7 @@
 
 #include "aeroloom/improve/improve_options.hpp"
 #include "aeroloom/sizing/size_field.hpp"
-#include "improve/reach.hpp"
+#include "improve/attainable_quality.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <limits>
@@ -20,9 +20,9 @@ namespace aeroloom::improve {
 /// gains.
 class ChangeLimits {
 public:
-  explicit ChangeLimits(const sizing::SizeField* field = nullptr, const Reach* reach = nullptr,
-                        Effort effort = Effort::sparing)
-      : _field(field), _reach(reach), _effort(effort) {}
+  explicit ChangeLimits(const sizing::SizeField* field = nullptr,
+                        const AttainableQuality* attainable = nullptr, Effort effort = Effort::sparing)
+      : _field(field), _attainable(attainable), _effort(effort) {}
 
   /// Whether the new tetrahedra of a cavity keep to that.
   bool allow(const TetMesh& mesh, const Replacement& cavity) const;
@@ -47,7 +47,7 @@ private:
   bool is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
 
   const sizing::SizeField* _field;
-  const Reach* _reach;
+  const AttainableQuality* _attainable;
   Effort _effort;
 };
 

@@ -18,7 +18,7 @@ double worst_of(const TetMesh& mesh, const std::vector<LocalIndex>& tets) {
 }  // namespace
 
 double CornerRelief::bar_of(const TetMesh& mesh, double before) const {
-  return std::min(before, _share * mesh.measure().target());
+  return std::min(before, _fraction * mesh.measure().target());
 }
 
 std::int64_t CornerRelief::run(TetMesh& mesh) {

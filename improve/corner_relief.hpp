@@ -25,12 +25,13 @@ struct Relief {
 /// For each such tetrahedron, by slot: a face between it and a neighbour gives way to an edge (2-3 swap), or
 /// the edge that is on neither triangle goes (edge removal), or gets a vertex, or the tetrahedron and its
 /// neighbours give way to those of a vertex between them. What leaves fewer of them is done where no new
-/// tetrahedron is below a share of the target, or below the worst of those that go. Edges keep to sizes; the
-/// mean ratio may fall, which angles bound here. The boundary stays as it is.
+/// tetrahedron is below a fraction of the target, or below the worst of those that go. Edges keep to sizes;
+/// the mean ratio may fall, which angles bound here. The boundary stays as it is.
 class CornerRelief {
 public:
-  /// `share`: of the target; below one where what gets worse is improved afterwards.
-  explicit CornerRelief(const ChangeLimits& limits, double share = 1) : _limits(limits), _share(share) {}
+  /// `fraction`: of the target; below one where what gets worse is improved afterwards.
+  explicit CornerRelief(const ChangeLimits& limits, double fraction = 1)
+      : _limits(limits), _fraction(fraction) {}
 
   /// Does the best for each, without a new vertex where that is possible. Returns how many cavities were
   /// filled anew.
@@ -56,11 +57,11 @@ private:
   void consider(const TetMesh& mesh);
   void consider_vertex(TetMesh& mesh, Vec3 place);
   bool is_good(const TetMesh& mesh, const Replacement& cavity);
-  /// The quality that new tetrahedra must reach.
+  /// The quality that new tetrahedra must have.
   double bar_of(const TetMesh& mesh, double before) const;
 
   const ChangeLimits& _limits;
-  double _share;
+  double _fraction;
   EdgeRing _edge_ring;
   RingFilling _filling;
   ConeOptimiser _cones;

@@ -1,9 +1,9 @@
 #include "improve/corner_trials.hpp"
 
 #include "aeroloom/mesh/cad_dimension.hpp"
+#include "improve/attainable_quality.hpp"
 #include "improve/corner_relief.hpp"
-#include "improve/reach.hpp"
-#include "improve/schedule.hpp"
+#include "improve/mending_queue.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@ namespace aeroloom::improve {
 namespace {
 
 /// Of the target: what a change may leave for the sweeps to mend. Chosen, not measured.
-constexpr double least_share = 0.2;
+constexpr double least_fraction = 0.2;
 constexpr int sweeps_after = 8;  // chosen, not measured
 
 /// Whether two faces on the boundary enclose less than twice the target angle, which no two tetrahedra can
@@ -79,10 +79,10 @@ bool CornerTrials::relieve(TetMesh& mesh, LocalIndex t) {
   // Where some miss the target already, sweeps work on those, and long.
   if (before.bad > 0) return false;
   const mesh::Piece start = copy(mesh);
-  const Reach strips(start, mesh.measure());
-  const Reach everywhere(mesh.measure());
+  const AttainableQuality strips(start, mesh.measure());
+  const AttainableQuality everywhere(mesh.measure());
   const ChangeLimits limits(_field, &strips, _effort);
-  CornerRelief relief(limits, least_share);
+  CornerRelief relief(limits, least_fraction);
   mesh::Piece piece = start;
   TetMesh untouched(piece, mesh.measure());
   const std::vector<Relief>& found = relief.find(untouched, 0);
@@ -90,9 +90,9 @@ bool CornerTrials::relieve(TetMesh& mesh, LocalIndex t) {
     piece = start;
     TetMesh copied(piece, mesh.measure());
     const std::vector<LocalIndex>& fresh = relief.apply(copied, found[i]);
-    Schedule schedule(copied, _effort == Effort::unsparing ? everywhere : strips, limits, _effort);
-    schedule.follow_relief(fresh);
-    schedule.run(sweeps_after);
+    MendingQueue queue(copied, _effort == Effort::unsparing ? everywhere : strips, limits, _effort);
+    queue.follow_relief(fresh);
+    queue.run(sweeps_after);
     if (!is_better(examine(copied), before, mesh.measure().target())) continue;
     copied.finish();
     put_back(mesh, piece, copied.origin());

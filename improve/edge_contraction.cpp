@@ -15,7 +15,7 @@ bool has(const TriangleCorners& corners, LocalIndex v) {
 }  // namespace
 
 bool EdgeContraction::may_vanish(const TetMesh& mesh, LocalIndex from, LocalIndex to) {
-  if (mesh.is_shared(from) || mesh.dimension(from) < mesh::CadDimension::face) return false;
+  if (mesh.is_shared(from) || is_on_curve(mesh.dimension(from))) return false;
   _triangles.clear();
   for (const LocalIndex t : _star) {
     for (int f = 0; f < 4; ++f) {
@@ -74,7 +74,7 @@ bool EdgeContraction::keeps_boundary(TetMesh& mesh, LocalIndex from, LocalIndex 
 
 bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor,
                               Replacement& cavity) {
-  if (mesh.is_shared(from) || mesh.dimension(from) < mesh::CadDimension::face) return false;
+  if (mesh.is_shared(from) || is_on_curve(mesh.dimension(from))) return false;
   mesh.collect_star(from, _star);
   cavity.clear();
   cavity.before = std::numeric_limits<double>::max();

@@ -9,7 +9,7 @@
 #include "improve/corner_relief.hpp"
 #include "improve/corner_trials.hpp"
 #include "improve/mean_ratio_smoothing.hpp"
-#include "improve/schedule.hpp"
+#include "improve/mending_queue.hpp"
 #include "improve/tet_mesh.hpp"
 #include "mesh/shared_vertices.hpp"
 #include "mesh/tet_quality.hpp"
@@ -93,17 +93,18 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
     return report;
   }
 
-  const Reach strips(piece, measure);
-  const Reach reach = effort == Effort::unsparing ? Reach(measure) : strips;
+  const AttainableQuality strips(piece, measure);
+  const AttainableQuality attainable = effort == Effort::unsparing ? AttainableQuality(measure) : strips;
   TetMesh mesh(piece, measure, options.boundary_may_change);
   note_before(state_of(mesh));
   const ChangeLimits limits(source.sizes, &strips, effort);
-  Schedule schedule(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
-  schedule.run(options.sweeps);
-  std::optional<Schedule> again;
+  MendingQueue queue(mesh, attainable, limits, effort,
+                     options.boundary_may_change ? source.locator : nullptr);
+  queue.run(options.sweeps);
+  std::optional<MendingQueue> again;
   if (const std::int64_t relieved = CornerRelief(limits).run(mesh); relieved > 0) {
     report.replaced += relieved;
-    again.emplace(mesh, reach, limits, effort, options.boundary_may_change ? source.locator : nullptr);
+    again.emplace(mesh, attainable, limits, effort, options.boundary_may_change ? source.locator : nullptr);
     again->run(sweeps_after_relief);
     report.replaced += CornerRelief(limits).run(mesh);
   }
@@ -116,7 +117,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 
   report.bad_after = after.bad;
   report.min_angle_after = after.least_angle;
-  for (const Schedule* each : {&schedule, again ? &*again : nullptr}) {
+  for (const MendingQueue* each : {&queue, again ? &*again : nullptr}) {
     if (each == nullptr) continue;
     report.smoothed += each->smoothed();
     report.slid += each->slid();
@@ -131,7 +132,7 @@ namespace {
 /// that no order of changes decides.
 constexpr int last_rounds = 3;
 constexpr int most_trials = 8;
-constexpr cavities::CavityExtent last_reach{2, true};
+constexpr cavities::CavityExtent last_extent{2, true};
 
 /// Trials, so many that they are no burden, for each of the bad ones: one takes about as long as improving
 /// ten thousand tetrahedra. None where more are left than 320 and one in 3,000 (docs/improvement.md has what
@@ -180,7 +181,7 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   parallel::Progress progress("improve", options.shifted_rounds + last_rounds, "tetrahedra to improve");
   const auto claim = [&](Effort effort) {
     const std::int64_t left = communicator.sum(claim_for_bad(mesh, bad, measure, shift, effort, claims));
-    progress.reach(shift, left);
+    progress.set_done(shift, left);
     return left;
   };
   for (; shift < options.shifted_rounds && claim(Effort::sparing) > 0; ++shift) refill({}, 0, shift);
@@ -188,7 +189,7 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
     const std::int64_t left = claim(Effort::unsparing);
     const int trials = affordable_trials(communicator, mesh, left);
     if (left == 0 || trials == 0) break;
-    refill(last_reach, trials, shift);
+    refill(last_extent, trials, shift);
   }
   const BadState after = bad.state(mesh);
   total.bad_after = after.bad;
@@ -264,9 +265,9 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
   return total;
 }
 
-/// The part of all tetrahedra with a smaller angle. Collective.
-double part_below(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                  double angle) {
+/// The fraction of all tetrahedra with a smaller angle. Collective.
+double fraction_below(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+                      double angle) {
   std::int64_t below = 0, cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
     cells += piece.cell_count();
@@ -308,7 +309,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
   std::sort(targets.begin(), targets.end(),
             [](const PercentileTarget& a, const PercentileTarget& b) { return a.angle < b.angle; });
   for (const PercentileTarget& target : targets) {
-    if (part_below(communicator, mesh, target.angle) <= target.part) continue;
+    if (fraction_below(communicator, mesh, target.angle) <= target.fraction) continue;
     ImproveOptions more = options;
     more.target_angle = std::min(target.angle, largest_target);
     total.add_changes(improve_for_target(communicator, mesh, more, clock, source, tasks));

@@ -49,7 +49,7 @@ void MeanRatioSmoothing::score_vertices(const TetMesh& mesh) {
 bool MeanRatioSmoothing::relax(TetMesh& mesh, LocalIndex v) {
   mesh.collect_star(v, _star);
   _ratios.clear();
-  double worst = std::numeric_limits<double>::max(), reach = 0;
+  double worst = std::numeric_limits<double>::max(), edge_sum = 0;
   const Vec3 origin = mesh.point(v);
   for (const LocalIndex t : _star) {
     const auto& face = mesh::tetrahedron_faces[mesh.local_vertex(t, v)];
@@ -57,7 +57,7 @@ bool MeanRatioSmoothing::relax(TetMesh& mesh, LocalIndex v) {
     const Vec3 a = mesh.point(c[face[0]]);
     _ratios.add(a, mesh.point(c[face[2]]), mesh.point(c[face[1]]));
     worst = std::min(worst, mesh.quality(t));
-    reach += distance(origin, a);
+    edge_sum += distance(origin, a);
   }
   const auto count = static_cast<double>(_star.size());
   Vec3 direction;
@@ -66,7 +66,7 @@ bool MeanRatioSmoothing::relax(TetMesh& mesh, LocalIndex v) {
   if (!(slope > 0)) return false;
   const double wanted = before + least_gain * count;
   const auto at = [&](double length) { return origin + (length / slope) * direction; };
-  const double step = first_step * reach / count;
+  const double step = first_step * edge_sum / count;
   const double after = before == InverseRatios::invalid ? before : _ratios(at(step));
   double length = step;
   if (after > InverseRatios::invalid) {

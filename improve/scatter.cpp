@@ -23,12 +23,12 @@ double throw_of(std::uint64_t seed, LocalIndex v, int axis) {
 
 }  // namespace
 
-void scatter(mesh::Piece& piece, double share, std::uint64_t seed) {
+void scatter(mesh::Piece& piece, double fraction, std::uint64_t seed) {
   const mesh::CellStars stars(piece, 4);
   std::vector<char> stays(piece.vertex_count(), 0);
   for (const LocalIndex v : piece.shared_vertices) stays[v] = 1;
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (stays[v] || piece.vertex_dimension[v] < mesh::CadDimension::region) continue;
+    if (stays[v] || is_on_boundary(piece.vertex_dimension[v])) continue;
     const Vec3 origin = piece.point(v);
     double shortest = std::numeric_limits<double>::max();
     stars.for_each(v, [&](LocalIndex, const mesh::AscendingCell& cell) {
@@ -38,7 +38,7 @@ void scatter(mesh::Piece& piece, double share, std::uint64_t seed) {
     });
     if (shortest == std::numeric_limits<double>::max()) continue;
     Vec3 to = origin;
-    for (int axis = 0; axis < 3; ++axis) to[axis] += share * shortest * throw_of(seed, v, axis);
+    for (int axis = 0; axis < 3; ++axis) to[axis] += fraction * shortest * throw_of(seed, v, axis);
     piece.set_point(v, to);
     bool positive = true;
     stars.for_each(v, [&](LocalIndex t, const mesh::AscendingCell&) {

@@ -7,9 +7,9 @@
 
 namespace aeroloom::improve {
 
-/// Moves the vertices inside that are not shared, each along every axis by up to `share` of its shortest
+/// Moves the vertices inside that are not shared, each along every axis by up to `fraction` of its shortest
 /// edge, or not at all where that would invert a tetrahedron. Numbers come from a hash of `seed`, vertex and
 /// axis: the same seed moves the same piece in the same way.
-void scatter(mesh::Piece& piece, double share, std::uint64_t seed);
+void scatter(mesh::Piece& piece, double fraction, std::uint64_t seed);
 
 }  // namespace aeroloom::improve

@@ -38,7 +38,7 @@ public:
     _normal = normalized(_normal);
   }
   Vec3 admissible(Vec3 direction) const override { return direction - dot(direction, _normal) * _normal; }
-  bool settle(Vec3& p) override { return _gentle.allow(p); }
+  bool project(Vec3& p) override { return _gentle.allow(p); }
 
 private:
   Vec3 _normal;
@@ -51,7 +51,7 @@ public:
       : _model(model), _face(face), _uv(uv), _normal(model.face_frame(face, uv).normal), _gentle(gentle) {}
 
   Vec3 admissible(Vec3 direction) const override { return direction - dot(direction, _normal) * _normal; }
-  bool settle(Vec3& p) override {
+  bool project(Vec3& p) override {
     const cad::Projection found = _model.project(_face, p, _uv);
     p = found.point;
     return found.converged && _gentle.allow(p);
@@ -75,7 +75,7 @@ public:
         _gentle(gentle) {}
 
   Vec3 admissible(Vec3 direction) const override { return dot(direction, _tangent) * _tangent; }
-  bool settle(Vec3& p) override {
+  bool project(Vec3& p) override {
     p = _model.edge_point(_edge, project_on_edge(_model, _edge, p, _parameter));
     return _gentle.allow(p);
   }
@@ -131,7 +131,7 @@ bool Sliding::slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& s
       FaceLocus locus(model, entity, *uv, gentle);
       moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_sliding_gain);
     }
-  } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand beyond
+  } else if (model.edge(entity).faces.size() <= 2) {  // more: other tetrahedra may stand on the other side
     if (const auto parameter = _locator.on_edge(entity, mesh.point(vertex), tolerance)) {
       EdgeLocus locus(model, entity, *parameter, gentle);
       moved = _smoothing.smooth_on(mesh, vertex, star, locus, least_sliding_gain);

@@ -65,8 +65,7 @@ bool SmallPolyhedron::open_front(const TetMesh& mesh) {
     }
   }
   for (std::size_t v = 0; v < _vertices.size(); ++v) {
-    if (!outer[v] &&
-        (mesh.is_fixed(_vertices[v]) || mesh.dimension(_vertices[v]) < mesh::CadDimension::region))
+    if (!outer[v] && (mesh.is_fixed(_vertices[v]) || is_on_boundary(mesh.dimension(_vertices[v]))))
       return false;
   }
   return true;

@@ -13,7 +13,7 @@ constexpr int halvings_of_step = 6;     // of one step
 constexpr double active_margin = 0.02;  // of quality: cones this close to the worst one shape the direction
 constexpr double first_step = 0.1;      // of the mean distance to the neighbours
 constexpr double longer = 4;            // the next step over one that gained: two halvings of it are no loss
-constexpr double share_of_gain = 0.1;   // of what counts as a gain: a step with less ends the ascent
+constexpr double fraction_of_gain = 0.1;  // of what counts as a gain: a step with less ends the ascent
 /// Of the mean distance: differences for slopes of quality, half of the digits of a double behind them.
 constexpr double probe_step = 1e-6;
 /// Steps towards the point next to the origin, and the gain over its square that ends them: the direction is
@@ -54,12 +54,12 @@ double ConeOptimiser::worst(const mesh::TetQuality& measure, Vec3 p, double floo
   return least;
 }
 
-// A place that promises nothing need not settle: projections cost more than measures of quality.
+// A place that promises nothing need not be projected: projections cost more than measures of quality.
 double ConeOptimiser::worst_on(const mesh::TetQuality& measure, Vec3& p, double floor, Locus& locus) {
   const Vec3 before = p;
-  const double reached = worst(measure, p, floor);
-  if (reached <= floor || !locus.settle(p)) return floor;
-  return p == before ? reached : worst(measure, p, floor);
+  const double found = worst(measure, p, floor);
+  if (found <= floor || !locus.project(p)) return floor;
+  return p == before ? found : worst(measure, p, floor);
 }
 
 double ConeOptimiser::mean_distance(Vec3 p) const {
@@ -94,15 +94,15 @@ double ConeOptimiser::climb(const mesh::TetQuality& measure, Vec3& p, double qua
     Vec3 best = p;
     for (int halving = 0; halving <= halvings_of_step; ++halving, length *= 0.5) {
       Vec3 candidate = p + length * direction;
-      const double reached = worst_on(measure, candidate, quality, locus);
-      if (reached <= quality) {
+      const double found = worst_on(measure, candidate, quality, locus);
+      if (found <= quality) {
         if (quality > start) break;
         continue;
       }
-      quality = reached;
+      quality = found;
       best = candidate;
     }
-    if (quality <= start + share_of_gain * Smoothing::least_gain) break;
+    if (quality <= start + fraction_of_gain * Smoothing::least_gain) break;
     p = best;
     length *= longer;
   }

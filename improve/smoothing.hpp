@@ -16,14 +16,14 @@ public:
   /// The part of a direction along which the point may move.
   virtual Vec3 admissible(Vec3 direction) const = 0;
   /// The admissible point next to p, into p; false: there is none that will do.
-  virtual bool settle(Vec3& p) = 0;
+  virtual bool project(Vec3& p) = 0;
 };
 
 /// Everywhere.
 class Space final : public Locus {
 public:
   Vec3 admissible(Vec3 direction) const override { return direction; }
-  bool settle(Vec3&) override { return true; }
+  bool project(Vec3&) override { return true; }
 };
 
 /// The cones from one free point to a set of triangles, and the point that makes the worst of them best.

@@ -71,7 +71,7 @@ void TetMesh::match_all_faces() {
 void TetMesh::fix_vertices() {
   _fixed.assign(_incident.size(), 0);
   for (std::size_t v = 0; v < _fixed.size(); ++v)
-    _fixed[v] = _piece.vertex_dimension[v] < mesh::CadDimension::region || _incident[v] < 0;
+    _fixed[v] = is_on_boundary(_piece.vertex_dimension[v]) || _incident[v] < 0;
   _shared.assign(_incident.size(), 0);
   for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = _shared[v] = 1;
   for (const LocalIndex v : _piece.boundary) _fixed[v] = 1;
@@ -226,7 +226,7 @@ void TetMesh::finish() {
   remove_unused_vertices();
 }
 
-// Slots beyond the original ones are merged in behind the original slot their cavity had, in order of their
+// Slots beyond the original ones are merged in after the original slot their cavity had, in order of their
 // making.
 void TetMesh::order_cells() {
   std::vector<LocalIndex> added(_place.size());

@@ -143,7 +143,7 @@ public:
   /// Puts the cells back: in the old order, new ones where the cavity they came from was; swallowed vertices
   /// removed.
   void finish();
-  /// After that, what each vertex was numbered before, new ones behind the others.
+  /// After that, what each vertex was numbered before, new ones after the others.
   const std::vector<LocalIndex>& origin() const { return _origin; }
 
 private:

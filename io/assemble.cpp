@@ -123,7 +123,7 @@ int volume_sign(CellShape shape, const std::vector<std::array<double, 3>>& point
 
 /// The corners of the mirror image.
 template <std::size_t N>
-void turn_over(std::array<LocalIndex, N>& c) {
+void reverse_orientation(std::array<LocalIndex, N>& c) {
   if constexpr (N == 4) std::swap(c[0], c[1]);
   if constexpr (N == 5) std::swap(c[1], c[3]);
   if constexpr (N == 6) std::swap(c[1], c[2]), std::swap(c[4], c[5]);
@@ -168,7 +168,7 @@ private:
   template <std::size_t N>
   void require_volume(CellShape shape, std::array<LocalIndex, N>& corners, GlobalIndex first) {
     const int sign = volume_sign(shape, _points, corners);
-    if (sign < 0) turn_over(corners), ++turned;
+    if (sign < 0) reverse_orientation(corners), ++turned;
     if (sign != 0) return;
     const geometry::Vec3 p = at(_points, corners, 0);
     throw std::runtime_error(

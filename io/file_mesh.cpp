@@ -96,7 +96,7 @@ void finish(const parallel::Communicator& communicator, FileMesh& mesh) {
   parallel::agree(communicator, [&] { place_parts(mesh, all); });
 }
 
-/// A patch whose faces lie between regions as well as outside is distinguished by ids behind those of all.
+/// A patch whose faces lie between regions as well as outside is distinguished by ids after those of all.
 std::int32_t patch_with_side(const mesh::DistributedMesh& mesh, std::int32_t patch, std::int32_t face) {
   const bool inner = mesh.sides_of(face).is_inner();
   return patch + (inner ? static_cast<std::int32_t>(mesh.patches.size()) : 0);

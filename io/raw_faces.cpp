@@ -93,10 +93,10 @@ std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communica
                     [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
                       met.clear();
                       for (const FaceUser& user : users) met.push_back(faces.candidate(user));
-                      const bool settled = met.size() == 2 && met[0].region == met[1].region &&
+                      const bool matched = met.size() == 2 && met[0].region == met[1].region &&
                                            mesh::opposite_direction(met[0].corners, met[1].corners) &&
                                            !may_be_on_another_rank(key);
-                      if (!settled) candidates.insert(candidates.end(), met.begin(), met.end());
+                      if (!matched) candidates.insert(candidates.end(), met.begin(), met.end());
                     });
   GlobalIndex count = 0;
   for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
@@ -165,14 +165,14 @@ private:
     for (std::size_t f = 1; f < faces; ++f) {
       if (group[f].order < given->order) given = &group[f];
     }
-    if (given != nullptr) face.corners = turned_like(given->corners, cells[0].corners);
+    if (given != nullptr) face.corners = oriented_like(given->corners, cells[0].corners);
     face.order = given != nullptr ? given->order : -1;
     face.patch = given != nullptr ? given->patch : none;
   }
 
   /// The corners as the file has them, from the first one, in the direction of the cell's side; those of the
   /// side where the file goes crosswise.
-  static FaceKey<GlobalIndex> turned_like(FaceKey<GlobalIndex> corners, const FaceKey<GlobalIndex>& side) {
+  static FaceKey<GlobalIndex> oriented_like(FaceKey<GlobalIndex> corners, const FaceKey<GlobalIndex>& side) {
     if (mesh::opposite_direction(corners, side)) std::swap(corners[1], corners[corners[3] < 0 ? 2 : 3]);
     return mesh::same_direction(corners, side) ? corners : side;
   }

@@ -30,8 +30,8 @@ struct MatchedFaces {
   mesh::GlobalIndex left_out = 0;  ///< faces of the file inside a region, of no cell, or given twice
 };
 
-/// Gives each boundary face the piece of its cell and turns it out of that; faces that the file left out get
-/// patches of their own, `boundary_of_REGION` and `REGION_to_REGION`. A patch with faces between regions
+/// Gives each boundary face the piece of its cell and orients it out of that; faces that the file left out
+/// get patches of their own, `boundary_of_REGION` and `REGION_to_REGION`. A patch with faces between regions
 /// beside others becomes two. Each patch is a face of the model for each region that it bounds, or each two
 /// that it lies between, called like the patch, and by its regions where the patch has several. Throws
 /// CollectiveError (input) with `path` where more than two cells meet at a face, or two on the same side of

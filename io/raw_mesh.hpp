@@ -35,8 +35,8 @@ struct Assembled {
 /// Puts the shares together as a mesh of `parts` pieces (0: of what suits its size), in the order of the
 /// file: part k gets the k-th share of cells (tetrahedra first, then pyramids, then prisms) and owns the k-th
 /// share of vertices. repartition() makes compact parts. Cells whose corners come in mirrored order are
-/// turned over, faces turned out of the fluid; points that no cell uses are dropped; vertices are numbered in
-/// the order of ids. Faces of cells that the file leaves open become patches `boundary_of_REGION` or
+/// turned over, faces oriented out of the fluid; points that no cell uses are dropped; vertices are numbered
+/// in the order of ids. Faces of cells that the file leaves open become patches `boundary_of_REGION` or
 /// `REGION_to_REGION`. Throws CollectiveError (input) with `path` and the place: a point that does not exist
 /// or comes twice with different coordinates, a corner twice, coordinates that are no numbers, a tetrahedron
 /// without volume, cells that do not conform, no cells at all. Collective; the same for any number of ranks.

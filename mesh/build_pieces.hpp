@@ -25,7 +25,7 @@ struct CellItem {
   }
 };
 
-/// A boundary face, likewise, with its patch and CAD face.
+/// A boundary face: its corners by number, where it belongs, its patch and its CAD face.
 template <std::size_t N>
 struct FaceItem {
   std::array<GlobalIndex, N> corners;

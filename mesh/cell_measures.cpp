@@ -20,7 +20,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// A corner with the three that edges lead to, right-handed: the first two turn towards the third.
+/// A corner with the three that edges lead to, right-handed.
 struct Corner {
   int at;
   std::array<int, 3> next;
@@ -59,8 +59,8 @@ double determinant(Vec3 a, Vec3 b, Vec3 c) {
   return dot(cross(a, b), c);
 }
 
-/// The angle at the edge `along`, turning from `from` to `to`, degrees, 0 to 360.
-double turn(Vec3 along, Vec3 from, Vec3 to) {
+/// The angle around the edge `along` from `from` to `to`, degrees, 0 to 360.
+double angle_around(Vec3 along, Vec3 from, Vec3 to) {
   const double angle = geometry::degrees_per_radian * std::atan2(determinant(along, from, to) * norm(along),
                                                                  dot(cross(along, from), cross(along, to)));
   return angle < 0 ? angle + 360 : angle;
@@ -75,7 +75,7 @@ void measure_corners(CellShape shape, const Vec3* p, CellValues& values) {
     std::array<Vec3, 3> edge;
     for (std::size_t k = 0; k < 3; ++k) edge[k] = p[corner.next[k]] - p[corner.at];
     for (std::size_t k = 0; k < 3; ++k) {
-      const double angle = turn(edge[k], edge[(k + 1) % 3], edge[(k + 2) % 3]);
+      const double angle = angle_around(edge[k], edge[(k + 1) % 3], edge[(k + 2) % 3]);
       smallest = std::min(smallest, angle), largest = std::max(largest, angle);
     }
     const double lengths = norm(edge[0]) * norm(edge[1]) * norm(edge[2]);

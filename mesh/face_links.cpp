@@ -12,18 +12,18 @@ namespace {
 /// A side of a cell that found no other cell in its piece.
 struct LoneSide {
   FaceKey<GlobalIndex> key;
-  CellBehind cell;
+  CellNeighbour cell;
   std::int32_t bounded;  ///< 1: there is a boundary face
 
   auto place() const { return std::tuple(cell.piece, cell.cell, cell.side); }
   static constexpr auto fields() { return std::tuple(&LoneSide::key, &LoneSide::cell, &LoneSide::bounded); }
 };
 
-/// Tells a side what lies behind it.
+/// Tells a side its neighbour.
 struct Introduction {
-  CellBehind cell, behind;
+  CellNeighbour cell, neighbour;
 
-  static constexpr auto fields() { return std::tuple(&Introduction::cell, &Introduction::behind); }
+  static constexpr auto fields() { return std::tuple(&Introduction::cell, &Introduction::neighbour); }
 };
 
 /// Matches what is inside one piece.
@@ -35,15 +35,16 @@ public:
 
   PieceLinks link() {
     const std::size_t sides = first_side(_piece, _piece.total_cell_count());
-    _links.behind.resize(sides);
+    _links.neighbours.resize(sides);
     _links.boundary_face.assign(sides, -1);
-    match_faces(static_cast<std::size_t>(_piece.vertex_count()), PieceFaces(_piece),
-                [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) { settle(key, users); });
+    match_faces(
+        static_cast<std::size_t>(_piece.vertex_count()), PieceFaces(_piece),
+        [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) { link_face(key, users); });
     return std::move(_links);
   }
 
 private:
-  void settle(const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
+  void link_face(const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
     LocalIndex face = -1;
     std::array<FaceUser, 2> cells;
     std::size_t count = 0;
@@ -61,8 +62,8 @@ private:
     if (count == 0 || count > 2) return;
     for (std::size_t i = 0; i < count; ++i) _links.boundary_face[side_of(cells[i])] = face;
     if (count == 2) {
-      _links.behind[side_of(cells[0])] = {_piece.id, cells[1].item, cells[1].side};
-      _links.behind[side_of(cells[1])] = {_piece.id, cells[0].item, cells[0].side};
+      _links.neighbours[side_of(cells[0])] = {_piece.id, cells[1].item, cells[1].side};
+      _links.neighbours[side_of(cells[1])] = {_piece.id, cells[0].item, cells[0].side};
       return;
     }
     FaceKey<GlobalIndex> numbers{-1, -1, -1, -1};
@@ -103,10 +104,10 @@ FaceLinks link_faces(const parallel::Communicator& communicator, const Distribut
   std::vector<LoneSide> lone;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
     links.pieces.push_back(PieceLinker(mesh.pieces[i], numbering.vertices[i], lone, links.defects).link());
-  for (const auto& [cell, behind] : introduce(communicator, lone, links.defects)) {
+  for (const auto& [cell, neighbour] : introduce(communicator, lone, links.defects)) {
     const std::size_t at = position_of(mesh, cell.piece);
-    links.pieces[at].behind[first_side(mesh.pieces[at], cell.cell) + static_cast<std::size_t>(cell.side)] =
-        behind;
+    links.pieces[at]
+        .neighbours[first_side(mesh.pieces[at], cell.cell) + static_cast<std::size_t>(cell.side)] = neighbour;
   }
   LinkDefects& defects = links.defects;
   for (GlobalIndex* count :

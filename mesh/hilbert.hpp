@@ -26,11 +26,11 @@ inline std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
-  std::uint32_t turned = 0;
+  std::uint32_t flips = 0;
   for (std::uint32_t q = highest; q > 1; q >>= 1) {
-    if (x[2] & q) turned ^= q - 1;
+    if (x[2] & q) flips ^= q - 1;
   }
-  for (std::uint32_t& c : x) c ^= turned;
+  for (std::uint32_t& c : x) c ^= flips;
   std::uint64_t key = 0;
   for (int bit = hilbert_bits - 1; bit >= 0; --bit) {
     for (const std::uint32_t c : x) key = key << 1 | ((c >> bit) & 1U);

@@ -180,7 +180,7 @@ private:
   }
 
   /// Whether all that meet in a bucket are fine, and no more than two at a time.
-  bool settle(const Piece& piece, std::span<const Inside> bucket) {
+  bool is_bucket_fine(const Piece& piece, std::span<const Inside> bucket) {
     if constexpr (N == 4) return false;  // too long for a key of the table, and few
     const auto member = [&](std::uint32_t tag) {
       Member member{piece.id, tag, 0};
@@ -207,7 +207,7 @@ private:
 
   void judge_bucket(const Piece& piece, LocalIndex lowest, std::span<Inside> bucket,
                     const std::vector<GlobalIndex>& numbers) {
-    if (settle(piece, bucket)) return;
+    if (is_bucket_fine(piece, bucket)) return;
     std::sort(bucket.begin(), bucket.end());
     for (std::size_t i = 0, j = 0; i < bucket.size(); i = j) {
       _members.clear();

@@ -41,7 +41,7 @@ NeighbourVolumes compare_volumes(const parallel::Communicator& communicator, con
     std::size_t side = 0;
     for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) {
       for (const std::size_t end = first_side(piece, c + 1); side < end; ++side) {
-        const CellBehind& other = links.pieces[i].behind[side];
+        const CellNeighbour& other = links.pieces[i].neighbours[side];
         if (!other.exists()) continue;
         if (other.piece == piece.id) {
           meet(i, c, result.volumes[i][static_cast<std::size_t>(other.cell)]);

@@ -82,16 +82,16 @@ struct LocalSummary {
   std::vector<WorstCell> worst;
 };
 
-LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbering, CellsBeyond& beyond) {
+LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbering, CellsOutside& outside) {
   LocalSummary local;
   for (const Scale& scale : scales) local.measure.emplace_back(scale);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     Values sum{};
-    std::vector<LocalIndex>& cells_beyond = beyond.cells.emplace_back();
+    std::vector<LocalIndex>& cells_outside = outside.cells.emplace_back();
     for_each_cell(piece, [&](LocalIndex c, const Values& values) {
-      if (values.of[min_angle] < beyond.limits.smallest || values.of[max_angle] > beyond.limits.largest)
-        cells_beyond.push_back(c);
+      if (values.of[min_angle] < outside.limits.smallest || values.of[max_angle] > outside.limits.largest)
+        cells_outside.push_back(c);
       for (int m = 0; m < measures; ++m) {
         local.measure[m].add(values.of[m], scales[m]);
         sum.of[m] += values.of[m];
@@ -127,9 +127,9 @@ Distribution distribution_of(const parallel::Communicator& communicator, Accumul
 }  // namespace
 
 QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const Numbering& numbering, CellsBeyond* beyond) {
-  CellsBeyond nobody_asks;
-  LocalSummary local = summarise_local(mesh, numbering, beyond != nullptr ? *beyond : nobody_asks);
+                                 const Numbering& numbering, CellsOutside* outside) {
+  CellsOutside nobody_asks;
+  LocalSummary local = summarise_local(mesh, numbering, outside != nullptr ? *outside : nobody_asks);
   Values sums{};
   for (const Values& piece : gather_by_piece(communicator, mesh, local.sums)) {
     for (int m = 0; m < measures; ++m) sums.of[m] += piece.of[m];

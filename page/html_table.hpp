@@ -42,7 +42,7 @@ std::string paragraph(const std::string& body);
 std::string badge(const std::string& kind, const std::string& words);
 /// Names and values, two columns; both HTML.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& rows);
-/// A bar that is filled to this part, 0 to 1.
+/// A bar that is filled to this fraction, 0 to 1.
 std::string bar(double part);
 
 }  // namespace aeroloom::page

@@ -94,10 +94,10 @@ double upper_end(double largest, bool is_logarithmic) {
 
 }  // namespace
 
-std::string line_chart(const std::vector<Line>& lines, const LineChart& chart) {
+std::string line_chart(const std::vector<ChartLine>& lines, const LineChart& chart) {
   double x_low = 1e300, x_high = 0, y_low = 1e300, y_high = 0;
   std::set<double> places;
-  for (const Line& line : lines) {
+  for (const ChartLine& line : lines) {
     for (const auto& [x, y] : line.points) {
       x_low = std::min(x_low, x), x_high = std::max(x_high, x);
       y_low = std::min(y_low, y), y_high = std::max(y_high, y);
@@ -128,7 +128,7 @@ std::string line_chart(const std::vector<Line>& lines, const LineChart& chart) {
   body += words(frame.right_end(), frame.high - 8, "end", chart.x_name);
   std::string legend;
   for (std::size_t l = 0; l < lines.size(); ++l) {
-    const Line& line = lines[l];
+    const ChartLine& line = lines[l];
     if (line.points.empty()) continue;
     std::string path, markers;
     for (const auto& [x, y] : line.points) {

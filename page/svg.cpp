@@ -80,7 +80,7 @@ std::string grid(const Axes& axes, const HistogramChart& chart) {
   return text;
 }
 
-bool beyond_limit(const HistogramChart& chart, double from, double to) {
+bool is_past_limit(const HistogramChart& chart, double from, double to) {
   return std::any_of(chart.marks.begin(), chart.marks.end(), [&](const Mark& mark) {
     return mark.limit && (chart.small_is_bad ? to <= mark.at + 1e-9 : from >= mark.at - 1e-9);
   });
@@ -95,7 +95,7 @@ std::string bars(const Axes& axes, const Bins& bins, const HistogramChart& chart
     text += fmt::format(
         "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">"
         "<title>{:.3g}{} to {:.3g}{}: {}</title></rect>\n",
-        beyond_limit(chart, from, to) ? "beyond" : "count", x, y, std::max(1.0, axes.x(to) - x - 0.6),
+        is_past_limit(chart, from, to) ? "beyond" : "count", x, y, std::max(1.0, axes.x(to) - x - 0.6),
         height - bottom - y, from, chart.unit, to, chart.unit,
         counted(bins.counts[b], "tetrahedron", "tetrahedra"));
   }

@@ -18,7 +18,7 @@ struct Mark {
 /// A histogram with a logarithmic scale, so that single elements in a tail of a million are seen.
 struct HistogramChart {
   std::string title;          ///< plain text
-  std::string unit;           ///< behind numbers of the axis
+  std::string unit;           ///< after numbers of the axis
   double tick = 10;           ///< distance of the numbers on the axis
   double from = 0, to = 180;  ///< the part of the axis that is always shown; more where there are counts
   bool small_is_bad = true;

@@ -51,7 +51,7 @@ VertexFans gather_fans(const BackgroundSurface& surface);
 
 /// Stretches of a fan between two of its edges: `from` and `to` are edge numbers, the angle between them is
 /// counted counter-clockwise.
-struct Wedge {
+struct FanWedge {
   FanIndex fan;
   std::int32_t from, to;
   double angle;  ///< degrees

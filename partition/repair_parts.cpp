@@ -8,7 +8,7 @@
 namespace aeroloom::partition {
 namespace {
 
-/// Joining parts may narrow wedges and widening them tear parts: few rounds settle most. Chosen, not
+/// Joining parts may narrow wedges and widening them tear parts: few rounds mend most. Chosen, not
 /// measured.
 constexpr int repair_rounds = 6;
 /// The sum of what is missing around a wedge must fall by more than rounding, or moves would go back and
@@ -28,8 +28,8 @@ public:
   std::int32_t run() {
     std::int32_t moves = 0;
     for (std::int32_t fan = 0; fan < _fans.count(); ++fan) {
-      Wedge worst{-1, 0, 0, _smallest};
-      visit_wedges(_surface, _fans, _part, fan, [&](const Wedge& wedge) {
+      FanWedge worst{-1, 0, 0, _smallest};
+      visit_wedges(_surface, _fans, _part, fan, [&](const FanWedge& wedge) {
         if (wedge.angle < worst.angle) worst = wedge;
       });
       if (worst.fan >= 0 && widen(worst)) ++moves;
@@ -38,7 +38,7 @@ public:
   }
 
 private:
-  bool widen(const Wedge& wedge) {
+  bool widen(const FanWedge& wedge) {
     std::vector<std::int32_t> triangles;
     const std::int32_t size = _fans.size(wedge.fan);
     for (std::int32_t i = wedge.from; i != wedge.to; i = _fans.closed[wedge.fan] ? (i + 1) % size : i + 1) {
@@ -82,7 +82,7 @@ private:
     double missing = 0;
     for (const std::int32_t fan : fans) {
       visit_wedges(_surface, _fans, _part, fan,
-                   [&](const Wedge& wedge) { missing += std::max(0.0, _smallest - wedge.angle); });
+                   [&](const FanWedge& wedge) { missing += std::max(0.0, _smallest - wedge.angle); });
     }
     return missing;
   }
@@ -136,15 +136,15 @@ void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& par
     const auto [at, fresh] = heaviest.try_emplace(part_of[c], c);
     if (!fresh && loads[c] > loads[at->second]) at->second = c;
   }
-  // Stray components join a neighbour whose part is settled; those in the second row wait for the first.
-  std::vector<char> settled(loads.size(), 0);
-  for (const auto& [p, c] : heaviest) settled[c] = 1;
+  // Stray components join a neighbour that has a part; those in the second row wait for the first.
+  std::vector<char> placed(loads.size(), 0);
+  for (const auto& [p, c] : heaviest) placed[c] = 1;
   for (bool changed = true; changed;) {
     changed = false;
-    std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part beyond: length
+    std::map<std::array<std::int32_t, 2>, double> border;  // stray component, part on the other side: length
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
       const geometry::HalfEdge twin = surface.twins[h];
-      if (twin < 0 || settled[component[h / 3]] || !settled[component[twin / 3]]) continue;
+      if (twin < 0 || placed[component[h / 3]] || !placed[component[twin / 3]]) continue;
       border[{component[h / 3], part_of[component[twin / 3]]}] +=
           distance(surface.points[surface.start(h)], surface.points[surface.end(h)]);
     }
@@ -155,7 +155,7 @@ void connect_parts(const BackgroundSurface& surface, std::vector<PartIndex>& par
     }
     for (const auto& [c, target] : best) {
       part_of[c] = target.second;
-      settled[c] = 1;
+      placed[c] = 1;
       changed = true;
     }
   }

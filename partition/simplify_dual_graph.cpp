@@ -28,8 +28,8 @@ private:
 };
 
 /// All wedges below the threshold, the sharpest first. In a closed fan no wedge goes all the way round.
-std::vector<Wedge> sharp_wedges(const VertexFans& fans, double threshold) {
-  std::vector<Wedge> wedges;
+std::vector<FanWedge> sharp_wedges(const VertexFans& fans, double threshold) {
+  std::vector<FanWedge> wedges;
   for (FanIndex fan = 0; fan < fans.count(); ++fan) {
     const std::int32_t size = fans.size(fan);
     for (std::int32_t from = 0; from < size; ++from) {
@@ -43,7 +43,7 @@ std::vector<Wedge> sharp_wedges(const VertexFans& fans, double threshold) {
       }
     }
   }
-  std::sort(wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) {
+  std::sort(wedges.begin(), wedges.end(), [](const FanWedge& a, const FanWedge& b) {
     return std::tie(a.angle, a.fan, a.from, a.to) < std::tie(b.angle, b.fan, b.from, b.to);
   });
   return wedges;
@@ -75,7 +75,7 @@ Clusters simplify_dual_graph(const BackgroundSurface& surface, const VertexFans&
                              const SimplifyOptions& options) {
   ClusterForest forest(surface.loads);
   std::int32_t unresolved = 0;
-  for (const Wedge& wedge : sharp_wedges(fans, options.smallest_angle)) {
+  for (const FanWedge& wedge : sharp_wedges(fans, options.smallest_angle)) {
     // The clusters on both sides of each of its edges; a feature curve cannot be contracted.
     struct Arc {
       bool feature = true;

@@ -34,7 +34,7 @@ void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
     const std::int32_t to = fans.closed[fan] ? (start + k + 1) % size : start + k + 1;
     if (!is_border(surface, part, fans.edge(fan, to))) continue;
     const bool forced = is_feature(surface, fans.edge(fan, from)) && is_feature(surface, fans.edge(fan, to));
-    if (!forced && !(from == to)) visit(Wedge{fan, from, to, angle});
+    if (!forced && !(from == to)) visit(FanWedge{fan, from, to, angle});
     from = to;
     angle = 0;
   }

@@ -67,7 +67,7 @@ public:
   }
   /// Twice the area left of the way from a to b, up to a point.
   double area(double x, double y) const { return _sign * (_dx * (y - _y) - _dy * (x - _x)); }
-  void turn_round() { _sign = -_sign; }
+  void flip() { _sign = -_sign; }
 
 private:
   double _x = 0, _y = 0, _dx = 0, _dy = 0, _sign = 1;
@@ -110,7 +110,7 @@ void Canvas::draw_triangle(const std::array<ScreenPoint, 3>& corners, const Tria
   const double area = edges[0].area(corners[2].x, corners[2].y);
   if (!(std::abs(area) > 0)) return;
   if (area < 0) {
-    for (EdgeSide& edge : edges) edge.turn_round();
+    for (EdgeSide& edge : edges) edge.flip();
   }
   for_each_pixel(corners, 0, _window, [&](int x, int y) {
     std::uint64_t* pixel = row(y) + static_cast<std::size_t>(x) * samples;

@@ -14,8 +14,8 @@ std::uint8_t component(double value) {
 
 }  // namespace
 
-Colour mix(Colour a, Colour b, double share) {
-  const int of_b = static_cast<int>(256 * std::clamp(share, 0.0, 1.0));
+Colour mix(Colour a, Colour b, double fraction) {
+  const int of_b = static_cast<int>(256 * std::clamp(fraction, 0.0, 1.0));
   const auto between = [of_b](int x, int y) {
     return static_cast<std::uint8_t>((x * (256 - of_b) + y * of_b + 128) >> 8);
   };

@@ -22,8 +22,8 @@ inline constexpr Colour white{255, 255, 255};
 inline constexpr Colour ink{28, 32, 38};            ///< outlines
 inline constexpr Colour solid_grey{208, 212, 217};  ///< a body that was cut
 
-/// `share` of b in a; share from 0 to 1.
-Colour mix(Colour a, Colour b, double share);
+/// `fraction` of b in a, from 0 to 1.
+Colour mix(Colour a, Colour b, double fraction);
 /// Darker or lighter by a factor.
 Colour lit(Colour colour, double brightness);
 /// As HTML writes it: "#rrggbb".

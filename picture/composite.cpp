@@ -8,21 +8,21 @@ namespace aeroloom::picture {
 namespace {
 
 /// Rows that a rank puts together.
-struct Strip {
+struct Band {
   int begin, end;
 };
-Strip strip_of(parallel::Rank rank, int ranks, int height) {
+Band band_of(parallel::Rank rank, int ranks, int height) {
   const auto border = [&](std::int64_t r) { return static_cast<int>(r * height / ranks); };
   return {border(rank), border(rank + 1)};
 }
 
-/// Samples one after another that are not empty; `first` counts from the start of the strip.
+/// Samples one after another that are not empty; `first` counts from the start of the band.
 struct RunHead {
   std::uint32_t first, count;
 };
 
-/// The drawn samples of a strip: heads of runs, each followed by its samples.
-parallel::Bytes pack_strip(const std::uint64_t* samples, std::size_t count) {
+/// The drawn samples of a band: heads of runs, each followed by its samples.
+parallel::Bytes pack_band(const std::uint64_t* samples, std::size_t count) {
   parallel::Bytes packed;
   const auto append = [&packed](const void* data, std::size_t bytes) {
     const auto* from = static_cast<const std::byte*>(data);
@@ -39,7 +39,7 @@ parallel::Bytes pack_strip(const std::uint64_t* samples, std::size_t count) {
   return packed;
 }
 
-void merge_strip(const parallel::Bytes& packed, std::uint64_t* samples) {
+void merge_band(const parallel::Bytes& packed, std::uint64_t* samples) {
   for (std::size_t at = 0; at < packed.size();) {
     RunHead head;
     std::memcpy(&head, packed.data() + at, sizeof head);
@@ -53,10 +53,10 @@ void merge_strip(const parallel::Bytes& packed, std::uint64_t* samples) {
 }
 
 /// The mean of the samples of each pixel.
-std::vector<Colour> resolve(const Canvas& canvas, Strip strip, Colour background) {
+std::vector<Colour> resolve(const Canvas& canvas, Band band, Colour background) {
   std::vector<Colour> pixels;
-  pixels.reserve(static_cast<std::size_t>(strip.end - strip.begin) * canvas.width());
-  for (int y = strip.begin; y < strip.end; ++y) {
+  pixels.reserve(static_cast<std::size_t>(band.end - band.begin) * canvas.width());
+  for (int y = band.begin; y < band.end; ++y) {
     const std::uint64_t* sample = canvas.row(y);
     for (int x = 0; x < canvas.width(); ++x) {
       int red = 0, green = 0, blue = 0;
@@ -78,20 +78,20 @@ std::vector<Colour> resolve(const Canvas& canvas, Strip strip, Colour background
 Image composite(const parallel::Communicator& communicator, Canvas canvas, Colour background,
                 const std::function<void(Canvas&)>& draw_alike) {
   const int ranks = communicator.size();
-  const auto sample_count = [&](Strip strip) {
-    return static_cast<std::size_t>(strip.end - strip.begin) * canvas.width() * Canvas::samples;
+  const auto sample_count = [&](Band band) {
+    return static_cast<std::size_t>(band.end - band.begin) * canvas.width() * Canvas::samples;
   };
   std::vector<parallel::Parcel> parcels;
   for (parallel::Rank rank = 0; rank < ranks; ++rank) {
     if (rank == communicator.rank()) continue;
-    const Strip strip = strip_of(rank, ranks, canvas.height());
-    if (strip.begin == strip.end) continue;
-    parallel::Bytes packed = pack_strip(canvas.row(strip.begin), sample_count(strip));
+    const Band band = band_of(rank, ranks, canvas.height());
+    if (band.begin == band.end) continue;
+    parallel::Bytes packed = pack_band(canvas.row(band.begin), sample_count(band));
     if (!packed.empty()) parcels.push_back({rank, std::move(packed)});
   }
-  const Strip mine = strip_of(communicator.rank(), ranks, canvas.height());
+  const Band mine = band_of(communicator.rank(), ranks, canvas.height());
   for (const parallel::Parcel& parcel : communicator.exchange(std::move(parcels))) {
-    merge_strip(parcel.content, canvas.row(mine.begin));
+    merge_band(parcel.content, canvas.row(mine.begin));
   }
   if (draw_alike) draw_alike(canvas);
   const std::vector<Colour> pixels = resolve(canvas, mine, background);

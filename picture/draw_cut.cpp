@@ -121,9 +121,9 @@ void draw_backdrop(Canvas& canvas, const Camera& camera, const geometry::Box& bo
     const ScreenPoint s = camera.project(p);
     seen.add(Vec3{s.x, s.y, 0});
   }
-  constexpr double behind = 1e6;  // pixels: farther than anything that is drawn
-  const ScreenPoint a{seen.low.x, seen.low.y, behind}, b{seen.high.x, seen.low.y, behind},
-      c{seen.high.x, seen.high.y, behind}, d{seen.low.x, seen.high.y, behind};
+  constexpr double far_depth = 1e6;  // pixels: farther than anything that is drawn
+  const ScreenPoint a{seen.low.x, seen.low.y, far_depth}, b{seen.high.x, seen.low.y, far_depth},
+      c{seen.high.x, seen.high.y, far_depth}, d{seen.low.x, seen.high.y, far_depth};
   canvas.draw_triangle({a, b, c}, {colour, colour});
   canvas.draw_triangle({a, c, d}, {colour, colour});
 }

@@ -31,7 +31,7 @@ public:
       : _canvas(canvas), _camera(camera), _look(look) {}
 
   void draw(const mesh::Piece& piece, const std::vector<std::uint8_t>& shown,
-            const std::vector<Fold>& folds) {
+            const std::vector<EdgeNeighbour>& neighbours) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (!shown[t]) continue;
       const Vec3 normal = -normalized(area_normal(piece, t));
@@ -39,15 +39,16 @@ public:
       const LocalIndex* v = piece.cell(t);
       std::array<ScreenPoint, 3> corners;
       for (int i = 0; i < 3; ++i) corners[i] = _camera.project(piece.point(v[i]));
-      const Colour colour = lit(
-          colour_of(piece.triangle_patch[t]),
-          brightness(_camera.view, shading_normal(normal, folds.data() + 3 * static_cast<std::size_t>(t))));
+      const Colour colour =
+          lit(colour_of(piece.triangle_patch[t]),
+              brightness(_camera.view,
+                         shading_normal(normal, neighbours.data() + 3 * static_cast<std::size_t>(t))));
       TriangleStyle style{colour, mix(colour, ink, 0.8), 1.1};
-      if (_look.edge_opacity > 0) style.line_opacity.fill(_look.edge_opacity * visible_share(corners));
+      if (_look.edge_opacity > 0) style.line_opacity.fill(_look.edge_opacity * visible_fraction(corners));
       _canvas.draw_triangle(corners, style);
       for (int i = 0; i < 3; ++i) {
-        const Fold& fold = folds[3 * static_cast<std::size_t>(t) + i];
-        draw_border(corners[i], corners[(i + 1) % 3], normal, piece.triangle_patch[t], fold);
+        const EdgeNeighbour& neighbour = neighbours[3 * static_cast<std::size_t>(t) + i];
+        draw_border(corners[i], corners[(i + 1) % 3], normal, piece.triangle_patch[t], neighbour);
       }
     }
   }
@@ -56,11 +57,11 @@ private:
   bool is_seen(Vec3 flow_normal) const { return dot(flow_normal, _camera.view.towards) > 0; }
 
   /// Without lines the triangles are not to be seen, but the shape.
-  Vec3 shading_normal(Vec3 normal, const Fold* folds) const {
+  Vec3 shading_normal(Vec3 normal, const EdgeNeighbour* neighbours) const {
     if (_look.edge_opacity > 0) return normal;
     Vec3 sum = normal;
     for (int i = 0; i < 3; ++i) {
-      if (dot(normal, -folds[i].normal) > std::cos(sharp)) sum += -folds[i].normal;
+      if (dot(normal, -neighbours[i].normal) > std::cos(sharp)) sum += -neighbours[i].normal;
     }
     return normalized(sum);
   }
@@ -71,7 +72,7 @@ private:
   }
 
   /// Lines get lighter where they come closer than a few pixels.
-  static double visible_share(const std::array<ScreenPoint, 3>& c) {
+  static double visible_fraction(const std::array<ScreenPoint, 3>& c) {
     const double area =
         std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
     double longest = 0;
@@ -85,12 +86,12 @@ private:
   }
 
   void draw_border(const ScreenPoint& a, const ScreenPoint& b, Vec3 normal, std::int32_t patch,
-                   const Fold& fold) {
-    const bool is_outline = fold.is_open() || !fold.shown || !is_seen(-fold.normal);
-    const bool is_sharp = fold.several || dot(normal, -fold.normal) < std::cos(sharp);
+                   const EdgeNeighbour& neighbour) {
+    const bool is_outline = neighbour.is_open() || !neighbour.shown || !is_seen(-neighbour.normal);
+    const bool is_sharp = neighbour.several || dot(normal, -neighbour.normal) < std::cos(sharp);
     if (is_outline) {
       _canvas.draw_line(a, b, _look.outline_width, ink, raised);
-    } else if (is_sharp || fold.patch != patch) {
+    } else if (is_sharp || neighbour.patch != patch) {
       _canvas.draw_line(a, b, 0.85 * _look.outline_width, mix(ink, colour_of(patch), 0.25), raised);
     }
   }
@@ -103,11 +104,11 @@ private:
 }  // namespace
 
 void draw_surface(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& surface,
-                  const Folds& folds, const Scene& scene, const SurfaceLook& look) {
+                  const EdgeNeighbours& neighbours, const Scene& scene, const SurfaceLook& look) {
   canvas.set_window(camera.window);
   SurfaceDrawing drawing(canvas, camera, look);
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
-    drawing.draw(surface.pieces[p], scene.shown[p], folds[p]);
+    drawing.draw(surface.pieces[p], scene.shown[p], neighbours[p]);
   }
 }
 

@@ -4,7 +4,7 @@
 #include "aeroloom/mesh/distributed_mesh.hpp"
 #include "picture/camera.hpp"
 #include "picture/canvas.hpp"
-#include "picture/folds.hpp"
+#include "picture/edge_neighbours.hpp"
 #include "picture/scene.hpp"
 
 #include <vector>
@@ -21,7 +21,7 @@ struct SurfaceLook {
 /// of a duct so are seen from inside, through those in front. Lines along edges fade where triangles get
 /// smaller than three pixels.
 void draw_surface(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& surface,
-                  const Folds& folds, const Scene& scene, const SurfaceLook& look);
+                  const EdgeNeighbours& neighbours, const Scene& scene, const SurfaceLook& look);
 
 /// A plane of points p with dot(normal, p) = offset.
 struct Plane {

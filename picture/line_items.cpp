@@ -9,8 +9,8 @@ namespace aeroloom::picture {
 
 using mesh::GlobalIndex;
 
-std::vector<Line> gather_lines(const parallel::Communicator& communicator,
-                               const std::vector<LineItem>& mine) {
+std::vector<SurfaceLine> gather_lines(const parallel::Communicator& communicator,
+                                      const std::vector<LineItem>& mine) {
   std::vector<LineItem> items;
   for (const parallel::Bytes& bytes :
        communicator.gather(parallel::to_bytes(std::span<const LineItem>(mine)))) {
@@ -32,19 +32,19 @@ std::vector<Line> gather_lines(const parallel::Communicator& communicator,
     sets.unite(place_of(item.vertices[0]), place_of(item.vertices[1]));
     sets.unite(place_of(item.vertices[0]), place_of(item.vertices[2]));
   }
-  std::map<std::int64_t, Line> lines;
+  std::map<std::int64_t, SurfaceLine> lines;
   for (const LineItem& item : items) {
-    Line& line = lines[sets.root(place_of(item.vertices[0]))];
+    SurfaceLine& line = lines[sets.root(place_of(item.vertices[0]))];
     line.items.push_back(item);
     line.box.add(item.point);
   }
-  std::vector<Line> result;
+  std::vector<SurfaceLine> result;
   result.reserve(lines.size());
   for (auto& [root, line] : lines) result.push_back(std::move(line));
   return result;
 }
 
-LineItem smoothed(const Line& line, const LineItem& item) {
+LineItem smoothed(const SurfaceLine& line, const LineItem& item) {
   LineItem mean = item;
   mean.normal = mean.along = {};
   double weight = 0, size = 0;

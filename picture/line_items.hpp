@@ -30,7 +30,7 @@ inline bool precedes(const LineItem& a, const LineItem& b) {
 }
 
 /// Line items that are connected by vertices.
-struct Line {
+struct SurfaceLine {
   std::vector<LineItem> items;  ///< by their vertices
   geometry::Box box;            ///< of the points of its items
 
@@ -39,9 +39,10 @@ struct Line {
 
 /// All lines of the items of all ranks on rank 0, by their lowest vertices; nothing elsewhere. A function of
 /// the set of all items. Collective.
-std::vector<Line> gather_lines(const parallel::Communicator& communicator, const std::vector<LineItem>& mine);
+std::vector<SurfaceLine> gather_lines(const parallel::Communicator& communicator,
+                                      const std::vector<LineItem>& mine);
 
 /// The mean of what is near an item: its direction, normal and size, over four sizes.
-LineItem smoothed(const Line& line, const LineItem& item);
+LineItem smoothed(const SurfaceLine& line, const LineItem& item);
 
 }  // namespace aeroloom::picture

@@ -27,7 +27,7 @@ constexpr double corner = 75 * degree;      ///< coarse triangles on a rounding 
 /// The flow comes from before a line, within 73 degrees of its normal.
 constexpr double least_upstream = 0.3;
 /// Of the turn of an edge or triangle: the flow that it divides comes from within that.
-constexpr double share_of_edge = 0.45, share_of_triangle = 0.75;
+constexpr double fraction_of_edge = 0.45, fraction_of_triangle = 0.75;
 constexpr double most_of_triangle = 30 * degree;
 /// Curvature over the inverse of the diagonal: of a leading edge, which is curved one way, and of the
 /// sharpest place.
@@ -54,13 +54,13 @@ struct Element {
   double area = 0, size = 0;
   std::array<double, 3> turns = {0, 0, 0};             ///< at the edge from corner i, radians
   std::array<Vec3, 3> bisectors;                       ///< half way between the normals of both sides
-  std::array<bool, 3> inside = {false, false, false};  ///< whether what lies beyond is shown
+  std::array<bool, 3> inside = {false, false, false};  ///< whether the neighbour there is shown
 
   Vec3 edge(int i) const { return corners[(i + 1) % 3] - corners[i]; }
   Vec3 middle() const { return (corners[0] + corners[1] + corners[2]) / 3; }
 };
 
-Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fold>& folds) {
+Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<EdgeNeighbour>& neighbours) {
   Element e;
   const LocalIndex* v = piece.cell(t);
   for (int i = 0; i < 3; ++i) e.corners[i] = piece.point(v[i]);
@@ -68,12 +68,12 @@ Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Fol
   e.area = 0.5 * norm(vector);
   e.normal = -normalized(vector);
   for (int i = 0; i < 3; ++i) {
-    const Fold& fold = folds[3 * static_cast<std::size_t>(t) + i];
+    const EdgeNeighbour& neighbour = neighbours[3 * static_cast<std::size_t>(t) + i];
     e.size += norm(e.edge(i)) / 3;
-    e.inside[i] = !fold.several && fold.shown;
+    e.inside[i] = !neighbour.several && neighbour.shown;
     if (!e.inside[i]) continue;
-    e.turns[i] = turn(-e.normal, e.edge(i), fold);
-    e.bisectors[i] = normalized(e.normal - fold.normal);
+    e.turns[i] = angle_at(-e.normal, e.edge(i), neighbour);
+    e.bisectors[i] = normalized(e.normal - neighbour.normal);
   }
   return e;
 }
@@ -96,15 +96,15 @@ Curvature curvature_of(const Element& e) {
 
 /// Calls visit(element, vertices) for what is shown; vertices by global number.
 template <class Visit>
-void for_each_element(const DistributedMesh& surface, const mesh::Numbering& numbering, const Folds& folds,
-                      const Scene& scene, const Visit& visit) {
+void for_each_element(const DistributedMesh& surface, const mesh::Numbering& numbering,
+                      const EdgeNeighbours& neighbours, const Scene& scene, const Visit& visit) {
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (!scene.shown[p][t]) continue;
       const LocalIndex* v = piece.cell(t);
       const auto& numbers = numbering.vertices[p];
-      const Element e = element_of(piece, t, folds[p]);
+      const Element e = element_of(piece, t, neighbours[p]);
       if (e.area > 0) visit(e, std::array<mesh::GlobalIndex, 3>{numbers[v[0]], numbers[v[1]], numbers[v[2]]});
     }
   }
@@ -132,20 +132,20 @@ bool flow_divides(Vec3 normal, Vec3 along, double angle) {
 
 /// Bits of leading edges. Each sharp_turn edge comes from both of its triangles.
 std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                                    const Folds& folds, const Scene& scene) {
+                                    const EdgeNeighbours& neighbours, const Scene& scene) {
   std::vector<LineItem> items;
   const double diagonal = scene.box.diagonal();
-  for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+  for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
       if (e.turns[i] < sharp_turn) continue;
-      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), share_of_edge * e.turns[i]))
+      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), fraction_of_edge * e.turns[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
     if (curvature.largest * diagonal < least_curvature ||
         std::abs(curvature.smallest) > most_of_other * curvature.largest)
       return;
-    const double angle = std::min(share_of_triangle * curvature.largest * e.size, most_of_triangle);
+    const double angle = std::min(fraction_of_triangle * curvature.largest * e.size, most_of_triangle);
     if (flow_divides(e.normal, curvature.along, angle))
       items.push_back(item_of_triangle(e, curvature, vertices));
   });
@@ -153,7 +153,7 @@ std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::
 }
 
 /// The item half way along the line.
-const LineItem& middle_of(const Line& line) {
+const LineItem& middle_of(const SurfaceLine& line) {
   int axis = 0;
   for (int k = 1; k < 3; ++k) axis = line.box.size()[k] > line.box.size()[axis] ? k : axis;
   const double middle = line.box.center()[axis];
@@ -162,7 +162,7 @@ const LineItem& middle_of(const Line& line) {
   });
 }
 
-Place place_at(const Line& line, const LineItem& item, bool is_upstream) {
+Place place_at(const SurfaceLine& line, const LineItem& item, bool is_upstream) {
   const LineItem mean = smoothed(line, item);
   return {item.point, mean.normal, mean.along, mean.size, is_upstream};
 }
@@ -187,9 +187,10 @@ bool beats(const Sharpest& a, const Sharpest& b) {
 }
 
 std::optional<Place> find_sharpest(const Communicator& communicator, const DistributedMesh& surface,
-                                   const mesh::Numbering& numbering, const Folds& folds, const Scene& scene) {
+                                   const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
+                                   const Scene& scene) {
   Sharpest mine;
-  for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+  for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     const auto take = [&](double angle, const LineItem& item) {
       if (const Sharpest here{angle, item}; beats(here, mine)) mine = here;
     };
@@ -210,43 +211,45 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
 }  // namespace
 
 std::optional<Place> find_leading_edge(const Communicator& communicator, const DistributedMesh& surface,
-                                       const mesh::Numbering& numbering, const Folds& folds,
+                                       const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
                                        const Scene& scene) {
-  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, folds, scene);
+  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, neighbours, scene);
   std::vector<LineItem> items;
-  parallel::agree(communicator, [&] { items = leading_items(surface, numbering, folds, scene); });
-  std::vector<Line> lines = gather_lines(communicator, items);
-  std::erase_if(lines,
-                [](const Line& line) { return line.extent() < least_length * line.items.front().size; });
+  parallel::agree(communicator, [&] { items = leading_items(surface, numbering, neighbours, scene); });
+  std::vector<SurfaceLine> lines = gather_lines(communicator, items);
+  std::erase_if(
+      lines, [](const SurfaceLine& line) { return line.extent() < least_length * line.items.front().size; });
   std::optional<Place> found;
   if (!lines.empty()) {
     double longest = 0;
-    for (const Line& line : lines) longest = std::max(longest, line.extent());
-    std::erase_if(lines, [longest](const Line& line) { return line.extent() < as_long * longest; });
-    for (const Line& line : lines) {
+    for (const SurfaceLine& line : lines) longest = std::max(longest, line.extent());
+    std::erase_if(lines, [longest](const SurfaceLine& line) { return line.extent() < as_long * longest; });
+    for (const SurfaceLine& line : lines) {
       const LineItem& middle = middle_of(line);
       if (!found || middle.point.y < found->point.y) found = place_at(line, middle, true);
     }
   }
   found = shared(communicator, found);
-  return found ? found : find_sharpest(communicator, surface, numbering, folds, scene);
+  return found ? found : find_sharpest(communicator, surface, numbering, neighbours, scene);
 }
 
 std::optional<Place> find_junction(const Communicator& communicator, const DistributedMesh& surface,
-                                   const mesh::Numbering& numbering, const Folds& folds, const Scene& scene) {
+                                   const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
+                                   const Scene& scene) {
   if (!scene.has_body) return std::nullopt;
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] {
-    for_each_element(surface, numbering, folds, scene, [&](const Element& e, const auto& vertices) {
+    for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
       for (int i = 0; i < 3; ++i) {
         if (e.turns[i] < -inward_turn && vertices[i] < vertices[(i + 1) % 3])
           items.push_back(item_of_edge(e, i, vertices));
       }
     });
   });
-  const std::vector<Line> lines = gather_lines(communicator, items);
-  const auto longest = std::max_element(lines.begin(), lines.end(),
-                                        [](const Line& a, const Line& b) { return a.extent() < b.extent(); });
+  const std::vector<SurfaceLine> lines = gather_lines(communicator, items);
+  const auto longest =
+      std::max_element(lines.begin(), lines.end(),
+                       [](const SurfaceLine& a, const SurfaceLine& b) { return a.extent() < b.extent(); });
   std::optional<Place> found;
   if (longest != lines.end() && longest->items.size() > least_edges) {
     const auto first =

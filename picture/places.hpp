@@ -1,7 +1,7 @@
 /// Places of a surface that are worth a look, found from the mesh alone.
 #pragma once
 
-#include "picture/folds.hpp"
+#include "picture/edge_neighbours.hpp"
 #include "picture/scene.hpp"
 
 #include <optional>
@@ -34,13 +34,13 @@ struct Place {
 /// triangle. Collective.
 std::optional<Place> find_leading_edge(const parallel::Communicator& communicator,
                                        const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                       const Folds& folds, const Scene& scene);
+                                       const EdgeNeighbours& neighbours, const Scene& scene);
 
 /// The upstream end of the crease of the longest extent: edges where what is shown turns towards the flow by
 /// more than 20 degrees; those that share a vertex are one crease. Nothing without a body, or where there is
 /// no crease longer than 10 edges. Creases are lines, so all their edges travel to rank 0. Collective.
 std::optional<Place> find_junction(const parallel::Communicator& communicator,
                                    const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                   const Folds& folds, const Scene& scene);
+                                   const EdgeNeighbours& neighbours, const Scene& scene);
 
 }  // namespace aeroloom::picture

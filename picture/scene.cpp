@@ -72,10 +72,10 @@ std::vector<Farthest> hull_points(const Communicator& communicator, const Distri
   return best;
 }
 
-/// Marks the triangles on the convex hull. Chords of a round far field leave it by a share of their length;
-/// half a fin at a plane of symmetry may be as close, but not for its own small triangles.
+/// Marks the triangles on the convex hull. Chords of a round far field leave it by a fraction of their
+/// length; half a fin at a plane of symmetry may be as close, but not for its own small triangles.
 Shown triangles_on_hull(const Communicator& communicator, const DistributedMesh& surface) {
-  constexpr double share = 0.15;  // chosen, not measured
+  constexpr double fraction = 0.15;  // chosen, not measured
   const std::vector<Farthest> hull = hull_points(communicator, surface);
   Shown marks;
   for (const mesh::Piece& piece : surface.pieces) {
@@ -86,7 +86,7 @@ Shown triangles_on_hull(const Communicator& communicator, const DistributedMesh&
       const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
       const Vec3 normal = normalized(area_normal(piece, t));
       of_piece[t] = std::all_of(hull.begin(), hull.end(), [&](const Farthest& far) {
-        return dot(normal, far.point - a) <= share * longest;
+        return dot(normal, far.point - a) <= fraction * longest;
       });
     }
   }
@@ -138,8 +138,8 @@ bool enclose_the_rest(const std::vector<PieceSums>& rows) {
     rest += row.unmarked;
   }
   // Closed but for the plane of symmetry of half a domain, and with nearly all of the volume inside.
-  constexpr double open_share = 0.15, most_of_volume = 0.9;
-  return rest > 0 && area > 0 && norm(vector) <= open_share * area && volume >= most_of_volume * whole;
+  constexpr double open_fraction = 0.15, most_of_volume = 0.9;
+  return rest > 0 && area > 0 && norm(vector) <= open_fraction * area && volume >= most_of_volume * whole;
 }
 
 void add_up(const std::vector<PieceSums>& rows, Scene& scene) {

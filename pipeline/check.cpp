@@ -50,9 +50,9 @@ study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicat
 }
 
 /// The clock has the stage `geometry`.
-Forecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
-                      const cases::Case& input, parallel::StageClock& clock) {
-  Forecast forecast;
+RunForecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
+                         const cases::Case& input, parallel::StageClock& clock) {
+  RunForecast forecast;
   const double begin = parallel::cpu_seconds();
   clock.begin("sizing");
   const domain::SizedDomain sized =
@@ -139,7 +139,7 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
   return text;
 }
 
-std::string describe_forecast(const Forecast& forecast, int ranks) {
+std::string describe_forecast(const RunForecast& forecast, int ranks) {
   std::string text;
   for (const domain::JudgedEdge& edge : forecast.edges)
     if (edge.fate != domain::EdgeFate::kept) text += "      " + edge.what + "\n";
@@ -213,7 +213,7 @@ Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& 
   return json;
 }
 
-Json forecast_json(const Forecast& forecast) {
+Json forecast_json(const RunForecast& forecast) {
   return {{"minimum", forecast.sizes.minimum},
           {"maximum", forecast.sizes.maximum},
           {"triangles", forecast.counts.triangles},

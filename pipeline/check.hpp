@@ -27,7 +27,7 @@ struct FaceContact {
 };
 
 /// The predicted cost of a run, by the constants in docs/usage.md.
-struct Forecast {
+struct RunForecast {
   sizing::SizingOptions sizes;
   std::optional<domain::FeatureReport> features;
   domain::WallFindings walls;               ///< what was found of walls close to each other
@@ -46,7 +46,7 @@ struct CheckRecord {
   std::vector<FaceContact> contacts;  ///< at most 20
   std::int64_t contact_count = 0;
   std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
-  Forecast forecast;
+  RunForecast forecast;
 };
 
 /// Contacts among the faces of a model that are not far field, at most `most` of them listed. Not collective.

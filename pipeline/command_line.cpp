@@ -19,7 +19,7 @@ constexpr const char* program_description =
     "Aeroloom: from aircraft CAD to a distributed tetrahedral mesh.\n"
     "There are no boundary layers: all elements are isotropic tetrahedra.";
 
-/// Before the name of the command or behind it.
+/// Before the name of the command or after it.
 void add_loudness(CLI::App& app, Loudness& loudness) {
   app.add_flag("-v,--verbose", loudness.verbose, "say more")->group(option_group::printing);
   app.add_flag("-q,--quiet", loudness.quiet, "print warnings and errors only")->group(option_group::printing);

@@ -35,7 +35,7 @@ public:
     std::vector<std::vector<cad::FaceId>> around(model.vertex_count());
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       for (const auto& loop : model.face(f).loops) {
-        for (const cad::EdgeUse& use : loop) {
+        for (const cad::Coedge& use : loop) {
           around[model.edge(use.edge).first].push_back(f);
           around[model.edge(use.edge).last].push_back(f);
         }

@@ -11,21 +11,15 @@
 
 namespace aeroloom::pipeline {
 
-/// A mesh with its global numbers.
-struct NumberedMesh {
-  mesh::DistributedMesh mesh;
-  mesh::Numbering numbering;
-};
-
 /// The finished surface with its sizes.
-struct FinishedSurface : NumberedMesh {
+struct FinishedSurface : mesh::NumberedMesh {
   sizing::SizeField field;
 };
 
 /// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
 /// require_valid().
 void inspect_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                     const std::string& what, const NumberedMesh& surface, report::RunRecord& record);
+                     const std::string& what, const mesh::NumberedMesh& surface, report::RunRecord& record);
 
 /// The surface follows a volume whose boundary was improved. Collective.
 void adopt_boundary(const parallel::Communicator& communicator, const cad::Model& model,

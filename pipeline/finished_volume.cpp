@@ -37,7 +37,7 @@ std::vector<report::RegionRow> table_of_regions(const Communicator& communicator
 /// Tells the elements that the CAD forces from those that improvement could not mend.
 void list_pinned(const Communicator& communicator, const cases::Case& input,
                  const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                 const mesh::CellsBeyond& suspects, report::RunRecord& record) {
+                 const mesh::CellsOutside& suspects, report::RunRecord& record) {
   record.pinned = attribution::find_pinned(communicator, volume, numbering, input.improve.target_angle,
                                            suspects, input.improve.boundary_may_change);
   log_pinned(record);
@@ -78,7 +78,7 @@ void inspect_volume(const Communicator& communicator, const cases::Case& input,
   record.mesh_volume = validity.volume;
   record.counts = mesh::count_mesh(communicator, volume, numbering);
   record.regions_filled = table_of_regions(communicator, volume, validity.region_volumes);
-  mesh::CellsBeyond suspects;
+  mesh::CellsOutside suspects;
   if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
   record.quality = mesh::summarise_quality(communicator, volume, numbering, &suspects);
   if (input.gate.asks_for_cells()) record.cells = measure_cells(communicator, volume, numbering);
@@ -150,7 +150,7 @@ std::string describe_missed_volume(const report::RegionRow& region, double most,
 }
 
 /// Whether a region is so few of the smallest elements wide that these explain what it misses: the square of
-/// their share of its breadth, as chords of arcs do.
+/// their fraction of its breadth, as chords of arcs do.
 bool is_coarse(const report::RegionRow& region, double deviation, const report::RunRecord& record) {
   const double chord = record.sizes.minimum / std::cbrt(region.cad_volume);
   return deviation <= chord * chord;

@@ -55,7 +55,7 @@ std::string advise(double tetrahedra, double limit, int ranks_here, int ranks) {
 // report), and nearly all work on them. Spreads are of the size of those in tasks.csv of five runs: standard
 // deviations over the mean of 0.07 to 0.25 (zones), and over the predicted load of 0.19 to 0.34 (improved
 // pieces) and 0.18 to 0.46 (pieces of the surface), of which a spread is the square root of three.
-constexpr double part_of_zones = 0.4;
+constexpr double fraction_of_zones = 0.4;
 
 /// Tasks, as many as come of pieces of that size. They are scheduled as if they were equal and take from
 /// 1 - spread to 1 + spread times as long, in an order without pattern (multiples of the golden ratio).
@@ -99,7 +99,7 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
       stage.divisible = rest;
     else
       stage.groups = {
-          uneven_tasks(share.pieces, rest, part_of_zones * counts.tetrahedra, of_piece, share.spread)};
+          uneven_tasks(share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
     measured.stages.push_back(std::move(stage));
   }
   return study::worthwhile_ranks(measured, {});

@@ -90,7 +90,7 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
 
 void show_mesh(const Communicator& communicator, const InfoRequest& request) {
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
-  MeshFacts facts{format_in_words(request.file), 0, bounds_of(communicator, file.mesh)};
+  MeshFileFacts facts{format_in_words(request.file), 0, bounds_of(communicator, file.mesh)};
   if (communicator.is_root()) facts.parts = parts_named_in(request.file);
   parallel::agree(communicator,
                   [&] { show(communicator, request, info_json(file, facts), info_text(file, facts)); });

@@ -76,7 +76,7 @@ std::string faces_text(const std::vector<cad::FaceFacts>& faces) {
 
 }  // namespace
 
-Json info_json(const io::Assembled& file, const MeshFacts& facts) {
+Json info_json(const io::Assembled& file, const MeshFileFacts& facts) {
   const io::FileMesh& mesh = file.mesh;
   Json json = {{"kind", "mesh"},
                {"format", facts.format},
@@ -106,7 +106,7 @@ Json info_json(const io::Assembled& file, const MeshFacts& facts) {
   return json;
 }
 
-std::string info_text(const io::Assembled& file, const MeshFacts& facts) {
+std::string info_text(const io::Assembled& file, const MeshFileFacts& facts) {
   const io::FileMesh& mesh = file.mesh;
   std::string text = fmt::format("a mesh, {}{}\n", facts.format,
                                  facts.parts > 0 ? fmt::format(", {} part(s)", facts.parts) : "");

@@ -12,14 +12,14 @@
 namespace aeroloom::pipeline {
 
 /// A mesh as it was read, with what its parts do not tell.
-struct MeshFacts {
+struct MeshFileFacts {
   std::string format;    ///< in words
   int parts = 0;         ///< of the file; 0: a format of one part
   geometry::Box bounds;  ///< of the points that cells use
 };
 
-nlohmann::ordered_json info_json(const io::Assembled& file, const MeshFacts& facts);
-std::string info_text(const io::Assembled& file, const MeshFacts& facts);
+nlohmann::ordered_json info_json(const io::Assembled& file, const MeshFileFacts& facts);
+std::string info_text(const io::Assembled& file, const MeshFileFacts& facts);
 
 nlohmann::ordered_json info_json(const cad::CadFacts& facts);
 std::string info_text(const cad::CadFacts& facts);

@@ -77,11 +77,11 @@ std::string histogram_text(CellShape shape, Measure measure, const mesh::Measure
   const std::int64_t most = *std::max_element(bars.begin(), bars.end());
   std::string text = fmt::format("\n{} of {}\n", title_of(measure), mesh::name_of(shape));
   for (std::size_t b = 0; b < bars.size(); ++b) {
-    const double share = static_cast<double>(bars[b]) / static_cast<double>(most);
-    const int length = bars[b] == 0 ? 0 : std::max(1, static_cast<int>(std::lround(share * longest_bar)));
-    const std::size_t first = begin + b * width, behind = std::min(first + width, counts.size());
+    const double fraction = static_cast<double>(bars[b]) / static_cast<double>(most);
+    const int length = bars[b] == 0 ? 0 : std::max(1, static_cast<int>(std::lround(fraction * longest_bar)));
+    const std::size_t first = begin + b * width, after = std::min(first + width, counts.size());
     text +=
-        fmt::format("{:>10.4g} .. {:<10.4g}{:>13} {}\n", of.histogram.edge(first), of.histogram.edge(behind),
+        fmt::format("{:>10.4g} .. {:<10.4g}{:>13} {}\n", of.histogram.edge(first), of.histogram.edge(after),
                     bars[b], std::string(static_cast<std::size_t>(length), '#'));
   }
   return text;

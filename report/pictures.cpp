@@ -55,7 +55,7 @@ struct Subject {
   const Communicator& communicator;
   const PictureSource& source;
   Scene scene;
-  picture::Folds folds;
+  picture::EdgeNeighbours neighbours;
   std::vector<Colour> colours;  ///< by patch
   std::vector<LegendItem> patches;
 };
@@ -84,7 +84,8 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 Subject find_subject(const Communicator& communicator, const PictureSource& source) {
   Subject subject{communicator, source, picture::find_scene(communicator, source.surface, source.types),
                   {},           {},     {}};
-  subject.folds = picture::find_folds(communicator, source.surface, source.numbering, subject.scene.shown);
+  subject.neighbours =
+      picture::find_edge_neighbours(communicator, source.surface, source.numbering, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
@@ -161,7 +162,7 @@ Picture body_picture(const Subject& subject) {
                   .height = height,
                   .legend = subject.patches},
                  [&](Canvas& canvas) {
-                   draw_surface(canvas, camera, subject.source.surface, subject.folds, subject.scene,
+                   draw_surface(canvas, camera, subject.source.surface, subject.neighbours, subject.scene,
                                 {subject.colours, 0, 1.3});
                  });
 }
@@ -182,10 +183,11 @@ Picture views_picture(const Subject& subject) {
   const double wide = seen[2].size().x + right, tall = seen[0].size().y + seen[2].size().y;
   const double scale = std::min((width - 4 * gap) / wide, (most - 4 * gap) / tall);
   const int left = static_cast<int>(width * seen[2].size().x / wide);
-  const double behind = (width - left) * seen[1].size().y / std::max(seen[1].size().x, no_extent);
+  const double view_from_aft = (width - left) * seen[1].size().y / std::max(seen[1].size().x, no_extent);
   const int lower = static_cast<int>(std::lround(scale * seen[2].size().y + 2 * gap));
-  const int upper = static_cast<int>(std::lround(std::max(
-      scale * seen[0].size().y + 2 * gap, std::min(behind + 2 * gap, static_cast<double>(most - lower)))));
+  const int upper = static_cast<int>(
+      std::lround(std::max(scale * seen[0].size().y + 2 * gap,
+                           std::min(view_from_aft + 2 * gap, static_cast<double>(most - lower)))));
   const std::array<Window, 4> windows = {{{0, 0, left, upper},
                                           {left, 0, width - left, upper},
                                           {0, upper, left, lower},
@@ -202,7 +204,7 @@ Picture views_picture(const Subject& subject) {
         for (int i = 0; i < 4; ++i) {
           Camera camera = picture::frame(views[i], seen[i], windows[i], gap);
           if (i != 1) camera.scale = scale;
-          draw_surface(canvas, camera, subject.source.surface, subject.folds, subject.scene,
+          draw_surface(canvas, camera, subject.source.surface, subject.neighbours, subject.scene,
                        {subject.colours, 0, 1.0});
         }
       });
@@ -242,7 +244,7 @@ Picture close_up_picture(const Subject& subject, const Place& place, Vec3 from, 
                   .legend = subject.patches},
                  [&](Canvas& canvas) {
                    canvas.set_nearest(-0.75 * detail_width);  // what stands in front
-                   draw_surface(canvas, camera, subject.source.surface, subject.folds, subject.scene,
+                   draw_surface(canvas, camera, subject.source.surface, subject.neighbours, subject.scene,
                                 {subject.colours, 0.85, 2.0});
                  });
 }
@@ -359,9 +361,9 @@ std::vector<Picture> make_all(const Communicator& communicator, const PictureSou
   const Subject subject = find_subject(communicator, source);
   const auto& surface = source.surface;
   const std::optional<Place> edge =
-      find_leading_edge(communicator, surface, source.numbering, subject.folds, subject.scene);
+      find_leading_edge(communicator, surface, source.numbering, subject.neighbours, subject.scene);
   const std::optional<Place> junction =
-      find_junction(communicator, surface, source.numbering, subject.folds, subject.scene);
+      find_junction(communicator, surface, source.numbering, subject.neighbours, subject.scene);
   std::vector<Picture> pictures{body_picture(subject), views_picture(subject)};
   if (edge) pictures.push_back(leading_edge_picture(subject, *edge));
   if (junction) pictures.push_back(junction_picture(subject, *junction));

@@ -15,10 +15,10 @@ inline constexpr double closed_between_two_faces = 12, closed_where_faces_meet =
 /// A corner that opens by less than this many degrees is closed (surface/cusp_tips.hpp): one triangle that
 /// filled it would be a needle.
 inline double closing_angle(const cad::Model& model, const cad::FaceCorner& corner) {
-  switch (cad::beyond_corner(model, corner)) {
-    case cad::BeyondCorner::two_faces:
+  switch (cad::neighbours_at_corner(model, corner)) {
+    case cad::CornerNeighbours::two_faces:
       return closed_between_two_faces;
-    case cad::BeyondCorner::faces_that_meet:
+    case cad::CornerNeighbours::faces_that_meet:
       return closed_where_faces_meet;
     default:
       return 0;

@@ -45,7 +45,7 @@ Family family_at(CellSpans leaves, std::size_t leaf, std::size_t last) {
 
 /// Calls visit(family, its first leaf) along the curve.
 template <class Visit>
-void for_each_family(CellSpans leaves, Range range, const Visit& visit) {
+void for_each_family(CellSpans leaves, IndexRange range, const Visit& visit) {
   for (std::size_t leaf = range.first; leaf < range.last;) {
     const Family family = family_at(leaves, leaf, range.last);
     visit(family, leaf);
@@ -55,8 +55,8 @@ void for_each_family(CellSpans leaves, Range range, const Visit& visit) {
 
 }  // namespace
 
-Range CornerSizes::part_of(const parallel::Communicator& communicator, CellSpans leaves,
-                           parallel::Rank rank) {
+IndexRange CornerSizes::part_of(const parallel::Communicator& communicator, CellSpans leaves,
+                                parallel::Rank rank) {
   const auto begin = [&](std::size_t part) {
     const std::size_t even = leaves.size() * part / static_cast<std::size_t>(communicator.size());
     // A family may have begun a few leaves back.
@@ -70,7 +70,8 @@ Range CornerSizes::part_of(const parallel::Communicator& communicator, CellSpans
   return {begin(r), begin(r + 1)};
 }
 
-std::vector<float> CornerSizes::pack(CellSpans leaves, Range range, std::span<const float> corner_sizes) {
+std::vector<float> CornerSizes::pack(CellSpans leaves, IndexRange range,
+                                     std::span<const float> corner_sizes) {
   std::vector<float> packed;
   for_each_family(leaves, range, [&](Family family, std::size_t first) {
     const std::size_t begin = packed.size();
@@ -84,7 +85,7 @@ std::vector<float> CornerSizes::pack(CellSpans leaves, Range range, std::span<co
   return packed;
 }
 
-std::uint64_t CornerSizes::write_places(CellSpans leaves, Range range, std::uint64_t begin,
+std::uint64_t CornerSizes::write_places(CellSpans leaves, IndexRange range, std::uint64_t begin,
                                         std::span<std::uint64_t> to) {
   auto at = to.begin();
   for_each_family(leaves, range, [&](Family family, std::size_t) {

@@ -105,7 +105,7 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   const SeedTree seeds = plant_seeds(octree, at_sources);
   std::vector<float> mine;
   parallel::agree(_communicator, [&] {
-    const Range own = CornerSizes::part_of(_communicator, octree.leaves(), _communicator.rank());
+    const IndexRange own = CornerSizes::part_of(_communicator, octree.leaves(), _communicator.rank());
     mine = CornerSizes::pack(octree.leaves(), own, sizes_at_corners(octree, seeds, own));
   });
   return finish(octree, std::move(mine));
@@ -122,7 +122,7 @@ void FieldBuilder::require_positive(std::span<const SizeSource> own) const {
 
 Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {
   if (_previous != nullptr) {
-    const Range range = own_range(_communicator, _previous->_leaf_keys.size());
+    const IndexRange range = own_range(_communicator, _previous->_leaf_keys.size());
     const CellSpans leaves{_previous->_leaf_keys.items().subspan(range.first, range.size()),
                            _previous->_leaf_levels.items().subspan(range.first, range.size())};
     return {_communicator, leaves, cells_per_page};
@@ -158,7 +158,7 @@ void FieldBuilder::split_at_sources() {
 
 void FieldBuilder::split_as_before() {
   const std::span<const std::uint64_t> keys = _previous->_leaf_keys.items();
-  const Range own = _cells.own_pages();
+  const IndexRange own = _cells.own_pages();
   if (own.size() == 0) return;
   const Pages& pages = _cells.pages();
   const auto first = std::lower_bound(keys.begin(), keys.end(), pages.key(own.first));
@@ -262,7 +262,7 @@ bool FieldBuilder::split_where_coarse(const SeedTree& seeds, std::int64_t most_c
 }
 
 std::vector<float> FieldBuilder::sizes_at_corners(const Octree& octree, const SeedTree& seeds,
-                                                  Range range) const {
+                                                  IndexRange range) const {
   const OctreeNodes nodes = collect_nodes(octree.leaves(), octree.table, range);
   std::int32_t near = -1;
   const auto size_at = [&](GridPoint p) { return seeds.cheapest(p, bound_at(p), near); };

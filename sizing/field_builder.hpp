@@ -86,7 +86,7 @@ private:
   bool split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes);
   /// The bound that no size may exceed at a point.
   double bound_at(GridPoint p) const;
-  std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, Range range) const;
+  std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, IndexRange range) const;
   /// With the sizes at corners of this rank's leaves as they are held.
   SizeField finish(const Octree& octree, std::vector<float> own_sizes) const;
 

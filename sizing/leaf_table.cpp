@@ -64,7 +64,7 @@ struct PartOfTable {
   }
 };
 
-PartOfTable tabulate(const Pages& pages, Range own, CellSpans leaves) {
+PartOfTable tabulate(const Pages& pages, IndexRange own, CellSpans leaves) {
   Nodes nodes;
   PartOfTable part;
   std::size_t leaf = 0;
@@ -129,7 +129,8 @@ LeafTable::LeafTable(const parallel::Communicator& communicator, const Pages& pa
   const std::vector<std::int32_t>& top = above.entries();
   if (communicator.is_root()) part.entries.insert(part.entries.begin(), top.begin(), top.end());
   const auto write = [&](parallel::Rank rank, std::size_t first, std::span<std::int32_t> to) {
-    const Range leaves{first_leaf(rank), rank + 1 < communicator.size() ? first_leaf(rank + 1) : all.size()};
+    const IndexRange leaves{first_leaf(rank),
+                            rank + 1 < communicator.size() ? first_leaf(rank + 1) : all.size()};
     PartOfTable other = tabulate(pages, pages.of_rank(rank), all.part(leaves));
     if (rank == 0) to = {std::copy(top.begin(), top.end(), to.begin()), to.end()};
     other.renumber(leaves.first, (rank == 0 ? above.count() : first / branches) - 1);

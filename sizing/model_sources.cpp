@@ -99,7 +99,7 @@ std::vector<bool> find_far_field(const cad::Model& model) {
   const auto corners_lie_on_side = [&](cad::FaceId face) {
     geometry::Box corners;
     for (const auto& loop : model.face(face).loops) {
-      for (const cad::EdgeUse& use : loop) corners.add(model.vertex(model.edge(use.edge).first));
+      for (const cad::Coedge& use : loop) corners.add(model.vertex(model.edge(use.edge).first));
     }
     return corners.empty() || lies_on_side(corners, all);
   };

@@ -12,7 +12,7 @@
 namespace aeroloom::sizing {
 namespace {
 
-using cad::EdgeUse;
+using cad::Coedge;
 using cad::FaceId;
 using cad::Model;
 using cad::no_entity;
@@ -38,10 +38,10 @@ FaceId beyond(const Model& model, FaceId face, cad::EdgeId id) {
   return edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
 }
 
-std::optional<EdgeUse> use_of(const Model& model, FaceId face, cad::EdgeId edge) {
-  std::optional<EdgeUse> found;
+std::optional<Coedge> use_of(const Model& model, FaceId face, cad::EdgeId edge) {
+  std::optional<Coedge> found;
   for (const auto& loop : model.face(face).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       if (use.edge != edge) continue;
       if (found) return std::nullopt;
       found = use;
@@ -68,7 +68,7 @@ std::optional<NarrowFace> examine(const Model& model, FaceId face, double width,
   if (!(found.width < width)) return std::nullopt;
   std::map<FaceId, Border> borders;
   for (const auto& loop : model.face(face).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       const FaceId other = beyond(model, face, use.edge);
       if (other == no_entity || !may_join(model, face, other)) continue;
       Border& border = borders[other];
@@ -139,7 +139,7 @@ std::vector<std::vector<FaceId>> group_narrow_faces(const Model& model, std::vec
     bool smooth = true;
     for (const FaceId a : groups[from]) {
       for (const auto& loop : model.face(a).loops) {
-        for (const EdgeUse& use : loop) {
+        for (const Coedge& use : loop) {
           const FaceId b = beyond(model, a, use.edge);
           if (b == no_entity || group_of[b] != to) continue;
           const double turn = turn_across(model, a, b, use.edge);

@@ -84,7 +84,7 @@ private:
 
 }  // namespace
 
-OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, Range range) {
+OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, IndexRange range) {
   const auto [first, last] = range;
   OctreeNodes nodes;
   std::vector<std::int32_t> hung_on;  // per hanging node

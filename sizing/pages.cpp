@@ -29,7 +29,7 @@ std::vector<std::int64_t> count_in(const std::vector<Cube>& cubes, CellSpans cel
 
 }  // namespace
 
-Range own_range(const parallel::Communicator& communicator, std::size_t count) {
+IndexRange own_range(const parallel::Communicator& communicator, std::size_t count) {
   const auto rank = static_cast<std::size_t>(communicator.rank());
   const auto ranks = static_cast<std::size_t>(communicator.size());
   return {count * rank / ranks, count * (rank + 1) / ranks};

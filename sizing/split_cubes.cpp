@@ -125,7 +125,7 @@ SplitCubes::Leaves SplitCubes::leaves() const {
       result.levels.push_back(static_cast<std::uint8_t>(level));
     }
   };
-  const Range own = own_pages();
+  const IndexRange own = own_pages();
   for (std::size_t page = own.first; page < own.last; ++page) {
     const int level = _pages.level(page);
     visit(visit, _pages.key(page) >> 3 * (finest_level - level), level);

@@ -36,7 +36,7 @@ std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
   for (std::size_t i = 0; i < next.size(); ++i) {
     const FaceId face = next[i];
     for (const auto& loop : model.face(face).loops) {
-      for (const cad::EdgeUse& use : loop) {
+      for (const cad::Coedge& use : loop) {
         const cad::Edge& edge = model.edge(use.edge);
         if (edge.degenerate || edge.faces.size() != 2 || edge.faces[0] == edge.faces[1]) continue;
         const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
@@ -58,7 +58,7 @@ Skin cover(const ModelSampler& sampler, const std::set<FaceId>& faces, FaceId st
   }
   for (const FaceId face : faces) {
     for (const auto& loop : model.face(face).loops) {
-      for (const cad::EdgeUse& use : loop) {
+      for (const cad::Coedge& use : loop) {
         const cad::Edge& edge = model.edge(use.edge);
         const bool inside =
             edge.degenerate || std::all_of(edge.faces.begin(), edge.faces.end(),

@@ -57,7 +57,7 @@ struct RunCosts {
 /// failed or that went on from a checkpoint, records of another version, a line that is none.
 RunCosts costs_of(const nlohmann::ordered_json& report, std::string_view tasks);
 
-/// Of the run in a folder. Throws as above, with the name of the file.
+/// The costs of the run in a folder. Throws std::runtime_error as costs_of(), with the name of the file.
 RunCosts read_costs(const std::filesystem::path& folder);
 
 /// The costs without those of one stage.

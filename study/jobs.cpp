@@ -83,19 +83,19 @@ void write_script(const fs::path& file, const std::string& text) {
 }  // namespace
 
 void write_jobs(const StudyRecord& record, const JobOptions& jobs,
-                const std::function<Forecast(const std::vector<std::string>&)>& forecast) {
+                const std::function<CaseForecast(const std::vector<std::string>&)>& forecast) {
   const StudyOptions& options = record.options;
   const Launcher launcher =
       jobs.launcher.empty()
           ? Launcher{"srun --mpi=pmix --kill-on-bad-exit --nodes={nodes} --ntasks={ranks} {command}", true}
           : make_launcher(jobs.launcher);
-  std::map<std::vector<std::string>, Forecast> known;  // repeats and numbers of ranks share one
+  std::map<std::vector<std::string>, CaseForecast> known;  // repeats and numbers of ranks share one
   std::string submit = "#!/bin/sh\n# Submits what has not been submitted yet, and notes the jobs.\nset -eu\n";
   const fs::path submitted = jobs.folder / submitted_name;
   for (const RunSpec& run : record.runs) {
     if (read_marks(folder_of(options.directory, run)).state == RunState::ended) continue;
     if (known.count(run.settings) == 0) known[run.settings] = forecast(run.settings);
-    const Forecast& size = known[run.settings];
+    const CaseForecast& size = known[run.settings];
     const int nodes = nodes_for(run.ranks, options.ranks_per_node);
     const int on_node = (run.ranks + nodes - 1) / nodes;
     const double minutes = std::max(least_minutes, more_time * size.seconds / run.ranks / 60);

@@ -22,7 +22,7 @@ struct JobOptions {
 /// `forecast` predicts a run of these settings. A job keeps checkpoints; two minutes before its time is over
 /// the queue tells it, it ends its run and submits itself anew, to go on from there.
 void write_jobs(const StudyRecord& record, const JobOptions& options,
-                const std::function<Forecast(const std::vector<std::string>&)>& forecast);
+                const std::function<CaseForecast(const std::vector<std::string>&)>& forecast);
 
 /// The folder of results that jobs written into `folder` have. Throws std::runtime_error.
 std::filesystem::path results_of_jobs(const std::filesystem::path& folder);

@@ -14,7 +14,7 @@ namespace aeroloom::study {
 
 namespace {
 
-/// The value behind `key` and a colon, of the first line that begins with them.
+/// The value after `key` and a colon, of the first line that begins with them.
 std::string value_of(const char* file, const std::string& key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

@@ -29,16 +29,17 @@ std::vector<const Json*> rows_of(const Json& study, const std::string& series) {
   return rows;
 }
 
-Line line_of(const Json& study, const std::string& series, const std::string& key, const std::string& name) {
-  Line line{name, {}};
+ChartLine line_of(const Json& study, const std::string& series, const std::string& key,
+                  const std::string& name) {
+  ChartLine line{name, {}};
   for (const Json* row : rows_of(study, series))
     if (const Json& value = find(*row, "/" + key); value.is_number())
       line.points.emplace_back(number(find(*row, "/ranks")), number(value));
   return line;
 }
 
-Line ideal_line(const Json& study, double constant = 0) {
-  Line line{"ideal", {}, true};
+ChartLine ideal_line(const Json& study, double constant = 0) {
+  ChartLine line{"ideal", {}, true};
   for (const std::string series : {"strong", "weak"}) {
     for (const Json* row : rows_of(study, series)) {
       const double ranks = number(find(*row, "/ranks"));
@@ -51,8 +52,8 @@ Line ideal_line(const Json& study, double constant = 0) {
 }
 
 /// Of the strong series as its smallest number of ranks foretells it; by CPU where the series is judged so.
-Line predicted_line(const Json& study, const std::string& key) {
-  Line line{"predicted", {}};
+ChartLine predicted_line(const Json& study, const std::string& key) {
+  ChartLine line{"predicted", {}};
   const std::vector<const Json*> rows = rows_of(study, "strong");
   const bool by_cpu = std::any_of(rows.begin(), rows.end(), [](const Json* row) { return is_by_cpu(*row); });
   double one = 0;
@@ -90,24 +91,24 @@ std::string stage_piles(const Json& study) {
 }
 
 std::string charts(const Json& study) {
-  std::vector<Line> speedup{
+  std::vector<ChartLine> speedup{
       line_of(study, "strong", "speedup", "against one rank in one piece"),
       line_of(study, "strong", "speedup_of_series", "against the smallest number of ranks"),
       predicted_line(study, "speedup"), ideal_line(study)};
   if (speedup[0].points.empty()) speedup.erase(speedup.begin());
-  const std::vector<Line> efficiency{line_of(study, "strong", "efficiency", "strong"),
-                                     line_of(study, "weak", "efficiency", "weak"),
-                                     predicted_line(study, "efficiency"), ideal_line(study, 1)};
-  std::vector<Line> memory{line_of(study, "strong", "memory_of_rank_bytes", "strong"),
-                           line_of(study, "weak", "memory_of_rank_bytes", "weak")};
-  for (Line& line : memory)
+  const std::vector<ChartLine> efficiency{line_of(study, "strong", "efficiency", "strong"),
+                                          line_of(study, "weak", "efficiency", "weak"),
+                                          predicted_line(study, "efficiency"), ideal_line(study, 1)};
+  std::vector<ChartLine> memory{line_of(study, "strong", "memory_of_rank_bytes", "strong"),
+                                line_of(study, "weak", "memory_of_rank_bytes", "weak")};
+  for (ChartLine& line : memory)
     for (auto& [x, y] : line.points) y /= 1048576;
-  const std::vector<Line> rate{line_of(study, "strong", "tetrahedra_per_second_and_core", "strong"),
-                               line_of(study, "weak", "tetrahedra_per_second_and_core", "weak")};
-  const std::vector<Line> imbalance{line_of(study, "strong", "imbalance", "strong"),
-                                    line_of(study, "weak", "imbalance", "weak")};
-  std::vector<Line> waiting{line_of(study, "strong", "waiting_seconds", "strong"),
-                            line_of(study, "weak", "waiting_seconds", "weak")};
+  const std::vector<ChartLine> rate{line_of(study, "strong", "tetrahedra_per_second_and_core", "strong"),
+                                    line_of(study, "weak", "tetrahedra_per_second_and_core", "weak")};
+  const std::vector<ChartLine> imbalance{line_of(study, "strong", "imbalance", "strong"),
+                                         line_of(study, "weak", "imbalance", "weak")};
+  std::vector<ChartLine> waiting{line_of(study, "strong", "waiting_seconds", "strong"),
+                                 line_of(study, "weak", "waiting_seconds", "weak")};
   return "<div class=\"charts\">\n" +
          line_chart(speedup, {.title = "Speed-up of the strong series",
                               .x_name = "ranks",

@@ -81,7 +81,7 @@ double spread_of_bytes(const Scheduler& scheduler, int ranks) {
   return all > 0 ? *std::max_element(of_ranks.begin(), of_ranks.end()) * ranks / all : 1;
 }
 
-/// Memory that no number of ranks makes less: the least that any stage behind the geometry takes.
+/// Memory that no number of ranks makes less: the least that any stage after the geometry takes.
 double floor_of(const RunCosts& costs) {
   double least = 0;
   for (const StageCosts& stage : costs.stages) {

@@ -185,8 +185,9 @@ std::vector<int> ranks_to_foretell(const std::vector<RunResult>& runs) {
   for (const RunResult& run : runs)
     if (run.spec.series == Series::strong) ranks.insert(run.spec.ranks);
   if (ranks.empty()) return {};
-  constexpr int beyond = 4;  // over the most ranks that were run: farther nothing checks what is foretold
-  const int most = beyond * *ranks.rbegin();
+  constexpr int farthest_factor =
+      4;  // over the most ranks that were run: farther nothing checks what is foretold
+  const int most = farthest_factor * *ranks.rbegin();
   for (int n = 1; n <= most; n *= 2) ranks.insert(n);
   return {ranks.begin(), ranks.end()};
 }

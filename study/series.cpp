@@ -69,7 +69,7 @@ std::vector<std::string> command_of(const StudyOptions& options, const RunSpec& 
   return words;
 }
 
-Forecast forecast_case(const StudyOptions& options, const std::vector<std::string>& settings) {
+CaseForecast forecast_case(const StudyOptions& options, const std::vector<std::string>& settings) {
   const fs::path folder = options.directory / "runs" / "forecast";
   fs::create_directories(folder);
   std::vector<std::string> words{options.program, "check", options.case_file};

@@ -15,13 +15,13 @@
 namespace aeroloom::study {
 
 /// The prediction of `check` for a case.
-struct Forecast {
+struct CaseForecast {
   double tetrahedra = 0, seconds = 0, bytes = 0;
 };
 
 /// Of the case of a study with some settings more. Throws std::runtime_error with what `check` says where it
 /// fails.
-Forecast forecast_case(const StudyOptions& options, const std::vector<std::string>& settings);
+CaseForecast forecast_case(const StudyOptions& options, const std::vector<std::string>& settings);
 
 /// The size that a case asks for: a target, or lengths that hold.
 struct CaseSize {

@@ -31,7 +31,7 @@ public:
     parallel::Rank owner;
     double bytes;
   };
-  /// By number; those of the core behind those of zones. Empty before there are any.
+  /// By number; those of the core after those of zones. Empty before there are any.
   const std::map<std::int64_t, HeldPiece>& pieces() const { return _pieces; }
 
 private:

@@ -30,7 +30,7 @@ constexpr int smoothing_sweeps = 3;  // it carries cuts, it is no mesh: a few do
 constexpr double facet_turn = 12 * degree;
 constexpr int dividing_rounds = 3;
 
-/// Parameters at the corners of each triangle, without jumps inside it: those of vertices beyond a seam are
+/// Parameters at the corners of each triangle, without jumps inside it: those of vertices across a seam are
 /// moved by a period, and the direction that means nothing at a pole is taken from the other corners. A
 /// triangle around a pole, or across sheets of a joined face, gets those of one corner everywhere: there is
 /// no better linear guess.
@@ -103,7 +103,7 @@ class SupportBuilder {
 public:
   SupportBuilder(const Model& model, const Subface& subface, const Background& background,
                  std::vector<std::int32_t>& part)
-      : _model(model), _seed(subface), _loops(background.loops), _part(part) {
+      : _model(model), _subface(subface), _loops(background.loops), _part(part) {
     const FaceMesh& mesh = background.mesh;
     const CornerParameters parameters(model, mesh);
     _support.face = mesh.face;
@@ -139,8 +139,8 @@ public:
         if (!middle.converged || distance(middle.point, 0.5 * (a + b)) > 0.5 * distance(a, b)) continue;
         const std::int32_t index = add_point(middle.point, -1);
         divisions.push_back({h, 0.5, index, near(middle.uv, guess)});
-        const Vec2 beyond = 0.5 * (start_uv(_support, twins[h]) + end_uv(_support, twins[h]));
-        divisions.push_back({twins[h], 0.5, index, near(middle.uv, beyond)});
+        const Vec2 twin_uv = 0.5 * (start_uv(_support, twins[h]) + end_uv(_support, twins[h]));
+        divisions.push_back({twins[h], 0.5, index, near(middle.uv, twin_uv)});
       }
       if (divisions.empty()) break;
       carry_over(divide_edges(_support, std::move(divisions)), _part);
@@ -168,17 +168,17 @@ private:
                                      _loops.inside.begin() + segment->end);
     if (segment->from != from) std::reverse(inside.begin(), inside.end());
     std::vector<double> along{0};
-    Vec3 last = _seed.vertices.points[from];
+    Vec3 last = _subface.vertices.points[from];
     for (const std::int32_t v : inside) {
-      along.push_back(along.back() + distance(last, _seed.vertices.points[v]));
-      last = _seed.vertices.points[v];
+      along.push_back(along.back() + distance(last, _subface.vertices.points[v]));
+      last = _subface.vertices.points[v];
     }
-    const double length = along.back() + distance(last, _seed.vertices.points[to]);
+    const double length = along.back() + distance(last, _subface.vertices.points[to]);
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const double fraction = along[i + 1] / length;
       const Vec2 guess = (1 - fraction) * start_uv(_support, h) + fraction * end_uv(_support, h);
-      divisions.push_back({h, fraction, add_point(_seed.vertices.points[inside[i]], inside[i]),
-                           near(_seed.vertices.uv[inside[i]], guess)});
+      divisions.push_back({h, fraction, add_point(_subface.vertices.points[inside[i]], inside[i]),
+                           near(_subface.vertices.uv[inside[i]], guess)});
     }
   }
 
@@ -193,7 +193,7 @@ private:
   }
 
   const Model& _model;
-  const Subface& _seed;
+  const Subface& _subface;
   const CoarseLoops& _loops;
   std::vector<std::int32_t>& _part;
   Support _support;
@@ -230,7 +230,7 @@ std::optional<Background> mesh_background(const Model& model, const Subface& sub
   Subface thin = thin_out(model, subface, background.loops, background.on_loops);
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .largest_turn = largest_turn,
-                               .least_part = std::min(1.0, fine_edges / factor),
+                               .least_fraction = std::min(1.0, fine_edges / factor),
                                .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
     background.mesh = mesh_support(model, coarse, std::move(thin.support), std::move(thin.vertices), meshing);

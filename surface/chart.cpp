@@ -18,8 +18,8 @@ namespace {
 using geometry::degree;
 /// Below this spread of normals a parallel projection stretches by less than 7 %.
 constexpr double projection_spread = 20 * degree;
-/// Slivers may fold as long as they carry no more than this share of the area: a chart that obeys its limits,
-/// and one that is the best to be had.
+/// Slivers may fold as long as they carry no more than this fraction of the area: a chart that obeys its
+/// limits, and one that is the best to be had.
 constexpr double acceptable_fold = 1e-4, bearable_fold = 1e-3;
 /// The limit for parts that lie over others: chords of curves that meet at a sharp angle cross near their
 /// meeting point.
@@ -160,8 +160,9 @@ private:
     const geometry::Vec3 at = support.points.front();
     throw SurfaceError(fmt::format(
         "face {} (patch {}): no chart can be found for its part near ({:.6g}, {:.6g}, {:.6g}), where the "
-        "size is {:.4g}; where the face is rounder than that, ask for a smaller size (sizing.minimum, "
-        "sizing.curvature_angle); else it may fold over itself: repair it in the CAD program",
+        "size is {:.4g}; where the face is rounder than that, ask for a smaller size "
+        "(SizingOptions::minimum, "
+        "SizingOptions::curvature_angle); else it may fold over itself: repair it in the CAD program",
         _model.face(support.face).name, _model.patches()[_model.face(support.face).patch], at.x, at.y, at.z,
         _field(at)));
   }

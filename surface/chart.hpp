@@ -39,7 +39,7 @@ public:
   /// support's edge, the point is extrapolated from the nearest triangle and uv are those of its nearest
   /// point.
   ChartPoint locate(geometry::Vec2 point, std::int32_t& hint) const;
-  /// Interpolated Chart::scale; that of the nearest point of the triangle beyond the edge.
+  /// Interpolated Chart::scale; that of the nearest point of the triangle across the edge.
   double scale(const ChartPoint& at) const;
 
 private:

@@ -191,9 +191,9 @@ std::optional<PlaneMap> map_rigidly(const Support& support, const PlaneMap& star
       for (int i = 0; i < 3; ++i) {
         const int a = triangle[(i + 1) % 3], b = triangle[(i + 2) % 3];
         const Vec2 here = weights[i] * (flat[(i + 2) % 3] - flat[(i + 1) % 3]);
-        const Eigen::RowVector2d turned(c * here.x - s * here.y, s * here.x + c * here.y);
-        right.row(b) += turned;
-        right.row(a) -= turned;
+        const Eigen::RowVector2d rotated(c * here.x - s * here.y, s * here.x + c * here.y);
+        right.row(b) += rotated;
+        right.row(a) -= rotated;
       }
     }
     const Eigen::MatrixX2d solution = solver.solve(right);

@@ -29,10 +29,10 @@ std::optional<PlaneMap> scale_parameters(const Support& support);
 
 /// How far a map is from an isometry up to one factor.
 struct MapQuality {
-  double folded = 1;           ///< share of the area in triangles that turn over or collapse (exact signs)
+  double folded = 1;           ///< fraction of the area in triangles that turn over or collapse (exact signs)
   double stretch = 1e300;      ///< largest ratio of singular values, on all but 1 % of the area
   double scale_ratio = 1e300;  ///< largest ratio of scales, 0.5 % of the area left out at either end
-  double overlap = 1;          ///< share of the area that lies over other parts of the map, about
+  double overlap = 1;          ///< fraction of the area that lies over other parts of the map, about
   bool loops_cross = true;     ///< chords between mesh vertices of the boundary cross: a hole was squeezed
 };
 MapQuality judge_map(const Support& support, const PlaneMap& map);

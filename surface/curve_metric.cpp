@@ -11,7 +11,7 @@ namespace {
 constexpr int least_depth = 2;
 constexpr int largest_depth = 18;
 constexpr double span_error = 1e-4;
-constexpr double last_digit = 1e-15;  // of a share of a span, to which it is bisected
+constexpr double last_digit = 1e-15;  // of a fraction of a span, to which it is bisected
 
 // Three-point Gauss-Legendre rule on [-1, 1]: x, 0, -x.
 constexpr double outer_point = 0.774596669241483377, outer_weight = 5.0 / 9.0, middle_weight = 8.0 / 9.0;

@@ -62,7 +62,7 @@ Tip measure_tip(const Model& model, const CurveMesh& curves, double widest, cons
 
 /// The axis that an exact plane is normal to.
 int axis_of_plane(const Model& model, cad::FaceId face) {
-  const cad::EdgeUse& use = model.face(face).loops.front().front();
+  const cad::Coedge& use = model.face(face).loops.front().front();
   const geometry::Vec2 uv = model.edge_uv(face, use, model.edge(use.edge).first_parameter);
   const Vec3 normal = model.face_frame(face, uv).normal;
   int axis = 0;

@@ -19,8 +19,8 @@
 namespace aeroloom::surface {
 
 /// Vertices with the same number from the CAD vertex on become one where the two curves are apart by less
-/// than this part of the segments beside them, and they themselves by less than that. So triangles on either
-/// side keep their shape. Chosen, not measured.
+/// than this fraction of the segments beside them, and they themselves by less than that. So triangles on
+/// either side keep their shape. Chosen, not measured.
 inline constexpr double closing_width = 0.3;
 
 /// Closes the tips of the surface that the pieces, as the pool assembles them, make on these curves, as far

@@ -72,7 +72,7 @@ std::vector<Vec3> candidate_normals(const std::vector<Facet>& facets, Vec3 cente
 // nothing, since sides are divided again; a cut as long as the root of the area costs a twentieth. Chosen,
 // not measured.
 constexpr double weight_of_balance = 0.3, enough_balance = 0.6, weight_of_length = 0.05;
-/// Planes beside the centroid, by this share of the extent: where the best one through it runs along a
+/// Planes beside the centroid, by this fraction of the extent: where the best one through it runs along a
 /// crease. Chosen, not measured.
 constexpr double beside_centroid = 0.11;
 /// Ties go to the coordinate axes, whose three planes each are the first, and to planes through the centroid:

@@ -15,7 +15,7 @@ using geometry::Vec3;
 
 /// A point of the cut becomes a mesh vertex where the spread vertices come this close, in parts of their
 /// distance.
-constexpr double snap_part = 0.03;
+constexpr double snap_fraction = 0.03;
 /// Segments of a closed cut, at least: one more than a loop has, so that it may be round.
 constexpr int least_of_closed = 4;
 /// The arc of a cut over its chord, from which on one segment leaves the surface: an arc of 120 degrees.
@@ -134,11 +134,11 @@ private:
   /// The support point for a vertex on the half-edge: one of its ends where that is near, else a new one.
   std::int32_t place(geometry::HalfEdge h, double part, double spacing) {
     const double length = distance(start(h), end(h));
-    if (part * length < snap_part * spacing && _support.mesh_vertex[start_of(_support, h)] < 0) {
+    if (part * length < snap_fraction * spacing && _support.mesh_vertex[start_of(_support, h)] < 0) {
       promote(start_of(_support, h), start_uv(_support, h));
       return start_of(_support, h);
     }
-    if ((1 - part) * length < snap_part * spacing && _support.mesh_vertex[end_of(_support, h)] < 0) {
+    if ((1 - part) * length < snap_fraction * spacing && _support.mesh_vertex[end_of(_support, h)] < 0) {
       promote(end_of(_support, h), end_uv(_support, h));
       return end_of(_support, h);
     }

@@ -4,7 +4,7 @@
 ///
 /// A subface that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
 /// twice: into about the square root of the number of pieces first, then each of these, by any rank. So no
-/// rank has more to do with a single face than a small part of it.
+/// rank has more to do with a single face than a small fraction of it.
 #pragma once
 
 #include "aeroloom/surface/surface_report.hpp"

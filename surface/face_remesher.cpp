@@ -72,9 +72,9 @@ void FaceRemesher::put(std::int32_t vertex, const VertexPlace& place) {
   _sizes[vertex] = place.size;
 }
 
-bool FaceRemesher::project(Vec3 point, std::int32_t guess, double reach, VertexPlace& place) const {
+bool FaceRemesher::project(Vec3 point, std::int32_t guess, double most_distance, VertexPlace& place) const {
   const auto found = _model.project(_mesh.face, point, _mesh.uv[guess]);
-  if (!found.converged || distance(found.point, point) > reach) return false;
+  if (!found.converged || distance(found.point, point) > most_distance) return false;
   place.point = found.point;
   place.uv = found.uv;
   place.normal = _model.face_frame(_mesh.face, found.uv).normal;
@@ -121,7 +121,7 @@ void FaceRemesher::note_change(std::int32_t vertex) {
   }
 }
 
-void FaceRemesher::settle() {
+void FaceRemesher::end_sweep() {
   _active.swap(_next);
   _next.assign(_active.size(), 0);
 }

@@ -40,7 +40,7 @@ public:
   /// One sweep of straighten_cuts().
   void straighten(const std::vector<std::int32_t>& part, double smallest_angle);
   /// Ends a sweep: the next one looks only at what this one changed.
-  void settle();
+  void end_sweep();
   /// Writes back triangles and vertices without those that vanished.
   void finish();
 
@@ -62,8 +62,8 @@ private:
   geometry::Vec3 fan_normal(std::int32_t vertex);
   VertexPlace place_of(std::int32_t vertex) const;
   void put(std::int32_t vertex, const VertexPlace& place);
-  /// The nearest place on the CAD surface; false when that is further off than `reach`.
-  bool project(geometry::Vec3 point, std::int32_t guess, double reach, VertexPlace& place) const;
+  /// The nearest place on the CAD surface; false when that is further off than `most_distance`.
+  bool project(geometry::Vec3 point, std::int32_t guess, double most_distance, VertexPlace& place) const;
 
   TriangleShapes shape(const std::array<VertexPlace, 3>& corners) const;
   TriangleShapes shape(std::int32_t triangle) const;

@@ -89,9 +89,10 @@ bool FaceRemesher::keeps_topology(geometry::LinkedEdge edge) {
   const std::int32_t gone = _links.origin(edge), kept = _links.target(edge);
   const std::int32_t c = _links.apex(edge), d = _links.apex(_links.twin(edge));
   if (!_links.gather_fan(gone, _fan) || _fan.size() < 3 || c == d) return false;
-  const geometry::LinkedEdge beyond =
+  const geometry::LinkedEdge neighbour =
       _links.triangles[geometry::triangle_of(edge)].links[geometry::next_corner(geometry::corner_of(edge))];
-  const bool tetrahedron = _fan.size() == 3 && beyond != geometry::no_linked_edge && _links.apex(beyond) == d;
+  const bool tetrahedron =
+      _fan.size() == 3 && neighbour != geometry::no_linked_edge && _links.apex(neighbour) == d;
   if (tetrahedron) return false;
   for (const std::int32_t t : _fan) {
     const int k = _links.corner(t, gone);
@@ -151,8 +152,8 @@ void FaceRemesher::divide(geometry::LinkedEdge edge) {
   note_change(vertex);
 }
 
-/// Starts from the four triangles of the divided edge and takes in those beyond as long as that makes better
-/// ones.
+/// Starts from the four triangles of the divided edge and takes in their neighbours as long as that makes
+/// better ones.
 void FaceRemesher::plan_star(geometry::LinkedEdge edge, const VertexPlace& middle, TriangleShapes& before,
                              TriangleShapes& after) {
   _replaced.clear();
@@ -178,16 +179,16 @@ void FaceRemesher::plan_star(geometry::LinkedEdge edge, const VertexPlace& middl
       ++k;
       continue;
     }
-    const TriangleShapes beyond = shape(geometry::triangle_of(e.outside));
-    TriangleShapes old = beyond, joined = triangle(e.origin, w);
+    const TriangleShapes neighbour = shape(geometry::triangle_of(e.outside));
+    TriangleShapes old = neighbour, joined = triangle(e.origin, w);
     old.add(triangle(e.origin, e.target));
     joined.add(triangle(w, e.target));
     if (!(joined.mean_ratio > old.mean_ratio && is_acceptable(old, joined))) {
       ++k;
       continue;
     }
-    before.add(beyond);
-    // From beyond, the edge runs from its target to its origin, then to w.
+    before.add(neighbour);
+    // Seen from the neighbour, the edge runs from its target to its origin, then to w.
     const std::int32_t t = geometry::triangle_of(e.outside);
     const int j = geometry::corner_of(e.outside);
     _replaced.push_back(e);

@@ -12,7 +12,7 @@ namespace {
 /// Shorter moves, in sizes, are not worth a projection. Chosen, not measured.
 constexpr double smallest_move = 0.03;
 /// A projection may end so far from its start, in sizes, however short the move: the surface may curve.
-constexpr double least_reach = 0.25;
+constexpr double least_distance = 0.25;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void FaceRemesher::smooth_vertex(std::int32_t vertex) {
   const double length = norm(move);
   if (!(length > smallest_move * _sizes[vertex])) return;
   VertexPlace place;
-  if (!project(here + move, vertex, std::max(length, least_reach * _sizes[vertex]), place)) return;
+  if (!project(here + move, vertex, std::max(length, least_distance * _sizes[vertex]), place)) return;
   TriangleShapes before, after;
   for (const std::int32_t t : _fan) {
     before.add(shape(t));

@@ -102,7 +102,7 @@ void FaceRemesher::widen_sharp_triangles() {
       }
     }
     if (!changed) return;
-    settle();
+    end_sweep();
     flip_edges();
   }
 }

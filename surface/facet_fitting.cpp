@@ -18,7 +18,7 @@ using geometry::Vec3;
 /// measured.
 constexpr double turning_cosine = 0.94, leaning_cosine = 0.87;
 constexpr int fitting_rounds = 4;
-/// Unless the edge is shorter than this part of the elements: where sizes do not resolve the curvature,
+/// Unless the edge is shorter than this fraction of the elements: where sizes do not resolve the curvature,
 /// facets as short in every direction would be many times as many.
 constexpr double finest_over_size = 0.125;
 

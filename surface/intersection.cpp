@@ -162,19 +162,20 @@ std::vector<Claim> find_claims(const std::vector<Batch>& table, const std::vecto
   return claims;
 }
 
-/// Triangles of a batch that reach into one of the batches of its claims: no others can meet their triangles.
-std::vector<SentTriangle> within_reach(const Triangles& triangles, std::span<const Claim> claims,
-                                       const std::vector<Batch>& table) {
-  std::vector<SentTriangle> reaching;
+/// Triangles of a batch whose boxes overlap one of the batches of its claims: no others can meet their
+/// triangles.
+std::vector<SentTriangle> near_claims(const Triangles& triangles, std::span<const Claim> claims,
+                                      const std::vector<Batch>& table) {
+  std::vector<SentTriangle> near;
   for (const BatchTriangle& t : triangles) {
-    const auto reaches = [&](const Claim& claim) { return t.box.overlaps(table[claim.theirs].box); };
-    if (std::any_of(claims.begin(), claims.end(), reaches)) reaching.push_back({t.corners, t.cell});
+    const auto overlaps = [&](const Claim& claim) { return t.box.overlaps(table[claim.theirs].box); };
+    if (std::any_of(claims.begin(), claims.end(), overlaps)) near.push_back({t.corners, t.cell});
   }
-  return reaching;
+  return near;
 }
 
 /// All batches this rank needs for the pairs it tests, by number in the table: its own, and of those of
-/// others what is within reach.
+/// others the triangles near its own.
 std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& communicator,
                                                 const std::vector<Batch>& table,
                                                 const std::vector<BatchPair>& pairs,
@@ -192,8 +193,8 @@ std::map<std::int32_t, Triangles> fetch_batches(const parallel::Communicator& co
       [&](std::size_t first, std::size_t last) {
         const std::int32_t batch = claims[first].mine;
         const std::span<const Claim> of_batch(claims.data() + first, last - first);
-        const std::vector<SentTriangle> reaching = within_reach(at_hand[batch], of_batch, table);
-        parallel::pack(packers[claims[first].rank], std::tie(batch, reaching));
+        const std::vector<SentTriangle> near = near_claims(at_hand[batch], of_batch, table);
+        parallel::pack(packers[claims[first].rank], std::tie(batch, near));
       });
   std::vector<parallel::Parcel> parcels;
   parcels.reserve(packers.size());
@@ -227,7 +228,7 @@ TriangleHit make_hit(mesh::PieceId piece_a, const BatchTriangle& a, mesh::PieceI
   return {piece_a, piece_b, a.cell, b.cell, (p + q + r) / 3.0, shortest, area(a.corners), area(b.corners)};
 }
 
-/// The triangles that reach into a box, by their low end along an axis.
+/// The triangles that overlap a box, by their low end along an axis.
 void select_triangles(const Triangles& triangles, const Box& box, int axis,
                       std::vector<const BatchTriangle*>& selected) {
   selected.clear();
@@ -265,8 +266,8 @@ public:
 private:
   using Selection = std::vector<const BatchTriangle*>;
 
-  // Meets each triangle with those of `others` that begin within its extent: behind it in its own list (part
-  // 0), not before it (part 1), strictly behind it (part 2), so that the parts 1 and 2 of two lists find each
+  // Meets each triangle with those of `others` that begin within its extent: after it in its own list (part
+  // 0), not before it (part 1), strictly after it (part 2), so that the parts 1 and 2 of two lists find each
   // pair once.
   void sweep(const Selection& list, int part, const Selection& others, BatchPair pair, int axis,
              std::vector<TriangleHit>& hits) const {

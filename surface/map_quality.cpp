@@ -22,8 +22,8 @@ struct Weighted {
 // as much together as the one of stretch.
 constexpr double nearly_all = 0.99, lowest = 0.005, highest = 0.995;
 
-/// The value below which the given share of the weight lies.
-double quantile(std::vector<Weighted>& items, double share) {
+/// The value below which the given fraction of the weight lies.
+double quantile(std::vector<Weighted>& items, double fraction) {
   if (items.empty()) return 0;
   std::sort(items.begin(), items.end(), [](const Weighted& a, const Weighted& b) {
     return a.value != b.value ? a.value < b.value : a.weight < b.weight;
@@ -32,7 +32,7 @@ double quantile(std::vector<Weighted>& items, double share) {
   for (const Weighted& item : items) total += item.weight;
   for (const Weighted& item : items) {
     sum += item.weight;
-    if (sum >= share * total) return item.value;
+    if (sum >= fraction * total) return item.value;
   }
   return items.back().value;
 }
@@ -134,9 +134,9 @@ bool may_overlap(const Support& support, const PlaneMap& map) {
   return outer != 1 || BoundaryCrossings(map, edges).any();
 }
 
-/// The share of triangles (by area in space) whose centre lies in another triangle as well. Near sharp
+/// The fraction of triangles (by area in space) whose centre lies in another triangle as well. Near sharp
 /// corners chords of curves may cross where the curves do not: that is little.
-double overlap_share(const Support& support, const PlaneMap& map) {
+double overlap_fraction(const Support& support, const PlaneMap& map) {
   const geometry::PlaneGrid grid(map, support.triangles);
   const auto is_inside = [&](Vec2 p, std::int32_t triangle) {
     const auto& [a, b, c] = support.triangles[triangle];
@@ -189,7 +189,7 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
   quality.stretch = quantile(stretches, nearly_all);
   const double smallest = quantile(scales, lowest), largest = quantile(scales, highest);
   quality.scale_ratio = smallest > 0 ? largest / smallest : 1e300;
-  quality.overlap = may_overlap(support, map) ? overlap_share(support, map) : 0;
+  quality.overlap = may_overlap(support, map) ? overlap_fraction(support, map) : 0;
   quality.loops_cross = !support.loop_edges.empty() && BoundaryCrossings(map, support.loop_edges).any();
   return quality;
 }

@@ -13,7 +13,7 @@ using mesh::LocalIndex;
 using mesh::Piece;
 using sizing::SizeSource;
 
-/// Sizes at a short side, in its length; less of a fall than this part of the size there is not worth a
+/// Sizes at a short side, in its length; less of a fall than this fraction of the size there is not worth a
 /// round.
 constexpr double sides = 2, worthwhile = 0.8;
 /// A leg that is shorter than this, over the longest of short ones, is a short one whose size has been
@@ -35,7 +35,7 @@ void add_long_legs(const Piece& piece, const LocalIndex* v, const sizing::SizeFi
   for (int i = 0; i < 3; ++i) {
     const LocalIndex a = v[i], b = v[(i + 1) % 3];
     const auto [lower, higher] = std::minmax(piece.vertex_dimension[a], piece.vertex_dimension[b]);
-    if (lower != CadDimension::vertex || higher > CadDimension::edge) continue;
+    if (lower != CadDimension::vertex || !is_on_curve(higher)) continue;
     const Vec3 p = piece.point(a), q = piece.point(b);
     if (distance(p, q) < long_leg * longest_short_leg * field(0.5 * (p + q))) continue;
     for (const LocalIndex end : {a, b}) {

@@ -17,9 +17,9 @@ using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// A curve is as close as a needle is thin when the needle's height over the other curve is at most this part
-/// of its side there. Chosen, not measured.
-constexpr double close_part = 0.2;
+/// A curve is as close as a needle is thin when the needle's height over the other curve is at most this
+/// fraction of its side there. Chosen, not measured.
+constexpr double close_fraction = 0.2;
 /// Two curves run along each other where their segments enclose less than 30 degrees. Chosen, not measured.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 /// Vertices of one curve that are further apart along it than this belong to different stretches of it.
@@ -64,7 +64,7 @@ public:
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       const Vec3 side = p[j] - p[i];
       const double height = norm(cross(side, p[k] - p[i])) / norm(side);
-      if (height <= close_part * norm(side) && faces_other_curve(v[i], v[j], v[k], piece.common_face()))
+      if (height <= close_fraction * norm(side) && faces_other_curve(v[i], v[j], v[k], piece.common_face()))
         return NeedleCause::strip;
     }
     return NeedleCause::mesh;
@@ -73,7 +73,7 @@ public:
 private:
   /// The vertex of the curves, -1 for others.
   CurveVertex curve_vertex(const Piece& piece, LocalIndex v) const {
-    if (piece.vertex_dimension[v] > mesh::CadDimension::edge) return -1;
+    if (!is_on_curve(piece.vertex_dimension[v])) return -1;
     const auto at = std::lower_bound(piece.shared_vertices.begin(), piece.shared_vertices.end(), v);
     return _curves.vertex_of(piece.shared_keys[at - piece.shared_vertices.begin()]);
   }

@@ -13,19 +13,19 @@
 namespace aeroloom::surface {
 namespace {
 
-using cad::EdgeUse;
+using cad::Coedge;
 using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
-/// A facet node moves to a curve vertex within this part of the distance to the next node or vertex. Farther
-/// away it is a point of its own. Chosen, not measured.
-constexpr double reuse_part = 1e-4;
-/// Two coedges along a seam have a node in common where their parameters agree to this part of the distance
-/// to the next. Chosen, not measured.
-constexpr double same_parameter_part = 1e-7;
-/// Points closer than this part of the face's extent are one, unless both are mesh vertices. Rounding leaves
-/// them less than that apart.
+/// A facet node moves to a curve vertex within this fraction of the distance to the next node or vertex.
+/// Farther away it is a point of its own. Chosen, not measured.
+constexpr double reuse_fraction = 1e-4;
+/// Two coedges along a seam have a node in common where their parameters agree to this fraction of the
+/// distance to the next. Chosen, not measured.
+constexpr double same_parameter_fraction = 1e-7;
+/// Points closer than this fraction of the face's extent are one, unless both are mesh vertices. Rounding
+/// leaves them less than that apart.
 constexpr double no_distance = 1e-10;
 
 using Joining = geometry::DisjointSets<std::int32_t>;
@@ -65,7 +65,7 @@ void drop_opposite_pairs(Support& support) {
   support.corner_uv.resize(kept);
 }
 
-[[noreturn]] void fail(const Model& model, cad::FaceId face, const EdgeUse& use, Vec3 at) {
+[[noreturn]] void fail(const Model& model, cad::FaceId face, const Coedge& use, Vec3 at) {
   throw SurfaceError(fmt::format(
       "face {} (patch {}): its triangulation does not follow edge {} near ({:.6g}, {:.6g}, {:.6g}); repair "
       "this face in "
@@ -114,10 +114,10 @@ OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& 
     }
     _lines.push_back(std::move(line));
   }
-  settle_line_ends();
+  match_line_ends();
 }
 
-void OpenFacets::settle_line_ends() {
+void OpenFacets::match_line_ends() {
   struct End {
     cad::VertexId vertex;
     std::int32_t point;
@@ -128,7 +128,7 @@ void OpenFacets::settle_line_ends() {
     ends.push_back({_model.edge(line.use.edge).first, line.nodes.front().point});
     ends.push_back({_model.edge(line.use.edge).last, line.nodes.back().point});
   }
-  const auto settle = [&](const Line& line, cad::VertexId vertex, Node& node) {
+  const auto match_end = [&](const Line& line, cad::VertexId vertex, Node& node) {
     const Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
     for (const End& end : ends) {
       if (end.vertex != vertex) continue;
@@ -137,8 +137,8 @@ void OpenFacets::settle_line_ends() {
   };
   for (Line& line : _lines) {
     if (line.nodes.empty()) continue;
-    settle(line, _model.edge(line.use.edge).first, line.nodes.front());
-    settle(line, _model.edge(line.use.edge).last, line.nodes.back());
+    match_end(line, _model.edge(line.use.edge).first, line.nodes.front());
+    match_end(line, _model.edge(line.use.edge).last, line.nodes.back());
   }
 }
 
@@ -153,7 +153,7 @@ void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
       wanted.push_back({parameters[i], chain[i], curves.points[chain[i]]});
     }
-    plan(line, wanted, reuse_part, table, divisions);
+    plan(line, wanted, reuse_fraction, table, divisions);
   }
   divide(std::move(divisions));
 }
@@ -176,7 +176,7 @@ void OpenFacets::match_seams() {
     for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i) {
       wanted.push_back({other->nodes[i].parameter, -1, _support.points[other->nodes[i].point]});
     }
-    plan(line, wanted, same_parameter_part, table, divisions);
+    plan(line, wanted, same_parameter_fraction, table, divisions);
   }
   divide(std::move(divisions));
 }

@@ -35,7 +35,7 @@ private:
     CurveVertex vertex;  // -1: none
   };
   struct Line {
-    cad::EdgeUse use;
+    cad::Coedge use;
     bool constraining;
     std::vector<Node> nodes;
   };
@@ -53,7 +53,7 @@ private:
   void divide(std::vector<EdgePoint> divisions);
   /// Where the triangulator mixed up the two sides of a seam at a CAD vertex, lines get the end nodes that
   /// lie where the edge's parameter curve ends.
-  void settle_line_ends();
+  void match_line_ends();
   Line* other_coedge(const Line& line);
   std::vector<std::int32_t> join_points() const;
   /// 1 where the loops run counter-clockwise in the parameter plane, else -1.

@@ -4,7 +4,7 @@
 #include "aeroloom/surface/surface_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
-#include "surface/face_mesher.hpp"
+#include "surface/piece_mesher.hpp"
 #include "surface/support_mesher.hpp"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Mode
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
   for (const auto& loop : _model.face(face).loops) {
-    for (const cad::EdgeUse& use : loop) {
+    for (const cad::Coedge& use : loop) {
       counts.push_back(curves.first_interior[use.edge + 1] - curves.first_interior[use.edge]);
     }
   }

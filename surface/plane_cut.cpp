@@ -10,15 +10,16 @@ namespace {
 
 using geometry::Vec3;
 
-/// An edge is not divided closer to its ends than this part of it: a point inside moves onto the cut instead.
-constexpr double least_part = 0.1;
-/// Parts below this share of the area are not cut off: they would be charts of a few triangles. Chosen, not
-/// measured.
-constexpr double least_share = 0.02;
+/// An edge is not divided closer to its ends than this fraction of it: a point inside moves onto the cut
+/// instead.
+constexpr double least_edge_fraction = 0.1;
+/// Parts below this fraction of the area are not cut off: they would be charts of a few triangles. Chosen,
+/// not measured.
+constexpr double least_area = 0.02;
 /// The plane bends towards a mesh vertex within this many lengths of the boundary segments there: over a few
 /// triangles, so that none is cut askew. Chosen, not measured.
-constexpr double bend_reach = 2.5;
-constexpr double kept_part = 0.1;
+constexpr double bend_radius = 2.5;
+constexpr double kept_fraction = 0.1;
 /// Levels of points that are put on a side are no less than a part of the largest, and not zero.
 constexpr double off_plane = 1e-3, not_zero = 1e-300;
 /// Small parts are given away one by one; where so many are left the cut is no good anyway.
@@ -28,7 +29,7 @@ constexpr std::size_t most_absorbed = 64;
 struct Bend {
   Vec3 point;
   double miss;
-  double reach;
+  double radius;
 };
 
 /// The signed distances that define the cut: the plane's, bent near the boundary so that the sign changes in
@@ -59,7 +60,7 @@ public:
       }
     }
     bend_to_mesh_vertices();
-    settle_boundary();
+    separate_boundary();
     snap_interior();
   }
 
@@ -91,12 +92,12 @@ private:
 
   /// Of two consecutive mesh vertices on different sides, the nearer one is to lie on the cut.
   void bend_to_mesh_vertices() {
-    std::vector<double> reach(_levels.size(), 0);
+    std::vector<double> radius(_levels.size(), 0);
     _on_cut.assign(_levels.size(), 0);
     for (const auto& loop : _loops) {
       for_each_segment(loop, [&](std::int32_t a, const std::vector<std::int32_t>&, std::int32_t b) {
         const double length = distance(_support.points[a], _support.points[b]);
-        for (const std::int32_t p : {a, b}) reach[p] = std::max(reach[p], bend_reach * length);
+        for (const std::int32_t p : {a, b}) radius[p] = std::max(radius[p], bend_radius * length);
         if (_levels[a] * _levels[b] >= 0) return;
         const double from_a = std::abs(_levels[a]), from_b = std::abs(_levels[b]);
         _on_cut[from_a < from_b || (from_a == from_b && a < b) ? a : b] = 1;
@@ -104,14 +105,14 @@ private:
     }
     std::vector<Bend> bends;
     for (std::size_t i = 0; i < _levels.size(); ++i) {
-      if (_on_cut[i]) bends.push_back({_support.points[i], _levels[i], reach[i]});
+      if (_on_cut[i]) bends.push_back({_support.points[i], _levels[i], radius[i]});
     }
     for (std::size_t i = 0; i < _levels.size(); ++i) {
       const double raw = _levels[i];
       _levels[i] = _on_cut[i] ? 0 : bent(_support.points[i], raw, bends);
       // A bend must not push a mesh vertex to the other side: it keeps a part of its distance, and its sign.
       if (!_on_cut[i] && is_mesh_vertex(static_cast<std::int32_t>(i)) && _levels[i] * raw <= 0)
-        _levels[i] = kept_part * raw;
+        _levels[i] = kept_fraction * raw;
     }
   }
 
@@ -119,7 +120,7 @@ private:
     double weights = 0, miss = 0;
     for (const Bend& bend : bends) {
       const Vec3 away = x - bend.point;
-      const double s = dot(away, away) / (bend.reach * bend.reach);
+      const double s = dot(away, away) / (bend.radius * bend.radius);
       if (s >= 1) continue;
       const double weight = (1 - s) * (1 - s);
       weights += weight;
@@ -129,21 +130,21 @@ private:
   }
 
   /// Puts the boundary points between two mesh vertices on the side of these.
-  void settle_boundary() {
+  void separate_boundary() {
     for (const auto& loop : _loops) {
       bool any = false;
       for_each_segment(loop, [&](std::int32_t a, const std::vector<std::int32_t>& between, std::int32_t b) {
         any = true;
-        settle(between, _levels[a] + _levels[b]);
+        set_side(between, _levels[a] + _levels[b]);
       });
       if (any) continue;
       double sum = 0;
       for (const std::int32_t p : loop) sum += _levels[p];
-      settle(loop, sum);
+      set_side(loop, sum);
     }
   }
 
-  void settle(const std::vector<std::int32_t>& points, double side) {
+  void set_side(const std::vector<std::int32_t>& points, double side) {
     double size = 0;
     for (const std::int32_t p : points) size = std::max(size, std::abs(_levels[p]));
     if (size == 0) size = std::abs(side);
@@ -159,7 +160,7 @@ private:
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h) {
       const std::int32_t a = start_of(_support, h), b = end_of(_support, h);
       if (_levels[a] * _levels[b] >= 0 || _on_boundary[a]) continue;
-      if (std::abs(_levels[a]) < least_part * std::abs(_levels[a] - _levels[b])) snap[a] = 1;
+      if (std::abs(_levels[a]) < least_edge_fraction * std::abs(_levels[a] - _levels[b])) snap[a] = 1;
     }
     for (std::size_t i = 0; i < _levels.size(); ++i) {
       if (snap[i]) _levels[i] = 0;
@@ -182,7 +183,8 @@ void divide_at_zero(Support& support, const std::vector<geometry::HalfEdge>& twi
     if (twin >= 0 && twin < h) continue;
     const std::int32_t a = start_of(support, h), b = end_of(support, h);
     if (levels[a] * levels[b] >= 0) continue;
-    const double part = std::clamp(levels[a] / (levels[a] - levels[b]), least_part, 1 - least_part);
+    const double part =
+        std::clamp(levels[a] / (levels[a] - levels[b]), least_edge_fraction, 1 - least_edge_fraction);
     const auto index = static_cast<std::int32_t>(support.points.size());
     support.points.push_back((1 - part) * support.points[a] + part * support.points[b]);
     support.mesh_vertex.push_back(-1);
@@ -198,7 +200,7 @@ void divide_at_zero(Support& support, const std::vector<geometry::HalfEdge>& twi
 /// Gives parts that are too small to their neighbours. Returns the number of parts left.
 std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t>& side) {
   const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
-  const double least = least_share * support_area(support);
+  const double least = least_area * support_area(support);
   for (std::size_t round = 0; round < most_absorbed; ++round) {
     std::vector<std::int32_t> component;
     const std::int32_t count = label_components(twins, side, component);

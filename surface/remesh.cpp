@@ -15,7 +15,7 @@ void remesh_interior(const cad::Model& model, const sizing::SizeField& field, co
     remesher.flip_edges();
     remesher.smooth();
     remesher.flip_edges();
-    remesher.settle();
+    remesher.end_sweep();
   }
   if (options.resizes) remesher.widen_sharp_triangles();
   remesher.finish();

@@ -18,7 +18,7 @@ using geometry::Vec3;
 
 /// Degrees, as where sizes look for sharp corners (sizing/corner_sources.cpp).
 constexpr double sharp = 30;
-/// A leg ends where the gap between the edges is this part of the size there. Chosen, not measured.
+/// A leg ends where the gap between the edges is this fraction of the size there. Chosen, not measured.
 constexpr double fitting = 0.8;
 /// Legs are sought in steps of this ratio, from the size at the corner on. Chosen, not measured.
 constexpr double step = 1.1;
@@ -44,10 +44,10 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
   SharpCorner result{corner.face,
                      corner.vertex,
                      {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)}};
-  double reach = field(model.vertex(corner.vertex));
+  double distance_along = field(model.vertex(corner.vertex));
   const double closed = sizing::closing_angle(model, corner);
-  for (int k = 0; k < most_steps; ++k, reach *= step) {
-    const auto opening = cad::open_corner(model, corner, reach);
+  for (int k = 0; k < most_steps; ++k, distance_along *= step) {
+    const auto opening = cad::open_corner(model, corner, distance_along);
     if (!opening || opening->degrees >= sharp) break;
     if (k == 0) result.degrees = opening->degrees;
     bool both_straight = true;
@@ -57,7 +57,7 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
     if (!both_straight) break;
     const double size = std::min(field(opening->points[0]), field(opening->points[1]));
     if (opening->width >= fitting * size) {
-      if (opening->degrees >= closed) result.leg = reach;
+      if (opening->degrees >= closed) result.leg = distance_along;
       break;
     }
   }

@@ -99,11 +99,11 @@ private:
     const std::int32_t c = start_of(_support, ca), d = start_of(_support, db);
     const Vec2 a_uv = start_uv(_support, ab), b_uv = start_uv(_support, ba);
     const Vec2 c_uv = start_uv(_support, ca), d_uv = start_uv(_support, db);
-    const geometry::HalfEdge beyond_bc = _twins[bc], beyond_ca = _twins[ca], beyond_ad = _twins[ad],
-                             beyond_db = _twins[db];
+    const geometry::HalfEdge twin_bc = _twins[bc], twin_ca = _twins[ca], twin_ad = _twins[ad],
+                             twin_db = _twins[db];
     set(ab, d, d_uv), set(bc, c, c_uv), set(ca, a, a_uv);
     set(ba, c, c_uv), set(ad, d, d_uv), set(db, b, b_uv);
-    link(bc, beyond_ca), link(ca, beyond_ad), link(ad, beyond_db), link(db, beyond_bc);
+    link(bc, twin_ca), link(ca, twin_ad), link(ad, twin_db), link(db, twin_bc);
   }
 
   void set(geometry::HalfEdge h, std::int32_t point, Vec2 uv) {

@@ -29,11 +29,11 @@ std::vector<std::int32_t> join_coedges(const ChartBoundary& boundary) {
   constexpr double one_spot = 1e-6;  // of the shortest edge there; what rounding of the map leaves; chosen
   const auto& points = boundary.input.points;
   const auto count = static_cast<std::int32_t>(points.size());
-  std::vector<double> reach(count, std::numeric_limits<double>::max());
+  std::vector<double> radius(count, std::numeric_limits<double>::max());
   for (const auto& [a, b] : boundary.input.edges) {
     const Vec2 edge = points[b] - points[a];
     const double length = std::hypot(edge.x, edge.y);
-    for (const std::int32_t end : {a, b}) reach[end] = std::min(reach[end], one_spot * length);
+    for (const std::int32_t end : {a, b}) radius[end] = std::min(radius[end], one_spot * length);
   }
   std::vector<std::int32_t> order(count), target(count);
   std::iota(order.begin(), order.end(), 0);
@@ -45,7 +45,7 @@ std::vector<std::int32_t> join_coedges(const ChartBoundary& boundary) {
     const std::int32_t first = target[order[i - 1]], next = order[i];
     if (boundary.face_vertex[first] != boundary.face_vertex[next]) continue;
     const Vec2 apart = points[next] - points[first];
-    if (std::hypot(apart.x, apart.y) <= std::min(reach[first], reach[next])) target[next] = first;
+    if (std::hypot(apart.x, apart.y) <= std::min(radius[first], radius[next])) target[next] = first;
   }
   return target;
 }
@@ -126,7 +126,7 @@ class ChartSizes {
 public:
   ChartSizes(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
              const ChartLocator& locator, const SupportMeshing& options)
-      : _field(field), _chart(chart), _locator(locator), _least_part(options.least_part) {
+      : _field(field), _chart(chart), _locator(locator), _least_fraction(options.least_fraction) {
     if (options.largest_turn > 0 && !model.is_planar(chart.support.face)) {
       _turning = turning_lengths(model, chart.support, options.largest_turn);
     }
@@ -140,7 +140,7 @@ public:
       for (const std::int32_t corner : _chart.support.triangles[at.triangle]) {
         size = std::min(size, _turning[corner]);
       }
-      size = std::max(size, _least_part * asked);
+      size = std::max(size, _least_fraction * asked);
     }
     return size * _locator.scale(at);
   }
@@ -149,7 +149,7 @@ private:
   const sizing::SizeField& _field;
   const Chart& _chart;
   const ChartLocator& _locator;
-  double _least_part;
+  double _least_fraction;
   std::vector<double> _turning;  // per support point; empty: any
 };
 

@@ -24,9 +24,9 @@ private:
 };
 
 struct SupportMeshing {
-  double chart_spread = 60;  ///< degrees, as SurfaceOptions::chart_spread
-  double largest_turn = 0;   ///< radians the surface may turn along an edge, whatever the field; 0: any
-  double least_part = 1;     ///< of the field's size, that turns may ask for
+  double chart_spread = 60;   ///< degrees, as SurfaceOptions::chart_spread
+  double largest_turn = 0;    ///< radians the surface may turn along an edge, whatever the field; 0: any
+  double least_fraction = 1;  ///< of the field's size, that turns may ask for
   Remeshing remeshing;
 };
 

@@ -114,7 +114,7 @@ Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::
 }
 
 /// The remedies of all ranks, the same on every rank; the complaint of the lowest rank that has one.
-Conflicts share(const parallel::Communicator& communicator, const Conflicts& mine) {
+Conflicts gather_conflicts(const parallel::Communicator& communicator, const Conflicts& mine) {
   Conflicts all;
   all.predicted = mine.predicted;
   all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
@@ -177,7 +177,7 @@ private:
   bool mesh_once() {
     _clock.begin_round();
     const CurveMesh curves = discretise_curves(_communicator, _model, _field, _clock, _short_legs);
-    Conflicts conflicts = share(_communicator, _pool.mesh(curves, _field));
+    Conflicts conflicts = gather_conflicts(_communicator, _pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
     mesh::DistributedMesh surface;
     if (conflicts.complaint.empty()) {

@@ -12,7 +12,7 @@ using cad::EdgeEnd;
 using cad::Model;
 using geometry::Vec3;
 
-/// Vertices behind the last aligned one that share what it moved by. Chosen, not measured.
+/// Vertices after the last aligned one that share what it moved by. Chosen, not measured.
 constexpr int steps_back = 5;
 
 /// The interior vertices of an edge from one of its ends on, in its near half.
@@ -59,9 +59,10 @@ public:
 
 private:
   /// Between the curves, at a distance from the CAD vertex; that distance where one of them ends before.
-  double width_at(double reach) const {
-    const auto a = cad::parameter_at(_model, _leader, reach), b = cad::parameter_at(_model, _follower, reach);
-    if (!a || !b) return reach;
+  double width_at(double distance_along) const {
+    const auto a = cad::parameter_at(_model, _leader, distance_along),
+               b = cad::parameter_at(_model, _follower, distance_along);
+    if (!a || !b) return distance_along;
     return distance(_model.edge_point(_leader.edge, *a), _model.edge_point(_follower.edge, *b));
   }
 

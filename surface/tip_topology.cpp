@@ -57,13 +57,13 @@ struct Closing {
   static constexpr auto fields() { return std::tuple(&Closing::tip, &Closing::pairs); }
 };
 
-/// How the triangles beyond a tip's first `pairs` pairs know its vertices.
+/// How the triangles after a tip's first `pairs` pairs know its vertices.
 class Surroundings {
 public:
   Surroundings(const Piece& piece, const std::vector<std::int32_t>& ranks, std::int32_t pairs)
       : _piece(piece), _ranks(ranks), _pairs(pairs) {}
 
-  /// One triangle, beyond the last pair, has both vertices of a pair, and what closes does not fold others.
+  /// One triangle, after the last pair, has both vertices of a pair, and what closes does not fold others.
   bool let_close() {
     std::map<LocalIndex, std::vector<LocalIndex>> neighbours;  // of the vertices of the last pair
     int closing = 0;
@@ -186,7 +186,7 @@ public:
   }
 
   /// Opens tips, the last one first, until no triangle of another face loses an edge and no two become one.
-  const std::vector<char>& settle(const std::vector<CurveTriangle>& triangles) {
+  const std::vector<char>& open_needed(const std::vector<CurveTriangle>& triangles) {
     while (open_one(triangles)) {
     }
     return _open;
@@ -270,7 +270,7 @@ std::vector<Tip> without_open(const parallel::Communicator& communicator, const 
       communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
   // Which tip opens first depends on their order, and theirs on the ranks.
   std::sort(triangles.begin(), triangles.end());
-  const std::vector<char>& open = closure.settle(triangles);
+  const std::vector<char>& open = closure.open_needed(triangles);
   std::vector<Tip> rest;
   for (std::size_t i = 0; i < tips.size(); ++i) {
     if (!open[i]) rest.push_back(std::move(tips[i]));

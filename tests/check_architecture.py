@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks the architecture: includes point down, third-party headers stay in their room, no function has more than
-six parameters.
+six parameters, no two headers define types of one name.
 
 usage: check_architecture.py SOURCE_DIR | check_architecture.py --self-test
 """
@@ -72,6 +72,9 @@ PARAMETER = re.compile(r"(?:const\s+)?(?!return\b|new\b|sizeof\b|not\b)[\w:]+(?:
 # Before a name they tell that it is called.
 CALLING = {"return", "new", "throw", "else", "do", "co_return", "case"}
 
+# A type that a header defines for a namespace: not indented, as clang-format leaves it, and not of another type
+# (`struct Model::Data`). Specialisations (`struct Wire<T>`) are of a template defined elsewhere.
+TYPE = re.compile(r"^(?:struct|class|union|enum(?: class| struct)?) (\w+)(?!\w|::|\s*<)[^;{]*\{", re.MULTILINE)
 
 PUBLIC = "include/aeroloom"
 
@@ -118,8 +121,16 @@ def long_parameter_lists(text):
         yield plain.count("\n", 0, match.start()) + 1, match.group(1), len(items)
 
 
+def types_defined(text):
+    """Names of the types that a header defines for its namespace, with their lines."""
+    plain = COMMENT_OR_LITERAL.sub(lambda match: "\n" * match.group().count("\n"), text)
+    for match in TYPE.finditer(plain):
+        yield plain.count("\n", 0, match.start()) + 1, match.group(1)
+
+
 def violations(root):
     found = []
+    types = {}
     uses = {pattern: set() for pattern, _, _ in ROOMS}
     for folder, path in sources(root):
         name = path.relative_to(root)
@@ -127,6 +138,10 @@ def violations(root):
         for number, function, count in long_parameter_lists(text):
             if (str(name), function) not in DICTATED:
                 found.append(f"{name}:{number}: {count} parameters, at most {MOST_PARAMETERS}: group what belongs together")
+        for number, type_name in types_defined(text) if path.suffix == ".hpp" else ():
+            where = f"{name}:{number}"
+            if types.setdefault(type_name, where) != where:
+                found.append(f"{where}: another type {type_name} is defined in {types[type_name]}")
         for number, line in enumerate(text.splitlines(), 1):
             where = f"{name}:{number}"
             if folder not in {"parallel", "tests"} and MPI_NAME.search(line):
@@ -177,9 +192,15 @@ def self_test():
         "include/aeroloom/mesh/up.hpp": '#include "aeroloom/surface/front.hpp"\n',
         "mesh/long.hpp": "void seven(int a, int b, int c, int d, int e,\n           const std::map<int, int>& f, int);\n",
         "mesh/long_constructor.hpp": "class A {\n  A(int a, int b, int c, B d, B& e, B* f, const char* g = \"\");\n};\n",
+        "mesh/name.hpp": "template <class T>\nclass Piece final : public Base<T> {};\n",
+        "mesh/kind.hpp": "// of a mesh\nenum class Kind : int { none };\n",
         "mesh/long_lambda.cpp": "const auto f = [&](int a, int b, int c, int d, int e, int f, int g) {};\n",
     }
     clean = {
+        "geometry/piece.hpp": "struct Piece;\nstruct Piece {\n  enum class Side { left };\n};\nstruct Piece::Kind {};\n",
+        "geometry/traits.hpp": "template <>\nstruct Piece<int> {};\nenum class Kind {};\n",
+        "geometry/side.hpp": "// struct Piece {\nstruct Side {};\n",
+        "mesh/local.cpp": "struct Piece {};\n",
         "mesh/down.cpp": '#include "geometry/vec.hpp"\n',
         "cad/model/occ.cpp": "#include <gp_Pnt.hxx>\n",
         "mesh/six.hpp": "void six(const std::map<int, int>& a, int b, int c, int d, int e, int f);  // of (a, b, c, d, e, f, g)\n",

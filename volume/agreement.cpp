@@ -15,7 +15,7 @@ struct WireFace {
   std::array<mesh::SharedVertexKey, 3> vertices;
   ZoneIndex zone;
   mesh::RegionId region;
-  std::int32_t index;  ///< in its rank's list, times two, plus its turn
+  std::int32_t index;  ///< in its rank's list, times two, plus its orientation
 
   bool odd() const { return index & 1; }
   static constexpr auto fields() {

@@ -10,8 +10,8 @@
 
 namespace aeroloom::volume {
 
-/// The faces that have no partner: another zone's face with the same vertices, turned the other way, in the
-/// same region. By vertices and zone, the same on every rank. Collective.
+/// The faces that have no partner: another zone's face with the same vertices, with the other orientation, in
+/// the same region. By vertices and zone, the same on every rank. Collective.
 std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
                                      std::span<const ZoneFace> faces, parallel::StageClock& clock);
 

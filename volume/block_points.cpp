@@ -51,7 +51,7 @@ double largest_size(const LatticeSource& source, BlockIndex b) {
 constexpr double core_ball = 0.9;
 
 /// How far the surface is from corners and centres of leaves of the core, in space.
-double core_reach(const LatticeSource& source, BlockIndex b) {
+double core_distance(const LatticeSource& source, BlockIndex b) {
   return core_clearance * source.frame.edge(source.tree.leaf_level(b));
 }
 
@@ -59,13 +59,13 @@ double clearance_of(const LatticeSource& source, BlockIndex b) {
   return source.options.clearance * std::pow(step_factor, source.changes[b].farther);
 }
 
-/// Whether there are far smaller triangles within reach of the points of a block. Of what is not known, none
-/// is there (learn_what_is_far_finer).
-bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
+/// Whether there are far smaller triangles within a distance of the points of a block. Of what is not known,
+/// none is there (learn_what_is_far_finer).
+bool sees_far_finer(const LatticeSource& source, BlockIndex b, double radius) {
   const LatticeTree& tree = source.tree;
   const int level = far_finer_level(tree.level(b));
   return tree.any_block_in(
-      GridBox::of(tree.cube(b)).dilated(reach),
+      GridBox::of(tree.cube(b)).dilated(radius),
       [&](BlockIndex n) { return tree.level(n) >= level && source.table.is_met(n); },
       [&](BlockIndex first, BlockIndex last, const GridCube&) {
         return !source.table.any_met(first, last, level);
@@ -74,17 +74,17 @@ bool sees_far_finer(const LatticeSource& source, BlockIndex b, double reach) {
 
 /// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.
 bool may_have_core(const LatticeSource& source, BlockIndex b) {
-  return !sees_far_finer(source, b, source.frame.grid_distance(core_reach(source, b)));
+  return !sees_far_finer(source, b, source.frame.grid_distance(core_distance(source, b)));
 }
 
 /// Makes the points of one block after the other.
 class PointMaker {
 public:
-  PointMaker(const LatticeSource& source, const NearSurface& surface, const SurfaceReach& reach,
+  PointMaker(const LatticeSource& source, const NearSurface& surface, const SearchRadii& radii,
              BlockPoints& result)
       : _source(source),
         _surface(surface),
-        _reach(reach),
+        _radii(radii),
         _result(result),
         _within(source.frame, source.tree, source.table, surface) {}
 
@@ -121,8 +121,8 @@ private:
   /// Whether triangles may be too near to a point of the block.
   bool is_near() const {
     if (_surface.empty()) return false;
-    const double reach = largest_edge * clearance_of(_source, _block) * largest_size(_source, _block);
-    return _surface.distance().any_in(_box.dilated(reach));
+    const double radius = largest_edge * clearance_of(_source, _block) * largest_size(_source, _block);
+    return _surface.distance().any_in(_box.dilated(radius));
   }
 
   /// Triangles near a block's points, and the sizes that decide.
@@ -139,18 +139,18 @@ private:
   std::uint8_t clear_leaves() {
     const LatticeTree& tree = _source.tree;
     if (!may_have_core(_source, _block)) return 0;
-    const double reach = core_reach(_source, _block);
+    const double radius = core_distance(_source, _block);
     const GridBox whole = GridBox::of(tree.cube(_block));
     if (_surface.empty()) return tree.all_leaves(_block);
     geometry::Box box;
     for (int corner = 0; corner < 8; ++corner) box.add(_source.frame.to_space(whole.corner(corner)));
-    if (!_surface.distance().any_in(box.dilated(reach))) return tree.all_leaves(_block);
-    _around.collect(_surface.distance(), box, reach);
+    if (!_surface.distance().any_in(box.dilated(radius))) return tree.all_leaves(_block);
+    _around.collect(_surface.distance(), box, radius);
     std::uint8_t clear = 0;
     for (int child = 0; child < tree.leaf_count(_block); ++child) {
       const GridBox leaf = GridBox::of(tree.leaf(_block, child));
       const auto is_near = [&](Vec3 grid) {
-        return _around.any_nearer(_source.frame.to_space(grid), {1, reach, reach});
+        return _around.any_nearer(_source.frame.to_space(grid), {1, radius, radius});
       };
       bool near = is_near(0.5 * (leaf.low + leaf.high));
       for (int corner = 0; corner < 8 && !near; ++corner) near = is_near(leaf.corner(corner));
@@ -202,7 +202,7 @@ private:
   /// The region of a point in a block that the surface meets.
   mesh::RegionId region_of(Vec3 p) {
     if (const auto known = _balls.region_at(p)) return *known;
-    if (_reach.is_from_within(_block - _result.first)) {
+    if (_radii.is_from_within(_block - _result.first)) {
       const auto seen = _within.look(_block, p);
       return seen ? seen->region : mesh::no_region;
     }
@@ -216,7 +216,7 @@ private:
 
   const LatticeSource& _source;
   const NearSurface& _surface;
-  const SurfaceReach& _reach;
+  const SearchRadii& _radii;
   BlockPoints& _result;
   WithinBlocks _within;
   BlockIndex _block = 0;
@@ -240,7 +240,7 @@ double nearest_in(const LatticeSource& source, BlockIndex b) {
 }
 
 /// How far from a block the way may lead from one of its points to a triangle whose box meets it.
-double reach_from_within(const LatticeSource& source, BlockIndex b) {
+double radius_from_within(const LatticeSource& source, BlockIndex b) {
   const double perturbation = source.options.perturbation * source.tree.cube(b).edge();
   return more_for_shear * source.frame.grid_distance(source.table.longest_edge[b]) + perturbation;
 }
@@ -269,20 +269,20 @@ Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot) {
 }
 
 std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b) {
-  return {source.frame.grid_distance(core_reach(source, b)),
+  return {source.frame.grid_distance(core_distance(source, b)),
           source.table.is_met(b) ? nearest_in(source, b) : 0};
 }
 
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
-SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last) {
+SearchRadii search_radii_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last) {
   const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
-  SurfaceReach reach;
-  reach.per_edge = source.frame.grid_distance(farthest);
+  SearchRadii radii;
+  radii.per_edge = source.frame.grid_distance(farthest);
   for (BlockIndex b = first; b < last; ++b) {
     const double clear = source.frame.grid_distance(farthest * largest_size(source, b));
-    const double of_core = source.frame.grid_distance(core_reach(source, b));
-    BlockReach block{smallest_edge * clear, largest_edge * clear};
+    const double of_core = source.frame.grid_distance(core_distance(source, b));
+    BlockSearchRadii block{smallest_edge * clear, largest_edge * clear};
     if (source.table.is_met(b)) block.nearest = nearest_in(source, b);
     // Far finer blocks cost a search. Where all triangles that could matter are at hand none is spared by it.
     const double farthest_of_all = std::max({block.most, block.nearest, of_core});
@@ -291,20 +291,20 @@ SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, Bloc
     const bool is_inside = lowest >= first && highest < last;
     if (!is_inside && source.table.is_met(b)) {
       block.from_within = sees_far_finer(source, b, block.nearest);
-      if (block.from_within) block.nearest = reach_from_within(source, b);
+      if (block.from_within) block.nearest = radius_from_within(source, b);
     }
     if (is_inside || may_have_core(source, b)) block.least = std::max(block.least, of_core);
-    reach.of_blocks.push_back(block);
+    radii.of_blocks.push_back(block);
   }
-  return reach;
+  return radii;
 }
 
 BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                        const NearSurface& surface, const SurfaceReach& reach) {
+                        const NearSurface& surface, const SearchRadii& radii) {
   BlockPoints result;
   result.first = first;
   result.starts.push_back(0);
-  PointMaker maker(source, surface, reach, result);
+  PointMaker maker(source, surface, radii, result);
   for (BlockIndex b = first; b < last; ++b) {
     maker.make(b);
     result.starts.push_back(static_cast<std::int64_t>(result.points.size()));

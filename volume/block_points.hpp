@@ -6,7 +6,7 @@
 #include "aeroloom/sizing/size_field.hpp"
 #include "volume/lattice_tree.hpp"
 #include "volume/near_surface.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include <array>
 #include <cstdint>
@@ -45,7 +45,7 @@ inline int slot_at(int x, int y, int z) {
   return slots[x + 2 * y + 4 * z];
 }
 
-/// Which block and slot a point of the lattice has, by a running number: its shared-vertex key behind those
+/// Which block and slot a point of the lattice has, by a running number: its shared-vertex key after those
 /// of the surface.
 inline std::int64_t lattice_number(const LatticeTree& tree, BlockIndex block, int slot) {
   return tree.number(block) * slots_per_block + slot;
@@ -87,7 +87,7 @@ struct LatticeSource {
 geometry::Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot);
 
 /// How far the corners and the centre of a leaf of the core keep off the surface, in leaf edges. Above 0.58
-/// nothing between them can reach into the leaf; at 0.87 no point of the surface stands in a ball through the
+/// nothing between them can enter the leaf; at 0.87 no point of the surface stands in a ball through the
 /// corners of a square whose emptiness proves it (core_leaves.hpp). In between the mesh of the shell is
 /// asked.
 inline constexpr double core_clearance = 0.6;
@@ -101,12 +101,12 @@ std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b);
 
 /// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
 /// the region of points there. Retries included.
-SurfaceReach reach_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last);
+SearchRadii search_radii_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last);
 
 /// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the
-/// surface. `surface` has the triangles within this reach of these blocks. A function of place, sizes and the
+/// surface. `surface` has the triangles within these radii. A function of place, sizes and the
 /// surface nearby.
 BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                        const NearSurface& surface, const SurfaceReach& reach = {});
+                        const NearSurface& surface, const SearchRadii& radii = {});
 
 }  // namespace aeroloom::volume

@@ -176,15 +176,15 @@ std::vector<Witness> unite(std::vector<Witness> all) {
 class Look {
 public:
   Look(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-       const NearSurface& surface, const SurfaceReach& reach)
-      : _frame(frame), _surface(surface), _reach(reach), _within(frame, tree, table, surface) {}
+       const NearSurface& surface, const SearchRadii& radii)
+      : _frame(frame), _surface(surface), _radii(radii), _within(frame, tree, table, surface) {}
 
   Vec3 place_of(const Contact& contact) const { return _frame.to_space(contact.place); }
   /// Where an empty ball tells it.
   std::optional<RegionId> known_region_at(Vec3 p) const { return _balls.region_at(p); }
   /// From a place in a block, which has this place in the rank's share.
   std::optional<WithinBlocks::Seen> from(BlockIndex b, std::size_t in_share, Vec3 p) {
-    if (_reach.is_from_within(in_share)) return _within.look(b, p);
+    if (_radii.is_from_within(in_share)) return _within.look(b, p);
     _nearest = _surface.distance().nearest(p, _nearest.triangle);
     const auto region = _surface.region_at(p, _nearest);
     if (!region) return std::nullopt;
@@ -195,7 +195,7 @@ public:
 private:
   const LatticeFrame& _frame;
   const NearSurface& _surface;
-  const SurfaceReach& _reach;
+  const SearchRadii& _radii;
   WithinBlocks _within;
   BoundaryDistance::Nearest _nearest;
   EmptyBalls _balls;
@@ -293,7 +293,7 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
   BlockSets sets(tree, table);
   sets.join_those_of_all_ranks(communicator);
   const std::vector<Contact> contacts = sets.take_contacts(communicator);
-  Look look(lattice.frame, tree, table, around.surface, around.reach);
+  Look look(lattice.frame, tree, table, around.surface, around.radii);
   const std::vector<Witness> witnesses =
       unite(mesh::deliver(communicator, witnesses_of(contacts, tree, around.triangles, look),
                           [&](const Witness& witness) { return tree.owner(witness.set); }));

@@ -6,7 +6,7 @@
 #include "volume/lattice_tree.hpp"
 #include "volume/near_surface.hpp"
 #include "volume/neighbourhood.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include <optional>
 #include <span>
@@ -29,11 +29,11 @@ struct Contradiction {
   }
 };
 
-/// The surface within reach of this rank's blocks.
+/// The surface near this rank's blocks.
 struct SurfaceAround {
   std::span<const SurfaceTriangle> triangles;
   const NearSurface& surface;  ///< of these triangles
-  const SurfaceReach& reach;
+  const SearchRadii& radii;
 };
 
 struct BlockRegions {

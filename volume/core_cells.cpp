@@ -91,15 +91,15 @@ void CoreCells::surround_axis(const Side& side, const Leaf& other) {
   const Point center{center_of(_around.tree(), {_around.block(), side.child}), false};
   const Point across{center_of(_around.tree(), other), !is_core && claims != CoreLeaves::all_sides};
   const Point &below = side.sign > 0 ? center : across, &above = side.sign > 0 ? across : center;
-  // Beyond each edge of the square lies another side of the leaf across it.
+  // Across each edge of the square lies another side of the leaf across it.
   const int b = side.first_axis(), d = side.second_axis();
-  const int beyond_edge[4] = {2 * d, 2 * b + 1, 2 * d + 1, 2 * b};
+  const int across_edge[4] = {2 * d, 2 * b + 1, 2 * d + 1, 2 * b};
   const Point* last = &_square[0];
   for (int k = 1; k <= 8; ++k) {
     if (k % 2 == 1 && !(_pattern >> k / 2 & 1)) continue;
     const Point* next = &_square[k % 8];
     add_cell(side.child, {&below, last, next, &above});
-    if (!is_core && !(claims >> beyond_edge[k / 2 - 1] & 1)) {
+    if (!is_core && !(claims >> across_edge[k / 2 - 1] & 1)) {
       const Point *x = side.sign > 0 ? next : last, *y = side.sign > 0 ? last : next;
       _borders.push_back({{x->number, y->number, across.number}, static_cast<std::uint8_t>(side.child)});
     }
@@ -111,16 +111,16 @@ void CoreCells::surround_axis(const Side& side, const Leaf& other) {
 void CoreCells::make_side(const Side& side) {
   using Size = LeafSurroundings::Size;
   const int b = side.first_axis(), d = side.second_axis();
-  HalfPlace beyond = side.leaf;
-  beyond[side.axis] += side.sign;
-  const LeafSurroundings::Cube& cube = _around.cube(beyond);
+  HalfPlace across = side.leaf;
+  across[side.axis] += side.sign;
+  const LeafSurroundings::Cube& cube = _around.cube(across);
   if (cube.size == Size::finer) {
     for (int part = 0; part < 4; ++part) {
       std::array<int, 3> octant;
       octant[side.axis] = side.sign > 0 ? 0 : 1;
       octant[b] = part & 1;
       octant[d] = part >> 1;
-      const Leaf other = _around.finer(beyond, octant[0] + 2 * octant[1] + 4 * octant[2]);
+      const Leaf other = _around.finer(across, octant[0] + 2 * octant[1] + 4 * octant[2]);
       take_square(side, 2 * side.leaf[b] + octant[b], 2 * side.leaf[d] + octant[d], 1);
       cover_square(side, other, false);
     }

@@ -74,7 +74,7 @@ private:
   LeafSurroundings _around;
   std::array<Point, 125> _points;
   std::array<std::uint8_t, 125> _known{};
-  std::array<Point, 8> _square;  // in turn, as square_places
+  std::array<Point, 8> _square;  // in the order of square_places
   SquarePattern _pattern = 0;    // of it
   std::vector<CoreCell> _cells;
   std::vector<BorderTriangle> _borders;

@@ -31,7 +31,7 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
     choose(source, points);
   }
   _ghosts.update(communicator, _core);
-  settle(communicator, source.tree, clock);
+  shrink_until_stable(communicator, source.tree, clock);
   {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     claim(source.tree);
@@ -89,9 +89,9 @@ void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) 
 bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const {
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, b = (axis + 1) % 3, d = (axis + 2) % 3, sign = side % 2 == 0 ? -1 : 1;
-    HalfPlace beyond = leaf;
-    beyond[axis] += sign;
-    const LeafSurroundings::Cube& cube = around.cube(beyond);
+    HalfPlace across = leaf;
+    across[axis] += sign;
+    const LeafSurroundings::Cube& cube = around.cube(across);
     if (cube.size != LeafSurroundings::Size::same || is_core(cube.leaf)) continue;
     const int on_edges = around.points_on_edges(leaf, side);
     if (on_edges == 4) return true;
@@ -143,9 +143,9 @@ void CoreLeaves::claim(const LatticeTree& tree) {
         continue;
       const HalfPlace leaf = around.place_of(child);
       for (int side = 0; side < 6; ++side) {
-        HalfPlace beyond = leaf;
-        beyond[side / 2] += side % 2 == 0 ? -1 : 1;
-        const LeafSurroundings::Cube& cube = around.cube(beyond);
+        HalfPlace across = leaf;
+        across[side / 2] += side % 2 == 0 ? -1 : 1;
+        const LeafSurroundings::Cube& cube = around.cube(across);
         if (cube.size == LeafSurroundings::Size::same && is_core(cube.leaf) &&
             _present[_ghosts.place(cube.leaf.block)].region == _present[i].region &&
             around.points_on_edges(leaf, side) == 0)
@@ -164,8 +164,8 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
   return found;
 }
 
-void CoreLeaves::settle(const parallel::Communicator& communicator, const LatticeTree& tree,
-                        parallel::StageClock& clock) {
+void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree,
+                                     parallel::StageClock& clock) {
   LeafSurroundings around(tree);
   std::vector<std::size_t> open;  // own blocks that leaves may have to leave
   _beside_shell.assign(_ghosts.own_count(), 0);

@@ -61,8 +61,8 @@ private:
   void choose(const LatticeSource& source, const BlockPoints& points);
   bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
   bool is_beside_shell(const LeafSurroundings& around) const;
-  void settle(const parallel::Communicator& communicator, const LatticeTree& tree,
-              parallel::StageClock& clock);
+  void shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree,
+                           parallel::StageClock& clock);
   void claim(const LatticeTree& tree);
   bool leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const;
 

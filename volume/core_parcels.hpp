@@ -18,7 +18,7 @@ namespace aeroloom::volume {
 
 /// A cell on its way to the piece it belongs to.
 struct CoreParcel {
-  std::int32_t target;  ///< a zone, or a range of the curve behind all of them
+  std::int32_t target;  ///< a zone, or a range of the curve after all of them
   parallel::Rank rank;
   mesh::RegionId region;
   std::uint8_t shared;

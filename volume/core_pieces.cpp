@@ -345,7 +345,7 @@ private:
     _clock.note_task({"core piece", range, cells, seconds, bytes});
   }
 
-  /// Of the ranges that are this rank's; what others have of them lies behind along the curve.
+  /// Of the ranges that are this rank's; what others have of them comes later along the curve.
   void make_pieces(std::span<const CoreParcel> arrived) {
     const GhostBlocks& ghosts = _source.core.ghosts();
     std::size_t next = 0;

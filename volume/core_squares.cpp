@@ -25,7 +25,7 @@ bool are_in_line(int a, int b, int c) {
   return (q[0] - p[0]) * (r[1] - p[1]) == (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-/// Whether a place lies in the circle through three others, in turn.
+/// Whether a place lies in the circle through three others, in cyclic order.
 bool is_in_circle(const Plane& plane, const std::array<int, 3>& circle, int place) {
   const auto d = plane.at(place);
   double rows[3][3];

@@ -10,10 +10,10 @@
 
 namespace aeroloom::volume {
 
-/// A square across `axis`, seen against it: its corners and the middles of its edges in turn, in halves of an
-/// edge along the next axis and the one after that.
+/// A square across `axis`, seen against it: its corners and the middles of its edges in cyclic order, in
+/// halves of an edge along the next axis and the one after that.
 inline constexpr int square_places[8][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-/// Which middles of edges have points: a bit each, in turn.
+/// Which middles of edges have points: a bit each, in cyclic order.
 using SquarePattern = unsigned;
 inline constexpr SquarePattern square_patterns = 16;
 
@@ -24,7 +24,7 @@ class CoreSquares {
 public:
   explicit CoreSquares(const LatticeFrame& frame);
 
-  /// By places in turn, counter-clockwise as the square is seen.
+  /// By places in cyclic order, counter-clockwise as the square is seen.
   using Triangle = std::array<std::uint8_t, 3>;
   std::span<const Triangle> triangles(int axis, SquarePattern pattern) const {
     return _triangles[axis][pattern];

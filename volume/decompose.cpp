@@ -45,7 +45,7 @@ std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::Distri
 }
 
 /// The surface near each rank's blocks.
-void share_surface(const parallel::Communicator& communicator, const VolumeInput& input,
+void fetch_surface(const parallel::Communicator& communicator, const VolumeInput& input,
                    Decomposition::Data& data, parallel::StageClock& clock) {
   data.triangles =
       deliver_surface(communicator, *data.frame, *data.tree, input.surface, input.numbering, clock);
@@ -61,10 +61,10 @@ void share_surface(const parallel::Communicator& communicator, const VolumeInput
   // is seen first tells the same.
   if (communicator.size() > 1) {
     const ScopedCpu task(clock, ScopedCpu::As::task);
-    data.reach = reach_of_blocks(data.source(input), data.tree->first(), data.tree->last());
+    data.radii = search_radii_of_blocks(data.source(input), data.tree->first(), data.tree->last());
   }
   data.triangles =
-      add_those_near(communicator, *data.frame, *data.tree, data.reach, std::move(data.triangles), clock);
+      add_those_near(communicator, *data.frame, *data.tree, data.radii, std::move(data.triangles), clock);
   const ScopedCpu task(clock, ScopedCpu::As::task);
   data.surface = std::make_unique<NearSurface>(data.triangles);
 }
@@ -154,11 +154,11 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
   BlockPoints points;
   std::vector<SurfaceTriangle> again;
   if (!data.surface)
-    again = add_those_near(communicator, *data.frame, *data.tree, data.reach, data.triangles, clock);
+    again = add_those_near(communicator, *data.frame, *data.tree, data.radii, data.triangles, clock);
   parallel::agree(communicator, [&] {
     const ScopedCpu task(clock, ScopedCpu::As::task);
     if (!data.surface) data.surface = std::make_unique<NearSurface>(again);
-    points = make_points(data.source(input), first, last, *data.surface, data.reach);
+    points = make_points(data.source(input), first, last, *data.surface, data.radii);
     data.surface.reset();
   });
   data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(points.points.size()));
@@ -186,9 +186,9 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
                                              keys_of(*data->frame, input.surface));
   data->squares = std::make_unique<CoreSquares>(*data->frame);
   data->report.blocks = data->tree->total();
-  share_surface(communicator, input, *data, clock);
+  fetch_surface(communicator, input, *data, clock);
   BlockRegions regions =
-      find_block_regions(communicator, data->known(), {data->triangles, *data->surface, data->reach}, clock);
+      find_block_regions(communicator, data->known(), {data->triangles, *data->surface, data->radii}, clock);
   if (regions.contradiction)
     refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);

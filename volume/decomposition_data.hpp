@@ -29,7 +29,7 @@ struct Decomposition::Data {
   DecompositionReport report;
 
   // Of this rank's blocks.
-  SurfaceReach reach;                          ///< as triangles were gathered; nothing on one rank
+  SearchRadii radii;                           ///< as triangles were gathered; nothing on one rank
   std::vector<SurfaceTriangle> triangles;      ///< that meet them
   std::unique_ptr<const NearSurface> surface;  ///< while points are made
   std::unique_ptr<CoreLeaves> core;

@@ -1,4 +1,4 @@
-/// Balls that no triangle reaches into: all of one lies in one region.
+/// Balls that no triangle enters: all of one lies in one region.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"

@@ -65,7 +65,7 @@ std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
 void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& surface,
                     const std::string& reason, Look look) {
   const ZoneProblem& problem = content.problem;
-  const SurfacePart part{problem.points, problem.triangles};
+  const TriangleSoup part{problem.points, problem.triangles};
   Item item;
   item.zone = content.zone;
   SurfaceDefect defect;

@@ -41,7 +41,7 @@ public:
     for (_report.rounds = 1;; ++_report.rounds) {
       std::vector<ZoneIndex> pending =
           _ladder.change_failed(std::exchange(_failures, {}), std::exchange(_leaving, {}), _evidence);
-      if (pending.empty()) pending = _ladder.settle_disputes(faces());
+      if (pending.empty()) pending = _ladder.resolve_disputes(faces());
       if (pending.empty()) return assemble();
       _budget.spend(pending.size(), _report.rounds, _input.options.halo);
       fill(plan(pending));
@@ -64,10 +64,11 @@ private:
       parallel::agree(_communicator, [&] {
         for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
           made += fill_one(contents[i]);
-          progress.reach(waves * steps + static_cast<std::int64_t>((i + 1) * steps / contents.size()), made);
+          progress.set_done(waves * steps + static_cast<std::int64_t>((i + 1) * steps / contents.size()),
+                            made);
         }
       });
-      progress.reach(++waves * steps, made);
+      progress.set_done(++waves * steps, made);
     }
   }
 
@@ -89,7 +90,7 @@ private:
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
     const parallel::CrashNote note(fmt::format("stage volume, zone {}", content.zone));
-    ZoneFilling filling = fill_zone(content.problem, fault_of(content.zone), _input.tasks, seconds);
+    ZoneFilling filling = fill_zone_in_child(content.problem, fault_of(content.zone), _input.tasks, seconds);
     _clock.add_task_cpu(filling.cpu_seconds);
     _clock.note_child_memory(filling.child_peak_bytes);
     parallel::log_verbose(fmt::format(

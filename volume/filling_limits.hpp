@@ -37,8 +37,8 @@ public:
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
         fmt::format("{} zones were filled {} times again in {} rounds, and their tetrahedra still do not fit "
-                    "together: what they know of each other is too little. Remedy: a wider volume.halo "
-                    "({:g}), or larger pieces (volume.piece_tets)",
+                    "together: what they know of each other is too little. Remedy: a wider "
+                    "VolumeOptions::halo ({:g}), or larger pieces (VolumeOptions::piece_tets)",
                     _zones, _again, rounds, halo));
   }
 

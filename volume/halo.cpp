@@ -16,7 +16,7 @@ double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, c
 
 bool NearZone::knows(const GridBox& box) const {
   return std::any_of(boxes.begin(), boxes.end(),
-                     [&](const GridBox& place) { return place.gap_to(box) <= reach; });
+                     [&](const GridBox& place) { return place.gap_to(box) <= radius; });
 }
 
 ZonesAround::ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,

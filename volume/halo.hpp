@@ -2,7 +2,7 @@
 #pragma once
 
 #include "volume/lattice_tree.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 #include "volume/zones.hpp"
 
 #include <span>
@@ -18,7 +18,7 @@ double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, c
 /// A zone that has leaves near a block.
 struct NearZone {
   ZoneIndex zone;
-  double reach;                    ///< how near things in the block have to be, in the grid
+  double radius;                   ///< how near things in the block have to be, in the grid
   std::span<const GridBox> boxes;  ///< where the zone lies
 
   bool knows(const GridBox& box) const;
@@ -34,8 +34,8 @@ public:
   static constexpr int finer_levels = 3;
   /// How far from a block leaves of zones matter to what lies in it, in the grid. Triangles count to the
   /// block that their centre lies in, so that they may stick out of it.
-  static double reach(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-                      BlockIndex b, double width) {
+  static double search_radius(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                              BlockIndex b, double width) {
     return frame.grid_distance(width * largest_size_around(frame, tree, table, b) + table.longest_edge[b]);
   }
 

@@ -55,16 +55,16 @@ LatticeFrame::LatticeFrame(const sizing::SizeField& field, const Box& box)
     squares += dot(change, change);
   }
 
-  double reach = 0;
+  double extent = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 x{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
                  corner & 4 ? box.high.z : box.low.z};
     const Vec3 g = apply(inverse, x - _anchor);
-    reach = std::max({reach, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
+    extent = std::max({extent, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
   }
   double root_edge = reference_size(field) / mean_edge_of_cell;
-  while (root_edge > 4 * root_margin * reach) root_edge *= 0.5;
-  while (root_edge < 2 * root_margin * reach) root_edge *= 2;
+  while (root_edge > 4 * root_margin * extent) root_edge *= 0.5;
+  while (root_edge < 2 * root_margin * extent) root_edge *= 2;
   _unit = root_edge / sizing::grid_size;
   const double half = 0.5 * sizing::grid_size;
   _middle = {half, half, half};

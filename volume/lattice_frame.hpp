@@ -78,8 +78,8 @@ public:
     return to_space(GridBox::of(cube).low + geometry::Vec3{half, half, half});
   }
   geometry::Box box_around(const GridCube& cube) const {
-    const geometry::Vec3 middle = middle_of(cube), reach = 0.5 * cube.edge() * _spread;
-    return {middle - reach, middle + reach};
+    const geometry::Vec3 middle = middle_of(cube), half = 0.5 * cube.edge() * _spread;
+    return {middle - half, middle + half};
   }
   /// The box in the grid that holds a box of space.
   GridBox grid_box(const geometry::Box& box) const;

@@ -187,7 +187,7 @@ private:
   /// Of this rank are `own` blocks, numbered from `first` on.
   void fill(const std::vector<KnownBlock>& blocks, BlockNumber first, BlockIndex own);
 
-  std::vector<BlockNumber> _firsts;  // per rank, and one beyond
+  std::vector<BlockNumber> _firsts;  // per rank, and the end
   std::vector<std::uint64_t> _keys;  // per rank: where its blocks begin, those of one without any the next's
   BlockIndex _first = 0, _last = 0;
   sizing::SplitCubes::Leaves _blocks;

@@ -21,13 +21,13 @@ GridBox NearBoxes::build(std::size_t node, std::size_t first, std::size_t last) 
 }
 
 bool NearBoxes::any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
-                          double reach) const {
-  // Without reach boxes overlap or not: told in a few comparisons.
-  if (reach == 0 ? !_nodes[node].overlaps(box) : _nodes[node].gap_to(box) > reach) return false;
+                          double radius) const {
+  // Without a radius boxes overlap or not: told in a few comparisons.
+  if (radius == 0 ? !_nodes[node].overlaps(box) : _nodes[node].gap_to(box) > radius) return false;
   if (last - first == 1) return true;
   const std::size_t middle = first + (last - first) / 2;
-  return any_below(2 * node + 1, first, middle, box, reach) ||
-         any_below(2 * node + 2, middle, last, box, reach);
+  return any_below(2 * node + 1, first, middle, box, radius) ||
+         any_below(2 * node + 2, middle, last, box, radius);
 }
 
 }  // namespace aeroloom::volume

@@ -14,15 +14,15 @@ public:
   /// Boxes that are near each other should follow each other.
   void add(const GridBox& box) { _boxes.push_back(box); }
   void build();
-  /// Whether a box is at most `reach` away.
-  bool any_within(const GridBox& box, double reach) const {
-    return !_boxes.empty() && any_below(0, 0, _boxes.size(), box, reach);
+  /// Whether a box is at most `radius` away.
+  bool any_within(const GridBox& box, double radius) const {
+    return !_boxes.empty() && any_below(0, 0, _boxes.size(), box, radius);
   }
 
 private:
   GridBox build(std::size_t node, std::size_t first, std::size_t last);
   bool any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
-                 double reach) const;
+                 double radius) const;
 
   std::vector<GridBox> _boxes;
   std::vector<GridBox> _nodes;  // children of node n: 2 n + 1, 2 n + 2

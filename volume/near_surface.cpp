@@ -71,8 +71,8 @@ std::optional<NearSurface::Sight> NearSurface::first_on_way(Vec3 p, Vec3 q, std:
     const int least = std::min({ab, bc, ca}), most = std::max({ab, bc, ca});
     if (least < 0 && most > 0) continue;               // beside the triangle
     if (least == 0 || most == 0) return std::nullopt;  // through an edge
-    const double before = std::abs(volume6(a, b, c, p)), behind = std::abs(volume6(a, b, c, q));
-    const double place = before / (before + behind);
+    const double before = std::abs(volume6(a, b, c, p)), after = std::abs(volume6(a, b, c, q));
+    const double place = before / (before + after);
     if (place < nearest) nearest = place, first = {t, side};
   }
   return first;

@@ -4,7 +4,7 @@
 #include "aeroloom/geometry/vec.hpp"
 #include "aeroloom/mesh/piece.hpp"
 #include "volume/boundary_distance.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -17,11 +17,11 @@ double square(double x) {
 
 }  // namespace
 
-void NearTriangles::collect(const BoundaryDistance& boundary, const geometry::Box& box, double reach) {
-  _reach = reach;
+void NearTriangles::collect(const BoundaryDistance& boundary, const geometry::Box& box, double radius) {
+  _radius = radius;
   _balls.clear();
   _triangles.clear();
-  const double margin = more * reach;
+  const double margin = more * radius;
   boundary.for_each_in(box.dilated(margin), [&](const BoundaryDistance::Measured& triangle) {
     const auto& [a, b, c] = triangle.corners;
     const Vec3 center = (a + b + c) / 3;
@@ -54,7 +54,7 @@ bool NearTriangles::any_corner_nearer(Vec3 p, double distance) const {
 
 std::optional<BoundaryDistance::Nearest> NearTriangles::nearest(Vec3 p) const {
   BoundaryDistance::Nearest nearest;
-  double best = _reach, best_squared = square(_reach);
+  double best = _radius, best_squared = square(_radius);
   for (std::size_t i = 0; i < _balls.size(); ++i) {
     if (dot(p - _balls[i].center, p - _balls[i].center) > square(best + _balls[i].radius)) continue;
     const auto [squared, in_face] = BoundaryDistance::squared_distance(p, _triangles[i].corners);

@@ -20,14 +20,14 @@ struct Clearance {
 /// Collected anew for each group of points, in memory that is kept.
 class NearTriangles {
 public:
-  /// All triangles nearer than `reach` to a point of the box, and some others.
-  void collect(const BoundaryDistance& boundary, const geometry::Box& box, double reach);
+  /// All triangles nearer than `radius` to a point of the box, and some others.
+  void collect(const BoundaryDistance& boundary, const geometry::Box& box, double radius);
 
-  /// Whether a triangle lies nearer to p, a point of the box, than the clearance from it, at most `reach`.
+  /// Whether a triangle lies nearer to p, a point of the box, than the clearance from it, at most `radius`.
   bool any_nearer(geometry::Vec3 p, const Clearance& clearance) const;
-  /// Whether a corner of a triangle lies nearer to p, a point of the box, than `distance`, at most `reach`.
+  /// Whether a corner of a triangle lies nearer to p, a point of the box, than `distance`, at most `radius`.
   bool any_corner_nearer(geometry::Vec3 p, double distance) const;
-  /// The nearest triangle to p, a point of the box; nothing where it is not nearer than `reach`.
+  /// The nearest triangle to p, a point of the box; nothing where it is not nearer than `radius`.
   std::optional<BoundaryDistance::Nearest> nearest(geometry::Vec3 p) const;
 
 private:
@@ -37,7 +37,7 @@ private:
     double radius;
   };
 
-  double _reach = 0;
+  double _radius = 0;
   std::vector<Ball> _balls;
   std::vector<BoundaryDistance::Measured> _triangles;  ///< in them
 };

@@ -136,8 +136,8 @@ void learn_what_is_far_finer(const Communicator& communicator, const KnownLattic
   const ScopedCpu task(clock, ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
-    for (const double reach : looks_of_block(source, b)) {
-      const GridBox box = GridBox::of(tree.cube(b)).dilated(reach);
+    for (const double radius : looks_of_block(source, b)) {
+      const GridBox box = GridBox::of(tree.cube(b)).dilated(radius);
       ask(tree, box, {box, 0, 0, tree.level(b), 0, communicator.rank()}, questions);
     }
   }
@@ -168,7 +168,8 @@ void learn_what_is_cut(const Communicator& communicator, const KnownLattice& lat
   const ScopedCpu task(clock, ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
-    const GridBox box = GridBox::of(tree.cube(b)).dilated(ZonesAround::reach(frame, tree, table, b, width));
+    const GridBox box =
+        GridBox::of(tree.cube(b)).dilated(ZonesAround::search_radius(frame, tree, table, b, width));
     ask(tree, box, {box, 0, 0, tree.level(b), 0, communicator.rank()}, questions);
   }
   learn(communicator, tree, table, std::move(questions),

@@ -16,7 +16,7 @@ namespace aeroloom::volume {
 /// A rank asks another for what touches a box, or is near it.
 struct Question {
   GridBox box;
-  double least = 0, most = 0;  ///< see BlockReach
+  double least = 0, most = 0;  ///< see BlockSearchRadii
   std::int32_t level = 0;      ///< of the block for which it is asked
   parallel::Rank to = 0, from = 0;
 

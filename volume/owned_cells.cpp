@@ -16,8 +16,8 @@ using mesh::RegionId;
 
 namespace {
 
-/// Turns of the three vertices of a face against those of a triangle with the same vertices.
-bool same_turn(const LocalTriangle& face, const LocalTriangle& triangle) {
+/// Whether a face and a triangle with the same three vertices are oriented alike.
+bool same_orientation(const LocalTriangle& face, const LocalTriangle& triangle) {
   const auto at = std::find(triangle.begin(), triangle.end(), face[0]) - triangle.begin();
   return triangle[(at + 1) % 3] == face[1];
 }
@@ -157,7 +157,7 @@ public:
   }
 
   RegionId region_beside(std::int32_t cell, int face, std::int32_t triangle) const {
-    const bool front = same_turn(face_of(_mesh.cells[cell], face), _bounds.triangle(triangle));
+    const bool front = same_orientation(face_of(_mesh.cells[cell], face), _bounds.triangle(triangle));
     return front ? _bounds.front(triangle) : _bounds.back(triangle);
   }
 
@@ -344,7 +344,7 @@ OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<c
           throw std::runtime_error("two regions touch without a triangle of the surface between them");
       } else if (bounds.is_border(-2 - next)) {
         result.borders.push_back({static_cast<std::int32_t>(k), face});
-      } else if (same_turn(face_of(result.cells[k], face), problem.triangles[-2 - next])) {
+      } else if (same_orientation(face_of(result.cells[k], face), problem.triangles[-2 - next])) {
         result.triangles.push_back(-2 - next);
       }
     }

@@ -41,7 +41,7 @@ struct ZoneProblem {
   std::size_t surface_points() const { return points.size() - regions.size(); }
 };
 
-/// A face of a cell behind which another zone's cell must be, or one of the core.
+/// A face of a cell over which another zone's cell must be, or one of the core.
 struct Crossing {
   std::int32_t cell;
   std::int32_t face;  ///< opposite to this vertex
@@ -72,7 +72,7 @@ struct OwnedCells {
 /// vertex of the zone is searched, without crossing the surface, up to a triangle, one of the core's border
 /// included, or such a lattice vertex: no tetrahedron elsewhere in the halo counts, since some reach through
 /// triangles that the zone does not know. A point TetGen added belongs to the lowest zone in its star.
-/// `points` has what TetGen added behind the others. The mesh has all cells, or those with a vertex of the
+/// `points` has what TetGen added after the others. The mesh has all cells, or those with a vertex of the
 /// zone where TetGen added no points. Throws std::runtime_error when a triangle at a vertex of the zone is
 /// missing, or a cell is flat, inverted, or open.
 OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<const geometry::Vec3> points);

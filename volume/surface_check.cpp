@@ -32,7 +32,7 @@ bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
          geometry::orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
 }
 
-SurfaceDefect find_wild_indices(const SurfacePart& surface) {
+SurfaceDefect find_wild_indices(const TriangleSoup& surface) {
   std::vector<std::int32_t> wild;
   const auto count = static_cast<LocalIndex>(surface.points.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -42,7 +42,7 @@ SurfaceDefect find_wild_indices(const SurfacePart& surface) {
   return made("triangles refer to points that do not exist", wild);
 }
 
-SurfaceDefect find_flat_triangles(const SurfacePart& surface) {
+SurfaceDefect find_flat_triangles(const TriangleSoup& surface) {
   std::vector<std::int32_t> flat;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
@@ -53,7 +53,7 @@ SurfaceDefect find_flat_triangles(const SurfacePart& surface) {
 }
 
 /// The triangles that have a marked point.
-std::vector<std::int32_t> triangles_at(const SurfacePart& surface, const std::vector<std::uint8_t>& marked) {
+std::vector<std::int32_t> triangles_at(const TriangleSoup& surface, const std::vector<std::uint8_t>& marked) {
   std::vector<std::int32_t> found;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
@@ -62,7 +62,7 @@ std::vector<std::int32_t> triangles_at(const SurfacePart& surface, const std::ve
   return found;
 }
 
-SurfaceDefect find_infinite_points(const SurfacePart& surface) {
+SurfaceDefect find_infinite_points(const TriangleSoup& surface) {
   std::vector<std::uint8_t> infinite(surface.points.size(), 0);
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
     const Vec3 p = surface.points[v];
@@ -71,7 +71,7 @@ SurfaceDefect find_infinite_points(const SurfacePart& surface) {
   return made("coordinates are not finite", triangles_at(surface, infinite));
 }
 
-SurfaceDefect find_coincident_points(const SurfacePart& surface) {
+SurfaceDefect find_coincident_points(const TriangleSoup& surface) {
   const auto points = surface.points;
   std::vector<LocalIndex> order(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -86,19 +86,19 @@ SurfaceDefect find_coincident_points(const SurfacePart& surface) {
   return made("different points have the same place", triangles_at(surface, coincident));
 }
 
-bool edge_meets(const SurfacePart& surface, LocalIndex a, LocalIndex b, const Vec3 (&triangle)[3]) {
+bool edge_meets(const TriangleSoup& surface, LocalIndex a, LocalIndex b, const Vec3 (&triangle)[3]) {
   return geometry::segment_meets_triangle(surface.points[a], surface.points[b], triangle);
 }
 
 /// Triangles with a common edge: they overlap when they are coplanar and on the same side of it.
-bool fold_over(const SurfacePart& surface, LocalIndex a, LocalIndex b, LocalIndex p, LocalIndex q) {
+bool fold_over(const TriangleSoup& surface, LocalIndex a, LocalIndex b, LocalIndex p, LocalIndex q) {
   const auto& x = surface.points;
   if (p == q) return true;
   if (geometry::orient3d(x[a], x[b], x[p], x[q]) != 0) return false;
   return dot(cross(x[b] - x[a], x[p] - x[a]), cross(x[b] - x[a], x[q] - x[a])) > 0;
 }
 
-bool meet_improperly(const SurfacePart& surface, const Indices& s, const Indices& t) {
+bool meet_improperly(const TriangleSoup& surface, const Indices& s, const Indices& t) {
   LocalIndex common[3], only_s[3], only_t[3];
   int commons = 0, onlys = 0, onlyt = 0;
   for (const LocalIndex v : s) {
@@ -124,7 +124,7 @@ bool meet_improperly(const SurfacePart& surface, const Indices& s, const Indices
 
 }  // namespace
 
-SurfaceDefect find_defect(const SurfacePart& surface) {
+SurfaceDefect find_defect(const TriangleSoup& surface) {
   for (const auto find :
        {find_wild_indices, find_infinite_points, find_flat_triangles, find_coincident_points}) {
     if (SurfaceDefect defect = find(surface); !defect.what.empty()) return defect;
@@ -132,7 +132,7 @@ SurfaceDefect find_defect(const SurfacePart& surface) {
   return {};
 }
 
-SurfaceDefect find_intersections(const SurfacePart& surface, const BoundaryDistance& tree) {
+SurfaceDefect find_intersections(const TriangleSoup& surface, const BoundaryDistance& tree) {
   std::vector<std::int32_t> hit;
   tree.for_each_overlapping_pair([&](std::int32_t s, std::int32_t t) {
     if (!meet_improperly(surface, surface.triangles[s], surface.triangles[t])) return;
@@ -142,7 +142,7 @@ SurfaceDefect find_intersections(const SurfacePart& surface, const BoundaryDista
   return made("the surface intersects itself", hit);
 }
 
-std::string describe_triangles(const SurfacePart& surface, const std::vector<std::int32_t>& triangles) {
+std::string describe_triangles(const TriangleSoup& surface, const std::vector<std::int32_t>& triangles) {
   constexpr std::size_t most = 10;  // in a message
   std::ostringstream text;
   for (std::size_t i = 0; i < std::min(triangles.size(), most); ++i) {

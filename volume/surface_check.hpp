@@ -12,7 +12,7 @@
 namespace aeroloom::volume {
 
 /// Triangles and the points they use.
-struct SurfacePart {
+struct TriangleSoup {
   std::span<const geometry::Vec3> points;
   std::span<const std::array<mesh::LocalIndex, 3>> triangles;
 };
@@ -25,12 +25,12 @@ struct SurfaceDefect {
 
 /// Indices out of range, coordinates that are not finite, triangles without area, different points at the
 /// same place.
-SurfaceDefect find_defect(const SurfacePart& surface);
+SurfaceDefect find_defect(const TriangleSoup& surface);
 
 /// Triangles that meet elsewhere than in common vertices and edges. Exact.
-SurfaceDefect find_intersections(const SurfacePart& surface, const BoundaryDistance& tree);
+SurfaceDefect find_intersections(const TriangleSoup& surface, const BoundaryDistance& tree);
 
 /// A line per triangle: index, centre, shortest and longest edge; at most ten of them, then how many more.
-std::string describe_triangles(const SurfacePart& surface, const std::vector<std::int32_t>& triangles);
+std::string describe_triangles(const TriangleSoup& surface, const std::vector<std::int32_t>& triangles);
 
 }  // namespace aeroloom::volume

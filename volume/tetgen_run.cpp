@@ -55,7 +55,7 @@ std::string explain(int code) {
   }
 }
 
-/// Numbers the points from 0 as they were given, behind them what TetGen added.
+/// Numbers the points from 0 as they were given, after them what TetGen added.
 std::vector<double> number_points(tetgenmesh& mesh, std::size_t given) {
   std::vector<double> added;
   int number = 0;

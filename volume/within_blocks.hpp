@@ -11,7 +11,7 @@
 namespace aeroloom::volume {
 
 /// Looks from a point to triangles whose boxes meet its block: what lies between is in the block, or off it
-/// by no more than the longest of their edges (SurfaceReach::from_within), so nothing farther away matters.
+/// by no more than the longest of their edges (SearchRadii::from_within), so nothing farther away matters.
 /// Refers to all it is made from.
 class WithinBlocks {
 public:

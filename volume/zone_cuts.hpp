@@ -5,7 +5,7 @@
 #include "volume/block_points.hpp"
 #include "volume/core_border.hpp"
 #include "volume/lattice_tree.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include <cstdint>
 #include <span>
@@ -104,8 +104,7 @@ private:
   }
 
   ZoneIndex _count;
-  std::vector<Cut>
-      _cuts;  // of n zones: the cut between the n / 2 lower ones and the others, theirs behind it
+  std::vector<Cut> _cuts;  // of n zones: the cut between the n / 2 lower ones and the others, theirs after it
 };
 
 }  // namespace aeroloom::volume

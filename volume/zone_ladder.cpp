@@ -171,7 +171,7 @@ std::vector<ZoneIndex> ZoneLadder::those_that_see(Changed changed) {
 
 // --- zones that disagree
 
-std::vector<ZoneIndex> ZoneLadder::settle_disputes(std::span<const ZoneFace> faces) {
+std::vector<ZoneIndex> ZoneLadder::resolve_disputes(std::span<const ZoneFace> faces) {
   const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces, _clock);
   if (unmatched.empty()) return {};
   ++_rounds_of_giving;

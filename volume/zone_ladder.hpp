@@ -39,7 +39,7 @@ public:
                                        const std::vector<LeavingLeaf>& leaving, const Evidence& evidence);
   /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again. `faces` are those
   /// of this rank's zones. Collective. Throws CollectiveError.
-  std::vector<ZoneIndex> settle_disputes(std::span<const ZoneFace> faces);
+  std::vector<ZoneIndex> resolve_disputes(std::span<const ZoneFace> faces);
 
 private:
   /// A leaf where zones disagree, or beside one.

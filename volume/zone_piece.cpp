@@ -167,7 +167,7 @@ mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
                                     ZoneIndex zones) {
   struct PieceRegion {
-    std::int32_t place;  ///< a zone, or a range of the core behind them
+    std::int32_t place;  ///< a zone, or a range of the core after them
     RegionId region;
     static constexpr auto fields() { return std::tuple(&PieceRegion::place, &PieceRegion::region); }
     auto operator<=>(const PieceRegion&) const = default;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "aeroloom/mesh/distributed_mesh.hpp"
-#include "volume/zone_fill.hpp"
+#include "volume/zone_in_child.hpp"
 #include "volume/zone_supply.hpp"
 
 #include <array>
@@ -13,13 +13,14 @@
 
 namespace aeroloom::volume {
 
-/// A face of a zone's cell behind which another zone's cell must be.
+/// A face of a zone's cell over which another zone's cell must be.
 struct ZoneFace {
   std::array<mesh::SharedVertexKey, 3> vertices;  ///< ascending
   std::array<LeafNumber, 3> leaves;               ///< of each vertex; -1 of one that TetGen added
   ZoneIndex zone;
   mesh::RegionId region;
-  std::int32_t odd;  ///< 1 where its turn, seen from outside of the cell, is that of the descending vertices
+  std::int32_t
+      odd;  ///< 1 where its orientation, seen from outside of the cell, is that of the descending vertices
 
   static constexpr auto fields() {
     return std::tuple(&ZoneFace::vertices, &ZoneFace::leaves, &ZoneFace::zone, &ZoneFace::region,
@@ -51,7 +52,7 @@ struct ZoneResult {
   std::int64_t tetrahedra = 0;
 };
 
-/// The mesh of the zones' pieces, by zone, then region, and of the core's behind them, whose ids are those of
+/// The mesh of the zones' pieces, by zone, then region, and of the core's after them, whose ids are those of
 /// their ranges. What is said of patches, faces and regions is the surface's. Collective.
 mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
                                     const mesh::DistributedMesh& surface,

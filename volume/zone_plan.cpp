@@ -110,30 +110,31 @@ std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const Z
 }
 
 /// Where a zone is filled, and in which batch.
-struct Turn {
+struct Assignment {
   parallel::Rank rank = 0;
   std::size_t batch = 0;
 };
 
-std::vector<Turn> schedule_zones(const std::vector<ZoneLoad>& loads, int ranks, std::size_t zones) {
+std::vector<Assignment> schedule_zones(const std::vector<ZoneLoad>& loads, int ranks, std::size_t zones) {
   std::vector<double> work;
   work.reserve(loads.size());
   for (const ZoneLoad& load : loads) work.push_back(load.work());
   const std::vector<parallel::Rank> owners = parallel::assign_largest_first(work, ranks);
-  std::vector<Turn> turns(zones);
+  std::vector<Assignment> assignments(zones);
   for (parallel::Rank r = 0; r < ranks; ++r) {
     const std::vector<int> tasks = parallel::tasks_of_rank(owners, work, r);
-    for (std::size_t i = 0; i < tasks.size(); ++i) turns[loads[tasks[i]].zone] = {r, i / zones_at_a_time};
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      assignments[loads[tasks[i]].zone] = {r, i / zones_at_a_time};
   }
-  return turns;
+  return assignments;
 }
 
 /// Items go to their batches, by zone, in their order within one.
 template <class Item, class Member>
-void divide(std::vector<Item>& items, const std::vector<Turn>& turns, std::vector<ZoneShipment>& batches,
-            Member member) {
+void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments,
+            std::vector<ZoneShipment>& batches, Member member) {
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.zone < b.zone; });
-  for (const Item& item : items) (batches[turns[item.zone].batch].*member).push_back(item);
+  for (const Item& item : items) (batches[assignments[item.zone].batch].*member).push_back(item);
   std::vector<Item>().swap(items);
 }
 
@@ -149,14 +150,14 @@ ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore&
   }
   ZonePlan plan;
   plan.loads = add_up(communicator, mine, zones, widths.size());
-  const std::vector<Turn> turns = schedule_zones(plan.loads, communicator.size(), widths.size());
+  const std::vector<Assignment> assignments = schedule_zones(plan.loads, communicator.size(), widths.size());
   std::size_t batches = 0;
-  for (const ZoneLoad& load : plan.loads) batches = std::max(batches, turns[load.zone].batch + 1);
+  for (const ZoneLoad& load : plan.loads) batches = std::max(batches, assignments[load.zone].batch + 1);
   plan.batches.resize(batches);
-  divide(mine.blocks, turns, plan.batches, &ZoneShipment::blocks);
-  divide(mine.triangles, turns, plan.batches, &ZoneShipment::triangles);
+  divide(mine.blocks, assignments, plan.batches, &ZoneShipment::blocks);
+  divide(mine.triangles, assignments, plan.batches, &ZoneShipment::triangles);
   for (ZoneShipment& batch : plan.batches) {
-    for (const Turn& turn : turns) batch.ranks.push_back(turn.rank);
+    for (const Assignment& assignment : assignments) batch.ranks.push_back(assignment.rank);
   }
   return plan;
 }

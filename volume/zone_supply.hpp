@@ -8,7 +8,7 @@
 #include "volume/block_points.hpp"
 #include "volume/core_border.hpp"
 #include "volume/owned_cells.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 #include "volume/zones.hpp"
 
 #include <span>

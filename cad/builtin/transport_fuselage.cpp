@@ -123,8 +123,8 @@ double Fuselage::depth(Vec3 point) const {
     (evaluate(middle).x < point.x ? low : high) = middle;
   }
   const Station station = evaluate(low);
-  const double beyond = std::max(-point.x, point.x - _stations.back().x);
-  return std::min(station.radius - std::hypot(point.y, point.z - station.z), -beyond);
+  const double outside = std::max(-point.x, point.x - _stations.back().x);
+  return std::min(station.radius - std::hypot(point.y, point.z - station.z), -outside);
 }
 
 }  // namespace aeroloom::cad

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int aerofoil_intervals = 16;   // of the interpolated upper and lower side
 constexpr double camber_position = 0.4;  // of the largest camber, over chord
-/// About which incidence turns a section, over chord: where a thin aerofoil's lift acts.
-constexpr double turning_point = 0.25;
+/// The axis about which incidence rotates a section, over chord: where a thin aerofoil's lift acts.
+constexpr double incidence_axis = 0.25;
 /// Of the angle, for a derivative by differences of second order: its error is the square of it, 1e-10.
 constexpr double difference_step = 1e-5;
 /// Points of the unit aerofoil that are nearer are one to the interpolation: none are.
@@ -130,12 +130,12 @@ TopoDS_Face cap(const Handle(Geom_BSplineCurve) & upper, const Handle(Geom_BSpli
 
 Vec3 Lifting::place(Vec2 point, double station) const {
   const auto at = [&](double chord, double incidence, double span) {
-    const double x = chord * (point.x - turning_point), z = chord * point.y;
+    const double x = chord * (point.x - incidence_axis), z = chord * point.y;
     const double c = std::cos(radians(incidence)), s = std::sin(radians(incidence));
-    const Vec2 turned{x * c + z * s + turning_point * chord, z * c - x * s};
-    const double back = _surface.x + span * std::tan(radians(_surface.sweep)) + turned.x;
-    if (_to == SpreadTo::up) return Vec3{back, turned.y, _surface.z + span};
-    return Vec3{back, span, _surface.z + span * std::tan(radians(_surface.dihedral)) + turned.y};
+    const Vec2 rotated{x * c + z * s + incidence_axis * chord, z * c - x * s};
+    const double back = _surface.x + span * std::tan(radians(_surface.sweep)) + rotated.x;
+    if (_to == SpreadTo::up) return Vec3{back, rotated.y, _surface.z + span};
+    return Vec3{back, span, _surface.z + span * std::tan(radians(_surface.dihedral)) + rotated.y};
   };
   const double t = station / _surface.half_span;
   return (1 - t) * at(_surface.root_chord, _surface.root_incidence, 0) +

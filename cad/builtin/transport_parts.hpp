@@ -27,7 +27,7 @@ struct Part {
   std::vector<NamedFace> faces;
 };
 
-/// Sews faces that meet along whole edges into one solid, its faces turned outward.
+/// Sews faces that meet along whole edges into one solid, its faces oriented outward.
 Part sew_part(const std::vector<NamedFace>& faces);
 
 /// The face that covers the whole surface.

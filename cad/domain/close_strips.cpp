@@ -37,11 +37,11 @@ ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips) {
 }
 
 Change describe_closed(const Model& model, const BluntEdge& strip) {
-  const auto beyond = [&](int side) { return model.face(strip.borders[side].front().neighbour).name; };
+  const auto neighbour = [&](int side) { return model.face(strip.borders[side].front().neighbour).name; };
   return {
       fmt::format("trailing edge '{}', {:.4g} long and at most {:.3g} wide, was closed to a curve half-way "
                   "between '{}' and '{}'",
-                  model.face(strip.face).name, strip.length, strip.widest, beyond(0), beyond(1)),
+                  model.face(strip.face).name, strip.length, strip.widest, neighbour(0), neighbour(1)),
       strip.place, 0.5 * strip.widest};
 }
 

@@ -100,7 +100,7 @@ void require_representable(const Box& box) {
                   "{:.2g} apart, but "
                   "the CAD library tells points {:.0g} apart. Remedy: a larger unit, a model near the "
                   "origin, or a far field "
-                  "that is nearer (farfield.extent)",
+                  "that is nearer (FarFieldOptions::extent)",
                   farthest, spacing, tolerances::library_length));
 }
 

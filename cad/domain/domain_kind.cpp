@@ -27,7 +27,7 @@ constexpr double fluid_fill = 0.85;
 /// directions 15 degrees apart leave some before any round hull.
 constexpr double hull_tolerance = 0.02;
 /// A face with more of the hull before it lies inside: a wall of an obstacle.
-constexpr double inner_reach = 0.1;
+constexpr double inner_distance = 0.1;
 /// Facets for all that (of the diagonal; radians).
 constexpr double hull_facet_deflection = 0.005, hull_facet_angle = 0.6;
 
@@ -36,30 +36,31 @@ std::vector<Vec3> spread_directions() {
   std::vector<Vec3> directions{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (int i = 0; i < direction_count; ++i) {
     const double z = 1 - (2 * i + 1.0) / direction_count;
-    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
     const double r = std::sqrt(1 - z * z);
-    directions.push_back({r * std::cos(turn), r * std::sin(turn), z});
+    directions.push_back({r * std::cos(angle), r * std::sin(angle), z});
   }
   return directions;
 }
 
-/// The half spaces dot(direction, x) <= reach that hold all points.
+/// The half spaces dot(direction, x) <= height that hold all points.
 struct Polytope {
   std::vector<Vec3> directions = spread_directions();
-  std::vector<double> reach = std::vector<double>(directions.size(), -std::numeric_limits<double>::max());
-  std::vector<Vec3> extremes = std::vector<Vec3>(directions.size());  ///< a point reached in each direction
+  std::vector<double> heights = std::vector<double>(directions.size(), -std::numeric_limits<double>::max());
+  std::vector<Vec3> extremes =
+      std::vector<Vec3>(directions.size());  ///< the point farthest in each direction
 
   void add(Vec3 p) {
     for (std::size_t i = 0; i < directions.size(); ++i) {
       const double height = dot(directions[i], p);
-      if (height > reach[i]) reach[i] = height, extremes[i] = p;
+      if (height > heights[i]) heights[i] = height, extremes[i] = p;
     }
   }
   /// Distance from an inner point to the nearest half space's border.
   double depth(Vec3 p) const {
     double least = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < directions.size(); ++i)
-      least = std::min(least, reach[i] - dot(directions[i], p));
+      least = std::min(least, heights[i] - dot(directions[i], p));
     return least;
   }
   double volume(const Box& box) const;
@@ -96,7 +97,7 @@ std::vector<Facets> coarse_facets(const Model& model) {
   return facets;
 }
 
-/// How far the hull reaches beyond the facets of a face, each along its own normal: 0 for a piece of the
+/// How far the hull lies outside the facets of a face, each along its own normal: 0 for a piece of the
 /// hull.
 double distance_to_hull(const Facets& facets, const Polytope& hull) {
   double largest = 0;
@@ -142,9 +143,9 @@ HullComparison compare_with_hull(const Model& solids, double volume) {
   HullComparison result;
   result.fill = volume / hull.volume(solids.bounds());
   for (const Facets& face : facets) {
-    const double reach = distance_to_hull(face, hull) / diagonal;
-    result.on_hull.push_back(reach <= hull_tolerance);
-    result.inner_faces += reach > inner_reach;
+    const double outside = distance_to_hull(face, hull) / diagonal;
+    result.on_hull.push_back(outside <= hull_tolerance);
+    result.inner_faces += outside > inner_distance;
   }
   return result;
 }

@@ -77,7 +77,7 @@ TopoDS_Solid make_cylinder(const Extent& extent, Axis axis, const std::optional<
     frame.Translate(gp_Vec(frame.Direction()) * -r);
     return BRepPrimAPI_MakeCylinder(frame, r, 2 * r).Solid();
   }
-  // Half a turn from the frame's x direction: the fluid's side lies along its y direction.
+  // 180 degrees from the frame's x direction: the fluid's side lies along its y direction.
   const gp_Dir inward = symmetry->plane().Axis().Direction().Reversed();
   frame = gp_Ax2(extent.center, frame.Direction(), inward.Crossed(frame.Direction()));
   frame.Translate(gp_Vec(frame.Direction()) * -r);
@@ -98,21 +98,21 @@ TopoDS_Solid make_far_field(const FarFieldOptions& options, const Extent& extent
   return make_cylinder(extent, options.axis, symmetry);
 }
 
-/// How far beyond the bodies' box the far field reaches, at least: at equal reach the two would touch, and
-/// there would be no fluid between them. Chosen, not measured.
+/// The extent of the far field over that of the bodies' box, at least: at equal extents the two would touch,
+/// and there would be no fluid between them. Chosen, not measured.
 constexpr double least_clearance = 1.01;
 
-/// How far the far field must reach from the centre to clear the bodies' box.
+/// How far the far field must extend from the centre to clear the bodies' box.
 double needed_extent(const FarFieldOptions& options, const Box& body, const gp_Pnt& center) {
-  Vec3 reach;
+  Vec3 needed;
   for (int axis = 0; axis < 3; ++axis) {
     const double at = center.Coord(axis + 1);
-    reach[axis] = std::max(body.high[axis] - at, at - body.low[axis]);
+    needed[axis] = std::max(body.high[axis] - at, at - body.low[axis]);
   }
-  if (options.shape == FarFieldShape::box) return std::max({reach.x, reach.y, reach.z});
-  if (options.shape != FarFieldShape::cylinder) return norm(reach);
+  if (options.shape == FarFieldShape::box) return std::max({needed.x, needed.y, needed.z});
+  if (options.shape != FarFieldShape::cylinder) return norm(needed);
   const int axis = static_cast<int>(options.axis);
-  return std::max(reach[axis], std::hypot(reach[(axis + 1) % 3], reach[(axis + 2) % 3]));
+  return std::max(needed[axis], std::hypot(needed[(axis + 1) % 3], needed[(axis + 2) % 3]));
 }
 
 void require_clearance(const FarFieldOptions& options, const Box& body, const gp_Pnt& center,

@@ -46,10 +46,11 @@ void require_matches(const Model& model, const std::vector<std::string>& pattern
     bool any = false;
     for (FaceId f = 0; f < model.face_count() && !any; ++f) any = is_asked_for(model, f, {pattern});
     if (any) continue;
-    throw CadError(fmt::format(
-        "geometry.sharpen_faces: no face and no patch of this model is called '{}'. Remedy: `aeroloom check` "
-        "lists the patches; * stands for any characters",
-        pattern));
+    throw CadError(
+        fmt::format("TrailingEdgeOptions::faces: no face and no patch of this model is called '{}'. Remedy: "
+                    "`aeroloom check` "
+                    "lists the patches; * stands for any characters",
+                    pattern));
   }
 }
 

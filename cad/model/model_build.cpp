@@ -73,8 +73,8 @@ struct Bounds {
 Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>& tags) {
   std::vector<TopoDS_Shape> body, far_field;
   for (int i = 1; i <= faces.Extent(); ++i) (tags[i - 1].far_field ? far_field : body).push_back(faces(i));
-  const Box of_body = tight_box(body), beyond = tight_box(far_field);
-  Box all = beyond;
+  const Box of_body = tight_box(body), of_far_field = tight_box(far_field);
+  Box all = of_far_field;
   if (!of_body.empty()) all.add(of_body);
   return {all, of_body.empty() ? all : of_body};
 }

@@ -40,19 +40,20 @@ std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const
 
 /// The box of a shape's geometry, without the gaps that tolerances and control points would add.
 Box tight_box(const TopoDS_Shape& shape);
-/// Of all of them: faces within the box of the others' edges and faces cost next to nothing.
+/// The box of several shapes' geometry: faces within the box of the others' edges and faces cost next to
+/// nothing.
 Box tight_box(const std::vector<TopoDS_Shape>& shapes);
 
-/// Relative error of areas. Without one the CAD library takes the most points its rules have in every span of
-/// a spline, ten times as long.
+/// Relative error of areas in FacePlace and in the diagnosis; Model::face_area is more precise. Without one
+/// the CAD library takes the most points its rules have in every span of a spline, ten times as long.
 inline constexpr double area_precision = 1e-3;
 
-/// Area and centre to `area_precision`, the box as above.
+/// Area and centre of a face to `area_precision`, and the box of its geometry.
 FacePlace place_of(const TopoDS_Face& face);
 
 /// The parameter curve of one coedge along an edge.
 struct UseCurve {
-  EdgeUse use;
+  Coedge use;
   Geom2dAdaptor_Curve curve;
   double first = 0, last = 0;  ///< parameters of the curve at the ends of the edge's interval
 };
@@ -88,11 +89,11 @@ struct FaceEvaluator {
   Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
   std::vector<UseCurve> uses;  ///< by (edge, use)
 
-  const UseCurve& use(const EdgeUse& wanted) const;
+  const UseCurve& use(const Coedge& wanted) const;
 };
 
 /// Parameters of a point that lies on the face, from parameters near it.
-Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
+Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
 
 /// Coordinates that are known exactly, from axis-aligned planes (plane_snap.hpp).
 struct Snap {
@@ -115,7 +116,7 @@ struct Snap {
 class FaceCache;
 struct ClosedEdges;
 struct FaceIntegrals;
-struct JoinedFaces;
+struct JoinedModel;
 
 struct Model::Data {
   /// Over a face, seen from the middle of the model; its area is positive.
@@ -138,7 +139,7 @@ struct Model::Data {
   double gap = 0;
   std::shared_ptr<FaceCache> cache;           ///< of what is computed on demand; none where faces are joined
   std::shared_ptr<const ClosedEdges> closed;  ///< where strips are closed: edges that the shape does not have
-  std::shared_ptr<const JoinedFaces> joined;  ///< where faces are joined: evaluators and snaps are its base's
+  std::shared_ptr<const JoinedModel> joined;  ///< where faces are joined: evaluators and snaps are its base's
 
   /// "face 12 'wing_upper' near (x, y, z)", for messages.
   std::string describe_face(FaceId id) const;

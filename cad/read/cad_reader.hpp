@@ -12,7 +12,8 @@ namespace aeroloom::cad {
 /// std::ios_base::failure when the file cannot be opened.
 NamedShape read_cad_file(const std::string& file);
 
-/// "STEP", "IGES" or "BREP", by content; empty for others. Throws std::ios_base::failure as above.
+/// "STEP", "IGES" or "BREP", by content; empty for others. Throws std::ios_base::failure when the file
+/// cannot be opened.
 std::string format_of_cad_file(const std::string& file);
 
 NamedShape read_step(const std::string& file);

@@ -18,14 +18,14 @@ Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
                                   const Handle(Geom2d_Curve) & image, bool against, double tolerance) {
   constexpr int fewest = 16, most = 1024;  // points; doubled until `interpolated`, chosen, not measured
   const SampledEdge own(edge.edge), beside(other.edge);
-  const auto along = [](const EdgePart& part, double share) {
-    return part.first + share * (part.last - part.first);
+  const auto along = [](const EdgePart& part, double fraction) {
+    return part.first + fraction * (part.last - part.first);
   };
   // Where on the other: ends belong to ends.
-  const auto foot = [&](double share) {
-    const double guess = along(other, against ? 1 - share : share);
-    if (share <= 0 || share >= 1) return guess;
-    const Vec3 point = own.point(along(edge, share));
+  const auto foot = [&](double fraction) {
+    const double guess = along(other, against ? 1 - fraction : fraction);
+    if (fraction <= 0 || fraction >= 1) return guess;
+    const Vec3 point = own.point(along(edge, fraction));
     SampledEdge::Foot found = beside.nearest_around(point, guess);
     if (found.away > 2 * tolerance) found = beside.nearest(point, 2 * tolerance);
     return std::clamp(found.parameter, other.first, other.last);
@@ -35,9 +35,9 @@ Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
     const Handle(TColgp_HArray1OfPnt2d) uv = new TColgp_HArray1OfPnt2d(1, count + 1);
     const Handle(TColStd_HArray1OfReal) at = new TColStd_HArray1OfReal(1, count + 1);
     for (int i = 0; i <= count; ++i) {
-      const double share = static_cast<double>(i) / count;
-      uv->SetValue(i + 1, image->Value(foot(share)));
-      at->SetValue(i + 1, i == count ? edge.last : along(edge, share));
+      const double fraction = static_cast<double>(i) / count;
+      uv->SetValue(i + 1, image->Value(foot(fraction)));
+      at->SetValue(i + 1, i == count ? edge.last : along(edge, fraction));
     }
     Geom2dAPI_Interpolate interpolation(uv, at, false, 0);
     interpolation.Perform();
@@ -47,9 +47,9 @@ Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
     double apart = 0, extent = 0;
     const gp_Pnt2d start = uv->Value(1);
     for (int i = 0; i < count; ++i) {
-      const double share = (i + 0.5) / count;
-      const gp_Pnt2d exact = image->Value(foot(share));
-      apart = std::max(apart, curve->Value(along(edge, share)).Distance(exact));
+      const double fraction = (i + 0.5) / count;
+      const gp_Pnt2d exact = image->Value(foot(fraction));
+      apart = std::max(apart, curve->Value(along(edge, fraction)).Distance(exact));
       extent = std::max(extent, exact.Distance(start));
     }
     if (apart <= tolerances::interpolated * extent) break;

@@ -12,13 +12,13 @@ namespace aeroloom::cad {
 using geometry::Vec3;
 
 /// Where an edge is cut.
-struct Cut {
+struct EdgeCut {
   double parameter;
   int vertex;
 };
 /// A stretch of an edge between vertices or cuts.
-struct Piece {
-  Piece(int edge, double first, double last, int start, int end)
+struct EdgePiece {
+  EdgePiece(int edge, double first, double last, int start, int end)
       : edge(edge), first(first), last(last), start(start), end(end) {}
   int edge;
   double first, last;

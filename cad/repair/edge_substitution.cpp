@@ -103,7 +103,7 @@ private:
     return copy;
   }
 
-  /// The edges of a wire turned forward, in the order in which they follow each other where that is known.
+  /// The edges of a wire oriented forward, in the order in which they follow each other where that is known.
   static std::vector<TopoDS_Edge> in_order(const TopoDS_Wire& wire, const TopoDS_Face& face) {
     const TopoDS_Wire forward = TopoDS::Wire(wire.Oriented(TopAbs_FORWARD));
     std::vector<TopoDS_Edge> stored, walked;
@@ -154,7 +154,7 @@ private:
   const Substitution& _what;
   FaceLabels& _labels;
   BRep_Builder _builder;
-  TopTools_IndexedMapOfShape _done;  // turned forward
+  TopTools_IndexedMapOfShape _done;  // oriented forward
   std::vector<TopoDS_Shape> _results;
 };
 

@@ -97,7 +97,7 @@ void split_solid(const TopoDS_Solid& solid, std::size_t index, Volumes& volumes,
 
 /// Gaps that elements would show are the user's to close.
 double largest_sewing_tolerance(double smallest_size) {
-  return smallest_size > 0 ? tolerances::share_of_size * smallest_size
+  return smallest_size > 0 ? tolerances::fraction_of_size * smallest_size
                            : std::numeric_limits<double>::infinity();
 }
 

@@ -148,7 +148,7 @@ double noise_tolerance(double diagonal, double precision, double smallest_size) 
   using namespace tolerances;
   const double tolerance =
       std::min(std::max(noise * diagonal, noise_over_precision * precision), most_noise * diagonal);
-  return smallest_size > 0 ? std::min(tolerance, share_of_size * smallest_size) : tolerance;
+  return smallest_size > 0 ? std::min(tolerance, fraction_of_size * smallest_size) : tolerance;
 }
 
 NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes) {

@@ -14,7 +14,8 @@ double noise_tolerance(double diagonal, double precision, double smallest_size);
 
 /// The shape without faces narrower than the tolerance and edges shorter than that. The sides of such a face
 /// become one edge, the ends of such an edge one vertex half-way; surfaces stay as they are. Shells that
-/// were closed are so still. `smallest_size`: as above. What cannot be closed stays. All of it is appended to
+/// were closed are so still. `smallest_size`: the smallest size asked for, 0 where none is. What
+/// cannot be closed stays. All of it is appended to
 /// `changes`.
 NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes);
 

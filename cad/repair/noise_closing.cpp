@@ -109,7 +109,7 @@ private:
   bool is_at(int e, int root) const {
     if (_united.root(_ends[e].first) == root || _united.root(_ends[e].second) == root) return true;
     return std::any_of(_cuts[e].begin(), _cuts[e].end(),
-                       [&](const Cut& cut) { return _united.root(cut.vertex) == root; });
+                       [&](const EdgeCut& cut) { return _united.root(cut.vertex) == root; });
   }
 
   /// Every vertex of a noise face is joined with what is opposite.
@@ -148,7 +148,7 @@ private:
       if (distance(_united.place(end), at) <= near && _united.unite(v, end, widest_union * _tolerance))
         return false;
     }
-    for (const Cut& cut : _cuts[e]) {
+    for (const EdgeCut& cut : _cuts[e]) {
       if (distance(_united.place(cut.vertex), at) <= near &&
           _united.unite(v, cut.vertex, widest_union * _tolerance))
         return false;
@@ -170,13 +170,13 @@ private:
       }
       auto& cuts = _cuts[e];
       std::sort(cuts.begin(), cuts.end(),
-                [](const Cut& a, const Cut& b) { return a.parameter < b.parameter; });
+                [](const EdgeCut& a, const EdgeCut& b) { return a.parameter < b.parameter; });
       if (!cuts.empty()) BRepLib::SameRange(edge(e));
       double first, last;
       BRep_Tool::Range(edge(e), first, last);
       double from = first;
       int start = _ends[e].first;
-      for (const Cut& cut : cuts) {
+      for (const EdgeCut& cut : cuts) {
         add_piece({e, from, cut.parameter, _united.root(start), _united.root(cut.vertex)});
         from = cut.parameter, start = cut.vertex;
       }
@@ -184,7 +184,7 @@ private:
     }
   }
 
-  void add_piece(Piece piece) {
+  void add_piece(EdgePiece piece) {
     if (!is_degenerate(piece.edge) && (piece.start == piece.end || !_cuts[piece.edge].empty()))
       piece.length = rough_length_of(piece);
     piece.like = static_cast<int>(_pieces.size());
@@ -192,7 +192,7 @@ private:
     _pieces.push_back(std::move(piece));
   }
 
-  double rough_length_of(const Piece& piece) {
+  double rough_length_of(const EdgePiece& piece) {
     constexpr int steps = 16;  // rough: compared with some tolerances alone
     const SampledEdge& curve = samples(piece.edge);
     double length = 0;
@@ -207,26 +207,26 @@ private:
 
   /// A piece that becomes a vertex: its ends did, and it does not lead far from it. A closed edge of the
   /// shape is not one unless it is to be closed.
-  bool is_collapsed(const Piece& piece) const {
+  bool is_collapsed(const EdgePiece& piece) const {
     if (piece.start != piece.end || is_degenerate(piece.edge)) return false;
     if (piece.length > (widest_union + 1) * _tolerance) return false;
     return _ends[piece.edge].first != _ends[piece.edge].second || _items.edges.Contains(edge(piece.edge));
   }
 
-  Vec3 middle_of(const Piece& piece) { return samples(piece.edge).point(0.5 * (piece.first + piece.last)); }
+  Vec3 middle_of(const EdgePiece& of) { return samples(of.edge).point(0.5 * (of.first + of.last)); }
 
   /// Whether one runs beside the other all along.
-  bool are_beside(const Piece& a, const Piece& b) {
+  bool are_beside(const EdgePiece& a, const EdgePiece& b) {
     const bool alike = std::minmax(a.start, a.end) == std::minmax(b.start, b.end);
     if (!alike) return false;
-    for (const double share : {0.5, 0.25, 0.75}) {
-      const Vec3 at = samples(a.edge).point(a.first + share * (a.last - a.first));
+    for (const double fraction : {0.5, 0.25, 0.75}) {
+      const Vec3 at = samples(a.edge).point(a.first + fraction * (a.last - a.first));
       if (samples(b.edge).nearest(at, looked_for * _tolerance).away > beside * _tolerance) return false;
     }
     return true;
   }
 
-  bool run_against(const Piece& a, const Piece& b) {
+  bool run_against(const EdgePiece& a, const EdgePiece& b) {
     if (a.start != a.end) return a.start == b.end;
     const Vec3 at = middle_of(a);
     const SampledEdge::Foot foot = samples(b.edge).nearest(at, looked_for * _tolerance);
@@ -285,7 +285,7 @@ private:
 
   bool is_touched(int e) const {
     if (_pieces_of[e].size() != 1) return true;
-    const Piece& piece = _pieces[_pieces_of[e].front()];
+    const EdgePiece& piece = _pieces[_pieces_of[e].front()];
     return piece.like != _pieces_of[e].front() || _is_shared.contains(piece.like) || is_collapsed(piece) ||
            is_moved(_ends[e].first) || is_moved(_ends[e].second);
   }
@@ -298,13 +298,13 @@ private:
       made = TopoDS::Vertex(_vertices(root + 1).Oriented(TopAbs_FORWARD));
       return made;
     }
-    const auto [at, reach] = _united.middle(root);
+    const auto [at, radius] = _united.middle(root);
     double tolerance = Precision::Confusion();
     for (int v = 0; v < _vertices.Extent(); ++v) {
       if (_united.root(v) == root)
         tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Vertex(_vertices(v + 1))));
     }
-    BRep_Builder().MakeVertex(made, gp_Pnt(at.x, at.y, at.z), holding * reach + tolerance);
+    BRep_Builder().MakeVertex(made, gp_Pnt(at.x, at.y, at.z), holding * radius + tolerance);
     return made;
   }
 
@@ -327,7 +327,7 @@ private:
     }
   }
 
-  void make_edge(Piece& piece) {
+  void make_edge(EdgePiece& piece) {
     BRep_Builder builder;
     piece.made = TopoDS::Edge(edge(piece.edge).EmptyCopied());
     if (_pieces_of[piece.edge].size() > 1) builder.Range(piece.made, piece.first, piece.last);
@@ -336,7 +336,7 @@ private:
   }
 
   /// The faces that lose a piece see the one that takes its place.
-  void give_images(const Piece& lost, Piece& taken) {
+  void give_images(const EdgePiece& lost, EdgePiece& taken) {
     BRep_Builder builder;
     const EdgePart own{edge(taken.edge), taken.first, taken.last},
         other{edge(lost.edge), lost.first, lost.last};
@@ -367,7 +367,7 @@ private:
   EdgeChain chain_of(int e) const {
     EdgeChain chain;
     for (const int p : _pieces_of[e]) {
-      const Piece& piece = _pieces[p];
+      const EdgePiece& piece = _pieces[p];
       if (is_collapsed(piece)) continue;
       const TopoDS_Edge& made = _pieces[piece.like].made;
       chain.push_back(TopoDS::Edge(made.Oriented(piece.against ? TopAbs_REVERSED : TopAbs_FORWARD)));
@@ -382,9 +382,9 @@ private:
   std::vector<std::pair<int, int>> _ends;  // vertices of edges
   std::vector<std::optional<SampledEdge>> _samples;
   UnitedVertices _united;
-  std::vector<std::vector<Cut>> _cuts;         // by edge
+  std::vector<std::vector<EdgeCut>> _cuts;     // by edge
   std::vector<std::vector<int>> _noise_edges;  // by noise face
-  std::vector<Piece> _pieces;
+  std::vector<EdgePiece> _pieces;
   std::vector<std::vector<int>> _pieces_of;  // by edge
   std::set<int> _is_shared;                  // pieces that take others' places
   std::set<int> _moved_roots;

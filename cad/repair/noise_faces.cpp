@@ -46,7 +46,7 @@ double away_from_others(const std::vector<SampledEdge>& border, std::size_t own,
 std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance) {
   // Of an edge, coarse ones first: most faces are told to be wide at the first place that is looked at. The
   // last two look beside the ends, where a strip that is wide for a short way only would be missed.
-  constexpr double shares[] = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.01, 0.99};
+  constexpr double fractions[] = {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875, 0.01, 0.99};
   const std::vector<SampledEdge> border = sample_border(face);
   if (border.size() < 2) return std::nullopt;
   std::vector<std::size_t> order(border.size());
@@ -58,9 +58,9 @@ std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance
   for (const std::size_t own : order) {
     noise.length += 0.5 * border[own].length();
     if (border[own].length() <= tolerance) continue;
-    for (const double share : shares) {
+    for (const double fraction : fractions) {
       const double away =
-          away_from_others(border, own, border[own].point(border[own].parameter(share)), tolerance);
+          away_from_others(border, own, border[own].point(border[own].parameter(fraction)), tolerance);
       if (away > tolerance) return std::nullopt;
       noise.widest = std::max(noise.widest, away);
     }

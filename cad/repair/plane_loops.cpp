@@ -159,14 +159,14 @@ std::optional<std::vector<PlaneLoop>> find_plane_loops(const std::vector<TopoDS_
 
 TopoDS_Face make_plane_face(const gp_Pln& plane, const TopoDS_Wire& outer,
                             const std::vector<TopoDS_Wire>& holes) {
-  const auto turned = [&](const TopoDS_Wire& wire, bool counter_clockwise) {
+  const auto oriented = [&](const TopoDS_Wire& wire, bool counter_clockwise) {
     return (signed_area(plane, wire) > 0) == counter_clockwise ? wire : TopoDS::Wire(wire.Reversed());
   };
   BRep_Builder builder;
   TopoDS_Face face;
   builder.MakeFace(face, new Geom_Plane(plane), tolerances::library_length);
-  builder.Add(face, turned(outer, true));
-  for (const TopoDS_Wire& hole : holes) builder.Add(face, turned(hole, false));
+  builder.Add(face, oriented(outer, true));
+  for (const TopoDS_Wire& hole : holes) builder.Add(face, oriented(hole, false));
   return face;
 }
 

@@ -83,7 +83,7 @@ Pace measure_pace(const EdgeOnFace& edge, const FaceEvaluator& face, double tole
     const Vec3 point = edge.point(i);
     Vec2 uv = edge.image(i);
     pace.before = std::max(pace.before, distance(face.surface.point(uv), point));
-    if (i > 0 && i < samples) uv = settle_on_face(face, point, uv, tolerance);
+    if (i > 0 && i < samples) uv = find_parameters(face, point, uv, tolerance);
     pace.after = std::max(pace.after, distance(face.surface.point(uv), point));
     pace.uv->SetValue(i + 1, gp_Pnt2d(uv.x, uv.y));
     pace.at->SetValue(i + 1, edge.parameter(i));

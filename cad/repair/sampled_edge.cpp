@@ -62,11 +62,11 @@ SampledEdge::Foot SampledEdge::nearest(Vec3 p, double bound) const {
   for (int i = 0; i < edge_intervals; ++i) {
     const Vec3 a = _points[i], along = _points[i + 1] - a;
     const double square = dot(along, along);
-    const double share = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
-    const double away = distance(a + share * along, p);
+    const double fraction = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
+    const double away = distance(a + fraction * along, p);
     // A curve leaves its chords by less than their length.
     if (away > std::min(best.away, bound) + std::sqrt(square)) continue;
-    const Foot foot = nearest_around(p, parameter((i + share) / edge_intervals));
+    const Foot foot = nearest_around(p, parameter((i + fraction) / edge_intervals));
     if (foot.away < best.away) best = foot;
   }
   return best;

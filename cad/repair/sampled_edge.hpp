@@ -24,8 +24,8 @@ public:
   double first() const { return _curve.FirstParameter(); }
   double last() const { return _curve.LastParameter(); }
   double length() const { return _length; }
-  /// At a share of the parameter's range.
-  double parameter(double share) const { return first() + share * (last() - first()); }
+  /// At a fraction of the parameter's range.
+  double parameter(double fraction) const { return first() + fraction * (last() - first()); }
   Vec3 point(double parameter) const;
   Vec3 tangent(double parameter) const;
   /// The nearest place; `away` may be too large where it is more than `bound`.

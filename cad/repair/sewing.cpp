@@ -36,15 +36,15 @@
 namespace aeroloom::cad {
 namespace {
 
-/// A shape that is open wider than this share of its faces' area is a sheet, not a body with an opening: an
-/// open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
+/// A shape that is open wider than this fraction of its faces' area is a sheet, not a body with an opening:
+/// an open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
 constexpr double widest_opening = 0.5;
 
 struct Sewn {
   std::vector<TopoDS_Shell> closed;
   TopoDS_Shape shape;
   FaceLabels labels;
-  double tolerance = 0, share = 0;
+  double tolerance = 0, fraction = 0;
   bool complete = false;  ///< no face outside closed shells
 };
 
@@ -109,7 +109,7 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
         const gp_Pnt on_curve = curve->Value(first + (last - first) * k / samples);
         const gp_Pnt2d guess = image->Value(low + (high - low) * k / samples);
         const Vec3 point{on_curve.X(), on_curve.Y(), on_curve.Z()};
-        const Vec2 uv = settle_on_face(evaluator, point, {guess.X(), guess.Y()}, tolerance);
+        const Vec2 uv = find_parameters(evaluator, point, {guess.X(), guess.Y()}, tolerance);
         const double width = distance(point, evaluator.surface.point(uv));
         if (width > gap.width) gap = {width, point};
       }
@@ -122,10 +122,10 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
 double tell_sewn(const Sewn& sewn, int face_count, Changes& changes) {
   const Gap gap = largest_gap(sewn.shape, tolerances::foot_that_measures * sewn.tolerance);
   const char* caution =
-      sewn.share > tolerances::cautioned_sewing ? "; such gaps are wide: look at the mesh there" : "";
+      sewn.fraction > tolerances::cautioned_sewing ? "; such gaps are wide: look at the mesh there" : "";
   changes.push_back({fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the "
                                  "diagonal){}",
-                                 face_count, sewn.closed.size(), sewn.tolerance, sewn.share, caution),
+                                 face_count, sewn.closed.size(), sewn.tolerance, sewn.fraction, caution),
                      gap.where, gap.width});
   return gap.width;
 }
@@ -187,14 +187,14 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
          caps[i].center, caps[i].deviation});
   }
   Sewn capped = sew_once(faces, sewn.tolerance, labels);
-  capped.share = sewn.share;
+  capped.fraction = sewn.fraction;
   return capped;
 }
 
 /// Faces to sew, and how.
 struct Attempt {
   TopTools_IndexedMapOfShape faces;
-  double share = 0;
+  double fraction = 0;
   std::vector<std::pair<int, NoiseFace>> left_out;  ///< numbers of faces that are noise
 };
 
@@ -203,7 +203,7 @@ struct Attempt {
 std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double diagonal) {
   // In widths of the narrowest strip, and in tolerances: how far sewing keeps from laying one side on the
   // other. Chosen, not measured.
-  constexpr double part_of_strip = 0.1, near = 5;
+  constexpr double fraction_of_strip = 0.1, near = 5;
   const double limit = noise_tolerance(diagonal, 0, 0);
   std::vector<std::pair<int, NoiseFace>> strips;
   double narrowest = std::numeric_limits<double>::infinity();
@@ -215,10 +215,10 @@ std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double
   }
   std::vector<Attempt> attempts;
   if (narrowest < near * tolerances::sewing[0] * diagonal)
-    attempts.push_back({faces, part_of_strip * narrowest / diagonal, {}});
-  for (const double share : tolerances::sewing) {
-    if (narrowest < near * share * diagonal && static_cast<int>(strips.size()) < faces.Extent()) {
-      Attempt without{{}, share, strips};
+    attempts.push_back({faces, fraction_of_strip * narrowest / diagonal, {}});
+  for (const double fraction : tolerances::sewing) {
+    if (narrowest < near * fraction * diagonal && static_cast<int>(strips.size()) < faces.Extent()) {
+      Attempt without{{}, fraction, strips};
       for (int i = 1, next = 0; i <= faces.Extent(); ++i) {
         if (next < static_cast<int>(strips.size()) && strips[next].first == i)
           ++next;
@@ -227,7 +227,7 @@ std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double
       }
       attempts.push_back(std::move(without));
     }
-    attempts.push_back({faces, share, {}});
+    attempts.push_back({faces, fraction, {}});
   }
   return attempts;
 }
@@ -280,9 +280,9 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
   const double diagonal = box.diagonal();
   std::vector<Sewn> tried;
   for (const Attempt& attempt : attempts_of(faces, diagonal)) {
-    if (!tried.empty() && attempt.share * diagonal > largest_tolerance) break;
-    Sewn& sewn = tried.emplace_back(sew_once(attempt.faces, attempt.share * diagonal, labels));
-    sewn.share = attempt.share;
+    if (!tried.empty() && attempt.fraction * diagonal > largest_tolerance) break;
+    Sewn& sewn = tried.emplace_back(sew_once(attempt.faces, attempt.fraction * diagonal, labels));
+    sewn.fraction = attempt.fraction;
     if (!sewn.complete) {
       if (!attempt.left_out.empty()) tried.pop_back();
       continue;
@@ -321,7 +321,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
                   "the diagonal), and their openings are no small planar ones: {}. Close the gaps in "
                   "the CAD program",
-                  last.tolerance, last.share,
+                  last.tolerance, last.fraction,
                   last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels)));
 }
 

@@ -13,7 +13,7 @@ namespace aeroloom::cad {
 /// Whether every proper edge of the shell is shared, so that it encloses space.
 bool is_closed(const TopoDS_Shell& shell);
 
-/// A solid of one closed shell, turned outward.
+/// A solid of one closed shell, oriented outward.
 TopoDS_Solid solid_of(const TopoDS_Shell& shell, Volumes& volumes);
 
 /// Solids from closed shells: each shell at even nesting depth becomes a solid, the shells directly inside it

@@ -10,7 +10,7 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Of the face turned forward.
+/// Of the face oriented forward.
 double flux(const TopoDS_Face& face, const gp_Pnt& reference) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   if (surface.IsNull()) throw CadError("a face has no surface (a bare triangulation)");

@@ -18,7 +18,7 @@ public:
 
 private:
   gp_Pnt _reference;  // near the shapes: far from them large numbers would cancel
-  NCollection_DataMap<TopoDS_Shape, double, TopTools_ShapeMapHasher> _fluxes;  // of faces turned forward
+  NCollection_DataMap<TopoDS_Shape, double, TopTools_ShapeMapHasher> _fluxes;  // of faces oriented forward
 };
 
 }  // namespace aeroloom::cad

@@ -18,7 +18,7 @@ public:
 
   /// The name itself where it is fit and free. Otherwise: slashes, control characters and blanks at either
   /// end become `_`, as do names of dots alone; what is longer than 32 bytes is cut between two characters
-  /// of UTF-8; what is taken gets the first free of _2, _3, ... behind it. Empty names become `stand_in`.
+  /// of UTF-8; what is taken gets the first free of _2, _3, ... after it. Empty names become `stand_in`.
   /// `ending` stays whole at the end of the name.
   std::string take(const std::string& wanted, const std::string& stand_in, const std::string& ending = "");
 

@@ -11,7 +11,7 @@ namespace aeroloom::io {
 
 /// Writes `path` (MESH.cgns): one base, one unstructured zone, vertices in the order of the mesh in double
 /// precision. A section of TETRA_4, PYRA_5 or PENTA_6 per region and shape, called as the region (with the
-/// shape behind it, REGION_TETRA_4, where there are several); behind them a section of TRI_3 or QUAD_4 per
+/// shape after it, REGION_TETRA_4, where there are several); after them a section of TRI_3 or QUAD_4 per
 /// patch and shape, counter-clockwise seen from outside, called as the patch (PATCH_TRI_3 and PATCH_QUAD_4
 /// where it has both); for each patch a BC_t FamilySpecified over its elements and a family with the
 /// condition: wall BCWallViscous, slip BCWallInviscid, symmetry BCSymmetryPlane, farfield BCFarfield, inlet

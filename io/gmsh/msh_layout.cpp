@@ -4,7 +4,7 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Appends a block behind those before.
+/// Appends a block after those before.
 void place(MshBlocks& blocks, MshBlock& block) {
   block.first_tag = blocks.elements + 1;
   block.offset = blocks.bytes;

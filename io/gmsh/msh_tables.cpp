@@ -157,7 +157,7 @@ private:
     for (std::int64_t i = 0; i < count; ++i) entity.physical.push_back(group_of(_scanner.int32()));
   }
 
-  /// Reads the record of an entity behind its tag.
+  /// Reads the record of an entity after its tag.
   MshEntity read_entity(std::int32_t dimension, bool partitioned) {
     MshEntity entity;
     entity.partitioned = partitioned;

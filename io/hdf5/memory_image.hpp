@@ -23,7 +23,7 @@ class MemoryImage {
 public:
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
-  /// Behind the last byte written.
+  /// After the last byte written.
   std::uint64_t end() const;
   /// Of the file, as its owner says; no byte of it need be written.
   void set_length(std::uint64_t length) { _length = length; }

@@ -81,7 +81,7 @@ private:
 
   std::int64_t position(std::int64_t at) { return integer(at, widths.position()); }
 
-  /// `next` where it is a place behind `end`; a section at `begin` may not lead back, nor into itself.
+  /// `next` where it is a place after `end`; a section at `begin` may not lead back, nor into itself.
   std::int64_t after(std::int64_t begin, std::int64_t end, std::int64_t next) const {
     if (next == 0) return 0;
     if (next < end || next > _file.size() - 4) {

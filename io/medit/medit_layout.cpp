@@ -13,7 +13,7 @@ namespace {
 
 using mesh::GlobalIndex;
 
-/// A coordinate of a text file, "-1.2345678901234567e-100", with a blank behind it.
+/// A coordinate of a text file, "-1.2345678901234567e-100", with a blank after it.
 constexpr int text_coordinate = 25;
 
 template <class Number>

@@ -92,7 +92,7 @@ private:
   RangeReader _file;
   std::string _buffer, _word;
   std::size_t _at = 0, _filled = 0;
-  std::int64_t _offset = 0;                  // of the file, behind the buffer
+  std::int64_t _offset = 0;                  // of the file, after the buffer
   std::int64_t _line = 1, _lines_ended = 0;  // _line: of the last word
 };
 
@@ -116,7 +116,7 @@ public:
   }
 
 private:
-  std::string _following;  // the word behind a section
+  std::string _following;  // the word after a section
 
   void read_section(const std::string& keyword) {
     if (keyword == "Dimension") {

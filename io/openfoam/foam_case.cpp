@@ -189,8 +189,8 @@ void prepare_case(const FoamCase& foam_case) {
   fs::create_directories(foam_case.folder);
   for (const auto& [processor, number] : processors_of(foam_case)) {
     fs::remove_all(processor / "constant" / "polyMesh.unfinished");
-    const bool is_beyond = foam_case.parts == 1 || number >= foam_case.parts;
-    if (is_beyond && holds_results(processor)) {
+    const bool is_past = foam_case.parts == 1 || number >= foam_case.parts;
+    if (is_past && holds_results(processor)) {
       throw fs::filesystem_error(
           fmt::format("the mesh has {} part(s), this folder holds results of more: remove it",
                       foam_case.parts),

@@ -12,7 +12,7 @@ namespace aeroloom::io {
 
 namespace {
 
-using mesh::CellBehind;
+using mesh::CellNeighbour;
 using mesh::FaceLinks;
 using mesh::GlobalIndex;
 using mesh::LinkDefects;
@@ -23,25 +23,25 @@ std::size_t side_count(const FilePart& part, LocalIndex cell) {
   return first_side(*part.piece, cell + 1) - first_side(*part.piece, cell);
 }
 
-/// Calls `visit(cell, side, behind, number)` for all faces whose other cell has a higher number in the whole
-/// mesh, by owner, then other cell; `number` counts them.
+/// Calls `visit(cell, side, neighbour, number)` for all faces whose other cell has a higher number in the
+/// whole mesh, by owner, then other cell; `number` counts them.
 template <class Visit>
 GlobalIndex for_owned_faces(const FilePart& part, const PieceLinks& links, const Visit& visit) {
   GlobalIndex number = 0;
-  std::vector<std::pair<const CellBehind*, std::int32_t>> upper;
+  std::vector<std::pair<const CellNeighbour*, std::int32_t>> upper;
   for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
     const std::size_t first = first_side(*part.piece, cell), sides = side_count(part, cell);
     upper.clear();
     for (std::size_t side = 0; side < sides; ++side) {
-      const CellBehind& behind = links.behind[first + side];
-      if (behind.exists() && std::tie(behind.piece, behind.cell) > std::tie(part.id, cell))
-        upper.emplace_back(&behind, static_cast<std::int32_t>(side));
+      const CellNeighbour& neighbour = links.neighbours[first + side];
+      if (neighbour.exists() && std::tie(neighbour.piece, neighbour.cell) > std::tie(part.id, cell))
+        upper.emplace_back(&neighbour, static_cast<std::int32_t>(side));
     }
     std::sort(upper.begin(), upper.end(), [](const auto& a, const auto& b) {
       return std::tie(a.first->piece, a.first->cell, a.second) <
              std::tie(b.first->piece, b.first->cell, b.second);
     });
-    for (const auto& [behind, side] : upper) visit(cell, side, *behind, number++);
+    for (const auto& [neighbour, side] : upper) visit(cell, side, *neighbour, number++);
   }
   return number;
 }
@@ -112,7 +112,7 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
     const FilePart& part = mesh.parts[i];
     mine.push_back({part.cell_count(),
                     for_owned_faces(part, links.pieces[i],
-                                    [](LocalIndex, std::int32_t, const CellBehind&, GlobalIndex) {})});
+                                    [](LocalIndex, std::int32_t, const CellNeighbour&, GlobalIndex) {})});
   }
   return mesh::gather_by_piece(communicator, *mesh.pieces, mine);
 }
@@ -121,18 +121,20 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
 void add_notes(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
                std::vector<mesh::Told<FoamFaceNote>>& notes) {
   const PatchPlaces places(mesh, part);
-  const auto add = [&](LocalIndex cell, std::size_t side, const CellBehind& behind, GlobalIndex number) {
+  const auto add = [&](LocalIndex cell, std::size_t side, const CellNeighbour& neighbour,
+                       GlobalIndex number) {
     const LocalIndex face = links.boundary_face[first_side(*part.piece, cell) + side];
-    notes.push_back({behind, {face < 0 ? -1 : places.of(face).patch, number}});
+    notes.push_back({neighbour, {face < 0 ? -1 : places.of(face).patch, number}});
   };
-  for_owned_faces(part, links,
-                  [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
-                    if (behind.piece != part.id) add(cell, static_cast<std::size_t>(side), behind, number);
-                  });
+  for_owned_faces(
+      part, links,
+      [&](LocalIndex cell, std::int32_t side, const CellNeighbour& neighbour, GlobalIndex number) {
+        if (neighbour.piece != part.id) add(cell, static_cast<std::size_t>(side), neighbour, number);
+      });
   for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
     for (std::size_t side = 0; side < side_count(part, cell); ++side) {
-      const CellBehind& behind = links.behind[first_side(*part.piece, cell) + side];
-      if (behind.exists() && behind.piece < part.id) add(cell, side, behind, -1);
+      const CellNeighbour& neighbour = links.neighbours[first_side(*part.piece, cell) + side];
+      if (neighbour.exists() && neighbour.piece < part.id) add(cell, side, neighbour, -1);
     }
   }
 }
@@ -168,10 +170,11 @@ private:
   void add_inner_faces() {
     const GlobalIndex first = _plan.first_inner_face[static_cast<std::size_t>(_part.id)];
     for_owned_faces(
-        _part, _links, [&](LocalIndex cell, std::int32_t side, const CellBehind& behind, GlobalIndex number) {
+        _part, _links,
+        [&](LocalIndex cell, std::int32_t side, const CellNeighbour& neighbour, GlobalIndex number) {
           FoamFace face{cell, side, -1, zone_at(cell, static_cast<std::size_t>(side)), first + number, 0, 0};
-          if (behind.piece == _part.id) {
-            face.neighbour = behind.cell;
+          if (neighbour.piece == _part.id) {
+            face.neighbour = neighbour.cell;
             face.from_front = is_front(face) ? 1 : 0;
             _result.faces.push_back(face);
             return;
@@ -180,7 +183,7 @@ private:
           const FoamFaceNote& note = note_at(cell, side);
           face.from_front = face.zone >= 0 ? 1 : 0;
           face.zone = std::max(face.zone, note.zone);
-          _processors.push_back({behind.piece, cell, side, face});
+          _processors.push_back({neighbour.piece, cell, side, face});
         });
     _result.inner = static_cast<LocalIndex>(_result.faces.size());
   }
@@ -218,7 +221,7 @@ private:
       const std::size_t first = first_side(*_part.piece, cell);
       for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
         const LocalIndex face = _links.boundary_face[first + side];
-        if (face < 0 || _links.behind[first + side].exists()) continue;
+        if (face < 0 || _links.neighbours[first + side].exists()) continue;
         const PatchPlaces::FoamFacePlace place = _places.of(face);
         _result.faces[begin[place.patch] + static_cast<std::size_t>(place.in_part)] = {
             cell,
@@ -233,9 +236,9 @@ private:
   }
 
   const FoamFaceNote& note_at(LocalIndex cell, std::int32_t side) const {
-    const CellBehind key{_part.id, cell, side};
+    const CellNeighbour key{_part.id, cell, side};
     return std::lower_bound(_plan.notes.begin(), _plan.notes.end(), key,
-                            [](const auto& note, const CellBehind& wanted) { return note.cell < wanted; })
+                            [](const auto& note, const CellNeighbour& wanted) { return note.cell < wanted; })
         ->what;
   }
 
@@ -243,16 +246,16 @@ private:
   void add_lower_processors() {
     for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) {
       for (std::size_t side = 0; side < side_count(_part, cell); ++side) {
-        const CellBehind& behind = _links.behind[first_side(*_part.piece, cell) + side];
-        if (!behind.exists() || behind.piece >= _part.id) continue;
+        const CellNeighbour& neighbour = _links.neighbours[first_side(*_part.piece, cell) + side];
+        if (!neighbour.exists() || neighbour.piece >= _part.id) continue;
         const auto s = static_cast<std::int32_t>(side);
         const FoamFaceNote& note = note_at(cell, s);
         const std::int32_t zone = zone_at(cell, side);
         const GlobalIndex number =
-            _plan.first_inner_face[static_cast<std::size_t>(behind.piece)] + note.number;
-        _processors.push_back({behind.piece,
-                               behind.cell,
-                               behind.side,
+            _plan.first_inner_face[static_cast<std::size_t>(neighbour.piece)] + note.number;
+        _processors.push_back({neighbour.piece,
+                               neighbour.cell,
+                               neighbour.side,
                                {cell, s, -1, std::max(zone, note.zone), number, 1,
                                 static_cast<std::int8_t>(zone >= 0 ? 1 : 0)}});
       }

@@ -42,7 +42,7 @@ private:
   std::size_t _longest;
   std::vector<char> _buffer;
   std::size_t _begin = 0, _end = 0;  ///< of what has not been given out
-  std::int64_t _offset = 0;          ///< of the file, behind the buffer
+  std::int64_t _offset = 0;          ///< of the file, after the buffer
   std::string_view _line;
   std::int64_t _number = 0;
 };

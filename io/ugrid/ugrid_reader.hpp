@@ -3,7 +3,7 @@
 /// Every rank reads its share of points, faces and cells at offsets of its own. Patches are the ids that
 /// faces have, ascending; NAME.mapbc beside NAME.lb8.ugrid, where there is one with the same ids, gives names
 /// and conditions (one with others is left alone, with a warning), else a patch is called `patch_<id>` and a
-/// wall. Names that come twice get `_<id>` behind them. What may follow the cells (AFLR's optional records)
+/// wall. Names that come twice get `_<id>` after them. What may follow the cells (AFLR's optional records)
 /// is left out. One region, `fluid`.
 #pragma once
 

@@ -58,14 +58,14 @@ std::span<const Block> blocks_of(const FilePart& part, PartContent content) {
 /// The plan for a file, the same on every rank.
 struct FilePlan {
   parallel::Rank writer = 0;
-  std::size_t turn = 0;  ///< the files of this writer before it
+  std::size_t round = 0;  ///< the files of this writer before it
 };
 
 /// Which part goes into which file, a function of the mesh alone, and who writes that.
 struct Plan {
   std::vector<std::size_t> file_of;  ///< per part
   std::vector<FilePlan> files;
-  std::size_t turns = 0;  ///< that the busiest writer takes
+  std::size_t rounds = 0;  ///< that the busiest writer takes
 
   const FilePlan& plan_of(const PartPiece& piece) const { return files[file_of[piece.part.id]]; }
 };
@@ -92,14 +92,14 @@ std::vector<PlaceRow> gather_rows(const parallel::Communicator& communicator,
 Plan plan_files(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
                 PartContent content, mesh::GlobalIndex items_per_file) {
   Plan plan;
-  std::vector<std::size_t> turns(communicator.size(), 0);
+  std::vector<std::size_t> rounds(communicator.size(), 0);
   std::map<parallel::Rank, mesh::GlobalIndex> held;  // of the file that is being filled
   mesh::GlobalIndex filled = 0;
   const auto close = [&] {
     const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
     const parallel::Rank writer = std::max_element(held.begin(), held.end(), less)->first;
-    plan.files.push_back({writer, turns[writer]++});
-    plan.turns = std::max(plan.turns, turns[writer]);
+    plan.files.push_back({writer, rounds[writer]++});
+    plan.rounds = std::max(plan.rounds, rounds[writer]);
     held.clear();
     filled = 0;
   };
@@ -180,13 +180,13 @@ PartPiece view(const BroughtPiece& brought) {
   return piece;
 }
 
-/// Brings the parts that the files of this turn lack on their writers.
+/// Brings the parts that the files of this round lack on their writers.
 std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicator,
-                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t turn) {
+                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t round) {
   std::map<parallel::Rank, parallel::Packer> packers;
   for (const PartPiece& piece : mine) {
     const FilePlan& file = plan.plan_of(piece);
-    if (file.turn == turn && file.writer != communicator.rank())
+    if (file.round == round && file.writer != communicator.rank())
       parallel::pack(packers[file.writer], arrays_of(piece));
   }
   std::vector<parallel::Parcel> parcels;
@@ -201,14 +201,14 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   return pieces;
 }
 
-/// The parts of this rank's file of a turn, ascending; none where its files are written.
-std::vector<PartPiece> pieces_of_turn(const parallel::Communicator& communicator,
-                                      std::span<const PartPiece> mine, const Plan& plan, std::size_t turn,
-                                      const std::vector<BroughtPiece>& brought) {
+/// The parts of this rank's file of a round, ascending; none where its files are written.
+std::vector<PartPiece> pieces_of_round(const parallel::Communicator& communicator,
+                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t round,
+                                       const std::vector<BroughtPiece>& brought) {
   std::vector<PartPiece> pieces;
   for (const PartPiece& piece : mine) {
     const FilePlan& file = plan.plan_of(piece);
-    if (file.turn == turn && file.writer == communicator.rank()) pieces.push_back(piece);
+    if (file.round == round && file.writer == communicator.rank()) pieces.push_back(piece);
   }
   for (const BroughtPiece& other : brought) pieces.push_back(view(other));
   std::sort(pieces.begin(), pieces.end(),
@@ -237,7 +237,7 @@ PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent conten
       if (places[v] == 0) uses.emplace_back(piece.part.numbers[v], uses.size());
     }
   }
-  if (uses.size() > static_cast<std::size_t>(std::numeric_limits<PartIndex>::max()))
+  if (uses.size() > static_cast<std::size_t>(std::numeric_limits<PointIndex>::max()))
     throw std::length_error("a file would get more points than its 32-bit numbers can count");
   std::sort(uses.begin(), uses.end());
   std::vector<std::size_t> first_use(uses.size());
@@ -245,14 +245,14 @@ PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent conten
     if (uses[i].first != uses[first].first) first = i;
     first_use[uses[i].second] = uses[first].second;
   }
-  std::vector<PartIndex> place_of(uses.size());
+  std::vector<PointIndex> place_of(uses.size());
   std::size_t use = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     for (std::size_t v = 0; v < points.of_piece[p].size(); ++v) {
-      PartIndex& place = points.of_piece[p][v];
+      PointIndex& place = points.of_piece[p][v];
       if (place < 0) continue;
       if (first_use[use] == use) {
-        place_of[use] = static_cast<PartIndex>(points.numbers.size());
+        place_of[use] = static_cast<PointIndex>(points.numbers.size());
         points.numbers.push_back(pieces[p].part.numbers[v]);
         const auto point = pieces[p].part.coordinates.begin() + static_cast<std::ptrdiff_t>(3 * v);
         points.coordinates.insert(points.coordinates.end(), point, point + 3);
@@ -285,10 +285,10 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
     if (communicator.is_root()) prepare_folder(files);
   });
   const Plan plan = plan_files(communicator, mine, content, items_per_file);
-  parallel::Progress progress("output", static_cast<std::int64_t>(plan.turns), "files");
-  for (std::size_t turn = 0; turn < plan.turns; ++turn) {
-    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, turn);
-    const std::vector<PartPiece> pieces = pieces_of_turn(communicator, mine, plan, turn, brought);
+  parallel::Progress progress("output", static_cast<std::int64_t>(plan.rounds), "files");
+  for (std::size_t round = 0; round < plan.rounds; ++round) {
+    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, round);
+    const std::vector<PartPiece> pieces = pieces_of_round(communicator, mine, plan, round, brought);
     parallel::agree(communicator, [&] {
       if (!pieces.empty()) write(pieces, files.part_path(plan.file_of[pieces[0].part.id]));
     });

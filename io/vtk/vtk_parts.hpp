@@ -28,14 +28,14 @@ std::vector<PartPiece> pieces_of(const FileMesh& mesh);
 enum class PartContent { cells, faces };
 
 /// Number of a point within its file.
-using PartIndex = std::int32_t;
+using PointIndex = std::int32_t;
 
 /// The points of a file: those its cells (or faces) use, each once, in the order of parts and of their
 /// vertices.
 struct PartPoints {
   std::vector<mesh::GlobalIndex> numbers;
-  std::vector<double> coordinates;               ///< (n,3)
-  std::vector<std::vector<PartIndex>> of_piece;  ///< per part of the file, per local vertex; -1 unused
+  std::vector<double> coordinates;                ///< (n,3)
+  std::vector<std::vector<PointIndex>> of_piece;  ///< per part of the file, per local vertex; -1 unused
 };
 PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent content);
 

@@ -33,13 +33,13 @@ struct FaceArrays {
   std::vector<float> quality;
 };
 
-void append_corners(const Block& block, mesh::LocalIndex face, const std::vector<PartIndex>& places,
+void append_corners(const Block& block, mesh::LocalIndex face, const std::vector<PointIndex>& places,
                     FaceArrays& arrays) {
   for (int k = 0; k < block.corners; ++k) arrays.cells.connectivity.push_back(places[block.item(face)[k]]);
   arrays.cells.close_cell();
 }
 
-void append_triangles(const PartPiece& piece, const std::vector<PartIndex>& places, FaceArrays& arrays) {
+void append_triangles(const PartPiece& piece, const std::vector<PointIndex>& places, FaceArrays& arrays) {
   const Block& triangles = piece.part.faces[0];
   for (mesh::LocalIndex t = 0; t < triangles.count(); ++t) {
     append_corners(triangles, t, places, arrays);
@@ -52,7 +52,7 @@ void append_triangles(const PartPiece& piece, const std::vector<PartIndex>& plac
   arrays.patch.insert(arrays.patch.end(), piece.triangle_patch.begin(), piece.triangle_patch.end());
 }
 
-void append_faces(const FilePart& part, const std::vector<PartIndex>& places, FaceArrays& arrays) {
+void append_faces(const FilePart& part, const std::vector<PointIndex>& places, FaceArrays& arrays) {
   for (const Block& block : part.faces) {
     for (const Run& run : block.runs) {
       for (mesh::LocalIndex f = run.begin; f < run.end; ++f) append_corners(block, f, places, arrays);

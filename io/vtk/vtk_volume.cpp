@@ -40,7 +40,7 @@ struct CellArrays {
 };
 
 void append_cell(const FilePart& part, CellShape shape, const mesh::LocalIndex* corners,
-                 const std::vector<PartIndex>& places, CellArrays& arrays) {
+                 const std::vector<PointIndex>& places, CellArrays& arrays) {
   const auto s = static_cast<std::size_t>(shape);
   const int count = corners_of(shape);
   std::array<geometry::Vec3, 6> p;
@@ -55,7 +55,7 @@ void append_cell(const FilePart& part, CellShape shape, const mesh::LocalIndex* 
   arrays.min_dihedral.push_back(static_cast<float>(smallest_dihedral(shape, points)));
 }
 
-void append_cells(const FilePart& part, const std::vector<PartIndex>& places, CellArrays& arrays) {
+void append_cells(const FilePart& part, const std::vector<PointIndex>& places, CellArrays& arrays) {
   for (const CellShape shape : cell_shapes) {
     const Block& block = part.cells[static_cast<std::size_t>(shape)];
     for (const Run& run : block.runs) {

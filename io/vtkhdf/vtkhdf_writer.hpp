@@ -19,8 +19,10 @@ namespace aeroloom::io {
 /// (files) where it cannot be written. The bytes depend on the parts alone.
 void write_vtkhdf(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
 
-/// Writes the boundary faces and those between regions as a grid of their own, for viewers: as above, with
-/// cell data `part` and `patch`, field data `patch_names` and `patch_types`. Collective; throws as above.
+/// Writes the boundary faces and those between regions to `path` as a /VTKHDF grid of their own, for viewers:
+/// partitions, points and `global_id` are laid out as in write_vtkhdf, with cell data `part` and `patch`,
+/// field data `patch_names` and `patch_types`. Collective; throws CollectiveError (files) where the file
+/// cannot be written.
 void write_vtkhdf_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
                           const std::string& path);
 

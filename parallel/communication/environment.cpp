@@ -61,7 +61,7 @@ void open_standard_streams() {
 
 Environment::Environment(int& argc, char**& argv) : _exceptions_at_start(std::uncaught_exceptions()) {
   open_standard_streams();
-  if (!session::is_library_running() && !is_containment_ready()) _server = start_server_if_allowed();
+  if (!session::is_library_running() && !has_sandbox_server()) _server = start_server_if_allowed();
   // Not in sandboxed runs, whose memory goes with them.
   if (!session::is_library_running()) return_large_arrays();
   session::start(argc, argv);

@@ -27,9 +27,9 @@ void count_collective(const CommunicatorHandle& group, std::uint64_t bytes) {
 /// a neighbour, which takes part for them and tells them the result.
 std::uint64_t values_sent_in_reduction(int rank, int ranks) {
   const int doubling = static_cast<int>(std::bit_floor(static_cast<unsigned>(ranks)));
-  const int beyond = ranks - doubling;
+  const int excess = ranks - doubling;
   const auto steps = static_cast<std::uint64_t>(std::countr_zero(static_cast<unsigned>(doubling)));
-  if (rank >= 2 * beyond) return steps;
+  if (rank >= 2 * excess) return steps;
   return rank % 2 == 0 ? 1 : steps + 1;
 }
 

@@ -42,10 +42,10 @@ NeighbourExchange::NeighbourExchange(const Communicator& communicator, std::vect
       _receives(std::move(receives)),
       _sent_items(count_items(_sends, communicator.rank(), communicator.size())),
       _received_items(count_items(_receives, communicator.rank(), communicator.size())) {
-  const std::int64_t beyond =
+  const std::int64_t unmatched =
       communicator.sum(static_cast<std::int64_t>(_sent_items) - static_cast<std::int64_t>(_received_items));
-  if (beyond != 0)
-    throw std::logic_error("neighbour exchange: " + std::to_string(beyond) +
+  if (unmatched != 0)
+    throw std::logic_error("neighbour exchange: " + std::to_string(unmatched) +
                            " items more are sent than received");
 }
 

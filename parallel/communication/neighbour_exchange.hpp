@@ -1,4 +1,4 @@
-/// Exchange between ranks that know each other: who sends how much to whom is settled once.
+/// Exchange between ranks that know each other: who sends how much to whom is found out once.
 #pragma once
 
 #include "aeroloom/parallel/communication/communicator.hpp"

@@ -138,7 +138,7 @@ Mapping map_file(const FileDescriptor& file, std::size_t size, int protection) {
   return {static_cast<std::byte*>(at), [size](std::byte* start) { munmap(start, size); }};
 }
 
-/// The first rank of a node makes the file, with room for so many bytes behind the header. A header without
+/// The first rank of a node makes the file, with room for so many bytes after the header. A header without
 /// a descriptor: it could not.
 Mapping make_file(std::size_t bytes, FileDescriptor& file, Header& header) {
   const std::size_t size = sizeof(Header) + bytes;
@@ -163,7 +163,7 @@ Mapping open_file(const Header& header, int flags, int protection) {
   return mapping;
 }
 
-std::shared_ptr<const std::byte> behind_header(const Mapping& mapping) {
+std::shared_ptr<const std::byte> after_header(const Mapping& mapping) {
   return {mapping, mapping.get() + sizeof(Header)};
 }
 
@@ -189,7 +189,7 @@ std::shared_ptr<const std::byte> NodeMemory::share(const Communicator& communica
   node.broadcast(header);
   if (node.rank() != 0) mapping = open_file(header, O_RDONLY, PROT_READ);
   if (!node.all(mapping != nullptr)) return nullptr;
-  return behind_header(mapping);
+  return after_header(mapping);
 }
 
 namespace {
@@ -239,7 +239,7 @@ std::shared_ptr<const std::byte> NodeMemory::gather(const Communicator& communic
   if (node.rank() == 0) first_ranks.complete(parts, sizes);
   node.wait();
   protect(mapping.get());
-  return behind_header(mapping);
+  return after_header(mapping);
 }
 
 NodeMemory::Composition NodeMemory::compose(const Communicator& communicator,

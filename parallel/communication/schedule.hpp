@@ -17,8 +17,8 @@ std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks)
 std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens);
 
 /// Moves tasks from where they are `now` only where that rank would get more than the mean: largest load
-/// first they stay or are taken away, then those taken away are given as above to what the ranks have kept.
-/// May be less even than assign_largest_first. The same on every rank, without communication.
+/// first they stay or are taken away, then assign_largest_first gives those taken away to ranks with the
+/// rest. May be less even than assign_largest_first. The same on every rank, without communication.
 std::vector<Rank> move_excess(std::span<const double> loads, std::span<const Rank> now, int ranks);
 
 /// The shares of an assignment, each as a whole on another rank, so that much of the load stays where it is

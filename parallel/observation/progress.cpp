@@ -124,7 +124,7 @@ void Progress::show(double now) {
   log_line::show(line() + "  " + memory_and_time(now));
 }
 
-void Progress::reach(std::int64_t done, std::int64_t elements) {
+void Progress::set_done(std::int64_t done, std::int64_t elements) {
   const bool ends = _done != _total && done == _total;
   _done = done;
   _made = elements;

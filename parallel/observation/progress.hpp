@@ -22,9 +22,9 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   /// `done` more units of work are done, `elements` more elements are made.
-  void advance(std::int64_t done = 1, std::int64_t elements = 0) { reach(_done + done, _made + elements); }
+  void advance(std::int64_t done = 1, std::int64_t elements = 0) { set_done(_done + done, _made + elements); }
   /// `done` units of work are done, `elements` elements are made.
-  void reach(std::int64_t done, std::int64_t elements);
+  void set_done(std::int64_t done, std::int64_t elements);
 
 private:
   friend void beat();

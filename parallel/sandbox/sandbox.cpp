@@ -182,12 +182,12 @@ const std::vector<RegisteredTask>& sandbox_tasks() {
   return registry().tasks;
 }
 
-bool is_containment_ready() {
+bool has_sandbox_server() {
   return server().socket.is_open();
 }
 
 SandboxServer::SandboxServer() {
-  if (is_containment_ready()) throw std::logic_error("a second server of sandboxed runs is started");
+  if (has_sandbox_server()) throw std::logic_error("a second server of sandboxed runs is started");
   registry().sealed = true;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -224,11 +224,11 @@ std::unique_ptr<SandboxServer> start_server_if_allowed() {
   }
 }
 
-const std::string& containment_refusal() {
+const std::string& sandbox_refusal() {
   return server().refusal;
 }
 
-void do_without_containment(const Communicator& communicator) {
+void run_without_sandbox(const Communicator& communicator) {
   end_server();
   server().unwanted = true;
   tell_crashes(communicator.rank());
@@ -237,7 +237,7 @@ void do_without_containment(const Communicator& communicator) {
 SandboxResult run_sandboxed(const std::string& name, std::span<const std::byte> input,
                             const SandboxLimits& limits) {
   SandboxRequest request{position_of_task(name), limits};
-  if (!is_containment_ready()) return run_unsandboxed(registry().tasks[request.task], input);
+  if (!has_sandbox_server()) return run_unsandboxed(registry().tasks[request.task], input);
   FileDescriptor input_memory = shared_memory("input"), output_memory = shared_memory("output");
   if (!write_all(input_memory.number(), input)) throw std::bad_alloc();
   return_free_memory();

@@ -34,7 +34,7 @@ struct SandboxReply {
   char message[message_capacity];
 };
 
-/// A server, unless the machine forbids processes: then containment_refusal() says so. Throws
+/// A server, unless the machine forbids processes: then sandbox_refusal() says so. Throws
 /// std::system_error where it is short of what a process takes.
 std::unique_ptr<SandboxServer> start_server_if_allowed();
 

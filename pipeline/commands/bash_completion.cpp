@@ -11,7 +11,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
-/// Bash splits words at `=`, too: the line is split here again, and what is offered begins behind the last
+/// Bash splits words at `=`, too: the line is split here again, and what is offered begins after the last
 /// `=`.
 constexpr const char* machinery = R"bash(
 _aeroloom_words() {  # the words $1 that begin like the word at hand
@@ -156,7 +156,7 @@ std::string tables(const std::vector<const CLI::App*>& commands) {
          valued.take("return 1") + values.take() + places.take();
 }
 
-/// Names that users make up are not offered, but values behind them are.
+/// Names that users make up are not offered, but values after them are.
 std::string key_tables(const std::vector<cases::KeyInfo>& keys) {
   const std::string made_up = std::string(".") + cases::made_up_name + ".";
   std::vector<std::string> offered;

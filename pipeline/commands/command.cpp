@@ -58,14 +58,14 @@ namespace {
 
 /// Collective: throws CollectiveError where a rank has no child processes and nobody said that it need not.
 void choose_sandbox(const Communicator& communicator, parallel::Sandbox sandbox) {
-  if (sandbox == parallel::Sandbox::none) parallel::do_without_containment(communicator);
+  if (sandbox == parallel::Sandbox::none) parallel::run_without_sandbox(communicator);
   parallel::agree(communicator, [&] {
-    if (sandbox == parallel::Sandbox::none || parallel::containment_refusal().empty()) return;
+    if (sandbox == parallel::Sandbox::none || parallel::sandbox_refusal().empty()) return;
     throw std::runtime_error(
         fmt::format("this machine allows no child processes ({}), which keep crashes of the CAD library and "
                     "of TetGen from "
                     "ending the run. Remedy: parallel.sandbox: none",
-                    parallel::containment_refusal()));
+                    parallel::sandbox_refusal()));
   });
 }
 

@@ -22,7 +22,7 @@ inline constexpr const char* resources = "Resources";
 inline constexpr const char* printing = "Printing";
 }  // namespace option_group
 
-/// Kinds of files, as `--help` names them behind an option; completion goes by them (bash_completion.cpp).
+/// Kinds of files, as `--help` names them after an option; completion goes by them (bash_completion.cpp).
 namespace file_kind {
 inline constexpr const char* of_case = "CASE.yaml";
 inline constexpr const char* mesh = "MESH";

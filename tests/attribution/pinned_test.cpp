@@ -138,7 +138,7 @@ DistributedMesh make_walls(const parallel::Communicator& communicator, double an
 PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_change = true) {
   const auto world = parallel::Communicator::world();
   const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
-  mesh::CellsBeyond suspects{suspect_angles(target), {}};
+  mesh::CellsOutside suspects{suspect_angles(target), {}};
   mesh::summarise_quality(world, mesh, numbering, &suspects);
   return find_pinned(world, mesh, numbering, target, suspects, surface_may_change);
 }

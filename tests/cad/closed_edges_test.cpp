@@ -44,7 +44,7 @@ void expect_sound(const Model& model, double largest_move) {
   for (FaceId f = 0; f < model.face_count(); ++f) {
     for (const auto& loop : model.face(f).loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const EdgeUse &use = loop[i], &next = loop[(i + 1) % loop.size()];
+        const Coedge &use = loop[i], &next = loop[(i + 1) % loop.size()];
         const Edge &edge = model.edge(use.edge), &behind = model.edge(next.edge);
         if (!edge.degenerate) ++uses[use.edge];
         EXPECT_EQ(use.reversed ? edge.first : edge.last, next.reversed ? behind.last : behind.first);
@@ -276,7 +276,7 @@ TEST(ClosedEdges, TrailingEdgeEndsOnTheSideOfAnother) {
   for (FaceId f = 0; f < domain.model.face_count(); ++f) {
     for (const auto& loop : domain.model.face(f).loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const EdgeUse &use = loop[i], &next = loop[(i + 1) % loop.size()];
+        const Coedge &use = loop[i], &next = loop[(i + 1) % loop.size()];
         const Edge &edge = domain.model.edge(use.edge), &behind = domain.model.edge(next.edge);
         EXPECT_EQ(use.reversed ? edge.first : edge.last, next.reversed ? behind.last : behind.first);
       }

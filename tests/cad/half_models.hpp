@@ -66,7 +66,7 @@ public:
       check(model.project(f, facets.points[i] + beside, facets.uv[i]).point, "projection");
     }
     for (const auto& loop : model.face(f).loops) {
-      for (const EdgeUse& use : loop) check_edge(model, use.edge);
+      for (const Coedge& use : loop) check_edge(model, use.edge);
     }
   }
 

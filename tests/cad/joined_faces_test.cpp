@@ -54,7 +54,7 @@ TEST(JoinedFaces, KeepsEverythingElse) {
 TEST(JoinedFaces, EvaluatesOnEverySheet) {
   const Joined joined;
   for (const auto& loop : joined.model.face(joined.side).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       const Edge& edge = joined.model.edge(use.edge);
       for (const double share : {0.0, 0.3, 0.8, 1.0}) {
         const double t = edge.first_parameter + share * (edge.last_parameter - edge.first_parameter);

@@ -12,12 +12,12 @@
 
 namespace aeroloom::cad::checks {
 
-inline Vec2 start_uv(const Model& model, FaceId face, const EdgeUse& use) {
+inline Vec2 start_uv(const Model& model, FaceId face, const Coedge& use) {
   const Edge& edge = model.edge(use.edge);
   return model.edge_uv(face, use, use.reversed ? edge.last_parameter : edge.first_parameter);
 }
 
-inline Vec2 end_uv(const Model& model, FaceId face, const EdgeUse& use) {
+inline Vec2 end_uv(const Model& model, FaceId face, const Coedge& use) {
   const Edge& edge = model.edge(use.edge);
   return model.edge_uv(face, use, use.reversed ? edge.first_parameter : edge.last_parameter);
 }
@@ -29,8 +29,8 @@ inline void expect_closed_loops(const Model& model, double tolerance) {
     ASSERT_FALSE(model.face(f).loops.empty() && model.facets(f, 1, 1).boundary.size() > 0);
     for (const auto& loop : model.face(f).loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const EdgeUse& here = loop[i];
-        const EdgeUse& next = loop[(i + 1) % loop.size()];
+        const Coedge& here = loop[i];
+        const Coedge& next = loop[(i + 1) % loop.size()];
         EXPECT_EQ(++coedges[std::pair(here.edge, here.use)], 1);
         const VertexId end = here.reversed ? model.edge(here.edge).first : model.edge(here.edge).last;
         const VertexId start = next.reversed ? model.edge(next.edge).last : model.edge(next.edge).first;
@@ -51,7 +51,7 @@ inline void expect_watertight(const Model& model) {
     EXPECT_NE(model.face(f).front, no_entity);
     if (model.face(f).back != no_entity) continue;
     for (const auto& loop : model.face(f).loops) {
-      for (const EdgeUse& use : loop) ++(use.reversed ? backward : forward)[use.edge];
+      for (const Coedge& use : loop) ++(use.reversed ? backward : forward)[use.edge];
     }
   }
   for (EdgeId e = 0; e < model.edge_count(); ++e) {

@@ -46,7 +46,7 @@ Spread spread_of(const Model& model, FaceId f, int axis) {
     spread.add(model.project(f, beside, facets.uv[i]).point[axis]);
   }
   for (const auto& loop : model.face(f).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       const Edge& edge = model.edge(use.edge);
       spread.add(model.vertex(edge.first)[axis]);
       spread.add(model.vertex(edge.last)[axis]);

@@ -147,7 +147,7 @@ TEST(Transport, IsSmoothAcrossLeadingEdgesAndFuselageLines) {
     const double t = 0.5 * (edge.first_parameter + edge.last_parameter);
     const auto normal = [&](FaceId f) {
       for (const auto& loop : model.face(f).loops) {
-        for (const EdgeUse& use : loop) {
+        for (const Coedge& use : loop) {
           if (use.edge == e) return model.face_frame(f, model.edge_uv(f, use, t)).normal;
         }
       }

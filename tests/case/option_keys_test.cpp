@@ -29,7 +29,7 @@ TEST(OptionKeys, EveryOptionThatAMessageNamesHasAKey) {
   int named = 0;
   for (const char* room : {"cad", "forest", "mesh", "sizing", "surface", "volume", "improve", "domain"}) {
     for (const auto& file : std::filesystem::recursive_directory_iterator(source_tree() / room)) {
-      if (file.path().extension() != ".cpp") continue;
+      if (file.path().extension() != ".cpp" && file.path().extension() != ".hpp") continue;
       std::ifstream stream(file.path());
       for (std::string line; std::getline(stream, line);) {
         if (line.find("Options::") == std::string::npos || !std::regex_search(line, quoted)) continue;

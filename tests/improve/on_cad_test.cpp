@@ -56,7 +56,7 @@ mesh::examples::WholeMesh shaken_on_cad(const cad::Model& model, int pieces, std
     const auto& table = whole.dimensions[v] == mesh::CadDimension::face   ? entities.faces
                         : whole.dimensions[v] == mesh::CadDimension::edge ? entities.edges
                                                                           : entities.vertices;
-    if (whole.dimensions[v] < mesh::CadDimension::region) whole.entities[v] = table.at(sides);
+    if (is_on_boundary(whole.dimensions[v])) whole.entities[v] = table.at(sides);
   }
   for (std::size_t t = 0; t < whole.boundary.size(); ++t) {
     Sides side{};

@@ -177,7 +177,7 @@ TEST(RandomMeshes, AreWorkedOnOnceMoreForPercentiles) {
     expect_valid(self, mesh);
     return mesh.pieces;
   };
-  const auto part_below = [&](const std::vector<Piece>& pieces) {
+  const auto fraction_below = [&](const std::vector<Piece>& pieces) {
     double cells = 0;
     for (const Piece& piece : pieces) cells += piece.cell_count();
     double below = 0;
@@ -192,8 +192,8 @@ TEST(RandomMeshes, AreWorkedOnOnceMoreForPercentiles) {
     return below / cells;
   };
   const std::vector<Piece> plain = improved({}), steered = improved({{part, wanted}});
-  EXPECT_GT(part_below(plain), part);
-  EXPECT_LT(part_below(steered), 0.5 * part_below(plain));
+  EXPECT_GT(fraction_below(plain), part);
+  EXPECT_LT(fraction_below(steered), 0.5 * fraction_below(plain));
   EXPECT_GE(examine(steered, target).quality, examine(plain, target).quality);
   const std::vector<Piece> met = improved({{1.0, wanted}});
   EXPECT_EQ(met[0].coordinates, plain[0].coordinates) << "nothing to do";

@@ -31,7 +31,7 @@ inline void shake(WholeMesh& whole, double amplitude, std::mt19937& random) {
     for (const int v : whole.cells[c]) cells_of[v].push_back(static_cast<int>(c));
   }
   for (std::size_t v = 0; v < whole.points.size(); ++v) {
-    if (whole.dimensions[v] < mesh::CadDimension::region) continue;
+    if (is_on_boundary(whole.dimensions[v])) continue;
     const geometry::Vec3 origin = whole.points[v];
     for (int axis = 0; axis < 3; ++axis) whole.points[v][axis] += amplitude * (random() / 2147483648.0 - 1);
     const auto holds = [&](int c) { return is_positive(whole, whole.cells[c]); };

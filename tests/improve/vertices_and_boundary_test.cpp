@@ -144,7 +144,7 @@ TEST(MeanRatioSmoothing, LiftsTheAverageAndNeverTheWorst) {
   mesh::Piece piece = make_lattice(5);
   std::mt19937 random(7);
   for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-    if (piece.vertex_dimension[v] < mesh::CadDimension::region) continue;
+    if (is_on_boundary(piece.vertex_dimension[v])) continue;
     Vec3 p = piece.point(v);
     for (int axis = 0; axis < 3; ++axis) p[axis] += 0.2 * (random() / 2147483648.0 - 1);
     piece.set_point(v, p);

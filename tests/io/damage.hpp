@@ -53,7 +53,7 @@ struct Outcome {
 };
 
 /// One damaged file.
-struct Case {
+struct DamagedFile {
   std::string name;
   std::string bytes;
 };
@@ -109,7 +109,7 @@ class Damager {
 public:
   Damager(const std::string& good, const Options& options) : _good(good), _options(options) {}
 
-  void each(const std::function<void(const Case&)>& use) {
+  void each(const std::function<void(const DamagedFile&)>& use) {
     truncate(use);
     flip(use);
     overwrite(use);
@@ -122,12 +122,12 @@ private:
   std::size_t weighted_place(int turn) {
     return place(turn % 2 == 0 ? std::min<std::size_t>(_good.size(), 1024) : _good.size());
   }
-  void give(const std::function<void(const Case&)>& use, const std::string& name, std::string bytes) {
+  void give(const std::function<void(const DamagedFile&)>& use, const std::string& name, std::string bytes) {
     if (_seen++ % _options.every != 0) return;
     if (_options.mend) _options.mend(bytes);
     use({name, std::move(bytes)});
   }
-  void truncate(const std::function<void(const Case&)>& use) {
+  void truncate(const std::function<void(const DamagedFile&)>& use) {
     std::vector<std::size_t> lengths = {0, 1, 3, 4, 7, 8, 12, 16, 28, 32};
     for (std::size_t last = 1; last <= 9; ++last)
       lengths.push_back(_good.size() - std::min(last, _good.size()));
@@ -140,7 +140,7 @@ private:
         give(use, "cut to " + std::to_string(length) + " bytes", _good.substr(0, length));
     }
   }
-  void flip(const std::function<void(const Case&)>& use) {
+  void flip(const std::function<void(const DamagedFile&)>& use) {
     for (int i = 0; i < _options.flips && !_good.empty(); ++i) {
       const std::size_t at = weighted_place(i / 2);
       const bool whole = i % 2 == 1;
@@ -153,7 +153,7 @@ private:
            std::move(bytes));
     }
   }
-  void overwrite(const std::function<void(const Case&)>& use) {
+  void overwrite(const std::function<void(const DamagedFile&)>& use) {
     // -1, the largest, a large one whose multiples wrap around, nothing; the first byte is the lowest.
     const std::array<std::string, 4> values = {std::string(8, '\xff'), std::string(7, '\xff') + '\x7f',
                                                std::string(7, '\0') + '\x40', std::string(8, '\0')};
@@ -169,7 +169,7 @@ private:
       }
     }
   }
-  void cut_and_double(const std::function<void(const Case&)>& use) {
+  void cut_and_double(const std::function<void(const DamagedFile&)>& use) {
     for (int i = 0; i < _options.pieces && !_good.empty(); ++i) {
       const std::size_t at = weighted_place(i / 2),
                         length = 1 + place(std::min<std::size_t>(_good.size(), 200));
@@ -212,7 +212,7 @@ inline Outcome survive(const parallel::Communicator& communicator, const std::st
                        const Options& options = {}) {
   Outcome outcome;
   const detail::Watch watch(options.memory_bytes);
-  detail::Damager(good, options).each([&](const Case& damaged) {
+  detail::Damager(good, options).each([&](const DamagedFile& damaged) {
     if (communicator.is_root()) {
       std::ofstream stream(path, std::ios::binary | std::ios::trunc);
       stream.write(damaged.bytes.data(), static_cast<std::streamsize>(damaged.bytes.size()));

@@ -21,8 +21,8 @@ TEST(FaceLinks, AreMutualAndLeaveNothingOpen) {
   EXPECT_EQ(links.defects.open_faces, 0);
   GlobalIndex inner = 0, boundary = 0, both = 0, wanted = 0, outside = 0, between = 0;
   for (const PieceLinks& piece : links.pieces) {
-    for (std::size_t s = 0; s < piece.behind.size(); ++s) {
-      const bool bounded = piece.boundary_face[s] >= 0, linked = piece.behind[s].exists();
+    for (std::size_t s = 0; s < piece.neighbours.size(); ++s) {
+      const bool bounded = piece.boundary_face[s] >= 0, linked = piece.neighbours[s].exists();
       EXPECT_TRUE(bounded || linked);
       inner += linked ? 1 : 0;
       boundary += bounded && !linked ? 1 : 0;

@@ -189,7 +189,7 @@ TEST(QualitySummary, OfAnEmptyMesh) {
 TEST(QualitySummary, TellsTheCellsBeyondAngles) {
   const auto world = Communicator::world();
   const auto mesh = examples::fan(world, 5);
-  CellsBeyond beyond{{50, 89}, {}};
+  CellsOutside beyond{{50, 89}, {}};
   summarise_quality(world, mesh, number_mesh(world, mesh), &beyond);
   ASSERT_EQ(beyond.cells.size(), mesh.pieces.size());
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {

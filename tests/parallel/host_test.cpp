@@ -67,7 +67,7 @@ TEST(Host, AnEnvironmentUsesTheMpiThatRunsAndLeavesItRunning) {
   char** argv = nullptr;
   {
     const Environment environment(argc, argv);
-    EXPECT_FALSE(is_containment_ready()) << "a rank that runs MPI must not fork";
+    EXPECT_FALSE(has_sandbox_server()) << "a rank that runs MPI must not fork";
     int size = 0;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     EXPECT_EQ(Communicator::world().size(), size);

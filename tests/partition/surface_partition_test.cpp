@@ -131,7 +131,8 @@ double sharpest(const BackgroundSurface& surface, const std::vector<std::int32_t
   double least = 360;
   const VertexFans fans = gather_fans(surface);
   for (FanIndex fan = 0; fan < fans.count(); ++fan) {
-    visit_wedges(surface, fans, part, fan, [&](const Wedge& wedge) { least = std::min(least, wedge.angle); });
+    visit_wedges(surface, fans, part, fan,
+                 [&](const FanWedge& wedge) { least = std::min(least, wedge.angle); });
   }
   return least;
 }

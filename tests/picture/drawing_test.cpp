@@ -17,11 +17,11 @@ constexpr Window window{0, 0, 60, 40};
 Image drawn_wing(const Communicator& communicator, double edge_opacity) {
   const mesh::DistributedMesh surface = examples::wing_in_box(communicator);
   const Scene scene = find_scene(communicator, surface, {});
-  const Folds folds =
-      find_folds(communicator, surface, mesh::number_mesh(communicator, surface), scene.shown);
+  const EdgeNeighbours neighbours =
+      find_edge_neighbours(communicator, surface, mesh::number_mesh(communicator, surface), scene.shown);
   const Viewpoint view = look_from({-1, -1, 1}, {0, 0, 1});
   Canvas canvas(window.width, window.height);
-  draw_surface(canvas, close_up(view, {0, 0, 0}, 3, window), surface, folds, scene,
+  draw_surface(canvas, close_up(view, {0, 0, 0}, 3, window), surface, neighbours, scene,
                {{name_colours[0], name_colours[1]}, edge_opacity, 1.0});
   return composite(communicator, std::move(canvas), white);
 }

@@ -15,9 +15,9 @@ struct Places {
 Places places_of(const Communicator& communicator, const mesh::DistributedMesh& surface) {
   const mesh::Numbering numbering = mesh::number_mesh(communicator, surface);
   const Scene scene = find_scene(communicator, surface, {});
-  const Folds folds = find_folds(communicator, surface, numbering, scene.shown);
-  return {find_leading_edge(communicator, surface, numbering, folds, scene),
-          find_junction(communicator, surface, numbering, folds, scene)};
+  const EdgeNeighbours neighbours = find_edge_neighbours(communicator, surface, numbering, scene.shown);
+  return {find_leading_edge(communicator, surface, numbering, neighbours, scene),
+          find_junction(communicator, surface, numbering, neighbours, scene)};
 }
 
 TEST(Places, TheLeadingEdgeOfAWing) {

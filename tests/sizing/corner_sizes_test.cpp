@@ -35,7 +35,7 @@ float size_at(std::uint64_t key, int level, int corner) {
   return static_cast<float>(random() % (1U << 24));
 }
 
-std::vector<float> sizes_of(const SplitCubes::Leaves& leaves, Range range) {
+std::vector<float> sizes_of(const SplitCubes::Leaves& leaves, IndexRange range) {
   std::vector<float> sizes;
   for (std::size_t leaf = range.first; leaf < range.last; ++leaf) {
     for (int corner = 0; corner < 8; ++corner)
@@ -52,7 +52,7 @@ void expect_sizes(const CornerSizes& sizes, const SplitCubes::Leaves& leaves) {
 }
 
 CornerSizes made_by(const Communicator& ranks, const SplitCubes::Leaves& leaves) {
-  const Range own = CornerSizes::part_of(ranks, leaves, ranks.rank());
+  const IndexRange own = CornerSizes::part_of(ranks, leaves, ranks.rank());
   return {ranks, leaves, CornerSizes::pack(leaves, own, sizes_of(leaves, own))};
 }
 
@@ -92,7 +92,7 @@ TEST(CornerSizes, PartsTileTheLeaves) {
   const SplitCubes::Leaves leaves = random_leaves(3, 60);
   std::size_t next = 0;
   for (Rank rank = 0; rank < world.size(); ++rank) {
-    const Range part = CornerSizes::part_of(world, leaves, rank);
+    const IndexRange part = CornerSizes::part_of(world, leaves, rank);
     EXPECT_EQ(part.first, next);
     next = part.last;
   }

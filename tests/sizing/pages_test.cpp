@@ -98,7 +98,7 @@ TEST(Pages, AreSharedAlikeInTheirOrder) {
   for (const Cell& cell : cells) of_pages[pages.find(cell.key)] += 1;
   std::size_t next = 0;
   for (Rank rank = 0; rank < world.size(); ++rank) {
-    const Range own = pages.of_rank(rank);
+    const IndexRange own = pages.of_rank(rank);
     ASSERT_EQ(own.first, next);
     next = own.last;
     for (std::size_t page = own.first; page < own.last; ++page) {
@@ -127,7 +127,7 @@ TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const std::vector<Cell> cells = random_cells(seed, 40 * static_cast<int>(seed));
     SplitCubes alone, paged(world, pages_of(world, cells, 4));
-    const Range own = paged.own_pages();
+    const IndexRange own = paged.own_pages();
     for (const Cell& cell : cells) {
       alone.split(cell.key, cell.level - 1);
       const std::size_t page = paged.pages().find(cell.key);
@@ -153,14 +153,14 @@ TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
 }
 
 TEST(SeedTree, OfManyRanksFindsTheCheapest) {
-  for (const Communicator& world : nodes_of_world())
+  for (const Communicator& world : nodes_of_world()) {
     for (const int count : {1, 50, 3000}) {
       std::vector<SizeSeed> seeds, mine;
       std::mt19937_64 random(7);
       for (const Cell& cell : random_cells(5, count))
         seeds.push_back(
             {grid_point(cell.key), grid_size >> cell.level, 1.0 + static_cast<double>(random() % 9999)});
-      const Range own = own_range(world, seeds.size());
+      const IndexRange own = own_range(world, seeds.size());
       for (std::size_t i = own.first; i < own.last; ++i) mine.push_back(seeds[i]);
       const SeedTree whole = tree_of(Communicator::self(), seeds), shared = tree_of(world, mine);
       for (int i = 0; i < 500; ++i) {
@@ -169,4 +169,5 @@ TEST(SeedTree, OfManyRanksFindsTheCheapest) {
         ASSERT_EQ(shared.cheapest(p, 1e30, near_shared), whole.cheapest(p, 1e30, near));
       }
     }
+  }
 }

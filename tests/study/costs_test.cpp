@@ -103,7 +103,7 @@ TEST(Costs, RefusesWhatTellsNothing) {
 }
 
 TEST(Costs, ReadsTheFolderOfARun) {
-  const Folder folder("costs");
+  const StudyFolder folder("costs");
   EXPECT_NE(refusal([&] { read_costs(folder.path); }).find("no report.json"), std::string::npos);
   write_file(folder.path / "report.json", a_report().dump());
   EXPECT_NE(refusal([&] { read_costs(folder.path); }).find("output.tasks"), std::string::npos);

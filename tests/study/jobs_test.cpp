@@ -8,11 +8,11 @@ namespace aeroloom::study {
 namespace {
 
 TEST(Jobs, AskForWhatIsPredicted) {
-  const Folder folder("jobs");
+  const StudyFolder folder("jobs");
   StudyRecord study = a_study(folder.path / "out", {8}, 1);
   study.options.ranks_per_node = 4;
   const JobOptions jobs{folder.path / "jobs", "#SBATCH --account=wing\n", {}};
-  write_jobs(study, jobs, [](const std::vector<std::string>&) { return Forecast{1e6, 36000, 8e9}; });
+  write_jobs(study, jobs, [](const std::vector<std::string>&) { return CaseForecast{1e6, 36000, 8e9}; });
   const std::string script = read_file(jobs.folder / "strong_8_1.slurm");
   for (const char* line :
        {"#SBATCH --nodes=2", "#SBATCH --ntasks=8", "#SBATCH --ntasks-per-node=4", "#SBATCH --time=05:00:00",
@@ -36,7 +36,7 @@ protected:
     study.runs = {study.runs[1]};
     write_jobs(study, {folder.path / "jobs", "", "env RANKS={ranks} {command}"},
                [](const std::vector<std::string>&) {
-                 return Forecast{1, 1, 1};
+                 return CaseForecast{1, 1, 1};
                });
     // sbatch, as far as the script needs it.
     write_file(folder.path / "bin" / "sbatch", "#!/bin/sh\necho 4711\n");
@@ -50,7 +50,7 @@ protected:
   }
   std::string said() const { return read_file(folder.path / "said"); }
 
-  Folder folder{"script"};
+  StudyFolder folder{"script"};
   RunMarks marks;
 };
 
@@ -82,7 +82,7 @@ TEST_F(ScriptOfJob, SubmitsItselfWhenItsTimeIsOver) {
 
 TEST(Jobs, TellWhatTheQueueWroteOfTheirEnd) {
   // No such jobs are known to any queue here.
-  const Folder folder("queue");
+  const StudyFolder folder("queue");
   write_file(folder.path / "submitted", "strong_4_1 99999998\nstrong_4_2 99999999\n");
   write_file(
       folder.path / "strong_4_1.out",

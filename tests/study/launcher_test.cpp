@@ -25,7 +25,7 @@ TEST(Launcher, RefusesPatternsThatStartNothing) {
 }
 
 TEST(Launcher, TellsHowALineEnded) {
-  const Folder folder("lines");
+  const StudyFolder folder("lines");
   const std::filesystem::path log = folder.path / "log";
   EXPECT_EQ(run_line("echo said; echo wrong >&2; exit 3", log).code, 3);
   EXPECT_EQ(read_file(log), "said\nwrong\n");
@@ -33,7 +33,7 @@ TEST(Launcher, TellsHowALineEnded) {
 }
 
 TEST(Launcher, GivesOnTheFirstEnvironment) {
-  const Folder folder("environment");
+  const StudyFolder folder("environment");
   ::setenv("AEROLOOM_ADDED_LATER", "1", 1);
   EXPECT_EQ(run_line("echo \"${AEROLOOM_ADDED_LATER-unset}\"; test -n \"$PATH\"", folder.path / "log").code,
             0);
@@ -41,7 +41,7 @@ TEST(Launcher, GivesOnTheFirstEnvironment) {
 }
 
 TEST(Launcher, EndsALineWithAllThatItStarted) {
-  const Folder folder("ended");
+  const StudyFolder folder("ended");
   std::thread other([&] {
     while (!std::filesystem::exists(folder.path / "begun"))
       std::this_thread::sleep_for(std::chrono::milliseconds(5));

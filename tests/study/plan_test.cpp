@@ -30,7 +30,7 @@ TEST(Plan, NodesAreFilled) {
 }
 
 TEST(Plan, IsKeptInItsFolder) {
-  const Folder folder("plan");
+  const StudyFolder folder("plan");
   EXPECT_FALSE(holds_study(folder.path));
   const StudyRecord study = a_study(folder.path, {1, 2}, 1, {{2, {"sizing.minimum=0.5"}}});
   save(study);
@@ -59,7 +59,7 @@ TEST(Plan, RefusesToMixCases) {
 }
 
 TEST(Plan, DamagedRecordsAreNamed) {
-  const Folder folder("damaged");
+  const StudyFolder folder("damaged");
   write_file(folder.path / "study.json", "{\"program\": 1}");
   try {
     load_study(folder.path);

@@ -38,7 +38,7 @@ const SeriesRow& row_of(const std::vector<SeriesRow>& rows, Series series, int r
 }
 
 TEST(Results, MarksTellHowFarARunIs) {
-  const Folder folder("marks");
+  const StudyFolder folder("marks");
   EXPECT_EQ(read_marks(folder.path).state, RunState::planned);
   mark_begin(folder.path, 17);
   EXPECT_EQ(read_marks(folder.path).state, RunState::begun);
@@ -53,7 +53,7 @@ TEST(Results, MarksTellHowFarARunIs) {
 }
 
 TEST(Results, SpeedUpIsAgainstOneRankInOnePiece) {
-  const Folder folder("rows");
+  const StudyFolder folder("rows");
   const StudyRecord study = a_study(folder.path, {1, 2}, 3, {{1, {}}, {2, {}}});
   leave_all(study);
   const std::vector<RunResult> runs = collect_runs(study);
@@ -72,7 +72,7 @@ TEST(Results, SpeedUpIsAgainstOneRankInOnePiece) {
 }
 
 TEST(Results, MoreRanksThanProcessorsAreJudgedByCpu) {
-  const Folder folder("cpu");
+  const StudyFolder folder("cpu");
   const StudyRecord study = a_study(folder.path, {1, 2}, 1);
   leave_all(study);
   const std::vector<SeriesRow> rows = make_rows(study, collect_runs(study), machine_of(1));
@@ -84,7 +84,7 @@ TEST(Results, MoreRanksThanProcessorsAreJudgedByCpu) {
 }
 
 TEST(Results, DifferentMeshesAreNamed) {
-  const Folder folder("hashes");
+  const StudyFolder folder("hashes");
   const StudyRecord study = a_study(folder.path, {1, 2}, 2);
   leave_all(study);
   leave_report(folder_of(folder.path, study.runs[2]), 5, 1e5, "other");
@@ -98,7 +98,7 @@ TEST(Results, DifferentMeshesAreNamed) {
 }
 
 TEST(Results, WhatFailedIsShownAsThat) {
-  const Folder folder("failed");
+  const StudyFolder folder("failed");
   const StudyRecord study = a_study(folder.path, {1, 2}, 1);
   leave_all(study);
   const std::filesystem::path failed = folder_of(folder.path, study.runs[2]);
@@ -122,7 +122,7 @@ TEST(Results, WhatFailedIsShownAsThat) {
 }
 
 TEST(Results, TableAndPageHaveAllRuns) {
-  const Folder folder("page");
+  const StudyFolder folder("page");
   const StudyRecord study = a_study(folder.path, {1, 2}, 2, {{1, {}}, {2, {}}});
   leave_all(study);
   const std::vector<RunResult> runs = collect_runs(study);
@@ -146,7 +146,7 @@ TEST(Results, TableAndPageHaveAllRuns) {
 }
 
 TEST(Results, MeshesGoAndReportsStay) {
-  const Folder folder("meshes");
+  const StudyFolder folder("meshes");
   leave_report(folder.path, 1, 1, "x");
   write_file(folder.path / "mesh" / "mesh_0.vtu", "much");
   write_file(folder.path / "mesh.pvtu", "little");

@@ -13,16 +13,16 @@
 namespace aeroloom::study {
 
 /// A folder of this test that is gone with it.
-class Folder {
+class StudyFolder {
 public:
-  explicit Folder(const std::string& name)
+  explicit StudyFolder(const std::string& name)
       : path(std::filesystem::temp_directory_path() / fmt::format("aeroloom_study_{}_{}", name, ::getpid())) {
     std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);
   }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+  ~StudyFolder() { std::filesystem::remove_all(path); }
+  StudyFolder(const StudyFolder&) = delete;
+  StudyFolder& operator=(const StudyFolder&) = delete;
 
   std::filesystem::path path;
 };

@@ -5,7 +5,7 @@
 #include "aeroloom/mesh/quality.hpp"
 #include "aeroloom/mesh/validity.hpp"
 #include "surface/curves.hpp"
-#include "surface/face_mesher.hpp"
+#include "surface/piece_mesher.hpp"
 #include "tests/cad/primitives.hpp"
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
     const double exact = meshed.model.face_area(f);
     bool straight = meshed.model.is_planar(f);
     for (const auto& loop : meshed.model.face(f).loops) {
-      for (const cad::EdgeUse& use : loop)
+      for (const cad::Coedge& use : loop)
         straight = straight && meshed.model.edge_curvature(use.edge, 0.5) == 0;
     }
     EXPECT_NEAR(areas[f], exact, (straight ? 1e-12 : 5e-3) * exact) << meshed.model.face(f).name;

@@ -48,7 +48,7 @@ struct Made {
   LatticeSource source() const { return lattice.source(problem, around.regions); }
   BlockPoints make() const { return make(lattice.tree.first(), lattice.tree.last()); }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
-    return make_points(source(), first, last, around.surface, reach_of_blocks(source(), first, last));
+    return make_points(source(), first, last, around.surface, search_radii_of_blocks(source(), first, last));
   }
 
   surfaces::Surface surface;
@@ -207,10 +207,10 @@ TEST_F(LatticePoints, have_their_regions_from_within_blocks_too) {
   const auto far = fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}});
   for (const Made& made : {Made(Communicator::self(), body, far), Made(Communicator::self())}) {
     const BlockIndex count = made.lattice.tree.block_count();
-    SurfaceReach reach = reach_of_blocks(made.source(), 0, count);
-    for (BlockIndex b = 0; b < count; ++b) reach.of_blocks[b].from_within = made.lattice.table.is_met(b);
+    SearchRadii radii = search_radii_of_blocks(made.source(), 0, count);
+    for (BlockIndex b = 0; b < count; ++b) radii.of_blocks[b].from_within = made.lattice.table.is_met(b);
     const BlockPoints near = make_points(made.source(), 0, count, made.around.surface);
-    const BlockPoints within = make_points(made.source(), 0, count, made.around.surface, reach);
+    const BlockPoints within = make_points(made.source(), 0, count, made.around.surface, radii);
 
     EXPECT_EQ(within.slots, near.slots);
     EXPECT_EQ(within.regions, near.regions);
@@ -218,10 +218,10 @@ TEST_F(LatticePoints, have_their_regions_from_within_blocks_too) {
   }
 }
 
-/// A rank has no other triangles than those within reach of its blocks.
-class WithinReach : public OnOneRank, public testing::WithParamInterface<double> {};
+/// A rank has no other triangles than those within the search radii of its blocks.
+class WithinRadii : public OnOneRank, public testing::WithParamInterface<double> {};
 
-TEST_P(WithinReach, are_all_triangles_that_points_need) {
+TEST_P(WithinRadii, are_all_triangles_that_points_need) {
   Made made(Communicator::self(), uneven(), fields::uniform(GetParam()));
   const LatticeTree& tree = made.lattice.tree;
   std::vector<std::vector<std::int32_t>> of_blocks(tree.block_count());
@@ -236,21 +236,21 @@ TEST_P(WithinReach, are_all_triangles_that_points_need) {
     for (BlockIndex first = 0; first < tree.block_count(); first += 13) {
       const BlockIndex last = std::min(tree.block_count(), first + 13);
       std::set<std::int32_t> known;
-      const SurfaceReach reach = reach_of_blocks(made.source(), first, last);
+      const SearchRadii radii = search_radii_of_blocks(made.source(), first, last);
       for (BlockIndex b = first; b < last; ++b) {
-        const double least = std::max(reach.of_blocks[b - first].least, reach.of_blocks[b - first].nearest);
-        const double most = std::max(reach.of_blocks[b - first].most, least);
+        const double least = std::max(radii.of_blocks[b - first].least, radii.of_blocks[b - first].nearest);
+        const double most = std::max(radii.of_blocks[b - first].most, least);
         const GridBox box = GridBox::of(tree.cube(b));
         tree.for_each_block_in(box.dilated(most), [&](BlockIndex n) {
           const double edge = made.lattice.table.longest_edge[n];
-          if (box.gap_to(GridBox::of(tree.cube(n))) <= std::max(least, reach.per_edge * edge))
+          if (box.gap_to(GridBox::of(tree.cube(n))) <= std::max(least, radii.per_edge * edge))
             known.insert(of_blocks[n].begin(), of_blocks[n].end());
         });
       }
       std::vector<SurfaceTriangle> triangles;
       for (const std::int32_t t : known) triangles.push_back(made.around.triangles[t]);
       fewest = std::min(fewest, triangles.size());
-      const BlockPoints part = make_points(made.source(), first, last, NearSurface(triangles), reach);
+      const BlockPoints part = make_points(made.source(), first, last, NearSurface(triangles), radii);
       const auto from = static_cast<std::ptrdiff_t>(whole.starts[first]);
       ASSERT_EQ(static_cast<std::int64_t>(part.points.size()), whole.starts[last] - whole.starts[first]);
       EXPECT_TRUE(std::equal(part.points.begin(), part.points.end(), whole.points.begin() + from));
@@ -260,7 +260,7 @@ TEST_P(WithinReach, are_all_triangles_that_points_need) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, WithinReach, testing::Values(0.1, 0.125));
+INSTANTIATE_TEST_SUITE_P(all, WithinRadii, testing::Values(0.1, 0.125));
 
 TEST_F(LatticePoints, keep_farther_off_where_a_retry_wants_it) {
   Made made(Communicator::self());
@@ -298,7 +298,7 @@ TEST_F(LatticePoints, are_the_same_however_blocks_are_divided) {
   }
 }
 
-/// With the triangles within reach of the blocks alone, retries included.
+/// With the triangles within the search radii of the blocks alone, retries included.
 TEST(PointsOfRanks, are_the_same_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   const std::array<int, 3> n{20, 5, 5};
@@ -332,7 +332,7 @@ TEST_F(LatticePoints, move_by_their_perturbation_in_another_variant) {
   double farthest = 0;
   for_each_point(second, [&](BlockIndex b, std::int64_t i) {
     const auto at = before.find(lattice_number(made.lattice.tree, b, second.slots[i]));
-    if (at == before.end()) return;  // near the surface, where it came within reach or left it
+    if (at == before.end()) return;  // near the surface, where it came near or went away
     ++common;
     const Vec3 by = second.points[i] - at->second;
     if (b < changed) {

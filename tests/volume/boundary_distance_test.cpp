@@ -12,9 +12,9 @@ namespace {
 
 using geometry::Vec3;
 
-std::vector<Vec3> random_points(int count, double reach) {
+std::vector<Vec3> random_points(int count, double extent) {
   std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> place(-reach, reach);
+  std::uniform_real_distribution<double> place(-extent, extent);
   std::vector<Vec3> points(count);
   for (Vec3& p : points) p = {place(random), place(random), place(random)};
   return points;

@@ -79,10 +79,10 @@ struct Divided {
     }
     std::vector<std::uint8_t> taken(tree.block_count(), 0);
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-      const double reach = lattice.frame.grid_distance(width * sizes[b]);
+      const double radius = lattice.frame.grid_distance(width * sizes[b]);
       for (int child = 0; child < tree.leaf_count(b); ++child) {
         const GridBox box = GridBox::of(tree.leaf(b, child));
-        if (std::any_of(own.begin(), own.end(), [&](const GridBox& o) { return o.gap_to(box) <= reach; }))
+        if (std::any_of(own.begin(), own.end(), [&](const GridBox& o) { return o.gap_to(box) <= radius; }))
           taken[b] |= static_cast<std::uint8_t>(1U << child);
       }
     }
@@ -215,10 +215,10 @@ TEST(NearBoxes, tell_whether_one_is_near) {
     near.build();
     for (int i = 0; i < 200; ++i) {
       const GridBox asked = box();
-      const double reach = 0.3 * place(random);
-      const bool expected =
-          std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& b) { return b.gap_to(asked) <= reach; });
-      EXPECT_EQ(near.any_within(asked, reach), expected);
+      const double radius = 0.3 * place(random);
+      const bool expected = std::any_of(boxes.begin(), boxes.end(),
+                                        [&](const GridBox& b) { return b.gap_to(asked) <= radius; });
+      EXPECT_EQ(near.any_within(asked, radius), expected);
     }
   }
 }

@@ -22,10 +22,10 @@ protected:
     for (int b = 0; b < 200; ++b) {
       const Vec3 low{place(random), place(random), place(random)};
       const Box box{low, low + Vec3{0.3, 0.2, 0.4}};
-      const double reach = 0.2 + part(random);
-      near.collect(boundary, box, reach);
+      const double radius = 0.2 + part(random);
+      near.collect(boundary, box, radius);
       for (int i = 0; i < 10; ++i)
-        visit(low + Vec3{0.3 * part(random), 0.2 * part(random), 0.4 * part(random)}, box, reach);
+        visit(low + Vec3{0.3 * part(random), 0.2 * part(random), 0.4 * part(random)}, box, radius);
     }
   }
 
@@ -34,12 +34,12 @@ protected:
   NearTriangles near;
 };
 
-TEST_F(NearTrianglesOfBoxes, know_the_nearest_within_reach) {
+TEST_F(NearTrianglesOfBoxes, know_the_nearest_within_the_radius) {
   int seen = 0, unseen = 0;
-  for_each_point([&](Vec3 p, const Box&, double reach) {
+  for_each_point([&](Vec3 p, const Box&, double radius) {
     const auto of_all = boundary.nearest(p);
     const auto of_near = near.nearest(p);
-    ASSERT_EQ(of_near.has_value(), of_all.distance < reach);
+    ASSERT_EQ(of_near.has_value(), of_all.distance < radius);
     ++(of_near ? seen : unseen);
     if (!of_near) return;
     EXPECT_EQ(of_near->distance, of_all.distance);
@@ -51,8 +51,8 @@ TEST_F(NearTrianglesOfBoxes, know_the_nearest_within_reach) {
 
 TEST_F(NearTrianglesOfBoxes, keep_points_off_each_as_far_as_its_edges_say) {
   int clear = 0, refused = 0;
-  for_each_point([&](Vec3 p, const Box&, double reach) {
-    const Clearance clearance{0.8, 0.2 * reach, reach / 0.8};
+  for_each_point([&](Vec3 p, const Box&, double radius) {
+    const Clearance clearance{0.8, 0.2 * radius, radius / 0.8};
     bool any = false;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
@@ -66,9 +66,9 @@ TEST_F(NearTrianglesOfBoxes, keep_points_off_each_as_far_as_its_edges_say) {
 }
 
 TEST_F(NearTrianglesOfBoxes, are_there_where_a_leaf_is) {
-  for_each_point([&](Vec3 p, const Box& box, double reach) {
-    if (boundary.nearest(p).distance < reach) {
-      EXPECT_TRUE(boundary.any_in(box.dilated(reach)));
+  for_each_point([&](Vec3 p, const Box& box, double radius) {
+    if (boundary.nearest(p).distance < radius) {
+      EXPECT_TRUE(boundary.any_in(box.dilated(radius)));
     }
   });
   EXPECT_FALSE(boundary.any_in(Box{{9, 9, 9}, {10, 10, 10}}));

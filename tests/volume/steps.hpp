@@ -98,25 +98,25 @@ struct Lattice {
   std::vector<BlockChange> changes;
 };
 
-/// The triangles within reach of a rank's blocks, and the regions of these.
+/// The triangles near a rank's blocks, and the regions of these.
 struct Surroundings {
   Surroundings(const Problem& problem, Lattice& lattice)
-      : reach(reach_of(problem, lattice)),
+      : radii(radii_of(problem, lattice)),
         triangles(deliver(problem, lattice)),
         surface(triangles),
-        found(find_block_regions(problem.communicator, lattice.known(), {triangles, surface, reach},
+        found(find_block_regions(problem.communicator, lattice.known(), {triangles, surface, radii},
                                  lattice.clock)),
         regions(found.of_block) {}
 
-  static SurfaceReach reach_of(const Problem& problem, Lattice& lattice) {
-    return reach_of_blocks(lattice.source(problem, {}), lattice.tree.first(), lattice.tree.last());
+  static SearchRadii radii_of(const Problem& problem, Lattice& lattice) {
+    return search_radii_of_blocks(lattice.source(problem, {}), lattice.tree.first(), lattice.tree.last());
   }
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, reach_of(problem, lattice),
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii_of(problem, lattice),
                           lattice.own_triangles, lattice.clock);
   }
 
-  SurfaceReach reach;
+  SearchRadii radii;
   std::vector<SurfaceTriangle> triangles;
   NearSurface surface;
   BlockRegions found;

@@ -10,7 +10,7 @@
 namespace aeroloom::volume {
 namespace {
 
-SurfacePart part(const surfaces::Surface& surface) {
+TriangleSoup part(const surfaces::Surface& surface) {
   return {surface.points, surface.triangles};
 }
 

@@ -7,7 +7,7 @@
 #include "geometry/predicates.hpp"
 #include "mesh/mixing.hpp"
 #include "volume/owned_cells.hpp"
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -131,10 +131,10 @@ TEST(RunTetgen, cuts_points_on_a_sphere_by_their_order_whatever_lies_around) {
   };
   const auto expected = cut(all);
   EXPECT_GE(expected.size(), 15u);
-  for (const double reach : {1.6, 2.2, 3.0}) {
+  for (const double extent : {1.6, 2.2, 3.0}) {
     std::vector<Vec3> part;
     for (const Vec3& p : all) {
-      if (std::max(std::abs(p.y), std::abs(p.z)) < reach && std::abs(p.x) < 2 + reach) part.push_back(p);
+      if (std::max(std::abs(p.y), std::abs(p.z)) < extent && std::abs(p.x) < 2 + extent) part.push_back(p);
     }
     EXPECT_LT(part.size(), all.size());
     EXPECT_EQ(cut(part), expected);

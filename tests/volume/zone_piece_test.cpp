@@ -44,7 +44,7 @@ protected:
     zones = new std::vector<Zone>;
     for (const ZoneShipment& batch : data.plan.batches) {
       for (ZoneContent& content : supply_zones(*communicator, data.store(problem->input()), batch, clock)) {
-        ZoneFilling filling = fill_zone(content.problem, parallel::Fault::none);
+        ZoneFilling filling = fill_zone_in_child(content.problem, parallel::Fault::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(content, filling);
         zones->push_back({std::move(content), std::move(filling), std::move(result)});

@@ -87,19 +87,19 @@ public:
   bool holds(const GridBox& box, BlockIndex b) {
     if (b != _block) {
       _block = b;
-      _reach = _divided.data.frame->grid_distance(
+      _radius = _divided.data.frame->grid_distance(
           _divided.problem.options.halo *
           largest_size_around(*_divided.data.frame, *_divided.data.tree, _divided.data.table, b));
     }
     return std::any_of(_leaves.begin(), _leaves.end(),
-                       [&](const GridBox& leaf) { return leaf.gap_to(box) <= _reach; });
+                       [&](const GridBox& leaf) { return leaf.gap_to(box) <= _radius; });
   }
 
 private:
   const Divided& _divided;
   std::vector<GridBox> _leaves;
   BlockIndex _block = -1;
-  double _reach = 0;  ///< of that block
+  double _radius = 0;  ///< of that block
 };
 
 TEST(PlanZones, is_the_same_on_every_rank_and_looks_at_each_zone_once) {

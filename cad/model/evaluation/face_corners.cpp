@@ -29,13 +29,13 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
   const Face& face = model.face(id);
   std::vector<FaceCorner> corners;
   for (const auto& whole_loop : face.loops) {
-    // At a pole the edges before and behind it meet.
-    std::vector<EdgeUse> loop;
-    for (const EdgeUse& use : whole_loop) {
+    // At a pole the edges before and after it meet.
+    std::vector<Coedge> loop;
+    for (const Coedge& use : whole_loop) {
       if (!model.edge(use.edge).degenerate) loop.push_back(use);
     }
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const EdgeUse &arriving = loop[i], &leaving = loop[(i + 1) % loop.size()];
+      const Coedge &arriving = loop[i], &leaving = loop[(i + 1) % loop.size()];
       if (model.is_seam(arriving.edge) || model.is_seam(leaving.edge)) continue;
       const Edge& edge = model.edge(leaving.edge);
       corners.push_back({id, leaving.reversed ? edge.last : edge.first, arriving, leaving});
@@ -44,55 +44,55 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
   return corners;
 }
 
-FaceId face_beyond(const Model& model, FaceId face, EdgeId id) {
+FaceId neighbour_face(const Model& model, FaceId face, EdgeId id) {
   const Edge& edge = model.edge(id);
   if (edge.faces.size() != 2) return no_entity;
   const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
   int uses = 0;
   for (const auto& loop : model.face(other).loops) {
-    for (const EdgeUse& use : loop) uses += use.edge == id;
+    for (const Coedge& use : loop) uses += use.edge == id;
   }
   return uses == 1 ? other : no_entity;
 }
 
-BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner) {
-  const FaceId first = face_beyond(model, corner.face, corner.arriving.edge),
-               second = face_beyond(model, corner.face, corner.leaving.edge);
-  if (first == no_entity || second == no_entity || first == second) return BeyondCorner::other;
+CornerNeighbours neighbours_at_corner(const Model& model, const FaceCorner& corner) {
+  const FaceId first = neighbour_face(model, corner.face, corner.arriving.edge),
+               second = neighbour_face(model, corner.face, corner.leaving.edge);
+  if (first == no_entity || second == no_entity || first == second) return CornerNeighbours::other;
   for (const auto& loop : model.face(first).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       const Edge& edge = model.edge(use.edge);
       const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
       if (at_corner && std::find(edge.faces.begin(), edge.faces.end(), second) != edge.faces.end())
-        return BeyondCorner::faces_that_meet;
+        return CornerNeighbours::faces_that_meet;
     }
   }
-  return BeyondCorner::two_faces;
+  return CornerNeighbours::two_faces;
 }
 
 std::optional<double> parameter_at(const Model& model, EdgeEnd end, double wanted) {
   const Edge& edge = model.edge(end.edge);
   const double from = end.first ? edge.first_parameter : edge.last_parameter;
   const double range = (end.first ? edge.last_parameter : edge.first_parameter) - from;
-  // Growing by half ends close behind the place, and 40 bisections narrow it to 1e-12 of that.
+  // Growing by half ends close after the place, and 40 bisections narrow it to 1e-12 of that.
   constexpr double growth = 1.5;
   constexpr int bisections = 40;
   const Vec3 vertex = model.edge_point(end.edge, from);
-  const auto is_beyond = [&](double part) {
+  const auto is_past = [&](double part) {
     return distance(model.edge_point(end.edge, from + part * range), vertex) >= wanted;
   };
   const double speed = norm(model.edge_tangent(end.edge, from)) * std::abs(range);
   double high =
              speed > 0 ? std::clamp(wanted / speed, tolerances::same_parameter, 0.5) : tolerances::beside_end,
          low = 0;
-  while (!is_beyond(high)) {
+  while (!is_past(high)) {
     if (high >= 0.5) return std::nullopt;
     low = high;
     high = std::min(growth * high, 0.5);
   }
   for (int step = 0; step < bisections; ++step) {
     const double middle = 0.5 * (low + high);
-    (is_beyond(middle) ? high : low) = middle;
+    (is_past(middle) ? high : low) = middle;
   }
   return from + high * range;
 }

@@ -7,7 +7,7 @@
 
 namespace aeroloom::cad {
 
-/// Integrals over a face turned forward (its normal along du x dv).
+/// Integrals over a face oriented forward (its normal along du x dv).
 struct FaceIntegrals {
   double area = 0;
   double flux = 0;   ///< a third of the flux of the position seen from the reference point: a volume

@@ -19,7 +19,7 @@ FacePlace place_of(const TopoDS_Face& face) {
 }
 
 FacePlace Model::face_place(FaceId id) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
+  if (const JoinedModel* joined = _data->joined.get()) {
     FacePlace whole;
     Vec3 moment;
     for (const Sheet& sheet : joined->faces.at(id).sheets) {

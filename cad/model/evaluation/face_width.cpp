@@ -23,7 +23,7 @@ double rough_length(const Model& model, EdgeId id) {
 double mean_width(const Model& model, FaceId face) {
   double perimeter = 0;
   for (const auto& loop : model.face(face).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       if (!model.is_seam(use.edge)) perimeter += rough_length(model, use.edge);
     }
   }

@@ -18,9 +18,9 @@ namespace {
 /// Parameters for a point that was moved away from those of `guess`: where the surface goes on to it, its
 /// own, else the guess, which lies on the face's border.
 Vec2 follow_moved_point(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
-  const Vec2 settled = settle_on_face(face, point, guess, tolerance);
+  const Vec2 found = find_parameters(face, point, guess, tolerance);
   const double before = distance(face.surface.point(guess), point);
-  return distance(face.surface.point(settled), point) < 0.5 * before ? settled : guess;
+  return distance(face.surface.point(found), point) < 0.5 * before ? found : guess;
 }
 
 PrincipalCurvatures curvatures_of(const SurfaceJet& jet) {
@@ -117,8 +117,8 @@ double Model::edge_curvature(EdgeId id, double parameter) const {
 
 // Curve and parameter curve of an edge trace the same line, in many files not at the same pace: the parameter
 // curve gives a guess, the point of the edge decides.
-Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
+Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
+  if (const JoinedModel* joined = _data->joined.get()) {
     const JoinedFace& all = joined->faces.at(face);
     if (all.sheets.size() == 1) return joined->base.edge_uv(all.sheets.front().face, use, parameter);
     const JoinedFace::Use& own = all.use(use);
@@ -135,14 +135,14 @@ Vec2 Model::edge_uv(FaceId face, const EdgeUse& use, double parameter) const {
   const Edge& edge = _data->edges[use.edge];
   double at = parameter;
   if (on_face.first != edge.first_parameter || on_face.last != edge.last_parameter) {
-    const double share = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
-    at = on_face.first + share * (on_face.last - on_face.first);
+    const double fraction = (parameter - edge.first_parameter) / (edge.last_parameter - edge.first_parameter);
+    at = on_face.first + fraction * (on_face.last - on_face.first);
   }
   const gp_Pnt2d guess = on_face.curve.Value(at);
   const bool is_end = parameter == edge.first_parameter || parameter == edge.last_parameter;
   if (edge.degenerate || is_end) return {guess.X(), guess.Y()};
-  return settle_on_face(evaluator, edge_point(use.edge, parameter), {guess.X(), guess.Y()},
-                        tolerances::foot_beside * _data->bounds.diagonal());
+  return find_parameters(evaluator, edge_point(use.edge, parameter), {guess.X(), guess.Y()},
+                         tolerances::foot_beside * _data->bounds.diagonal());
 }
 
 std::vector<double> Model::edge_breaks(EdgeId id) const {
@@ -160,16 +160,16 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
-    const JoinedFaces::Place at = joined->locate(id, uv);
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_point(at.face, at.uv);
   }
   return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
-    const JoinedFaces::Place at = joined->locate(id, uv);
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_frame(at.face, at.uv);
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -184,8 +184,8 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 }
 
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
-    const JoinedFaces::Place at = joined->locate(id, uv);
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_curvatures(at.face, at.uv);
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -194,8 +194,8 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
 }
 
 CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
-    const JoinedFaces::Place at = joined->locate(id, uv);
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_curved_point(at.face, at.uv);
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -205,8 +205,8 @@ CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
-    const JoinedFaces::Place at = joined->locate(id, uv);
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.parameter_periods(at.face, at.uv);
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -214,8 +214,8 @@ Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::wrap(FaceId id, Vec2 uv) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
-    const JoinedFaces::Place at = joined->locate(id, uv);
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
     return joined->faces[id].from_member(at.sheet, joined->base.wrap(at.face, at.uv));
   }
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -223,7 +223,7 @@ Vec2 Model::wrap(FaceId id, Vec2 uv) const {
 }
 
 bool Model::is_planar(FaceId id) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
+  if (const JoinedModel* joined = _data->joined.get()) {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() == 1 && joined->base.is_planar(sheets.front().face);
   }
@@ -231,7 +231,7 @@ bool Model::is_planar(FaceId id) const {
 }
 
 bool Model::is_exact_plane(FaceId id) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
+  if (const JoinedModel* joined = _data->joined.get()) {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() == 1 && joined->base.is_exact_plane(sheets.front().face);
   }
@@ -259,13 +259,13 @@ bool Model::is_seam(EdgeId id) const {
   if (edge.faces.size() != 1) return false;
   int uses = 0;
   for (const auto& loop : _data->faces[edge.faces.front()].loops) {
-    for (const EdgeUse& use : loop) uses += use.edge == id;
+    for (const Coedge& use : loop) uses += use.edge == id;
   }
   return uses > 1;
 }
 
 double Model::face_area(FaceId id) const {
-  if (const JoinedFaces* joined = _data->joined.get()) {
+  if (const JoinedModel* joined = _data->joined.get()) {
     double area = 0;
     for (const Sheet& sheet : joined->faces.at(id).sheets) area += joined->base.face_area(sheet.face);
     return area;
@@ -274,7 +274,7 @@ double Model::face_area(FaceId id) const {
 }
 
 double Model::region_volume(RegionId id) const {
-  if (const JoinedFaces* joined = _data->joined.get()) return joined->base.region_volume(id);
+  if (const JoinedModel* joined = _data->joined.get()) return joined->base.region_volume(id);
   // Seen from the middle of the region: from far off, what integrals lack is a part of areas times distances,
   // which may be more than the volume of a small region.
   Vec3 middle;

@@ -66,7 +66,7 @@ double distance_of_moved(const Model::Data& data, FaceId id, const std::vector<c
   const Vec3 normal = normalized(cross(jet.du, jet.dv));
   double largest = 0;
   for (const auto& loop : data.faces[id].loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       const Edge& edge = data.edges[use.edge];
       if (!moved[use.edge] || edge.degenerate) continue;
       for (int i = 0; i <= samples; ++i) {
@@ -83,7 +83,7 @@ double distance_of_moved(const Model::Data& data, FaceId id, const std::vector<c
 void fix_moved(Model::Data& data, FaceId id, const std::vector<char>& moved) {
   const Snap& snap = data.face_snaps[id];
   for (const auto& loop : data.faces[id].loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       if (!moved[use.edge]) continue;
       const Edge& edge = data.edges[use.edge];
       for (int axis = 0; axis < 3; ++axis) {

@@ -10,12 +10,12 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Samples of a face are as dense as its curvature asks for: Newton's method starts within reach. Chosen, not
-/// measured.
+/// Samples of a face are as dense as its curvature asks for: Newton's method converges from the nearest.
+/// Chosen, not measured.
 constexpr double facet_angle = 20 * std::numbers::pi / 180;
 constexpr double facet_deflection = 0.01;  // of the body
-/// The body counts as no smaller than this part of everything: a far field needs no more samples the farther
-/// it is.
+/// The body counts as no smaller than this fraction of everything: a far field needs no more samples the
+/// farther it is.
 constexpr double least_body = 1.0 / 400;
 /// Of a curve, where it is smooth; chosen, not measured.
 constexpr int samples_per_interval = 32;
@@ -62,8 +62,8 @@ void PointLocator::sample(EdgeId id, EdgeSamples& samples) const {
   const std::vector<double> breaks = _model.edge_breaks(id);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     for (int k = 0; k <= samples_per_interval; ++k) {
-      const double share = static_cast<double>(k) / samples_per_interval;
-      const double parameter = (1 - share) * breaks[i] + share * breaks[i + 1];
+      const double fraction = static_cast<double>(k) / samples_per_interval;
+      const double parameter = (1 - fraction) * breaks[i] + fraction * breaks[i + 1];
       samples.parameters.push_back(parameter);
       samples.points.push_back(_model.edge_point(id, parameter));
     }
@@ -108,10 +108,10 @@ double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) 
       closer = distance(model.edge_point(id, next), point);
     }
     if (!(closer < away)) break;
-    const bool settled = std::abs(next - at) <= resolution;
+    const bool converged = std::abs(next - at) <= resolution;
     at = next;
     away = closer;
-    if (settled) break;
+    if (converged) break;
   }
   return at;
 }

@@ -20,8 +20,8 @@ constexpr int newton_steps = 40, step_halvings = 12;
 /// Steps from a guess on the same sheet, which is off by what a file's parameter curve is: Newton's method
 /// doubles its digits with each.
 constexpr int settling_steps = 8;
-/// The Hessian counts as positive definite where it is at least this part of the first fundamental form in
-/// each parameter, and its determinant the square of it: where the surface bends towards the point by nine
+/// The Hessian counts as positive definite where it is at least this fraction of the first fundamental form
+/// in each parameter, and its determinant the square of it: where the surface bends towards the point by nine
 /// tenths of what would make the distance stationary, Newton's step is too long to trust. Chosen, not
 /// measured.
 constexpr double least_convexity = 0.1, least_convexity2 = 0.01;
@@ -58,7 +58,7 @@ public:
   }
 
   /// Nearest point of the same sheet around the guess: neither wrapped nor moved to another end.
-  Vec2 settle(Vec2 guess) const {
+  Vec2 slide_to(Vec2 guess) const {
     Distance at = evaluate(clamp(guess));
     for (int step = 0; step < settling_steps && at.value > 0.5 * _tolerance * _tolerance && descend(at);
          ++step) {
@@ -87,9 +87,9 @@ private:
   /// One damped step. False when the point cannot get closer: it is the nearest.
   bool descend(Distance& at) const {
     const Vec2 direction = shorten(newton_direction(at));
-    double share = 1;
-    for (int halving = 0; halving < step_halvings; ++halving, share *= 0.5) {
-      const Vec2 target = clamp(at.uv + share * direction);
+    double fraction = 1;
+    for (int halving = 0; halving < step_halvings; ++halving, fraction *= 0.5) {
+      const Vec2 target = clamp(at.uv + fraction * direction);
       const Vec2 move = target - at.uv;
       const double length2 =
           at.guu * move.x * move.x + 2 * at.guv * move.x * move.y + at.gvv * move.y * move.y;
@@ -125,8 +125,8 @@ private:
 
   /// Near a pole a step may run round the surface many times: a quarter of the face is far enough.
   Vec2 shorten(Vec2 direction) const {
-    const double share = std::max(std::abs(direction.x) / extent().x, std::abs(direction.y) / extent().y);
-    return share > longest_way ? (longest_way / share) * direction : direction;
+    const double fraction = std::max(std::abs(direction.x) / extent().x, std::abs(direction.y) / extent().y);
+    return fraction > longest_way ? (longest_way / fraction) * direction : direction;
   }
 
   Vec2 extent() const { return _face.uv_high - _face.uv_low; }
@@ -225,8 +225,8 @@ Projection search(const FaceEvaluator& face, Vec3 target, const Projection& best
 
 }  // namespace
 
-Vec2 settle_on_face(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
-  return Projector(face, point, tolerance).settle(guess);
+Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance) {
+  return Projector(face, point, tolerance).slide_to(guess);
 }
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {

@@ -82,9 +82,9 @@ void SplineSurface::basis(const Direction& direction, int span, double parameter
     auto& upper = row(d);
     double saved = 0;
     for (int r = 0; r < d; ++r) {
-      const double share = lower[r] / (right[r + 1] + left[d - r]);
-      upper[r] = saved + right[r + 1] * share;
-      saved = left[d - r] * share;
+      const double fraction = lower[r] / (right[r + 1] + left[d - r]);
+      upper[r] = saved + right[r + 1] * fraction;
+      saved = left[d - r] * fraction;
     }
     upper[d] = saved;
   }

@@ -75,14 +75,14 @@ public:
     constexpr int per_interval = 8, most_intervals = 200;
     _samples = per_interval * std::min(most_intervals, _curve.NbIntervals(GeomAbs_C2)) + per_interval;
     _first = _curve.FirstParameter(), _step = (_curve.LastParameter() - _first) / _samples;
-    std::array<double, 2 * axes> reach;
-    reach.fill(-std::numeric_limits<double>::max());
+    std::array<double, 2 * axes> farthest;
+    farthest.fill(-std::numeric_limits<double>::max());
     for (int i = 0; i <= _samples; ++i) {
       const gp_Pnt p = _curve.Value(_first + i * _step);
       add_point(box, p);
       for (int side = 0; side < 2 * axes; ++side) {
         const double height = (side % 2 ? 1 : -1) * p.Coord(side / 2 + 1);
-        if (height > reach[side]) reach[side] = height, _best[side] = i;
+        if (height > farthest[side]) farthest[side] = height, _best[side] = i;
       }
     }
   }
@@ -108,7 +108,7 @@ private:
   std::array<int, 2 * axes> _best{};
 };
 
-/// Only edges whose control points reach beyond the samples of all can add to these.
+/// Only edges whose control points lie outside the samples of all can add to these.
 void add_edges(Box& box, const TopTools_IndexedMapOfShape& edges) {
   std::vector<std::pair<int, EdgeExtremes>> curved;
   for (int i = 1; i <= edges.Extent(); ++i) {
@@ -123,7 +123,8 @@ void add_edges(Box& box, const TopTools_IndexedMapOfShape& edges) {
   }
 }
 
-/// Extremes inside a face: samples, then Newton's method for the point where the surface turns back.
+/// Extremes inside a face: samples, then Newton's method for the point where the distance along a direction
+/// falls again.
 class FaceExtremes {
 public:
   FaceExtremes(const TopoDS_Face& face, Box& box)
@@ -157,7 +158,7 @@ public:
   }
 
 private:
-  static constexpr int samples = 16;       // each way: one within reach of Newton's method from each extreme
+  static constexpr int samples = 16;  // each way: Newton's method converges from one of them to each extreme
   static constexpr int newton_steps = 20;  // most end after few, at a step that leads no higher
 
   struct Sample {
@@ -184,9 +185,10 @@ private:
       const double determinant = a * c - b * b;
       Vec2 move{(-gu * c + gv * b) / determinant, (-gv * a + gu * b) / determinant};
       if (!(determinant > 0 && a < 0)) {
-        const double share = std::max(std::abs(gu) / (_high.x - _low.x), std::abs(gv) / (_high.y - _low.y));
-        if (!(share > 0)) return;
-        move = Vec2{gu, gv} / (share * 2 * samples);
+        const double fraction =
+            std::max(std::abs(gu) / (_high.x - _low.x), std::abs(gv) / (_high.y - _low.y));
+        if (!(fraction > 0)) return;
+        move = Vec2{gu, gv} / (fraction * 2 * samples);
       }
       const Vec2 next{std::clamp(uv.x + move.x, _low.x, _high.x), std::clamp(uv.y + move.y, _low.y, _high.y)};
       const gp_Pnt there = _surface.Value(next.x, next.y);

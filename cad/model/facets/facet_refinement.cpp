@@ -12,8 +12,8 @@ namespace {
 // follow. A pass halves the worst facets, so that two dozen reach any deflection; chosen, not measured.
 constexpr int passes = 24;
 constexpr std::size_t most_growth = 20, least_allowance = 20000;
-/// Facets whose longest side is shorter, over the deflection, are good however they are turned: dividing them
-/// gains nothing that anyone sees.
+/// Facets whose longest side is shorter, over the deflection, are good however they are oriented: dividing
+/// them gains nothing that anyone sees.
 constexpr double shortest_side = 0.1;
 /// Twice the area over the square of the longest side, below which a facet is mended by taking a point away.
 constexpr double flat = 0.1;
@@ -192,9 +192,9 @@ std::int32_t FacetRefiner::add_triangle(const Triangle& triangle) {
 }
 
 std::int32_t FacetRefiner::partner(const BoundarySide& side) const {
-  const EdgeUse& use = _facets.boundary[side.line].use;
+  const Coedge& use = _facets.boundary[side.line].use;
   for (std::size_t l = 0; l < _facets.boundary.size(); ++l) {
-    const EdgeUse& other = _facets.boundary[l].use;
+    const Coedge& other = _facets.boundary[l].use;
     if (other.edge != use.edge || other.use == use.use) continue;
     const auto found = _side_at.find({static_cast<std::int32_t>(l), side.low});
     if (found != _side_at.end() && _sides[found->second].high == side.high) return found->second;

@@ -39,7 +39,7 @@ private:
   Vec3 point(std::int32_t node) const { return _facets.points[node]; }
   Vec2 uv(std::int32_t node) const { return _facets.uv[node]; }
 
-  /// Along du x dv, whichever way the face is turned; zero where undefined.
+  /// Along du x dv, whichever way the face is oriented; zero where undefined.
   Vec3 normal_at(Vec2 uv) const;
 
   // --- topology: a link is the triangle across a side, or the complement of the index of a boundary side.

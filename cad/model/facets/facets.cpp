@@ -29,7 +29,8 @@ namespace aeroloom::cad {
 namespace {
 
 /// A private copy of a face to triangulate. Edges remember the polygons of every face meshed before, and the
-/// triangulator reuses them: on the face itself the result would depend on its neighbours' turn.
+/// triangulator reuses them: on the face itself the result would depend on which neighbour was triangulated
+/// first.
 struct MeshedFace {
   TopoDS_Face face;
   BRepBuilderAPI_Copy copy;
@@ -52,7 +53,7 @@ MeshedFace triangulate(const FaceEvaluator& evaluator, double deflection, double
   return meshed;
 }
 
-Facets::BoundaryLine boundary_line(const MeshedFace& meshed, const EdgeEvaluator& edge, const EdgeUse& use,
+Facets::BoundaryLine boundary_line(const MeshedFace& meshed, const EdgeEvaluator& edge, const Coedge& use,
                                    bool second) {
   TopoDS_Edge copied = TopoDS::Edge(meshed.copy.ModifiedShape(edge.shape));
   copied.Orientation(second ? TopAbs_REVERSED : TopAbs_FORWARD);
@@ -96,7 +97,7 @@ Facets extract(const Model::Data& data, FaceId id, const MeshedFace& meshed) {
 
 /// Boundary nodes lie on their edges' curves; their parameters on the face come from there too, not from the
 /// parameter curves, which may run at another pace. Where that would turn a triangle over, they stay.
-void settle_boundary(const Model& model, FaceId id, Facets& facets) {
+void take_edge_parameters(const Model& model, FaceId id, Facets& facets) {
   const std::vector<Vec2> before = facets.uv;
   for (const Facets::BoundaryLine& line : facets.boundary) {
     for (std::size_t i = 1; i + 1 < line.nodes.size(); ++i) {
@@ -177,12 +178,12 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
   std::string defect;
   // The library leaves holes and folds at some deflections and not at others: a finer one is tried where it
   // did.
-  for (const double share : {1.0, 0.5, 0.25, 0.1, 0.02}) {
-    Facets facets = extract(data, id, triangulate(evaluator, share * deflection, angle));
+  for (const double fraction : {1.0, 0.5, 0.25, 0.1, 0.02}) {
+    Facets facets = extract(data, id, triangulate(evaluator, fraction * deflection, angle));
     defect = find_defect(facets);
     if (defect.empty() && folded_share(facets) > tolerances::folded) defect = "facets folded over each other";
     if (!defect.empty()) continue;
-    settle_boundary(model, id, facets);
+    take_edge_parameters(model, id, facets);
     if (!evaluator.planar) refine_facets(model, id, deflection, angle, facets);
     spread_poles(model, id, facets);
     if (evaluator.reversed) {

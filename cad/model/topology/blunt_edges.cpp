@@ -21,25 +21,25 @@ using geometry::degree;
 /// Strips are this many times longer than wide, at least: a face that is less slender is a wall of its own.
 /// Chosen, not measured.
 constexpr double slenderness = 10;
-/// An edge across a strip's end is at most this part of the long borders: else the face is a triangle or a
-/// fan. Chosen, not measured.
-constexpr double end_share = 0.25;
+/// An edge across a strip's end is at most this fraction of the long borders: else the face is a triangle or
+/// a fan. Chosen, not measured.
+constexpr double end_fraction = 0.25;
 /// Places inside a strip where angles and widths are measured: a wing's sections change slowly along it.
 constexpr int stations = 9;
 
 using Kind = BluntEdgeFinding::Kind;
 
 struct Run {
-  std::vector<EdgeUse> uses;
+  std::vector<Coedge> uses;
   double length = 0;
 };
 
-bool is_reversed_end(const EdgeUse& use, bool at_start) {
+bool is_reversed_end(const Coedge& use, bool at_start) {
   return use.reversed == at_start;
 }
 
-/// The direction of the loop at the start or end of a coedge, as a chord over a small part of the edge.
-Vec3 direction_at(const Model& model, const EdgeUse& use, bool at_start) {
+/// The direction of the loop at the start or end of a coedge, as a chord over a small fraction of the edge.
+Vec3 direction_at(const Model& model, const Coedge& use, bool at_start) {
   const Edge& edge = model.edge(use.edge);
   const double range = edge.last_parameter - edge.first_parameter;
   const bool at_last = is_reversed_end(use, at_start);
@@ -55,11 +55,11 @@ double angle_between(Vec3 a, Vec3 b) {
 }
 
 /// The loop cut at its corners; nothing where it has none.
-std::vector<Run> cut_at_corners(const Model& model, const std::vector<EdgeUse>& loop) {
+std::vector<Run> cut_at_corners(const Model& model, const std::vector<Coedge>& loop) {
   const std::size_t count = loop.size();
   std::vector<std::size_t> starts;
   for (std::size_t i = 0; i < count; ++i) {
-    const EdgeUse& before = loop[(i + count - 1) % count];
+    const Coedge& before = loop[(i + count - 1) % count];
     if (angle_between(direction_at(model, before, false), direction_at(model, loop[i], true)) >
         tolerances::smooth)
       starts.push_back(i);
@@ -104,8 +104,8 @@ Sides tell_sides(std::vector<Run> runs) {
 /// The two borders of a strip from the same end of the strip to the other: the second against the loop.
 std::string lay_borders(const Model& model, const Sides& sides, BluntEdge& strip) {
   for (int side = 0; side < 2; ++side) {
-    for (const EdgeUse& use : sides.borders[side].uses) {
-      const FaceId neighbour = face_beyond(model, strip.face, use.edge);
+    for (const Coedge& use : sides.borders[side].uses) {
+      const FaceId neighbour = neighbour_face(model, strip.face, use.edge);
       if (neighbour == no_entity) return "a long border is not shared with one other face";
       strip.borders[side].push_back({use, use.reversed != (side == 1), neighbour});
     }
@@ -113,8 +113,8 @@ std::string lay_borders(const Model& model, const Sides& sides, BluntEdge& strip
   std::reverse(strip.borders[1].begin(), strip.borders[1].end());
   // Behind the first border the strip ends, behind the second it starts.
   for (int end = 0; end < 2; ++end) {
-    for (const EdgeUse& use : sides.ends[1 - end].uses) {
-      if (face_beyond(model, strip.face, use.edge) == no_entity)
+    for (const Coedge& use : sides.ends[1 - end].uses) {
+      if (neighbour_face(model, strip.face, use.edge) == no_entity)
         return "an edge at an end is not shared with one other face";
       strip.ends[end].push_back(use.edge);
     }
@@ -131,9 +131,9 @@ struct Section {
 };
 
 /// The coedge of a face along an edge that it passes once.
-EdgeUse use_of(const Model& model, FaceId face, EdgeId edge) {
+Coedge use_of(const Model& model, FaceId face, EdgeId edge) {
   for (const auto& loop : model.face(face).loops) {
-    for (const EdgeUse& use : loop) {
+    for (const Coedge& use : loop) {
       if (use.edge == edge) return use;
     }
   }
@@ -147,7 +147,7 @@ Section section_at(const Model& model, const BluntEdge& strip,
   section.convex = true;
   for (int side = 0; side < 2; ++side) {
     const BorderEdge& border = strip.borders[side][at[side].edge];
-    const EdgeUse use = use_of(model, border.neighbour, border.strip_use.edge);
+    const Coedge use = use_of(model, border.neighbour, border.strip_use.edge);
     const double t = at[side].parameter;
     const Vec3 own = model.face_frame(strip.face, model.edge_uv(strip.face, border.strip_use, t)).normal;
     const Vec3 normal = model.face_frame(border.neighbour, model.edge_uv(border.neighbour, use, t)).normal;
@@ -164,7 +164,7 @@ Section section_at(const Model& model, const BluntEdge& strip,
   return section;
 }
 
-/// How far the neighbours along a border reach from it, about.
+/// How far the neighbours along a border extend from it, about.
 double breadth(const Model& model, const std::vector<BorderEdge>& border, double length) {
   std::set<FaceId> faces;
   double area = 0;
@@ -201,13 +201,13 @@ void judge(const Model& model, double width, BluntEdgeFinding& finding) {
   strip.narrowest = std::numeric_limits<double>::max();
   std::vector<BluntStation> along;
   for (int i = 0; i <= stations + 1; ++i) {
-    const double share = static_cast<double>(i) / (stations + 1);
-    std::array<BorderPath::ChainPlace, 2> at{first.at(share * first.length()), {}};
+    const double fraction = static_cast<double>(i) / (stations + 1);
+    std::array<BorderPath::ChainPlace, 2> at{first.at(fraction * first.length()), {}};
     at[1] = second.nearest(at[0].point);
     double width = distance(at[0].point, at[1].point);
     // Where a strip ends obliquely one border goes on without the other.
     if (i == 0 || i == stations + 1) {
-      const Vec3 end = second.at(share * second.length()).point;
+      const Vec3 end = second.at(fraction * second.length()).point;
       width = std::min(width, distance(end, first.nearest(end).point));
     }
     strip.widest = std::max(strip.widest, width);
@@ -245,9 +245,9 @@ void judge(const Model& model, double width, BluntEdgeFinding& finding) {
   double& limit = finding.limit;
   limit = width;
   if (!(limit > 0)) {
-    const double reach = std::min(breadth(model, strip.borders[0], first.length()),
-                                  breadth(model, strip.borders[1], second.length()));
-    limit = std::min(blunt_edge_length_share * strip.length, blunt_edge_breadth_share * reach);
+    const double narrower = std::min(breadth(model, strip.borders[0], first.length()),
+                                     breadth(model, strip.borders[1], second.length()));
+    limit = std::min(blunt_edge_length_fraction * strip.length, blunt_edge_breadth_fraction * narrower);
   }
   if (strip.widest > limit) {
     return refuse(Kind::wide, fmt::format("it is {:.3g} wide, more than {:.3g}; geometry.sharpen_width sets "
@@ -267,7 +267,7 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
   if (model.is_far_field(id)) return finding;
   double perimeter = 0;
   for (const auto& loop : face.loops) {
-    for (const EdgeUse& use : loop) perimeter += rough_length(model, use.edge);
+    for (const Coedge& use : loop) perimeter += rough_length(model, use.edge);
   }
   const double mean = mean_width(model, id);
   if (!(mean * slenderness < 0.5 * perimeter)) return finding;
@@ -280,8 +280,8 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
   strip.length = 0.5 * perimeter, strip.widest = mean;
   if (face.back != no_entity) return refuse("it lies between two regions");
   if (face.loops.size() > 1) return refuse("it is a closed ring");
-  std::vector<EdgeUse> loop;
-  for (const EdgeUse& use : face.loops.front()) {
+  std::vector<Coedge> loop;
+  for (const Coedge& use : face.loops.front()) {
     if (model.is_seam(use.edge)) return refuse("it is a closed ring");
     if (!model.edge(use.edge).degenerate) loop.push_back(use);
   }
@@ -290,7 +290,7 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
     return refuse(fmt::format("it has {} corners, not those of a strip", runs.size()));
   const Sides sides = tell_sides(runs);
   const double border = std::min(sides.borders[0].length, sides.borders[1].length);
-  if (std::max(sides.ends[0].length, sides.ends[1].length) > end_share * border)
+  if (std::max(sides.ends[0].length, sides.ends[1].length) > end_fraction * border)
     return refuse("it is not bounded by two long borders");
   for (std::string reason : {lay_borders(model, sides, strip), unfit_neighbours(model, strip)}) {
     if (!reason.empty()) return refuse(std::move(reason));

@@ -8,7 +8,8 @@
 namespace aeroloom::cad {
 namespace {
 
-/// Of each edge: lengths of arcs are then right to 3e-5 on a full circle, and feet start within reach.
+/// Of each edge: lengths of arcs are then right to 3e-5 on a full circle, and searches for feet start near
+/// them.
 constexpr int intervals = 256;
 
 }  // namespace
@@ -23,8 +24,8 @@ BorderPath::BorderPath(const Model& model, const std::vector<BorderEdge>& chain)
     if (each.against) std::swap(from, to);
     double passed = _joints.back();
     for (int i = 0; i <= intervals; ++i) {
-      const double share = static_cast<double>(i) / intervals;
-      const double parameter = i == intervals ? to : from + share * (to - from);
+      const double fraction = static_cast<double>(i) / intervals;
+      const double parameter = i == intervals ? to : from + fraction * (to - from);
       const Vec3 point = model.edge_point(id, parameter);
       if (i > 0) passed += distance(point, _samples.back().point);
       _samples.push_back({passed, parameter, point});
@@ -41,9 +42,9 @@ BorderPath::ChainPlace BorderPath::at(double passed, std::size_t edge) const {
       begin + 1, end - 1, passed, [](double value, const Sample& sample) { return value < sample.passed; });
   const Sample &low = *(above - 1), &high = *above;
   const double part = high.passed - low.passed;
-  const double share = part > 0 ? std::clamp((passed - low.passed) / part, 0.0, 1.0) : 0;
-  ChainPlace place{edge, low.parameter + share * (high.parameter - low.parameter), {}};
-  if (share == 1) place.parameter = high.parameter;
+  const double fraction = part > 0 ? std::clamp((passed - low.passed) / part, 0.0, 1.0) : 0;
+  ChainPlace place{edge, low.parameter + fraction * (high.parameter - low.parameter), {}};
+  if (fraction == 1) place.parameter = high.parameter;
   place.point = _model->edge_point((*_chain)[edge].strip_use.edge, place.parameter);
   return place;
 }
@@ -69,12 +70,12 @@ BorderPath::ChainPlace BorderPath::nearest(Vec3 point) const {
     const Sample &low = _samples[i], &high = _samples[i + 1];
     const Vec3 along = high.point - low.point;
     const double square = dot(along, along);
-    const double share = square > 0 ? std::clamp(dot(point - low.point, along) / square, 0.0, 1.0) : 0;
-    const double away = distance(point, low.point + share * along);
+    const double fraction = square > 0 ? std::clamp(dot(point - low.point, along) / square, 0.0, 1.0) : 0;
+    const double away = distance(point, low.point + fraction * along);
     if (away >= least) continue;
     least = away;
     best.edge = i / (intervals + 1);
-    best.parameter = low.parameter + share * (high.parameter - low.parameter);
+    best.parameter = low.parameter + fraction * (high.parameter - low.parameter);
   }
   const EdgeFoot foot = foot_on_edge(*_model, (*_chain)[best.edge].strip_use.edge, point, best.parameter);
   best.parameter = foot.parameter, best.point = foot.point;

@@ -61,20 +61,20 @@ private:
     _closed.fates.resize(_base.edge_count());
     for (const BluntEdge& strip : _strips) {
       for (const auto& end : strip.ends) {
-        for (const EdgeId id : end) _closed.fates[id].kind = EdgeFate::Kind::collapsed;
+        for (const EdgeId id : end) _closed.fates[id].kind = BaseEdgeFate::Kind::collapsed;
       }
     }
     // Where a strip ends on the side of another, their common edge becomes a vertex of that side.
     for (BluntEdge& strip : _strips) {
       for (auto& border : strip.borders) {
         std::erase_if(border, [&](const BorderEdge& each) {
-          return _closed.fates[each.strip_use.edge].kind == EdgeFate::Kind::collapsed;
+          return _closed.fates[each.strip_use.edge].kind == BaseEdgeFate::Kind::collapsed;
         });
         if (border.empty()) refuse(strip, "another strip ends on all of its side");
         for (const BorderEdge& each : border) {
-          EdgeFate& fate = _closed.fates[each.strip_use.edge];
-          if (fate.kind != EdgeFate::Kind::kept) refuse(strip, "a strip beside it is closed");
-          fate.kind = EdgeFate::Kind::closed;
+          BaseEdgeFate& fate = _closed.fates[each.strip_use.edge];
+          if (fate.kind != BaseEdgeFate::Kind::kept) refuse(strip, "a strip beside it is closed");
+          fate.kind = BaseEdgeFate::Kind::closed;
         }
       }
     }
@@ -169,7 +169,7 @@ private:
   /// A face that runs out to a point at a vertex, narrower than the vertex moves, cannot follow it.
   void require_broad_corners() const {
     constexpr double away = 10, narrow = 2;  // in moves of the vertex: corners of a fifth of a radian; chosen
-    const auto is_kept = [&](EdgeId id) { return _closed.fates[id].kind == EdgeFate::Kind::kept; };
+    const auto is_kept = [&](EdgeId id) { return _closed.fates[id].kind == BaseEdgeFate::Kind::kept; };
     for (const FaceId id : _closed.base_faces) {
       for (const FaceCorner& corner : corners_of(_base, id)) {
         const Vec3 at = _base.vertex(corner.vertex);
@@ -191,17 +191,17 @@ private:
     std::vector<char> used(_base.edge_count(), 0);
     for (const FaceId id : _closed.base_faces) {
       for (const auto& loop : from.faces[id].loops) {
-        for (const EdgeUse& use : loop) used[use.edge] = 1;
+        for (const Coedge& use : loop) used[use.edge] = 1;
       }
     }
-    const std::vector<double> reaches = reaches_of_vertices(used);
+    const std::vector<double> radii = radii_of_vertices(used);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
-      EdgeFate& fate = _closed.fates[id];
-      if (fate.kind != EdgeFate::Kind::kept || !used[id]) continue;
+      BaseEdgeFate& fate = _closed.fates[id];
+      if (fate.kind != BaseEdgeFate::Kind::kept || !used[id]) continue;
       fate.edge = static_cast<EdgeId>(to.edges.size());
       Edge edge = from.edges[id];
       EdgeEvaluator evaluator = from.edge_evaluators[id];
-      const EndMove first = end_move(reaches, id, edge.first), last = end_move(reaches, id, edge.last);
+      const EndMove first = end_move(radii, id, edge.first), last = end_move(radii, id, edge.last);
       const bool moved = first.by != Vec3{} || last.by != Vec3{};
       if (moved && !edge.degenerate) {
         evaluator.curve = GeomAdaptor_Curve(move_ends(evaluator.curve, first, last), edge.first_parameter,
@@ -216,36 +216,37 @@ private:
     }
   }
 
-  /// From one end of an edge to the other; a part of the length where both are one.
-  double reach_of_edge(EdgeId id) const {
-    constexpr double share_of_closed_edge = 0.25;  // to either side of its vertex, so that half of it stays
+  /// From one end of an edge to the other; a fraction of the length where both are one.
+  double radius_of_edge(EdgeId id) const {
+    constexpr double fraction_of_closed_edge =
+        0.25;  // to either side of its vertex, so that half of it stays
     const Edge& edge = _base.edge(id);
-    if (edge.first == edge.last) return share_of_closed_edge * rough_length(_base, id);
+    if (edge.first == edge.last) return fraction_of_closed_edge * rough_length(_base, id);
     return distance(_base.vertex(edge.first), _base.vertex(edge.last));
   }
 
   /// How far around each vertex of the base model edges follow its move: as far as the shortest of them goes,
   /// but for very short ones.
-  std::vector<double> reaches_of_vertices(const std::vector<char>& used) const {
+  std::vector<double> radii_of_vertices(const std::vector<char>& used) const {
     constexpr double short_edge =
         20;  // in moves: over less, a move would show as a bend of more than 3 degrees
     constexpr double unlimited = std::numeric_limits<double>::infinity();
-    std::vector<double> reaches(_base.vertex_count(), unlimited);
+    std::vector<double> radii(_base.vertex_count(), unlimited);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
       const Edge& edge = _base.edge(id);
-      if (!used[id] || edge.degenerate || _closed.fates[id].kind != EdgeFate::Kind::kept) continue;
-      const double reach = reach_of_edge(id);
+      if (!used[id] || edge.degenerate || _closed.fates[id].kind != BaseEdgeFate::Kind::kept) continue;
+      const double radius = radius_of_edge(id);
       for (const VertexId v : {edge.first, edge.last}) {
-        if (reach > short_edge * distance(_places[v], _base.vertex(v)))
-          reaches[v] = std::min(reaches[v], reach);
+        if (radius > short_edge * distance(_places[v], _base.vertex(v)))
+          radii[v] = std::min(radii[v], radius);
       }
     }
-    return reaches;
+    return radii;
   }
 
-  EndMove end_move(const std::vector<double>& reaches, EdgeId id, VertexId v) const {
+  EndMove end_move(const std::vector<double>& radii, EdgeId id, VertexId v) const {
     const Vec3 from = _base.vertex(v);
-    return {from, _places[v] - from, std::min(reaches[v], reach_of_edge(id))};
+    return {from, _places[v] - from, std::min(radii[v], radius_of_edge(id))};
   }
 
   /// The edges that take a strip's place.
@@ -283,9 +284,9 @@ private:
   }
 
   /// As the neighbour's loop passes the edge.
-  EdgeUse coedge(const BorderEdge& border) const {
+  Coedge coedge(const BorderEdge& border) const {
     for (const auto& loop : _base.face(border.neighbour).loops) {
-      for (const EdgeUse& use : loop) {
+      for (const Coedge& use : loop) {
         if (use.edge == border.strip_use.edge) return use;
       }
     }
@@ -295,8 +296,8 @@ private:
   void rewrite_loops() {
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
       for (auto& loop : _data->faces[id].loops) {
-        std::vector<EdgeUse> now;
-        for (const EdgeUse& use : loop) append_coedges(_closed.base_faces[id], use, now);
+        std::vector<Coedge> now;
+        for (const Coedge& use : loop) append_coedges(_closed.base_faces[id], use, now);
         if (now.empty()) {
           throw CadError(fmt::format("face '{}' would vanish if the strips beside it were closed",
                                      _data->faces[id].name));
@@ -308,7 +309,7 @@ private:
     for (Edge& edge : _data->edges) edge.faces.clear();
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
       for (const auto& loop : _data->faces[id].loops) {
-        for (const EdgeUse& use : loop) {
+        for (const Coedge& use : loop) {
           auto& users = _data->edges[use.edge].faces;
           if (users.empty() || users.back() != id) users.push_back(id);
         }
@@ -319,14 +320,14 @@ private:
   /// Where a strip's end was all that kept two parts of a loop apart, the face would touch itself there.
   void require_simple(FaceId id) {
     std::map<VertexId, int> before, allowed, now;  // how often loops come by
-    const auto count = [](const Edge& edge, const EdgeUse& use, std::map<VertexId, int>& visits) {
+    const auto count = [](const Edge& edge, const Coedge& use, std::map<VertexId, int>& visits) {
       ++visits[use.reversed ? edge.last : edge.first];
     };
     for (const auto& loop : _base.face(_closed.base_faces[id]).loops) {
-      for (const EdgeUse& use : loop) count(_base.edge(use.edge), use, before);
+      for (const Coedge& use : loop) count(_base.edge(use.edge), use, before);
     }
     for (const auto& loop : _data->faces[id].loops) {
-      for (const EdgeUse& use : loop) count(_data->edges[use.edge], use, now);
+      for (const Coedge& use : loop) count(_data->edges[use.edge], use, now);
     }
     for (const auto& [v, visits] : before) {
       int& most = allowed[_roots->root(v)];
@@ -340,9 +341,9 @@ private:
     }
   }
 
-  void append_coedges(FaceId base_face, const EdgeUse& use, std::vector<EdgeUse>& loop) const {
-    const EdgeFate& fate = _closed.fates[use.edge];
-    if (fate.kind == EdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
+  void append_coedges(FaceId base_face, const Coedge& use, std::vector<Coedge>& loop) const {
+    const BaseEdgeFate& fate = _closed.fates[use.edge];
+    if (fate.kind == BaseEdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
     const std::size_t first = loop.size();
     for (const EdgeId id : fate.parts)
       loop.push_back({id, 0, use.reversed == _closed.part(id, base_face).is_along()});

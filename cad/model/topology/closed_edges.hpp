@@ -1,7 +1,7 @@
 /// Blunt edges closed to sharp ones: virtual topology over an unchanged model.
 ///
 /// A closed strip is no face any more. Its two long borders are one edge half-way between them, its short
-/// ends are vertices; faces beyond a short end lose it, and other edges that ended there are drawn to the
+/// ends are vertices; the faces across a short end lose it, and other edges that ended there are drawn to the
 /// vertex. No surface changes: near the closed edge faces end up to half the strip's width beside their
 /// edges.
 #pragma once

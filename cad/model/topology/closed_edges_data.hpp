@@ -11,7 +11,7 @@ namespace aeroloom::cad {
 /// A closed edge as one of its two faces has it: part of an edge of the base model.
 struct BorderPart {
   FaceId face = no_entity;        ///< of the base model
-  EdgeUse use;                    ///< the face's coedge along the base model's edge
+  Coedge use;                     ///< the face's coedge along the base model's edge
   std::vector<double> own, base;  ///< parameters of the closed edge, ascending, and of the base model's
 
   double to_base(double parameter) const;
@@ -22,7 +22,7 @@ struct BorderPart {
 };
 
 /// The fate of an edge of the base model.
-struct EdgeFate {
+struct BaseEdgeFate {
   enum class Kind : std::uint8_t { kept, closed, collapsed };
   Kind kind = Kind::kept;
   EdgeId edge = no_entity;    ///< kept: its number now
@@ -35,12 +35,12 @@ struct ClosedEdges {
   std::vector<EdgeId> base_edges;                 ///< per edge; no_entity for closed ones, which come last
   std::vector<char> moved;                        ///< per edge: the curve is not that of the base model
   std::vector<std::array<BorderPart, 2>> closed;  ///< per closed edge
-  std::vector<EdgeFate> fates;                    ///< per edge of the base model
+  std::vector<BaseEdgeFate> fates;                ///< per edge of the base model
 
   /// The part of a closed edge that lies on a face of the base model.
   const BorderPart& part(EdgeId id, FaceId base_face) const;
   /// A guess of parameters on the face: those of the base model's edge.
-  Vec2 base_uv(FaceId id, const EdgeUse& use, double parameter) const;
+  Vec2 base_uv(FaceId id, const Coedge& use, double parameter) const;
   /// The base model's triangulation drawn to the closed edges.
   Facets facets(const Model& model, FaceId id, double deflection, double angle) const;
 };

@@ -18,8 +18,8 @@ double interpolate(const std::vector<double>& from, const std::vector<double>& t
   });
   const std::size_t i = static_cast<std::size_t>(above - from.begin());
   if (at == from[i]) return to[i];
-  const double share = std::clamp((at - from[i - 1]) / (from[i] - from[i - 1]), 0.0, 1.0);
-  return (1 - share) * to[i - 1] + share * to[i];
+  const double fraction = std::clamp((at - from[i - 1]) / (from[i] - from[i - 1]), 0.0, 1.0);
+  return (1 - fraction) * to[i - 1] + fraction * to[i];
 }
 
 /// Facets of one face on their way from the base model.
@@ -34,7 +34,7 @@ public:
     for (Facets::BoundaryLine& line : _lines) divide(line);
     geometry::DisjointSets<std::int32_t> nodes(_facets.points.size());
     for (const Facets::BoundaryLine& line : _lines) {
-      if (fate(line).kind != EdgeFate::Kind::collapsed) continue;
+      if (fate(line).kind != BaseEdgeFate::Kind::collapsed) continue;
       for (const std::int32_t node : line.nodes) nodes.unite(line.nodes.front(), node);
     }
     for (const Facets::BoundaryLine& line : _lines) follow(line);
@@ -52,12 +52,12 @@ public:
   }
 
 private:
-  const EdgeFate& fate(const Facets::BoundaryLine& line) const { return _closed.fates[line.use.edge]; }
+  const BaseEdgeFate& fate(const Facets::BoundaryLine& line) const { return _closed.fates[line.use.edge]; }
   FaceId base_face() const { return _closed.base_faces[_id]; }
 
   /// Gives the line a node wherever its edge is divided.
   void divide(Facets::BoundaryLine& line) {
-    const EdgeFate& what = fate(line);
+    const BaseEdgeFate& what = fate(line);
     for (std::size_t i = 1; i < what.parts.size(); ++i) {
       const double t = _closed.part(what.parts[i], base_face()).low();
       const auto above = std::lower_bound(line.parameters.begin() + 1, line.parameters.end() - 1, t);
@@ -87,8 +87,8 @@ private:
 
   /// Lines of the edges as they are now.
   void follow(const Facets::BoundaryLine& line) {
-    const EdgeFate& what = fate(line);
-    if (what.kind == EdgeFate::Kind::kept) {
+    const BaseEdgeFate& what = fate(line);
+    if (what.kind == BaseEdgeFate::Kind::kept) {
       _facets.boundary.push_back(line);
       _facets.boundary.back().use.edge = what.edge;
     }
@@ -167,7 +167,7 @@ const BorderPart& ClosedEdges::part(EdgeId id, FaceId base_face) const {
   return parts[0].face == base_face ? parts[0] : parts[1];
 }
 
-Vec2 ClosedEdges::base_uv(FaceId id, const EdgeUse& use, double parameter) const {
+Vec2 ClosedEdges::base_uv(FaceId id, const Coedge& use, double parameter) const {
   const FaceId face = base_faces[id];
   if (base_edges[use.edge] != no_entity)
     return base.edge_uv(face, {base_edges[use.edge], use.use, use.reversed}, parameter);
@@ -179,8 +179,8 @@ Facets ClosedEdges::facets(const Model& model, FaceId id, double deflection, dou
   const FaceId face = base_faces[id];
   Facets facets = base.facets(face, deflection, angle);
   const auto unchanged = [&](const Facets::BoundaryLine& line) {
-    const EdgeFate& fate = fates[line.use.edge];
-    return fate.kind == EdgeFate::Kind::kept && !moved[fate.edge];
+    const BaseEdgeFate& fate = fates[line.use.edge];
+    return fate.kind == BaseEdgeFate::Kind::kept && !moved[fate.edge];
   };
   if (std::all_of(facets.boundary.begin(), facets.boundary.end(), unchanged)) {
     for (auto& line : facets.boundary) line.use.edge = fates[line.use.edge].edge;

@@ -31,7 +31,7 @@ void require_joinable(const Model& model, const std::vector<FaceId>& group) {
 }
 
 /// The interval of u that a member's points can have: its loops, and as far around as guesses stray.
-std::pair<double, double> reach_in_u(const FaceEvaluator& face) {
+std::pair<double, double> interval_of_u(const FaceEvaluator& face) {
   const double extent = face.uv_high.x - face.uv_low.x, repeats = face.u.repeats_after();
   const double margin = std::max(extent, straying_periods * repeats);
   const double low = face.uv_low.x - margin, high = face.uv_high.x + margin;
@@ -47,7 +47,7 @@ std::vector<Sheet> lay_out(const Model& base, const std::vector<FaceId>& members
     Sheet sheet{id};
     if (members.size() > 1) {
       const FaceEvaluator& evaluator = base.data().face_evaluators[id];
-      const auto [low, high] = reach_in_u(evaluator);
+      const auto [low, high] = interval_of_u(evaluator);
       const double width = high - low;
       sheet.shift = sheets.empty() ? 0 : next - low;
       sheet.low = low + sheet.shift;
@@ -65,8 +65,8 @@ void take_uses(const Model& base, JoinedFace& joined, Face& face) {
   face.loops.clear();
   for (std::size_t s = 0; s < joined.sheets.size(); ++s) {
     for (auto loop : base.face(joined.sheets[s].face).loops) {
-      for (EdgeUse& use : loop) {
-        const EdgeUse own = use;
+      for (Coedge& use : loop) {
+        const Coedge own = use;
         const bool taken =
             std::any_of(joined.uses.begin(), joined.uses.end(), [&](const JoinedFace::Use& other) {
               return other.use.edge == use.edge && other.use.use == use.use;
@@ -120,7 +120,7 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
   data->cache.reset();
   data->faces.clear();
   data->far_field.clear();
-  JoinedFaces joined{model, {}};
+  JoinedModel joined{model, {}};
   std::vector<FaceId> number(model.face_count(), no_entity);
   for (FaceId id = 0; id < model.face_count(); ++id) {
     if (taken[id] && members[id].empty()) continue;
@@ -145,7 +145,7 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
     std::sort(edge.faces.begin(), edge.faces.end());
     edge.faces.erase(std::unique(edge.faces.begin(), edge.faces.end()), edge.faces.end());
   }
-  data->joined = std::make_shared<const JoinedFaces>(std::move(joined));
+  data->joined = std::make_shared<const JoinedModel>(std::move(joined));
   return Model(std::move(data));
 }
 

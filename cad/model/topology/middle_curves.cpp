@@ -19,7 +19,7 @@
 namespace aeroloom::cad {
 namespace {
 
-/// A middle curve is drawn through more points until it leaves the middle by less than this part of the
+/// A middle curve is drawn through more points until it leaves the middle by less than this fraction of the
 /// strip's width: a thousandth of a width is less than any element shows. Chosen, not measured.
 constexpr double middle_error = 1e-3;
 /// Where the most do not suffice the curve is as it is: borders with a kink nobody marked cannot be followed.
@@ -27,8 +27,8 @@ constexpr int fewest_points = 32, most_points = 1024;
 /// Joints face each other when they are no farther apart than the strip is wide, and half as much again where
 /// borders run askew. Chosen, not measured.
 constexpr double facing_width = 1.5;
-/// A moved end takes its surroundings along by this power of the share of its reach that is left: smooth, and
-/// without a curvature of its own to speak of.
+/// A moved end takes its surroundings along by this power of the fraction of its radius that is left: smooth,
+/// and without a curvature of its own to speak of.
 constexpr double fading = 4;
 
 /// A vertex or kink inside a border.
@@ -47,8 +47,8 @@ std::vector<Joint> inner_joints(const Model& model, const std::vector<BorderEdge
     for (std::size_t b = 1; b + 1 < breaks.size(); ++b) {
       const double step = tolerances::beside_knot * (breaks.back() - breaks.front());
       const Vec3 before = model.edge_tangent(edge, breaks[b] - step);
-      const Vec3 behind = model.edge_tangent(edge, breaks[b] + step);
-      if (std::atan2(norm(cross(before, behind)), dot(before, behind)) < tolerances::kink) continue;
+      const Vec3 after = model.edge_tangent(edge, breaks[b] + step);
+      if (std::atan2(norm(cross(before, after)), dot(before, after)) < tolerances::kink) continue;
       joints.push_back({path.passed_at(i, breaks[b]), no_entity});
     }
   }
@@ -85,10 +85,10 @@ Middles sample_middles(const std::array<BorderPath, 2>& borders, const Station& 
                        const std::array<std::size_t, 2>& edges, int intervals) {
   Middles middles;
   for (int i = 0; i <= intervals; ++i) {
-    const double share = static_cast<double>(i) / intervals;
+    const double fraction = static_cast<double>(i) / intervals;
     std::array<Vec3, 2> points;
     for (int side = 0; side < 2; ++side) {
-      const double passed = (1 - share) * from.passed[side] + share * to.passed[side];
+      const double passed = (1 - fraction) * from.passed[side] + fraction * to.passed[side];
       const BorderPath::ChainPlace place = borders[side].at(passed, edges[side]);
       points[side] = place.point;
       middles.parameters[side].push_back(place.parameter);
@@ -103,8 +103,8 @@ Middles sample_middles(const std::array<BorderPath, 2>& borders, const Station& 
 void shift_ends(std::vector<Vec3>& points, Vec3 first, Vec3 last) {
   const Vec3 by_first = first - points.front(), by_last = last - points.back();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(points.size() - 1);
-    points[i] += (1 - share) * by_first + share * by_last;
+    const double fraction = static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    points[i] += (1 - fraction) * by_first + fraction * by_last;
   }
   points.front() = first, points.back() = last;
 }
@@ -148,12 +148,13 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
   const Station start{{0, 0}, {borders[0].vertices().front(), borders[1].vertices().front()}};
   const Station end{{borders[0].length(), borders[1].length()},
                     {borders[0].vertices().back(), borders[1].vertices().back()}};
-  double apart = 0;  // at equal shares of the way: more than the strip is wide where borders' lengths differ
-  constexpr int shares = 10;  // a width changes slowly along a strip
-  for (int i = 0; i <= shares; ++i) {
-    const double share = static_cast<double>(i) / shares;
-    apart = std::max(apart, distance(borders[0].at(share * borders[0].length()).point,
-                                     borders[1].at(share * borders[1].length()).point));
+  double apart =
+      0;  // at equal fractions of the way: more than the strip is wide where borders' lengths differ
+  constexpr int intervals = 10;  // a width changes slowly along a strip
+  for (int i = 0; i <= intervals; ++i) {
+    const double fraction = static_cast<double>(i) / intervals;
+    apart = std::max(apart, distance(borders[0].at(fraction * borders[0].length()).point,
+                                     borders[1].at(fraction * borders[1].length()).point));
   }
   // First those that face each other ...
   std::vector<Station> facing{start};
@@ -172,7 +173,7 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
     next = best + 1;
   }
   facing.push_back(end);
-  // ... then the others, at the same share of the way between those.
+  // ... then the others, at the same fraction of the way between those.
   std::vector<Station> stations = facing;
   for (int side = 0; side < 2; ++side) {
     for (const Joint& joint : joints[side]) {
@@ -180,10 +181,10 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
                                       [&](const Station& s) { return s.passed[side] >= joint.passed; });
       if (above->passed[side] == joint.passed) continue;
       const Station &low = *(above - 1), &high = *above;
-      const double share = (joint.passed - low.passed[side]) / (high.passed[side] - low.passed[side]);
+      const double fraction = (joint.passed - low.passed[side]) / (high.passed[side] - low.passed[side]);
       Station alone;
       alone.passed[side] = joint.passed;
-      alone.passed[1 - side] = (1 - share) * low.passed[1 - side] + share * high.passed[1 - side];
+      alone.passed[1 - side] = (1 - fraction) * low.passed[1 - side] + fraction * high.passed[1 - side];
       alone.vertices[side] = joint.vertex;
       stations.push_back(alone);
     }
@@ -223,7 +224,7 @@ MiddleCurve draw_middle(const std::array<BorderPath, 2>& borders, const Station&
 }
 
 Vec3 EndMove::operator()(Vec3 point) const {
-  const double left = 1 - distance(point, from) / reach;
+  const double left = 1 - distance(point, from) / radius;
   return left > 0 ? std::pow(left, fading) * by : Vec3{};
 }
 

@@ -38,7 +38,7 @@ MiddleCurve draw_middle(const std::array<BorderPath, 2>& borders, const Station&
 /// stay so: each moves by what depends on the place alone.
 struct EndMove {
   Vec3 from, by;
-  double reach = 1;  ///< what is further away stays
+  double radius = 1;  ///< what is further away stays
 
   Vec3 operator()(Vec3 point) const;
 };

@@ -34,7 +34,7 @@ bool bounds_material(const TopoDS_Shape& part) {
   return part.Orientation() == TopAbs_FORWARD || part.Orientation() == TopAbs_REVERSED;
 }
 
-/// Visits the edges of a face loop by loop, oriented as in the face turned forward. Edges lying inside the
+/// Visits the edges of a face loop by loop, oriented as in the face oriented forward. Edges lying inside the
 /// face bound no material and are passed over.
 template <class Visit>
 void for_each_edge(const TopoDS_Shape& face, Visit&& visit) {
@@ -99,7 +99,7 @@ void add_edges(const Maps& maps, Model::Data& data) {
   }
 }
 
-UseCurve use_curve(const TopoDS_Face& face, const TopoDS_Edge& edge, const EdgeUse& use) {
+UseCurve use_curve(const TopoDS_Face& face, const TopoDS_Edge& edge, const Coedge& use) {
   UseCurve result;
   result.use = use;
   const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, result.first, result.last);
@@ -116,7 +116,7 @@ ParameterRange parameter_range(double low, double high, double period, bool clos
 
 /// One use with where it starts and ends in the loop's direction.
 struct LoopPart {
-  EdgeUse use;
+  Coedge use;
   VertexId start, end;
   Vec2 uv_start, uv_end;
 };
@@ -134,10 +134,10 @@ LoopPart loop_part(const Model::Data& data, const UseCurve& curve) {
 
 /// Chains the edges of a wire head to tail. Where several start at the vertex, the nearest in parameters
 /// follows. A wire that touches itself may give several loops.
-std::vector<std::vector<EdgeUse>> chain_loops(std::vector<LoopPart> parts, Vec2 scale) {
-  std::vector<std::vector<EdgeUse>> loops;
+std::vector<std::vector<Coedge>> chain_loops(std::vector<LoopPart> parts, Vec2 scale) {
+  std::vector<std::vector<Coedge>> loops;
   while (!parts.empty()) {
-    std::vector<EdgeUse>& loop = loops.emplace_back();
+    std::vector<Coedge>& loop = loops.emplace_back();
     const VertexId begin = parts.front().start;
     LoopPart current = parts.front();
     parts.erase(parts.begin());
@@ -166,7 +166,7 @@ std::vector<std::vector<EdgeUse>> chain_loops(std::vector<LoopPart> parts, Vec2 
 }
 
 /// The face's loops as seen along its surface's own normal, outer one first.
-std::vector<std::vector<EdgeUse>> add_uses(const Maps& maps, Model::Data& data, FaceEvaluator& face) {
+std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, FaceEvaluator& face) {
   const TopoDS_Wire outer = BRepTools::OuterWire(face.shape);
   TopTools_IndexedMapOfShape wires;
   if (!outer.IsNull()) wires.Add(outer);
@@ -174,7 +174,7 @@ std::vector<std::vector<EdgeUse>> add_uses(const Maps& maps, Model::Data& data, 
   for_each_edge(face.shape, [&](const TopoDS_Wire& wire, const TopoDS_Edge& edge) {
     const std::size_t loop = wires.Add(wire) - 1;
     parts.resize(wires.Extent());
-    EdgeUse use{maps.edges.FindIndex(edge) - 1, 0, edge.Orientation() == TopAbs_REVERSED};
+    Coedge use{maps.edges.FindIndex(edge) - 1, 0, edge.Orientation() == TopAbs_REVERSED};
     if (use.reversed && BRep_Tool::IsClosed(edge, face.shape)) use.use = 1;
     const auto taken = [&](const UseCurve& other) {
       return other.use.edge == use.edge && other.use.use == use.use;
@@ -185,7 +185,7 @@ std::vector<std::vector<EdgeUse>> add_uses(const Maps& maps, Model::Data& data, 
   });
   const Vec2 extent = face.uv_high - face.uv_low;
   const Vec2 scale{extent.x > 0 ? 1 / extent.x : 1, extent.y > 0 ? 1 / extent.y : 1};
-  std::vector<std::vector<EdgeUse>> loops;
+  std::vector<std::vector<Coedge>> loops;
   for (auto& wire : parts) {
     for (auto& loop : chain_loops(std::move(wire), scale)) loops.push_back(std::move(loop));
   }
@@ -223,7 +223,7 @@ void orient_loops(Model::Data& data) {
     if (!data.face_evaluators[id].reversed) continue;
     for (auto& loop : data.faces[id].loops) {
       std::reverse(loop.begin(), loop.end());
-      for (EdgeUse& use : loop) use.reversed = !use.reversed;
+      for (Coedge& use : loop) use.reversed = !use.reversed;
     }
     for (UseCurve& curve : data.face_evaluators[id].uses) curve.use.reversed = !curve.use.reversed;
   }
@@ -247,9 +247,9 @@ FaceEvaluator make_evaluator(const TopoDS_Shape& shape, double planar_tolerance)
   return face;
 }
 
-const UseCurve& FaceEvaluator::use(const EdgeUse& wanted) const {
+const UseCurve& FaceEvaluator::use(const Coedge& wanted) const {
   const auto found =
-      std::lower_bound(uses.begin(), uses.end(), wanted, [](const UseCurve& a, const EdgeUse& b) {
+      std::lower_bound(uses.begin(), uses.end(), wanted, [](const UseCurve& a, const Coedge& b) {
         return std::pair(a.use.edge, a.use.use) < std::pair(b.edge, b.use);
       });
   if (found == uses.end() || found->use.edge != wanted.edge || found->use.use != wanted.use) {

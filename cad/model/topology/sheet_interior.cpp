@@ -11,10 +11,10 @@
 namespace aeroloom::cad {
 namespace {
 
-// In cells: how far apart points of a loop are taken, and how far around them its cells reach.
-constexpr double longest_step = 0.5, reach = 0.75;
+// In cells: how far apart points of a loop are taken, and how far around them its cells lie.
+constexpr double longest_step = 0.5, margin = 0.75;
 // Parts of a curve to begin with, so that none that bends back is missed, and how often each is halved: 4096
-// times as short reaches `longest_step` on any curve that is not a needle in parameters.
+// times as short gets to `longest_step` on any curve that is not a needle in parameters.
 constexpr int first_steps = 32, halvings = 12;
 
 }  // namespace
@@ -66,8 +66,8 @@ void SheetInterior::mark_curve(const UseCurve& use) {
 
 void SheetInterior::mark_cells_around(Vec2 place) {
   const auto cell = [](double at) { return std::clamp(static_cast<int>(at), 0, cells_per_side - 1); };
-  for (int row = cell(place.y - reach); row <= cell(place.y + reach); ++row) {
-    for (int column = cell(place.x - reach); column <= cell(place.x + reach); ++column) {
+  for (int row = cell(place.y - margin); row <= cell(place.y + margin); ++row) {
+    for (int column = cell(place.x - margin); column <= cell(place.x + margin); ++column) {
       _cells[row * cells_per_side + column] = Cell::near_loop;
     }
   }

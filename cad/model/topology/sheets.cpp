@@ -37,8 +37,8 @@ Vec2 JoinedFace::from_member(std::int32_t sheet, Vec2 uv) const {
   return {std::clamp(uv.x + s.shift, s.low, s.high), uv.y};
 }
 
-const JoinedFace::Use& JoinedFace::use(const EdgeUse& wanted) const {
-  const auto found = std::lower_bound(uses.begin(), uses.end(), wanted, [](const Use& a, const EdgeUse& b) {
+const JoinedFace::Use& JoinedFace::use(const Coedge& wanted) const {
+  const auto found = std::lower_bound(uses.begin(), uses.end(), wanted, [](const Use& a, const Coedge& b) {
     return std::pair(a.use.edge, a.use.use) < std::pair(b.edge, b.use);
   });
   return *found;
@@ -58,7 +58,7 @@ std::optional<JoinedFace::Entry> JoinedFace::cross_border(std::int32_t sheet, Ve
   return entry;
 }
 
-JoinedFaces::Place JoinedFaces::locate(FaceId id, Vec2 uv) const {
+JoinedModel::Place JoinedModel::locate(FaceId id, Vec2 uv) const {
   const JoinedFace& face = faces.at(id);
   if (face.sheets.size() == 1) return {face.sheets.front().face, 0, uv};
   const std::int32_t sheet = face.sheet_at(uv);
@@ -68,7 +68,7 @@ JoinedFaces::Place JoinedFaces::locate(FaceId id, Vec2 uv) const {
 /// Goes from the guess's sheet to the next across the border nearest to the point, until the point's nearest
 /// one on a sheet is a foot of a perpendicular inside its loops. A surface that ends where its loops do holds
 /// points beyond at its end: those are no feet.
-Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
+Projection JoinedModel::project(FaceId id, Vec3 point, Vec2 guess) const {
   const JoinedFace& face = faces.at(id);
   const Place start = locate(id, guess);
   Projection found = base.project(start.face, point, start.uv), best = found;
@@ -86,16 +86,16 @@ Projection JoinedFaces::project(FaceId id, Vec3 point, Vec2 guess) const {
     if (better) best = found, best_sheet = sheet, best_inside = inside;
     const bool held = is_at_end(base.data().face_evaluators[face.sheets[sheet].face], found.uv);
     if (inside && (!held || away <= tolerance)) break;
-    const auto beyond = face.cross_border(sheet, point, seen);
-    if (!beyond) break;
-    sheet = beyond->sheet;
-    found = base.project(face.sheets[sheet].face, point, beyond->uv);
+    const auto entered = face.cross_border(sheet, point, seen);
+    if (!entered) break;
+    sheet = entered->sheet;
+    found = base.project(face.sheets[sheet].face, point, entered->uv);
   }
   best.uv = face.from_member(best_sheet, best.uv);
   return best;
 }
 
-Facets JoinedFaces::facets(FaceId id, double deflection, double angle, Model::Keep keep) const {
+Facets JoinedModel::facets(FaceId id, double deflection, double angle, Model::Keep keep) const {
   const JoinedFace& face = faces.at(id);
   if (face.sheets.size() == 1) return base.facets(face.sheets.front().face, deflection, angle, keep);
   Facets all;

@@ -28,7 +28,7 @@ struct SheetBorder {
 
 struct JoinedFace {
   struct Use {
-    EdgeUse use, base;  ///< as the joined face numbers it, and the member
+    Coedge use, base;  ///< as the joined face numbers it, and the member
     std::int32_t sheet;
   };
   std::vector<Sheet> sheets;
@@ -38,7 +38,7 @@ struct JoinedFace {
   std::int32_t sheet_at(Vec2 uv) const;
   Vec2 to_member(std::int32_t sheet, Vec2 uv) const { return {uv.x - sheets[sheet].shift, uv.y}; }
   Vec2 from_member(std::int32_t sheet, Vec2 uv) const;
-  const Use& use(const EdgeUse& wanted) const;
+  const Use& use(const Coedge& wanted) const;
   /// A sheet and where it is entered, in its own plane.
   struct Entry {
     std::int32_t sheet;
@@ -49,7 +49,7 @@ struct JoinedFace {
 };
 
 /// The faces of a model that has joined ones.
-struct JoinedFaces {
+struct JoinedModel {
   /// A face of the base model and a point of its parameter plane.
   struct Place {
     FaceId face;

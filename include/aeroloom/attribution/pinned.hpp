@@ -84,6 +84,6 @@ mesh::DihedralRange suspect_angles(double target_angle);
 /// mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
 PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                          const mesh::Numbering& numbering, double target_angle,
-                         const mesh::CellsBeyond& suspects, bool surface_may_change);
+                         const mesh::CellsOutside& suspects, bool surface_may_change);
 
 }  // namespace aeroloom::attribution

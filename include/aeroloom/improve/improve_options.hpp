@@ -6,9 +6,9 @@
 
 namespace aeroloom::improve {
 
-/// At most this part of the tetrahedra has a smaller dihedral angle.
+/// At most this fraction of the tetrahedra has a smaller dihedral angle.
 struct PercentileTarget {
-  double part, angle;  ///< of 1; degrees
+  double fraction, angle;  ///< of 1; degrees
 };
 
 struct ImproveOptions {
@@ -27,9 +27,10 @@ struct ImproveOptions {
   std::vector<PercentileTarget> percentiles = {};
 };
 
-/// The effort spent on tetrahedra beside strips that are narrower than their elements (reach.hpp).
+/// The effort spent on tetrahedra beside strips that are narrower than their elements
+/// (attainable_quality.hpp).
 enum class Effort : std::int8_t {
-  sparing,   ///< what hardly ever gains there is left out, and the aim is what is within reach
+  sparing,   ///< what hardly ever gains there is left out, and the aim is the attainable quality
   unsparing  ///< as much as elsewhere, and the worst alone decides: for few
 };
 

@@ -20,7 +20,7 @@ namespace aeroloom::improve {
 /// vanish (boundary_change.hpp), and where the source is known vertices slide on CAD faces and curves
 /// (sliding.hpp). Vertices inside may move, some are added (at the end) or removed (the others keep their
 /// order); cells keep their order, new ones stand where those they replace stood. `numbered`, where asked
-/// for, receives what each vertex was numbered before, new ones behind the others. Deterministic. Not
+/// for, receives what each vertex was numbered before, new ones after the others. Deterministic. Not
 /// collective. Throws std::invalid_argument when the target angle is not within (0, 50] degrees,
 /// std::logic_error when three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source = {},

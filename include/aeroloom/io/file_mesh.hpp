@@ -109,7 +109,7 @@ struct FileMesh {
 /// The layout of a mesh, a part each piece. A patch with faces between regions and others becomes two, the
 /// former called NAME_interior. `mesh` and `numbering` must outlive the result, which holds them itself where
 /// it gets both. Throws CollectiveError (bug) where the arrays of a piece do not fit together, or owned
-/// vertices are not numbered in turn. Collective.
+/// vertices are not numbered one after another. Collective.
 FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                       const mesh::Numbering& numbering);
 FileMesh file_mesh_of(const parallel::Communicator& communicator, mesh::NumberedMesh mesh);

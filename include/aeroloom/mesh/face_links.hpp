@@ -1,4 +1,4 @@
-/// Neighbours behind the faces of cells, across pieces and ranks.
+/// Neighbours of cells over their faces, across pieces and ranks.
 #pragma once
 
 #include "aeroloom/mesh/delivery.hpp"
@@ -14,21 +14,21 @@
 
 namespace aeroloom::mesh {
 
-/// The other cell at a side.
-struct CellBehind {
+/// The cell on the other side of a face.
+struct CellNeighbour {
   PieceId piece = -1;      ///< -1: none
   LocalIndex cell = -1;    ///< of that piece, all shapes counted
   std::int32_t side = -1;  ///< of that cell
 
   static constexpr auto fields() {
-    return std::tuple(&CellBehind::piece, &CellBehind::cell, &CellBehind::side);
+    return std::tuple(&CellNeighbour::piece, &CellNeighbour::cell, &CellNeighbour::side);
   }
   bool exists() const { return piece >= 0; }
-  friend auto operator<=>(const CellBehind&, const CellBehind&) = default;
+  friend auto operator<=>(const CellNeighbour&, const CellNeighbour&) = default;
 };
 
 struct PieceLinks {
-  std::vector<CellBehind> behind;         ///< by side (first_side)
+  std::vector<CellNeighbour> neighbours;  ///< by side (first_side)
   std::vector<LocalIndex> boundary_face;  ///< by side: the piece's boundary face there, -1 none
 };
 
@@ -53,7 +53,7 @@ FaceLinks link_faces(const parallel::Communicator& communicator, const Distribut
 /// Something that a cell, or its piece, is told.
 template <parallel::Flat T>
 struct Told {
-  CellBehind cell;
+  CellNeighbour cell;
   T what;
 
   static constexpr auto fields() { return std::tuple(&Told::cell, &Told::what); }

@@ -57,9 +57,9 @@ struct FaceUser {
   bool is_cell() const { return side >= 0; }
 };
 
-/// Sorts items, equal ones in their order; few of them without making room.
+/// Sorts items, equal ones in their order; few of them without allocating memory.
 template <class Iterator, class Less>
-void sort_in_turn(Iterator begin, Iterator end, const Less& less) {
+void sort_stably(Iterator begin, Iterator end, const Less& less) {
   constexpr std::ptrdiff_t few = 48;
   if (end - begin > few) return std::stable_sort(begin, end, less);
   for (Iterator i = begin; i != end; ++i) {
@@ -97,7 +97,7 @@ void match_faces(std::size_t vertices, const Source& source, const Visit& visit)
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(first[v]);
     const auto end = entries.begin() + static_cast<std::ptrdiff_t>(first[v + 1]);
-    sort_in_turn(begin, end, [](const FaceEntry& a, const FaceEntry& b) { return a.rest < b.rest; });
+    sort_stably(begin, end, [](const FaceEntry& a, const FaceEntry& b) { return a.rest < b.rest; });
     for (auto i = begin; i != end;) {
       users.clear();
       const auto& rest = i->rest;

@@ -63,15 +63,15 @@ struct QualitySummary {
   std::vector<WorstCell> worst;  ///< the ten of smallest min_dihedral, worst first, ties by global number
 };
 
-/// Cells of this rank with a smaller or a larger angle than allowed.
-struct CellsBeyond {
+/// Cells of this rank with an angle outside limits.
+struct CellsOutside {
   DihedralRange limits;                        ///< degrees, asked for
   std::vector<std::vector<LocalIndex>> cells;  ///< per local piece, ascending; filled in
 };
 
-/// `beyond`, if any, is filled in on the way. Collective; the same on every rank and for any number of ranks
+/// `outside`, if any, is filled in on the way. Collective; the same on every rank and for any number of ranks
 /// (sums are taken in piece order).
 QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const Numbering& numbering, CellsBeyond* beyond = nullptr);
+                                 const Numbering& numbering, CellsOutside* outside = nullptr);
 
 }  // namespace aeroloom::mesh

@@ -35,9 +35,10 @@ public:
                               parallel::NodeArray<float> packed);
 
   /// The leaves that a rank finds sizes for: about as many for each, families together.
-  static Range part_of(const parallel::Communicator& communicator, CellSpans leaves, parallel::Rank rank);
+  static IndexRange part_of(const parallel::Communicator& communicator, CellSpans leaves,
+                            parallel::Rank rank);
   /// The sizes at corners of a range of leaves, (leaves,8) with corners in Morton order, as they are held.
-  static std::vector<float> pack(CellSpans leaves, Range range, std::span<const float> corner_sizes);
+  static std::vector<float> pack(CellSpans leaves, IndexRange range, std::span<const float> corner_sizes);
 
   Cube of_leaf(std::size_t leaf) const {
     const std::uint64_t place = _places[leaf];
@@ -53,7 +54,7 @@ public:
 
 private:
   /// Writes the places of a range of leaves whose packed sizes begin with that one; returns where they end.
-  static std::uint64_t write_places(CellSpans leaves, Range range, std::uint64_t begin,
+  static std::uint64_t write_places(CellSpans leaves, IndexRange range, std::uint64_t begin,
                                     std::span<std::uint64_t> to);
 
   static constexpr int place_shift = 2;

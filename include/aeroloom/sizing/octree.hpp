@@ -32,7 +32,7 @@ public:
 
   const Pages& pages() const { return _pages; }
   /// The pages of this rank.
-  Range own_pages() const { return _pages.of_rank(_rank); }
+  IndexRange own_pages() const { return _pages.of_rank(_rank); }
 
   /// Leaves along the Morton curve: key of the low corner, level.
   struct Leaves {
@@ -107,7 +107,7 @@ struct OctreeNodes {
   std::vector<Hanging> hanging;  ///< ascending node
 };
 /// Of a range of all leaves.
-OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, Range range);
+OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, IndexRange range);
 
 /// The corners of a leaf that hang on larger leaves beside it: their masters, some more than once.
 std::vector<GridPoint> masters_of_corners(CellSpans leaves, const LeafTable& table, std::int32_t leaf);

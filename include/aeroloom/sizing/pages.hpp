@@ -12,7 +12,7 @@
 namespace aeroloom::sizing {
 
 /// A range of numbers.
-struct Range {
+struct IndexRange {
   std::size_t first, last;
 
   std::size_t size() const { return last - first; }
@@ -24,13 +24,13 @@ struct CellSpans {
   std::span<const std::uint8_t> levels;
 
   std::size_t size() const { return keys.size(); }
-  CellSpans part(Range range) const {
+  CellSpans part(IndexRange range) const {
     return {keys.subspan(range.first, range.size()), levels.subspan(range.first, range.size())};
   }
 };
 
 /// This rank's part of so many, which all ranks share alike.
-Range own_range(const parallel::Communicator& communicator, std::size_t count);
+IndexRange own_range(const parallel::Communicator& communicator, std::size_t count);
 
 /// Cubes that tile the root, in their order along the Morton curve, each with the rank that makes what lies
 /// in it: neighbours along the curve, about as much for each. Which there are is known on every rank, and
@@ -55,7 +55,7 @@ public:
                                        _firsts.begin()) -
            1;
   }
-  Range of_rank(parallel::Rank rank) const {
+  IndexRange of_rank(parallel::Rank rank) const {
     const auto r = static_cast<std::size_t>(rank);
     return {_firsts[r], r + 1 < _firsts.size() ? _firsts[r + 1] : count()};
   }

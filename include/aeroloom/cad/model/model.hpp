@@ -35,7 +35,7 @@ public:
 };
 
 /// A coedge: one pass of a loop along an edge. A seam is passed twice by the same face: use 0 and use 1.
-struct EdgeUse {
+struct Coedge {
   EdgeId edge = no_entity;
   std::int32_t use = 0;
   bool reversed = false;  ///< the loop runs against the edge's parameter
@@ -50,8 +50,8 @@ struct Edge {
 };
 
 struct Face {
-  std::vector<std::vector<EdgeUse>> loops;  ///< material on the left, seen against the outward normal
-  std::int32_t patch = 0;                   ///< index into patches()
+  std::vector<std::vector<Coedge>> loops;  ///< material on the left, seen against the outward normal
+  std::int32_t patch = 0;                  ///< index into patches()
   /// As in the file; where it has none there, "face_<number>" with its number in the file, from 0.
   std::string name;
   /// Region on the inner side of the oriented face and beyond it; `back` is no_entity on the domain's
@@ -87,7 +87,7 @@ struct Projection {
 struct Facets {
   /// The nodes of one coedge along an edge, in the direction of the edge's parameter.
   struct BoundaryLine {
-    EdgeUse use;
+    Coedge use;
     std::vector<std::int32_t> nodes;
     std::vector<double> parameters;  ///< on the edge, ascending, one per node
   };
@@ -134,7 +134,7 @@ public:
   Vec3 edge_tangent(EdgeId id, double parameter) const;      ///< first derivative
   double edge_curvature(EdgeId id, double parameter) const;  ///< 1/length; 0 on a line or where undefined
   /// Parameters of the edge's point on the surface of a face that uses it.
-  Vec2 edge_uv(FaceId face, const EdgeUse& use, double parameter) const;
+  Vec2 edge_uv(FaceId face, const Coedge& use, double parameter) const;
   /// The parameter interval split where the curve is not smooth (C1), ends included, ascending.
   std::vector<double> edge_breaks(EdgeId id) const;
 

@@ -26,8 +26,8 @@ struct Messages {
 /// - neighbour: messages of NeighbourExchange, in parts of at most 2^26 bytes.
 /// - rendezvous: Communicator::exchange, once for the consensus, which has no bytes, and for each parcel that
 ///   leaves the rank the announcement, of 8 bytes, and the content, in parts.
-/// Not counted: what ranks of a node settle among themselves (NodeArray), and what the library sends to open
-/// and close files and to make groups.
+/// Not counted: what ranks of a node exchange among themselves (NodeArray), and what the library sends to
+/// open and close files and to make groups.
 struct MessageCounts {
   Messages collective, neighbour, rendezvous;
 

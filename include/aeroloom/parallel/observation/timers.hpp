@@ -41,17 +41,16 @@ struct TaskRecord {
 struct StageCost {
   std::string name;
   double wall_seconds = 0;
-  double task_cpu_seconds = 0;  ///< CPU around task work, waiting excluded, children included
-  double serial_cpu_seconds =
-      0;  ///< the part of it that does not shrink with more ranks (serial or repeated)
-  double repeated_cpu_seconds = 0;  ///< the part of that which every rank does alike
+  double task_cpu_seconds = 0;      ///< CPU around task work, waiting excluded, children included
+  double serial_cpu_seconds = 0;    ///< task work that does not shrink with more ranks (serial or repeated)
+  double repeated_cpu_seconds = 0;  ///< the serial work that every rank does alike
   double check_cpu_seconds = 0;     ///< CPU around checks of what was made; no task work
   double waiting_seconds = 0;       ///< wall time in messages: until other ranks come, and on the way
   double other_cpu_seconds = 0;     ///< CPU of this rank that is none of these
   std::int64_t pieces = 0;
   std::int64_t peak_resident_bytes = 0;  ///< this rank within the stage, children included
-  /// As that, at most; of pages that several processes have in memory (program, libraries, arrays held once
-  /// per node) this rank's share alone.
+  /// Peak memory of this rank within the stage, an upper bound: of pages that several processes have in
+  /// memory (program, libraries, arrays held once per node) this rank's share alone.
   std::int64_t peak_own_bytes = 0;
   MessageCounts messages = {};    ///< sent by this rank
   ExchangeCounts exchanges = {};  ///< asked for by this rank
@@ -63,10 +62,10 @@ struct StageSummary {
   std::string name;
   double wall_seconds = 0;  ///< of the slowest rank
   double cpu_seconds_min = 0, cpu_seconds_mean = 0, cpu_seconds_max = 0;
-  double serial_seconds = 0;                                 ///< largest over ranks
-  double repeated_seconds = 0;                               ///< the part of it that all ranks do alike
-  double check_seconds = 0;                                  ///< CPU, largest over ranks
-  double other_seconds = 0;                                  ///< CPU, largest over ranks
+  double serial_seconds = 0;    ///< largest over ranks
+  double repeated_seconds = 0;  ///< serial work that all ranks do alike, largest over ranks
+  double check_seconds = 0;     ///< CPU, largest over ranks
+  double other_seconds = 0;     ///< CPU, largest over ranks
   double waiting_seconds_mean = 0, waiting_seconds_max = 0;  ///< wall
   std::int64_t pieces = 0;                                   ///< sum over ranks
   std::int64_t peak_resident_bytes_max = 0, peak_resident_bytes_sum = 0;

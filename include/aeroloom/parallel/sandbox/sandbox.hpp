@@ -56,17 +56,17 @@ public:
 };
 
 /// Whether tasks run in children: a server is there.
-bool is_containment_ready();
+bool has_sandbox_server();
 
 /// Whether this process is such a child: what a task prints here goes to the message about its end.
 bool is_sandbox_child();
 
 /// Why this machine lets Environment start no server; empty where it has, or where none was wanted.
-const std::string& containment_refusal();
+const std::string& sandbox_refusal();
 
 /// Ends the server, if there is one, for good: tasks run in this rank from now on, without a warning, and a
 /// crash there is told (crash_note.hpp).
-void do_without_containment(const Communicator& communicator);
+void run_without_sandbox(const Communicator& communicator);
 
 /// Limits of one run; functions of the input, never of the clock or the machine.
 struct SandboxLimits {

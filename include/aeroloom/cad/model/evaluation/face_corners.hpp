@@ -14,7 +14,7 @@ namespace aeroloom::cad {
 struct FaceCorner {
   FaceId face = no_entity;
   VertexId vertex = no_entity;
-  EdgeUse arriving, leaving;
+  Coedge arriving, leaving;
 };
 
 /// One of the two ends of an edge, as a vertex sees it.
@@ -24,7 +24,7 @@ struct EdgeEnd {
 
   static constexpr auto fields() { return std::tuple(&EdgeEnd::edge, &EdgeEnd::first); }
 };
-inline EdgeEnd end_at_corner(const EdgeUse& use, bool leaving) {
+inline EdgeEnd end_at_corner(const Coedge& use, bool leaving) {
   return {use.edge, leaving != use.reversed};
 }
 
@@ -32,13 +32,13 @@ inline EdgeEnd end_at_corner(const EdgeUse& use, bool leaving) {
 /// is a point of its corner.
 std::vector<FaceCorner> corners_of(const Model& model, FaceId face);
 
-/// The face beyond an edge of a face; no_entity where not exactly two faces pass it, the other one once.
-FaceId face_beyond(const Model& model, FaceId face, EdgeId edge);
+/// The other face along an edge of a face; no_entity where not exactly two faces pass it, the other one once.
+FaceId neighbour_face(const Model& model, FaceId face, EdgeId edge);
 
-/// The faces beyond the two edges of a corner: two faces that have no further edge at its vertex in common,
-/// or that meet there in one as at the section of a wedge; or anything else.
-enum class BeyondCorner { two_faces, faces_that_meet, other };
-BeyondCorner beyond_corner(const Model& model, const FaceCorner& corner);
+/// The other faces along the two edges of a corner: two faces that have no further edge at its vertex in
+/// common, or that meet there in one as at the section of a wedge; or anything else.
+enum class CornerNeighbours { two_faces, faces_that_meet, other };
+CornerNeighbours neighbours_at_corner(const Model& model, const FaceCorner& corner);
 
 /// The parameter of the first point of the edge at a distance from the vertex at this end; nothing when there
 /// is none on the near half of the edge.

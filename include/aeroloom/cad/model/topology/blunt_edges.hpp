@@ -11,9 +11,9 @@ namespace aeroloom::cad {
 
 /// An edge on the way along one long border of a strip.
 struct BorderEdge {
-  EdgeUse strip_use;             ///< as the strip's loop passes it
+  Coedge strip_use;              ///< as the strip's loop passes it
   bool against = false;          ///< the border runs against the edge's parameter
-  FaceId neighbour = no_entity;  ///< the face beyond
+  FaceId neighbour = no_entity;  ///< the face across it
 };
 
 /// A place along a strip.
@@ -53,9 +53,9 @@ struct BluntEdgeFinding {
 /// Looks at one face. `width`: the widest that may be closed; 0: the shares below.
 BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId face, double width);
 
-/// Without a width asked for, strips are closed up to this part of their length: trailing edges have at most
-/// one or two hundredths of the chord, and wing tips ten. And up to this part of both neighbours' breadth
-/// (area over border; skins may be cut along the span): bars are as thick as they are broad.
-inline constexpr double blunt_edge_length_share = 0.03, blunt_edge_breadth_share = 0.1;
+/// Without a width asked for, strips are closed up to this fraction of their length: trailing edges have at
+/// most one or two hundredths of the chord, and wing tips ten. And up to this fraction of both neighbours'
+/// breadth (area over border; skins may be cut along the span): bars are as thick as they are broad.
+inline constexpr double blunt_edge_length_fraction = 0.03, blunt_edge_breadth_fraction = 0.1;
 
 }  // namespace aeroloom::cad

@@ -1,4 +1,4 @@
-#include "volume/zone_fill.hpp"
+#include "volume/zone_in_child.hpp"
 
 #include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "aeroloom/volume/volume_mesher.hpp"
@@ -72,7 +72,7 @@ void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
 }
 
 /// Runs in the child.
-Bytes fill_in_child(std::span<const std::byte> input) {
+Bytes child_task(std::span<const std::byte> input) {
   const auto [fault, problem] = parallel::from_wire<std::tuple<parallel::Fault, ZoneProblem>>(input);
   parallel::inject_fault(fault);
   const UnitFrame frame(problem.points);
@@ -98,7 +98,7 @@ Bytes fill_in_child(std::span<const std::byte> input) {
   return parallel::to_wire(std::tie(owned, added));
 }
 
-const parallel::NamedTask fill_task("volume.zone", fill_in_child);
+const parallel::NamedTask fill_task("volume.zone", child_task);
 
 void unpack_filling(std::span<const std::byte> bytes, ZoneFilling& filling) {
   auto result = std::tie(filling.owned, filling.added);
@@ -127,8 +127,8 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem) {
                                    tetrahedra_per_triangle * static_cast<double>(problem.triangles.size()));
 }
 
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Fault fault, parallel::TaskStore* tasks,
-                      double base_cpu_seconds) {
+ZoneFilling fill_zone_in_child(const ZoneProblem& problem, parallel::Fault fault, parallel::TaskStore* tasks,
+                               double base_cpu_seconds) {
   if (fault != parallel::Fault::none) tasks = nullptr;
   const Bytes packed = parallel::to_wire(std::tie(fault, problem));
   ZoneFilling filling;

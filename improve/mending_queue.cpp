@@ -1,4 +1,4 @@
-#include "improve/schedule.hpp"
+#include "improve/mending_queue.hpp"
 
 #include <algorithm>
 
@@ -44,10 +44,10 @@ std::array<int, 6> widest_first(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-Schedule::Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, Effort effort,
-                   cad::PointLocator* locator)
+MendingQueue::MendingQueue(TetMesh& mesh, const AttainableQuality& attainable, const ChangeLimits& limits,
+                           Effort effort, cad::PointLocator* locator)
     : _mesh(mesh),
-      _reach(reach),
+      _attainable(attainable),
       _limits(limits),
       _effort(effort),
       _smoothing(limits),
@@ -56,7 +56,7 @@ Schedule::Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits
   if (locator) _sliding.emplace(*locator, limits);
 }
 
-void Schedule::run(int sweeps) {
+void MendingQueue::run(int sweeps) {
   Means means = Means::swaps_and_smoothing;
   for (int i = 0; i < sweeps; ++i) {
     const Sweep done = sweep(means);
@@ -65,22 +65,22 @@ void Schedule::run(int sweeps) {
   }
 }
 
-void Schedule::follow_relief(const std::vector<LocalIndex>& fresh) {
+void MendingQueue::follow_relief(const std::vector<LocalIndex>& fresh) {
   for (SlotHistory& slot : _slots) slot.attempt = _now, slot.attempt_means = Means::new_vertices;
   for (const LocalIndex t : fresh) _slots[t].attempt = 0;
   note_change(fresh, -1);
   _corners.emplace();
 }
 
-Schedule::Sweep Schedule::sweep(Means means) {
-  fill_queue();
-  Sweep done{static_cast<std::int64_t>(_queue.size()), 0};
+MendingQueue::Sweep MendingQueue::sweep(Means means) {
+  fill_heap();
+  Sweep done{static_cast<std::int64_t>(_heap.size()), 0};
   // A change may leave others below the target, without end where every gain is small.
   std::int64_t tries = tries_per_task * done.tasks + least_tries;
-  while (!_queue.empty() && tries > 0) {
-    std::pop_heap(_queue.begin(), _queue.end(), later);
-    const Task task = _queue.back();
-    _queue.pop_back();
+  while (!_heap.empty() && tries > 0) {
+    std::pop_heap(_heap.begin(), _heap.end(), later);
+    const Task task = _heap.back();
+    _heap.pop_back();
     if (task.version != _slots[task.tet].version || !_mesh.is_alive(task.tet) ||
         !worth_trying(task.tet, means))
       continue;
@@ -95,23 +95,23 @@ Schedule::Sweep Schedule::sweep(Means means) {
   return done;
 }
 
-void Schedule::fill_queue() {
-  _queue.clear();
+void MendingQueue::fill_heap() {
+  _heap.clear();
   for (LocalIndex t = 0; t < _mesh.slot_count(); ++t) {
     if (_mesh.is_alive(t) && _mesh.quality(t) < target_of(t)) {
-      _queue.push_back({_mesh.quality(t), t, _slots[t].version});
+      _heap.push_back({_mesh.quality(t), t, _slots[t].version});
     }
   }
-  std::make_heap(_queue.begin(), _queue.end(), later);
+  std::make_heap(_heap.begin(), _heap.end(), later);
 }
 
-void Schedule::push(LocalIndex t) {
+void MendingQueue::push(LocalIndex t) {
   if (_mesh.quality(t) >= target_of(t)) return;
-  _queue.push_back({_mesh.quality(t), t, _slots[t].version});
-  std::push_heap(_queue.begin(), _queue.end(), later);
+  _heap.push_back({_mesh.quality(t), t, _slots[t].version});
+  std::push_heap(_heap.begin(), _heap.end(), later);
 }
 
-bool Schedule::worth_trying(LocalIndex t, Means means) const {
+bool MendingQueue::worth_trying(LocalIndex t, Means means) const {
   if (_slots[t].attempt == 0) return true;
   // Beside a strip every try moves what the next one finds, little comes of it, and no other means follow.
   if (_slots[t].attempt_means >= Means::moving_cavities && is_spared(t)) return false;
@@ -121,16 +121,17 @@ bool Schedule::worth_trying(LocalIndex t, Means means) const {
                      [&](LocalIndex v) { return _vertices[v].changed > _slots[t].attempt; });
 }
 
-bool Schedule::mend(LocalIndex t, Means means) {
+bool MendingQueue::mend(LocalIndex t, Means means) {
   if (swap(t) || smooth(t)) return true;
-  const double share = _mesh.quality(t) / target_of(t);
-  if (means >= Means::moving_cavities && share < worth_moving && (contract(t) || move_cavity(t))) return true;
+  const double fraction = _mesh.quality(t) / target_of(t);
+  if (means >= Means::moving_cavities && fraction < worth_moving && (contract(t) || move_cavity(t)))
+    return true;
   if (is_spared(t)) return false;
-  return (means >= Means::new_vertices && share < worth_adding && insert_vertex(t)) ||
+  return (means >= Means::new_vertices && fraction < worth_adding && insert_vertex(t)) ||
          (means >= Means::moving_cavities && slide(t)) || (means >= Means::new_vertices && reconnect(t));
 }
 
-bool Schedule::swap(LocalIndex t) {
+bool MendingQueue::swap(LocalIndex t) {
   _best.clear();
   const auto keep_trial = [&] { std::swap(_best, _trial); };
   const double least = _mesh.quality(t);
@@ -151,7 +152,7 @@ bool Schedule::swap(LocalIndex t) {
   return true;
 }
 
-bool Schedule::smooth(LocalIndex t) {
+bool MendingQueue::smooth(LocalIndex t) {
   const Corners corners = _mesh.corners(t);
   bool moved = false;
   for (const LocalIndex v : corners) {
@@ -168,7 +169,7 @@ bool Schedule::smooth(LocalIndex t) {
   return moved;
 }
 
-bool Schedule::slide(LocalIndex t) {
+bool MendingQueue::slide(LocalIndex t) {
   if (!_sliding) return false;
   const Corners corners = _mesh.corners(t);
   bool moved = false;
@@ -186,7 +187,7 @@ bool Schedule::slide(LocalIndex t) {
   return moved;
 }
 
-bool Schedule::contract(LocalIndex t) {
+bool MendingQueue::contract(LocalIndex t) {
   _best.clear();
   const double least = _mesh.quality(t);
   for (const auto& [i, k] : mesh::tetrahedron_edges) {
@@ -201,7 +202,7 @@ bool Schedule::contract(LocalIndex t) {
   return true;
 }
 
-bool Schedule::move_cavity(LocalIndex t) {
+bool MendingQueue::move_cavity(LocalIndex t) {
   const Corners corners = _mesh.corners(t);
   for (const LocalIndex v : corners) {
     if (_mesh.is_fixed(v) || !has_changed_since(_vertices[v].moved_in_vain, v)) continue;
@@ -218,7 +219,7 @@ bool Schedule::move_cavity(LocalIndex t) {
   return false;
 }
 
-bool Schedule::insert_vertex(LocalIndex t) {
+bool MendingQueue::insert_vertex(LocalIndex t) {
   const int starts = _effort == Effort::unsparing ? CavityInsertion::starts : 1;
   const LocalIndex beside = _mesh.corners(t)[0];
   _best.clear();
@@ -241,28 +242,28 @@ bool Schedule::insert_vertex(LocalIndex t) {
   return false;
 }
 
-bool Schedule::is_allowed_with_vertex(Vec3 position, LocalIndex beside) {
+bool MendingQueue::is_allowed_with_vertex(Vec3 position, LocalIndex beside) {
   _mesh.add_vertex(position, beside);
   const bool allowed = is_allowed(_trial);
   _mesh.drop_last_vertex();
   return allowed;
 }
 
-bool Schedule::reconnect(LocalIndex t) {
+bool MendingQueue::reconnect(LocalIndex t) {
   if (!_polyhedron.propose(_mesh, t, _mesh.quality(t), _trial) || !apply(_trial)) return false;
   ++_replaced;
   return true;
 }
 
-bool Schedule::is_allowed(const Replacement& cavity) {
+bool MendingQueue::is_allowed(const Replacement& cavity) {
   for (const Corners& c : cavity.new_tets) {
     if (_mesh.quality_of(c) <= cavity.before || !_mesh.is_positive(c)) return false;
   }
-  return _reach.pays(_mesh, cavity) && _limits.allow(_mesh, cavity) &&
+  return _attainable.pays(_mesh, cavity) && _limits.allow(_mesh, cavity) &&
          (!_corners || _corners->added_by(_mesh, cavity) <= 0);
 }
 
-bool Schedule::apply(const Replacement& cavity) {
+bool MendingQueue::apply(const Replacement& cavity) {
   if (!is_allowed(cavity)) return false;
   _mesh.replace(cavity, _placed);
   _slots.resize(_mesh.slot_count());
@@ -271,7 +272,7 @@ bool Schedule::apply(const Replacement& cavity) {
   return true;
 }
 
-void Schedule::note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred) {
+void MendingQueue::note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred) {
   ++_now;
   for (const LocalIndex t : tets) {
     ++_slots[t].version;

@@ -1,4 +1,4 @@
-#include "improve/reach.hpp"
+#include "improve/attainable_quality.hpp"
 
 #include "improve/change_limits.hpp"
 #include "tests/improve/pieces.hpp"
@@ -29,26 +29,26 @@ mesh::Piece make_strip(const std::vector<double>& heights, mesh::CadDimension co
   return piece;
 }
 
-TEST(Reach, FallsWithTheWidthOfAStrip) {
-  const Reach reach(make_strip({1}, mesh::CadDimension::edge), measure);
+TEST(AttainableQuality, FallsWithTheWidthOfAStrip) {
+  const AttainableQuality attainable(make_strip({1}, mesh::CadDimension::edge), measure);
   const double least = std::sqrt(width), target = measure.target();
-  EXPECT_NEAR(reach(Corners{0, 1, 2, 3}), least, 1e-6);
-  EXPECT_NEAR(reach(Corners{0, 1, 3, 4}), std::cbrt(least * least * target), 1e-6);
-  EXPECT_NEAR(reach(Corners{0, 3, 4, 5}), std::cbrt(least * target * target), 1e-6);
-  EXPECT_EQ(reach(Corners{3, 4, 5, 6}), target);
-  EXPECT_TRUE(reach.is_limited(Corners{0, 3, 4, 5}));
-  EXPECT_FALSE(reach.is_limited(Corners{3, 4, 5, 6}));
+  EXPECT_NEAR(attainable(Corners{0, 1, 2, 3}), least, 1e-6);
+  EXPECT_NEAR(attainable(Corners{0, 1, 3, 4}), std::cbrt(least * least * target), 1e-6);
+  EXPECT_NEAR(attainable(Corners{0, 3, 4, 5}), std::cbrt(least * target * target), 1e-6);
+  EXPECT_EQ(attainable(Corners{3, 4, 5, 6}), target);
+  EXPECT_TRUE(attainable.is_limited(Corners{0, 3, 4, 5}));
+  EXPECT_FALSE(attainable.is_limited(Corners{3, 4, 5, 6}));
 }
 
-TEST(Reach, IsTheTargetWhereTrianglesMayBecomeOthers) {
-  const Reach reach(make_strip({1}, mesh::CadDimension::face), measure);
-  EXPECT_EQ(reach(Corners{0, 1, 2, 3}), measure.target());
+TEST(AttainableQuality, IsTheTargetWhereTrianglesMayBecomeOthers) {
+  const AttainableQuality attainable(make_strip({1}, mesh::CadDimension::face), measure);
+  EXPECT_EQ(attainable(Corners{0, 1, 2, 3}), measure.target());
 }
 
-TEST(Reach, IsTheTargetBesideWiderStrips) {
+TEST(AttainableQuality, IsTheTargetBesideWiderStrips) {
   mesh::Piece piece = make_strip({1}, mesh::CadDimension::edge);
   piece.coordinates[3 * 2 + 1] = 0.2;
-  EXPECT_EQ(Reach(piece, measure)(Corners{0, 1, 2, 3}), measure.target());
+  EXPECT_EQ(AttainableQuality(piece, measure)(Corners{0, 1, 2, 3}), measure.target());
 }
 
 /// Replaces the first tetrahedron by so many of the second.
@@ -61,65 +61,65 @@ Replacement replace_first(const TetMesh& mesh, std::size_t count) {
   return cavity;
 }
 
-TEST(Reach, RefusesWhatLeavesMoreToMend) {
+TEST(AttainableQuality, RefusesWhatLeavesMoreToMend) {
   mesh::Piece piece = make_strip({0.65, 0.5}, mesh::CadDimension::edge);
-  const Reach reach(piece, measure);
+  const AttainableQuality attainable(piece, measure);
   TetMesh mesh(piece, measure, false);
-  ASSERT_FALSE(reach.is_severe(mesh.quality(0)));
+  ASSERT_FALSE(attainable.is_severe(mesh.quality(0)));
   ASSERT_GT(mesh.quality(1), mesh.quality(0));
-  ASSERT_LT(mesh.quality(1), reach(mesh.corners(1)));
-  EXPECT_TRUE(reach.pays(mesh, replace_first(mesh, 1)));
-  EXPECT_FALSE(reach.pays(mesh, replace_first(mesh, 5)));
+  ASSERT_LT(mesh.quality(1), attainable(mesh.corners(1)));
+  EXPECT_TRUE(attainable.pays(mesh, replace_first(mesh, 1)));
+  EXPECT_FALSE(attainable.pays(mesh, replace_first(mesh, 5)));
 
   mesh::Piece elsewhere = make_strip({0.65, 0.5}, mesh::CadDimension::face);
-  const Reach target(elsewhere, measure);
+  const AttainableQuality target(elsewhere, measure);
   TetMesh other(elsewhere, measure, false);
   EXPECT_TRUE(target.pays(other, replace_first(other, 5))) << "away from strips the worst alone counts";
 }
 
-TEST(Reach, LetsSevereCasesCostOthers) {
+TEST(AttainableQuality, LetsSevereCasesCostOthers) {
   mesh::Piece piece = make_strip({2, 0.5}, mesh::CadDimension::edge);
-  const Reach reach(piece, measure);
+  const AttainableQuality attainable(piece, measure);
   TetMesh mesh(piece, measure, false);
-  ASSERT_TRUE(reach.is_severe(mesh.quality(0)));
-  EXPECT_TRUE(reach.pays(mesh, replace_first(mesh, 20)));
+  ASSERT_TRUE(attainable.is_severe(mesh.quality(0)));
+  EXPECT_TRUE(attainable.pays(mesh, replace_first(mesh, 20)));
 }
 
 /// Whether a tetrahedron of the first height may become one of the second.
 bool may_get_flatter(double from, double to, bool severe, Effort effort) {
   mesh::Piece piece = make_strip({from, to}, mesh::CadDimension::edge);
-  const Reach reach(piece, measure);
+  const AttainableQuality attainable(piece, measure);
   TetMesh mesh(piece, measure, false);
   const Replacement cavity = replace_first(mesh, 1);
-  EXPECT_EQ(reach.is_severe(cavity.before), severe);
+  EXPECT_EQ(attainable.is_severe(cavity.before), severe);
   EXPECT_FALSE(ChangeLimits().allow(mesh, cavity)) << "away from strips";
-  return ChangeLimits(nullptr, &reach, effort).allow(mesh, cavity);
+  return ChangeLimits(nullptr, &attainable, effort).allow(mesh, cavity);
 }
 
-TEST(Reach, LetsSevereCasesGetFlatter) {
+TEST(AttainableQuality, LetsSevereCasesGetFlatter) {
   EXPECT_TRUE(may_get_flatter(0.9, 0.1, true, Effort::sparing));
 }
 
-TEST(Reach, LetsOthersGetFlatterWhereNothingIsSpared) {
+TEST(AttainableQuality, LetsOthersGetFlatterWhereNothingIsSpared) {
   EXPECT_FALSE(may_get_flatter(0.45, 0.25, false, Effort::sparing));
   EXPECT_TRUE(may_get_flatter(0.45, 0.25, false, Effort::unsparing));
 }
 
-TEST(Reach, IsTheTargetEverywhereWhereNothingIsSpared) {
-  const Reach reach(measure);
-  EXPECT_EQ(reach(Corners{0, 1, 2, 3}), measure.target());
-  EXPECT_FALSE(reach.is_limited(Corners{0, 1, 2, 3}));
+TEST(AttainableQuality, IsTheTargetEverywhereWhereNothingIsSpared) {
+  const AttainableQuality attainable(measure);
+  EXPECT_EQ(attainable(Corners{0, 1, 2, 3}), measure.target());
+  EXPECT_FALSE(attainable.is_limited(Corners{0, 1, 2, 3}));
 }
 
-TEST(Reach, LetsSevereCasesGetFlatterByMoves) {
+TEST(AttainableQuality, LetsSevereCasesGetFlatterByMoves) {
   mesh::Piece piece = make_strip({0.9}, mesh::CadDimension::edge);
-  const Reach reach(piece, measure);
+  const AttainableQuality attainable(piece, measure);
   TetMesh mesh(piece, measure, false);
   const std::vector<LocalIndex> star{0};
   const Vec3 origin = mesh.point(3);
   mesh.move_vertex(3, {0.5, 0.5 * width, 0.1}, star);
   EXPECT_FALSE(ChangeLimits().allow_move(mesh, 3, star, origin));
-  EXPECT_TRUE(ChangeLimits(nullptr, &reach).allow_move(mesh, 3, star, origin));
+  EXPECT_TRUE(ChangeLimits(nullptr, &attainable).allow_move(mesh, 3, star, origin));
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 
 namespace aeroloom::picture {
 
-/// The triangle beyond an edge.
-struct Fold {
+/// The triangle on the other side of an edge.
+struct EdgeNeighbour {
   geometry::Vec3 normal;   ///< unit, as its own; zero where there is no triangle
   std::int32_t face = -1;  ///< CAD face
   std::int32_t patch = -1;
@@ -22,22 +22,24 @@ struct Fold {
 
   bool is_open() const { return face < 0; }
   static constexpr auto fields() {
-    return std::tuple(&Fold::normal, &Fold::face, &Fold::patch, &Fold::several, &Fold::shown);
+    return std::tuple(&EdgeNeighbour::normal, &EdgeNeighbour::face, &EdgeNeighbour::patch,
+                      &EdgeNeighbour::several, &EdgeNeighbour::shown);
   }
 };
 
-/// Per local piece, three for each triangle: beyond the edge from its corner i to corner i + 1.
-using Folds = std::vector<std::vector<Fold>>;
+/// Per local piece, three for each triangle: over the edge from its corner i to corner i + 1.
+using EdgeNeighbours = std::vector<std::vector<EdgeNeighbour>>;
 
 /// Edges within a piece are matched there; those with one triangle in it travel. Where several triangles
 /// of a piece, or several pieces with one each, meet, each gets the next one in the order of pieces and
 /// triangles. Collective.
-Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                 const mesh::Numbering& numbering, const Shown& shown);
+EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
+                                    const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                                    const Shown& shown);
 
 /// The angle in radians by which the surface turns at the edge with this direction, counter-clockwise around
 /// a triangle with this normal: positive where the wall is convex for who stands in the flow, as at a leading
 /// edge; negative in a crease, as between wing and fuselage.
-double turn(geometry::Vec3 normal, geometry::Vec3 edge, const Fold& beyond);
+double angle_at(geometry::Vec3 normal, geometry::Vec3 edge, const EdgeNeighbour& neighbour);
 
 }  // namespace aeroloom::picture

@@ -1,5 +1,5 @@
 /// One try at filling a zone in a sandboxed child: what comes back, and what a failing child leaves behind.
-#include "volume/zone_fill.hpp"
+#include "volume/zone_in_child.hpp"
 
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/volume/volume_mesher.hpp"
@@ -48,7 +48,7 @@ double volume_of(const ZoneProblem& problem, const ZoneFilling& filling) {
 
 TEST(FillZone, fills_a_cube) {
   const ZoneProblem problem = cube_problem();
-  const ZoneFilling filling = fill_zone(problem, Fault::none);
+  const ZoneFilling filling = fill_zone_in_child(problem, Fault::none);
   ASSERT_TRUE(filling.filled) << filling.failure;
   EXPECT_NEAR(volume_of(problem, filling), 8, 1e-11);
   EXPECT_EQ(filling.owned.cells.size(), filling.owned.regions.size());
@@ -61,7 +61,7 @@ TEST(FillZone, fills_a_cube) {
 
 TEST(FillZone, makes_the_same_cells_anywhere_and_of_any_scale) {
   const auto cells_of = [](const ZoneProblem& problem) {
-    const ZoneFilling filling = fill_zone(problem, Fault::none);
+    const ZoneFilling filling = fill_zone_in_child(problem, Fault::none);
     EXPECT_TRUE(filling.filled) << filling.failure;
     std::set<LocalCell> cells;
     for (LocalCell cell : filling.owned.cells) {
@@ -111,7 +111,7 @@ TEST(FillZone, keeps_crossings_with_their_cells) {
   ZoneProblem problem = cube_problem();
   for (std::size_t v = 0; v < problem.points.size(); ++v)
     problem.owners[v] = problem.points[v].x < 0.2 ? Owner::mine : Owner::higher;
-  const ZoneFilling filling = fill_zone(problem, Fault::none);
+  const ZoneFilling filling = fill_zone_in_child(problem, Fault::none);
   ASSERT_TRUE(filling.filled) << filling.failure;
   EXPECT_GT(filling.owned.crossings.size(), 50u);
   for (std::size_t i = 0; i < filling.owned.crossings.size(); ++i) {
@@ -142,7 +142,7 @@ TEST(FillZone, says_why_a_surface_cannot_be_filled) {
   problem.owners.assign(problem.points.size(), Owner::mine);
   problem.front.assign(problem.triangles.size(), 0);
   problem.back.assign(problem.triangles.size(), mesh::no_region);
-  const ZoneFilling filling = fill_zone(problem, Fault::none);
+  const ZoneFilling filling = fill_zone_in_child(problem, Fault::none);
   EXPECT_FALSE(filling.filled);
   EXPECT_NE(filling.failure.find("intersect"), std::string::npos) << filling.failure;
   EXPECT_TRUE(filling.owned.cells.empty());
@@ -153,22 +153,22 @@ TEST(PredictTetrahedra, grows_with_points_and_triangles) {
   EXPECT_EQ(predict_tetrahedra(problem), static_cast<std::int64_t>(5.75 * 400 + 2 * 300));
 }
 
-// --- containment: the last rank is struck, the others go on
+// --- the child of the last rank fails, the others go on
 
 struct Injection {
   Fault fault;
   const char* says;
 };
-class Containment : public testing::TestWithParam<Injection> {};
+class FailingChild : public testing::TestWithParam<Injection> {};
 
-TEST_P(Containment, turns_a_failure_into_a_filling_that_says_so) {
+TEST_P(FailingChild, turns_a_failure_into_a_filling_that_says_so) {
   const Communicator world = Communicator::world();
   const bool is_faulty = world.rank() == world.size() - 1;
   const ZoneProblem problem = cube_problem(50);
   // Memory is used up in CPU time, too, and more of it on a slow machine.
   const double seconds = GetParam().fault == Fault::hangs ? 1 : 10;
   const ZoneFilling filling =
-      fill_zone(problem, is_faulty ? GetParam().fault : Fault::none, nullptr, seconds);
+      fill_zone_in_child(problem, is_faulty ? GetParam().fault : Fault::none, nullptr, seconds);
   EXPECT_EQ(filling.filled, !is_faulty);
   EXPECT_EQ(filling.failure.empty(), !is_faulty);
   EXPECT_EQ(filling.owned.cells.empty(), is_faulty);
@@ -177,12 +177,12 @@ TEST_P(Containment, turns_a_failure_into_a_filling_that_says_so) {
   }
   // The same ranks can still talk and fill.
   EXPECT_EQ(world.sum(std::int64_t{1}), world.size());
-  const ZoneFilling again = fill_zone(problem, Fault::none);
+  const ZoneFilling again = fill_zone_in_child(problem, Fault::none);
   EXPECT_TRUE(again.filled) << again.failure;
   EXPECT_NEAR(volume_of(problem, again), 8, 1e-11);
 }
 
-INSTANTIATE_TEST_SUITE_P(all, Containment,
+INSTANTIATE_TEST_SUITE_P(all, FailingChild,
                          testing::Values(Injection{Fault::throws, "injected fault: an exception"},
                                          Injection{Fault::aborts, "crashed"},
                                          Injection{Fault::hangs, "did not end"},

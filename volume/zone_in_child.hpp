@@ -17,7 +17,7 @@ struct ZoneFilling {
   bool filled = false;
   std::string failure;                ///< why not, one line or more
   OwnedCells owned;                   ///< cells ordered along a space-filling curve
-  std::vector<geometry::Vec3> added;  ///< points of TetGen, numbered behind the given ones
+  std::vector<geometry::Vec3> added;  ///< points of TetGen, numbered after the given ones
   double cpu_seconds = 0;             ///< of the child
   std::int64_t child_peak_bytes = 0;
 };
@@ -28,7 +28,8 @@ std::int64_t predict_tetrahedra(const ZoneProblem& problem);
 /// Runs TetGen in a child under limits that follow from the predicted count, the CPU seconds on top of
 /// `base_cpu_seconds`. Nothing the child does harms the
 /// caller. What is found in `tasks` is not filled again, what is filled is kept there.
-ZoneFilling fill_zone(const ZoneProblem& problem, parallel::Fault fault, parallel::TaskStore* tasks = nullptr,
-                      double base_cpu_seconds = VolumeOptions().base_cpu_seconds);
+ZoneFilling fill_zone_in_child(const ZoneProblem& problem, parallel::Fault fault,
+                               parallel::TaskStore* tasks = nullptr,
+                               double base_cpu_seconds = VolumeOptions().base_cpu_seconds);
 
 }  // namespace aeroloom::volume

@@ -1,4 +1,4 @@
-#include "picture/folds.hpp"
+#include "picture/edge_neighbours.hpp"
 
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/rendezvous.hpp"
@@ -33,16 +33,16 @@ struct TriangleSide {
 };
 
 /// Tells the sides of one edge apart.
-std::tuple<mesh::PieceId, std::int32_t> turn_of(const TriangleSide& side) {
+std::tuple<mesh::PieceId, std::int32_t> place_of(const TriangleSide& side) {
   return {side.piece, side.item};
 }
 
 /// The answer to the rank of a triangle.
 struct Answer {
   std::int32_t place, item;
-  Fold fold;
+  EdgeNeighbour neighbour;
 
-  static constexpr auto fields() { return std::tuple(&Answer::place, &Answer::item, &Answer::fold); }
+  static constexpr auto fields() { return std::tuple(&Answer::place, &Answer::item, &Answer::neighbour); }
 };
 
 std::vector<TriangleSide> sides_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
@@ -77,29 +77,30 @@ void tell_each(std::span<const Member> run, const Tell& tell) {
   if (run.size() < 2) return;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const TriangleSide& next = side_of(run[(i + 1) % run.size()]);
-    tell(run[i], Fold{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
+    tell(run[i], EdgeNeighbour{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
   }
 }
 
 }  // namespace
 
-double turn(Vec3 normal, Vec3 edge, const Fold& beyond) {
+double angle_at(Vec3 normal, Vec3 edge, const EdgeNeighbour& neighbour) {
   // Normals point into the wall: what is convex for the flow is concave from there.
-  return -std::atan2(dot(cross(normal, beyond.normal), normalized(edge)), dot(normal, beyond.normal));
+  return -std::atan2(dot(cross(normal, neighbour.normal), normalized(edge)), dot(normal, neighbour.normal));
 }
 
-Folds find_folds(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                 const mesh::Numbering& numbering, const Shown& shown) {
-  Folds folds(surface.pieces.size());
+EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
+                                    const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                                    const Shown& shown) {
+  EdgeNeighbours neighbours(surface.pieces.size());
   std::vector<TriangleSide> travelling;
   const auto match_within = [&](std::size_t p) {
     const mesh::Piece& piece = surface.pieces[p];
-    folds[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
+    neighbours[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
     std::vector<TriangleSide> sides = sides_of(surface, numbering, shown, p);
     std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
-      return a.ends != b.ends ? a.ends < b.ends : turn_of(a) < turn_of(b);
+      return a.ends != b.ends ? a.ends < b.ends : place_of(a) < place_of(b);
     });
     mesh::for_each_key(sides, &TriangleSide::ends, [&](std::span<const TriangleSide> run) {
       const std::int32_t item = run.front().item;
@@ -107,21 +108,23 @@ Folds find_folds(const parallel::Communicator& communicator, const mesh::Distrib
       if (run.size() == 1 && shared[v[item % 3]] && shared[v[(item % 3 + 1) % 3]]) {
         travelling.push_back(run.front());
       } else {
-        tell_each(run, [&](const TriangleSide& side, const Fold& fold) { folds[p][side.item] = fold; });
+        tell_each(run, [&](const TriangleSide& side, const EdgeNeighbour& neighbour) {
+          neighbours[p][side.item] = neighbour;
+        });
       }
     });
   };
   parallel::agree(communicator, [&] {
     for (std::size_t p = 0; p < surface.pieces.size(); ++p) match_within(p);
   });
-  const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, turn_of);
+  const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, place_of);
   const auto answers = meeting.answer<Answer>([](const auto& run, const auto& reply) {
-    tell_each(run, [&](const mesh::Guest<TriangleSide>& guest, const Fold& fold) {
-      reply(guest, {guest.item.place, guest.item.item, fold});
+    tell_each(run, [&](const mesh::Guest<TriangleSide>& guest, const EdgeNeighbour& neighbour) {
+      reply(guest, {guest.item.place, guest.item.item, neighbour});
     });
   });
-  for (const Answer& answer : answers) folds[answer.place][answer.item] = answer.fold;
-  return folds;
+  for (const Answer& answer : answers) neighbours[answer.place][answer.item] = answer.neighbour;
+  return neighbours;
 }
 
 }  // namespace aeroloom::picture

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "aeroloom/improve/improve_options.hpp"
+#include "improve/attainable_quality.hpp"
 #include "improve/boundary_flip.hpp"
 #include "improve/cavity_insertion.hpp"
 #include "improve/corner_count.hpp"
 #include "improve/edge_contraction.hpp"
 #include "improve/edge_removal.hpp"
 #include "improve/face_removal.hpp"
-#include "improve/reach.hpp"
 #include "improve/sliding.hpp"
 #include "improve/small_polyhedron.hpp"
 #include "improve/smoothing.hpp"
@@ -23,11 +23,11 @@ namespace aeroloom::improve {
 /// Works through the tetrahedra below the target, worst first, ties on the slot. One sweep tries each once,
 /// and what swaps leave behind with it; a tetrahedron that resisted is tried again when something around it
 /// has changed, or when stronger means are allowed.
-class Schedule {
+class MendingQueue {
 public:
   /// With a locator, vertices of the boundary slide on its model.
-  Schedule(TetMesh& mesh, const Reach& reach, const ChangeLimits& limits, Effort effort = Effort::sparing,
-           cad::PointLocator* locator = nullptr);
+  MendingQueue(TetMesh& mesh, const AttainableQuality& attainable, const ChangeLimits& limits,
+               Effort effort = Effort::sparing, cad::PointLocator* locator = nullptr);
 
   /// For a mesh that was improved already, but for these tetrahedra, which relieved a corner: others rest
   /// until something around them changes, and no change brings more tetrahedra with several faces on the
@@ -62,7 +62,7 @@ private:
     std::uint32_t smoothed_in_vain = 0, slid_in_vain = 0, moved_in_vain = 0;
   };
   Sweep sweep(Means means);
-  void fill_queue();
+  void fill_heap();
   void push(LocalIndex t);
   bool mend(LocalIndex t, Means means);
   bool swap(LocalIndex t);
@@ -76,12 +76,12 @@ private:
   bool reconnect(LocalIndex t);
   bool is_allowed(const Replacement& cavity);
   bool apply(const Replacement& cavity);
-  /// Tells the queue that tetrahedra are new or have moved; `deferred` waits for the next sweep.
+  /// Tetrahedra are new or have moved; `deferred` waits for the next sweep.
   void note_change(const std::vector<LocalIndex>& tets, LocalIndex deferred);
-  double target_of(LocalIndex t) const { return _reach(_mesh.corners(t)); }
+  double target_of(LocalIndex t) const { return _attainable(_mesh.corners(t)); }
   /// Whether the means that cost most are kept from it: they hardly ever gain beside a strip.
   bool is_spared(LocalIndex t) const {
-    return _reach.is_limited(_mesh.corners(t)) && !_reach.is_severe(_mesh.quality(t));
+    return _attainable.is_limited(_mesh.corners(t)) && !_attainable.is_severe(_mesh.quality(t));
   }
   bool worth_trying(LocalIndex t, Means means) const;
   /// Whether the star of a vertex is another one than at that time.
@@ -90,7 +90,7 @@ private:
   }
 
   TetMesh& _mesh;
-  const Reach& _reach;
+  const AttainableQuality& _attainable;
   const ChangeLimits& _limits;
   const Effort _effort;
   EdgeRemoval _edge_removal;
@@ -104,7 +104,7 @@ private:
   SmallPolyhedron _polyhedron;
   Replacement _best, _trial;
   std::vector<LocalIndex> _placed, _star;
-  std::vector<Task> _queue;  ///< a heap, worst on top
+  std::vector<Task> _heap;  ///< worst on top
   std::vector<SlotHistory> _slots;
   std::vector<VertexHistory> _vertices;
   std::uint32_t _now = 1;

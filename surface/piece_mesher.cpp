@@ -1,4 +1,4 @@
-#include "surface/face_mesher.hpp"
+#include "surface/piece_mesher.hpp"
 
 #include "cad/model/evaluation/face_width.hpp"
 #include "surface/support_mesher.hpp"
@@ -42,12 +42,12 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
 }  // namespace
 
 cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options) {
-  // Facets may leave the surface by a small part of the model, and of the face's own width: a curved strip
-  // must not fold over itself.
-  constexpr double part_of_model = 1e-3, part_of_width = 0.03, least_part_of_model = 1e-6;
+  // Facets may leave the surface by a small fraction of the model, and of the face's own width: a curved
+  // strip must not fold over itself.
+  constexpr double fraction_of_model = 1e-3, fraction_of_width = 0.03, least_fraction_of_model = 1e-6;
   const double scale = model.is_far_field(face) ? model.bounds().diagonal() : model.body_bounds().diagonal();
-  const double deflection = std::clamp(part_of_width * cad::mean_width(model, face),
-                                       least_part_of_model * scale, part_of_model * scale);
+  const double deflection = std::clamp(fraction_of_width * cad::mean_width(model, face),
+                                       least_fraction_of_model * scale, fraction_of_model * scale);
   return model.facets(face, deflection, options.support_angle * std::numbers::pi / 180);
 }
 

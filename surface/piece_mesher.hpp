@@ -10,7 +10,7 @@
 namespace aeroloom::surface {
 
 /// The facets a face's support is made of: they turn by at most options.support_angle and leave the surface
-/// by a small part of the model and of the face's width.
+/// by a small fraction of the model and of the face's width.
 cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options);
 
 /// A whole face as one piece. Throws SurfaceError or cad::CadError.

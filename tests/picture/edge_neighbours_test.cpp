@@ -1,4 +1,4 @@
-#include "picture/folds.hpp"
+#include "picture/edge_neighbours.hpp"
 
 #include "tests/picture/surfaces.hpp"
 
@@ -24,21 +24,22 @@ class FoldsOfCube : public testing::TestWithParam<int> {};
 TEST_P(FoldsOfCube, KnowEveryNeighbourWhateverThePieces) {
   const Communicator world = Communicator::world();
   const mesh::DistributedMesh cube = mesh::examples::cube_surface(world, 4, GetParam());
-  const Folds folds = find_folds(world, cube, mesh::number_mesh(world, cube), all_shown(cube));
+  const EdgeNeighbours neighbours =
+      find_edge_neighbours(world, cube, mesh::number_mesh(world, cube), all_shown(cube));
   std::int64_t open = 0, flat = 0, creases = 0;
   for (std::size_t p = 0; p < cube.pieces.size(); ++p) {
     const mesh::Piece& piece = cube.pieces[p];
-    ASSERT_EQ(folds[p].size(), 3U * piece.cell_count());
+    ASSERT_EQ(neighbours[p].size(), 3U * piece.cell_count());
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const geometry::Vec3 normal = normalized(area_normal(piece, t));
       for (int i = 0; i < 3; ++i) {
-        const Fold& fold = folds[p][3 * t + i];
+        const EdgeNeighbour& neighbour = neighbours[p][3 * t + i];
         const geometry::Vec3 edge = piece.point(piece.cell(t)[(i + 1) % 3]) - piece.point(piece.cell(t)[i]);
-        const double angle = turn(normal, edge, fold);
-        open += fold.is_open() || !fold.shown;
-        flat += std::abs(angle) < 1e-12 && fold.face == piece.triangle_face[t];
+        const double angle = angle_at(normal, edge, neighbour);
+        open += neighbour.is_open() || !neighbour.shown;
+        flat += std::abs(angle) < 1e-12 && neighbour.face == piece.triangle_face[t];
         // The flow is inside: edges of the cube are creases for it.
-        creases += std::abs(angle + right_angle) < 1e-12 && fold.face != piece.triangle_face[t];
+        creases += std::abs(angle + right_angle) < 1e-12 && neighbour.face != piece.triangle_face[t];
       }
     }
   }
@@ -49,7 +50,7 @@ TEST_P(FoldsOfCube, KnowEveryNeighbourWhateverThePieces) {
 
 INSTANTIATE_TEST_SUITE_P(Pieces, FoldsOfCube, testing::Values(1, 2, 7, 24));
 
-TEST(Folds, OpenEdgesAndThoseOfSeveralTrianglesAreKnown) {
+TEST(EdgeNeighbours, OpenEdgesAndThoseOfSeveralTrianglesAreKnown) {
   const Communicator world = Communicator::world();
   examples::SurfaceBuilder builder;
   // Three sheets that meet at the z axis.
@@ -65,8 +66,8 @@ TEST(Folds, OpenEdgesAndThoseOfSeveralTrianglesAreKnown) {
   const mesh::DistributedMesh sheets = builder.distribute(world, {"sheets"});
   std::int64_t open = 0, several = 0;
   for (const auto& of_piece :
-       find_folds(world, sheets, mesh::number_mesh(world, sheets), all_shown(sheets))) {
-    for (const Fold& fold : of_piece) open += fold.is_open(), several += fold.several;
+       find_edge_neighbours(world, sheets, mesh::number_mesh(world, sheets), all_shown(sheets))) {
+    for (const EdgeNeighbour& neighbour : of_piece) open += neighbour.is_open(), several += neighbour.several;
   }
   EXPECT_EQ(world.sum(several), 3 * 3);
   EXPECT_EQ(world.sum(open), 3 * (2 + 2 + 3));

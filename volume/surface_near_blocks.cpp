@@ -1,4 +1,4 @@
-#include "volume/surface_share.hpp"
+#include "volume/surface_near_blocks.hpp"
 
 #include "aeroloom/mesh/delivery.hpp"
 #include "volume/boundary_distance.hpp"
@@ -159,13 +159,13 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
 
 std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
                                             const LatticeFrame& frame, const LatticeTree& tree,
-                                            const SurfaceReach& reach, std::vector<SurfaceTriangle> own,
+                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own,
                                             parallel::StageClock& clock) {
   if (communicator.size() == 1) return own;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
-    const BlockReach& of_block = reach.of_blocks[b - tree.first()];
+    const BlockSearchRadii& of_block = radii.of_blocks[b - tree.first()];
     const double least = std::max(of_block.least, of_block.nearest), most = std::max(of_block.most, least);
     const GridBox box = GridBox::of(tree.cube(b)), around = box.dilated(most);
     if (!tree.is_within_own(around))
@@ -192,11 +192,11 @@ std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& commun
         longest = std::max(longest, longest_edge(triangle.points));
       }
       const GridBox whole = GridBox{around.low, around.high}.dilated(rounding);
-      if (!of_large.any_within(whole, 0) || !of_all.any_within(whole, reach.per_edge * longest)) continue;
+      if (!of_large.any_within(whole, 0) || !of_all.any_within(whole, radii.per_edge * longest)) continue;
       for (const SurfaceTriangle& triangle : some) {
         const GridBox box = grid_box(frame, triangle.points);
         if (of_large.any_within(box, 0) &&
-            of_all.any_within(box, reach.per_edge * longest_edge(triangle.points)))
+            of_all.any_within(box, radii.per_edge * longest_edge(triangle.points)))
           outgoing.push_back({triangle, asked.front().from});
       }
     }

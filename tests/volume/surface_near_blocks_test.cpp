@@ -29,10 +29,10 @@ struct Shared {
         problem(communicator, surface, fields::around_unit_sphere(0.15, 0.6)),
         lattice(problem, box_of(surface)) {}
 
-  std::vector<SurfaceTriangle> deliver(double reach) {
-    const SurfaceReach reaches{
-        std::vector<BlockReach>(lattice.tree.last() - lattice.tree.first(), {reach, reach}), 0};
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, reaches, lattice.own_triangles,
+  std::vector<SurfaceTriangle> deliver(double radius) {
+    const SearchRadii radii{
+        std::vector<BlockSearchRadii>(lattice.tree.last() - lattice.tree.first(), {radius, radius}), 0};
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii, lattice.own_triangles,
                           lattice.clock);
   }
 
@@ -101,14 +101,14 @@ TEST(SurfaceTable, is_the_same_on_any_number_of_ranks) {
   }
 }
 
-TEST(DeliverSurface, brings_what_is_within_reach) {
+TEST(DeliverSurface, brings_what_is_within_the_radius) {
   const Communicator world = Communicator::world();
   Shared shared(world);
   const Lattice& lattice = shared.lattice;
   constexpr double step = 0.125;
   for (const double in_space : {0.0, 0.2, 1.0}) {
-    const double reach = lattice.frame.grid_distance(in_space);
-    const std::vector<SurfaceTriangle> delivered = shared.deliver(reach);
+    const double radius = lattice.frame.grid_distance(in_space);
+    const std::vector<SurfaceTriangle> delivered = shared.deliver(radius);
     std::set<std::array<Vec3, 3>, bool (*)(const std::array<Vec3, 3>&, const std::array<Vec3, 3>&)> known(
         [](const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
           const auto flat = [](const std::array<Vec3, 3>& t) {
@@ -125,7 +125,7 @@ TEST(DeliverSurface, brings_what_is_within_reach) {
         for (double v = 0; u + v <= 1 && !is_near; v += step) {
           const Vec3 p = lattice.frame.to_grid(u * t.points[0] + v * t.points[1] + (1 - u - v) * t.points[2]);
           for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last() && !is_near; ++b)
-            is_near = GridBox::of(lattice.tree.cube(b)).gap_to({p, p}) <= reach;
+            is_near = GridBox::of(lattice.tree.cube(b)).gap_to({p, p}) <= radius;
         }
       }
       needed += is_near;

@@ -1,5 +1,5 @@
 /// The surface mesh seen from the blocks of the lattice: a table of what meets each block, and each rank's
-/// share.
+/// triangles near its own blocks.
 #pragma once
 
 #include "aeroloom/mesh/distributed_mesh.hpp"
@@ -64,28 +64,28 @@ std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& commu
 SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
                               std::span<const SurfaceTriangle> triangles);
 
-/// How far triangles matter to a block, in the grid: because they are near, or because one of them is the
-/// nearest.
-struct BlockReach {
-  double least;        ///< all of them
-  double most;         ///< those whose longest edge times `per_edge` is as much
-  double nearest = 0;  ///< one of them is so near to all points of the block; 0: which one does not matter
+/// Distances from a block within which triangles matter to it, in the grid.
+struct BlockSearchRadii {
+  double least;  ///< every triangle that is nearer matters
+  double most;  ///< none that is farther matters; in between those nearer than `per_edge` times their longest
+                ///< edge
+  double nearest = 0;  ///< one triangle is so near to all points of the block; 0: which one does not matter
   bool from_within = false;  ///< what meets the block tells the regions there (within_blocks.hpp)
 };
 
-struct SurfaceReach {
-  std::vector<BlockReach> of_blocks;  ///< of this rank
-  double per_edge = 0;                ///< grid distance per length
+struct SearchRadii {
+  std::vector<BlockSearchRadii> of_blocks;  ///< of this rank
+  double per_edge = 0;                      ///< grid distance per length
 
-  /// Of a rank's block, by its place in its share.
+  /// Of a rank's block, by its place among the rank's own.
   bool is_from_within(std::size_t i) const { return i < of_blocks.size() && of_blocks[i].from_within; }
 };
 
-/// With those that other ranks have and that come within reach of this rank's blocks. By number, each once.
-/// Collective.
+/// With those that other ranks have and that come within the search radii of this rank's blocks. By number,
+/// each once. Collective.
 std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
                                             const LatticeFrame& frame, const LatticeTree& tree,
-                                            const SurfaceReach& reach, std::vector<SurfaceTriangle> own,
+                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own,
                                             parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume
