@@ -132,8 +132,8 @@ std::vector<FoundFaces> FaceFinder::look(const FaceConditions& c, const GroupRul
 }
 
 std::vector<char> FaceFinder::where(const std::function<bool(cad::FaceId)>& holds) const {
-  std::vector<char> faces;
-  for (cad::FaceId f = 0; f < _model.face_count(); ++f) faces.push_back(holds(f) ? 1 : 0);
+  std::vector<char> faces(static_cast<std::size_t>(_model.face_count()), 0);
+  for (cad::FaceId f = 0; f < _model.face_count(); ++f) faces[f] = holds(f) ? 1 : 0;
   return faces;
 }
 
