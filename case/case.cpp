@@ -1,6 +1,7 @@
 #include "aeroloom/case/case.hpp"
 
 #include "case/case_keys.hpp"
+#include "case/group_keys.hpp"
 #include "case/source_keys.hpp"
 
 #include <algorithm>
@@ -68,7 +69,17 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   check_geometry(keys, draft, name);
   check_sizing(keys, draft.result.sizing);
   check_sources(keys, draft.sources);
+  check_groups(keys, draft.groups, draft.patches);
+  for (const PatchRule& rule : draft.patches)
+    check_patterns(keys, "patches." + rule.name + ".faces", rule.faces);
+  check_patterns(keys, "geometry.sharpen_faces", draft.result.domain.trailing_edges.faces);
   Case result = draft.result;
+  result.groups.rules.assign(draft.groups.begin(), draft.groups.end());
+  result.groups.where = keys.where("groups.strict");
+  for (GroupRule& rule : result.groups.rules) {
+    rule.where = keys.where("groups." + rule.name);
+    if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
+  }
   result.patches.assign(draft.patches.begin(), draft.patches.end());
   result.sizing.sources.assign(draft.sources.begin(), draft.sources.end());
   for (const PatchRule& rule : result.patches) {
@@ -126,10 +137,12 @@ std::string resolved_yaml(const Case& input) {
     draft.far_field = *input.domain.far_field;
     draft.far_field_given = true;
   }
+  draft.groups.assign(input.groups.rules.begin(), input.groups.rules.end());
   draft.patches.assign(input.patches.begin(), input.patches.end());
   draft.sources.assign(input.sizing.sources.begin(), input.sizing.sources.end());
   KeyTable keys;
   declare_case_keys(keys, draft);
+  for (const GroupRule& rule : input.groups.rules) keys.add_named("groups", rule.name);
   for (const PatchRule& rule : input.patches) keys.add_named("patches", rule.name);
   for (const SourceRule& rule : input.sizing.sources) keys.add_named("sizing.sources", rule.name);
   return keys.write();

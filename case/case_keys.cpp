@@ -127,6 +127,7 @@ std::vector<KeyInfo> case_keys() {
   CaseDraft draft;
   KeyTable keys;
   declare_case_keys(keys, draft);
+  keys.add_named("groups", made_up_name);
   keys.add_named("patches", made_up_name);
   keys.add_named("sizing.sources", made_up_name);
   return keys.infos();

@@ -24,6 +24,7 @@ struct CaseDraft {
   std::optional<double> sharpen_width;
   // They stay where they are while others are added.
   std::deque<PatchRule> patches;
+  std::deque<GroupRule> groups;
   std::deque<SourceRule> sources;
 };
 

@@ -30,10 +30,18 @@ Json::json_pointer place_of(const std::string& path) {
   return place;
 }
 
+void add_keys(Json& schema, const std::vector<KeyInfo>& keys);
+
+Json list_of_numbers(std::size_t count) {
+  return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", count}, {"maxItems", count}};
+}
+
 /// A value of the key, from YAML.
 Json json_value(const KeyInfo& key, const std::string& yaml) {
   const YAML::Node node = YAML::Load(yaml);
-  if (key.kind == KeyKind::point) return node.as<std::vector<double>>();
+  if (key.kind == KeyKind::box) return node.as<std::vector<std::vector<double>>>();
+  if (key.kind == KeyKind::point || key.kind == KeyKind::direction || key.kind == KeyKind::interval)
+    return node.as<std::vector<double>>();
   if (node.IsSequence()) return node.as<std::vector<std::string>>();
   const bool bare = key.kind == KeyKind::number || key.kind == KeyKind::integer || key.kind == KeyKind::flag;
   return bare ? Json::parse(yaml) : Json(node.Scalar());
@@ -88,8 +96,21 @@ void add_type(Json& schema, const KeyInfo& key) {
       add_list_of(schema, {{"enum", key.choices}});
       break;
     case KeyKind::point:
-      schema.update({{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}});
+    case KeyKind::direction:
+      schema.update(list_of_numbers(3));
       break;
+    case KeyKind::interval:
+      schema.update(list_of_numbers(2));
+      break;
+    case KeyKind::box:
+      schema.update({{"type", "array"}, {"items", list_of_numbers(3)}, {"minItems", 2}, {"maxItems", 2}});
+      break;
+    case KeyKind::sections: {
+      Json item = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+      add_keys(item, key.of_each);
+      schema.update({{"type", "array"}, {"items", item}, {"minItems", 1}});
+      break;
+    }
   }
 }
 
@@ -102,6 +123,20 @@ std::string description(const KeyInfo& key) {
   return text;
 }
 
+void add_keys(Json& schema, const std::vector<KeyInfo>& keys) {
+  for (const KeyInfo& key : keys) {
+    const std::string text = description(key);
+    Json one = {{"description", text}};
+    // Editors that know Markdown show code as code, and not the ticks around it.
+    if (text.find('`') != std::string::npos) one["markdownDescription"] = text;
+    add_type(one, key);
+    if (!key.default_value.empty()) one["default"] = json_value(key, key.default_value);
+    const bool alone = !key.has_keys_below() && key.kind != KeyKind::sections && key.choices.empty();
+    if (alone && !key.doc.example.empty()) one["examples"] = Json::array({json_value(key, key.doc.example)});
+    schema[place_of(key.path)] = one;
+  }
+}
+
 }  // namespace
 
 std::string case_schema(const std::vector<KeyInfo>& keys) {
@@ -111,17 +146,7 @@ std::string case_schema(const std::vector<KeyInfo>& keys) {
                  {"type", "object"},
                  {"properties", Json::object()},
                  {"additionalProperties", false}};
-  for (const KeyInfo& key : keys) {
-    const std::string text = description(key);
-    Json one = {{"description", text}};
-    // Editors that know Markdown show code as code, and not the ticks around it.
-    if (text.find('`') != std::string::npos) one["markdownDescription"] = text;
-    add_type(one, key);
-    if (!key.default_value.empty()) one["default"] = json_value(key, key.default_value);
-    if (!key.has_keys_below() && key.choices.empty() && !key.doc.example.empty())
-      one["examples"] = Json::array({json_value(key, key.doc.example)});
-    schema[place_of(key.path)] = one;
-  }
+  add_keys(schema, keys);
   return schema.dump(2) + "\n";
 }
 

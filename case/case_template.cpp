@@ -64,7 +64,11 @@ std::string value_line(const KeyInfo& key, const TemplateRequest& request) {
   if (key.path == "geometry.file" && !request.geometry.empty()) return "file: " + quoted(request.geometry);
   if (key.kind == KeyKind::named) return fmt::format("#{}:  # for example", key.doc.example);
   if (key.has_keys_below()) return key.name() + ":";
-  if (key.default_value.empty()) return fmt::format("#{}: {}  # for example", key.name(), key.doc.example);
+  // Below a name that is made up there is nothing without an example of one.
+  const bool of_example = key.path.find(std::string(".") + made_up_name + ".") != std::string::npos;
+  if (key.default_value.empty() || of_example)
+    return fmt::format("#{}: {}  # for example", key.name(),
+                       key.default_value.empty() ? key.doc.example : key.default_value);
   return fmt::format("#{}: {}", key.name(), key.default_value);
 }
 

@@ -1,4 +1,5 @@
 #include "case/case_keys.hpp"
+#include "case/group_keys.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -68,8 +69,8 @@ void declare_trailing_edges(KeyTable& keys, CaseDraft& draft) {
   keys.texts("sharpen_faces", trailing.faces,
              sets("TrailingEdgeOptions::faces",
                   {"List of patterns: only strips are closed whose face's or patch's name matches one; `*` "
-                   "stands for any characters, `?` for one. A pattern without any match is an error. Needs "
-                   "`trailing_edges: sharpen`.",
+                   "stands for any characters, `?` for one, `re:` for an expression. A pattern without any "
+                   "match is an error. Needs `trailing_edges: sharpen`.",
                    "all", "['wing*', fin_te]"}));
   keys.number(
       "sharpen_width", draft.sharpen_width, Range::above(0, length_unit),
@@ -163,28 +164,18 @@ void declare_patches(KeyTable& root, CaseDraft& draft) {
         const auto [place, is_new] = places.try_emplace(name, draft.patches.size());
         PatchRule& rule =
             is_new ? draft.patches.emplace_back(PatchRule{name, {}, {}, {}}) : draft.patches[place->second];
-        keys.texts(
-            "faces", rule.faces,
-            common({"List of patterns of faces' or patches' names (`*` any characters, `?` one): these "
-                    "faces become this patch. A pattern without any match is an error that lists the "
-                    "nearest names.",
-                    "the patch of this name", "['wing_*', 'flap_?']"}));
+        keys.texts("faces", rule.faces,
+                   common({"List of patterns of faces' or patches' names (`*` any characters, `?` one, `re:` "
+                           "an expression): these "
+                           "faces become this patch. A pattern without any match is an error that lists the "
+                           "nearest names.",
+                           "the patch of this name", "['wing_*', 'flap_?']"}));
         keys.number(
             "size", rule.size, Range::above(0, length_unit),
             common({"Largest size of elements on the faces of the patch. Smaller sizes that are asked for "
                     "there win; no other bound does.",
                     "that of `sizing`", "0.05"}));
-        using mesh::PatchType;
-        std::vector<std::pair<std::string, std::optional<PatchType>>> types;
-        for (const PatchType type : {PatchType::wall, PatchType::slip, PatchType::symmetry,
-                                     PatchType::farfield, PatchType::inlet, PatchType::outlet})
-          types.emplace_back(mesh::name_of(type), type);
-        keys.choice(
-            "type", rule.type, types,
-            common(
-                {"The condition that goes into solver files ([Formats](formats.md)).",
-                 "`farfield` for the far field that the program added, others by their names, or else `wall`",
-                 "wall"}));
+        declare_patch_type(keys, rule.type);
       });
 }
 
@@ -198,6 +189,7 @@ void declare_geometry_keys(KeyTable& root, CaseDraft& draft) {
                           "solids are the fluid."),
                    &draft.far_field_given),
       draft);
+  declare_groups(root, draft.groups, draft.result.groups.strict);
   declare_patches(root, draft);
 }
 

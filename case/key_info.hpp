@@ -40,12 +40,16 @@ enum class KeyKind {
   named,    ///< as a section, but of a name that the user makes up; the path has NAME there
   number,
   integer,
-  flag,     ///< true or false
-  text,     ///< not empty
-  texts,    ///< a list of texts, or one alone
-  choice,   ///< one of names
-  choices,  ///< a list of such names, or one alone
-  point     ///< a list of three numbers
+  flag,       ///< true or false
+  text,       ///< not empty
+  texts,      ///< a list of texts, or one alone
+  choice,     ///< one of names
+  choices,    ///< a list of such names, or one alone
+  point,      ///< a list of three numbers
+  direction,  ///< the same, without a unit
+  interval,   ///< a list of two numbers, the smaller one first
+  box,        ///< a list of two points
+  sections    ///< a list of maps of keys
 };
 
 struct KeyInfo {
@@ -55,6 +59,7 @@ struct KeyInfo {
   Range range = {};                  ///< of numbers, with their unit
   std::vector<std::string> choices;  ///< names that are accepted
   std::string default_value;         ///< as YAML; empty where there is none
+  std::vector<KeyInfo> of_each;      ///< keys of a map of `sections`, their paths from there
 
   std::string name() const { return path.substr(path.rfind('.') + 1); }
   bool has_keys_below() const { return kind == KeyKind::section || kind == KeyKind::named; }

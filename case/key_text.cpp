@@ -58,6 +58,14 @@ std::string accepted_values(const KeyInfo& key) {
       return "one or a list of " + joined(key.choices);
     case KeyKind::point:
       return "list of three numbers (length unit of the geometry)";
+    case KeyKind::direction:
+      return "list of three numbers (direction)";
+    case KeyKind::interval:
+      return two_words("list of two numbers, the smaller one first", key.range.unit);
+    case KeyKind::box:
+      return "list of two points (opposite corners, length unit of the geometry)";
+    case KeyKind::sections:
+      return "list of selections";
     case KeyKind::section:
     case KeyKind::named:
       break;

@@ -157,11 +157,12 @@ void KeyTable::point(const std::string& name, std::optional<geometry::Vec3>& tar
   };
 }
 
-void KeyTable::named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
-                              std::function<void(const std::string&, KeyTable&)> declare) {
+KeyTable& KeyTable::named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
+                                   std::function<void(const std::string&, KeyTable&)> declare) {
   KeyTable& below = section(name, doc);
   below._declare_named = std::move(declare);
   below._doc_of_named = doc_of_each;
+  return below;
 }
 
 void KeyTable::add_named(const std::string& name, const std::string& made_up) {
@@ -252,6 +253,10 @@ bool KeyTable::read(const YAML::Node& node, const Source& source) {
 }
 
 bool KeyTable::read_entry(KeyEntry& entry, const YAML::Node& node, const Source& source) {
+  if (entry.declare_item) {
+    read_items(entry, node, source);
+    return true;
+  }
   if (entry.below) {
     const bool given = entry.below->read(node, source);
     if (given && entry.given) *entry.given = true;
@@ -261,6 +266,21 @@ bool KeyTable::read_entry(KeyEntry& entry, const YAML::Node& node, const Source&
   const std::string where = node.IsNull() ? entry.where : origin_in(source, node);
   entry.read(YamlValue(node, path_of(entry.name), where));
   return true;
+}
+
+void KeyTable::read_items(KeyEntry& entry, const YAML::Node& node, const Source& source) {
+  const auto refuse = [&](const YAML::Node& found) {
+    throw CaseError(fmt::format("{}: '{}': expected a list of keys in braces, got {}",
+                                found.IsNull() ? entry.where : origin_in(source, found), entry.info.path,
+                                describe(found)));
+  };
+  if (!node.IsSequence() || node.size() == 0) refuse(node);
+  entry.items.clear();
+  entry.forget_items();
+  for (const auto& item : node) {
+    if (!item.IsMap()) refuse(item);
+    add_item(entry).read(item, source);
+  }
 }
 
 KeyTable::KeyEntry* KeyTable::find(const std::string& name) {
@@ -291,6 +311,7 @@ void KeyTable::collect_paths(std::vector<std::string>& paths) const {
 }
 
 std::string KeyTable::KeyEntry::default_value() const {
+  if (written_as_yaml) return written_as_yaml().value_or("");
   YAML::Emitter emitter;
   if (listed) {
     const std::vector<std::string> all = listed();
@@ -326,7 +347,8 @@ std::string KeyTable::where(const std::string& path) const {
   const std::size_t dot = path.find('.');
   for (const KeyEntry& entry : _entries) {
     if (entry.name != path.substr(0, dot)) continue;
-    return dot == std::string::npos ? entry.where : entry.below->where(path.substr(dot + 1));
+    if (dot == std::string::npos) return entry.where;
+    return entry.below ? entry.below->where(path.substr(dot + 1)) : "";
   }
   return "";
 }
@@ -345,6 +367,11 @@ void KeyTable::write(YAML::Emitter& emitter) const {
       if (entry.below->_declare_named && entry.below->_entries.empty()) continue;
       emitter << YAML::Key << entry.name << YAML::Value;
       entry.below->write(emitter);
+    } else if (entry.declare_item) {
+      write_items(entry, emitter);
+    } else if (entry.written_as_yaml) {
+      if (const std::optional<std::string> value = entry.written_as_yaml())
+        emitter << YAML::Key << entry.name << YAML::Value << YAML::Flow << YAML::Load(*value);
     } else if (entry.listed) {
       const std::vector<std::string> all = entry.listed();
       if (!all.empty()) emitter << YAML::Key << entry.name << YAML::Value << YAML::Flow << all;

@@ -46,6 +46,20 @@ public:
   void texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc);
   /// A list of three numbers, in the length unit of the geometry. An empty optional is not written.
   void point(const std::string& name, std::optional<geometry::Vec3>& target, const KeyDoc& doc);
+  /// The same, without a unit.
+  void direction(const std::string& name, std::optional<geometry::Vec3>& target, const KeyDoc& doc);
+  /// A list of two numbers, the smaller one first; as messages tell, in `unit`.
+  void interval(const std::string& name, std::optional<std::pair<double, double>>& target,
+                const std::string& unit, const KeyDoc& doc);
+  /// A list of two points, in the length unit of the geometry.
+  void box(const std::string& name, std::optional<std::pair<geometry::Vec3, geometry::Vec3>>& target,
+           const KeyDoc& doc);
+  /// A list of maps of keys; the empty one is not written. `declare(i, table)` declares those of the i-th
+  /// map, of which there are `count` now; `of_each` tells of them. Before a list is read `forget()` is
+  /// called.
+  void sections(const std::string& name, std::size_t count, std::vector<KeyInfo> of_each,
+                std::function<void(std::size_t, KeyTable&)> declare, std::function<void()> forget,
+                const KeyDoc& doc);
   /// One of the names, each standing for a value of the enumeration.
   template <class Enum>
   void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values,
@@ -56,9 +70,9 @@ public:
                const std::vector<std::pair<std::string, Enum>>& values, const KeyDoc& doc);
   /// Declares a key whose keys below are names that the user makes up, `doc_of_each` documenting them. Each
   /// gets a table, which `declare(name, table)` fills, when it is read, or by add_named(). Nothing is written
-  /// while there is none.
-  void named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
-                      std::function<void(const std::string&, KeyTable&)> declare);
+  /// while there is none. Returns the table of the names, for keys beside them.
+  KeyTable& named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
+                           std::function<void(const std::string&, KeyTable&)> declare);
   /// Below the key of named_sections(), of which `name` is the path ("sizing.sources").
   void add_named(const std::string& name, const std::string& made_up);
 
@@ -78,12 +92,16 @@ public:
 private:
   struct KeyEntry {
     std::string name;
-    KeyInfo info;                                         // without the default
-    std::unique_ptr<KeyTable> below;                      // of a section
-    bool* given = nullptr;                                // of a section
-    std::function<void(const YamlValue&)> read;           // of a value
-    std::function<std::optional<std::string>()> written;  // of a value
-    std::function<std::vector<std::string>()> listed;     // of a list
+    KeyInfo info;                                                 // without the default
+    std::unique_ptr<KeyTable> below;                              // of a section
+    bool* given = nullptr;                                        // of a section
+    std::function<void(const YamlValue&)> read;                   // of a value
+    std::function<std::optional<std::string>()> written;          // of a value
+    std::function<std::vector<std::string>()> listed;             // of a list
+    std::function<std::optional<std::string>()> written_as_yaml;  // of a list of lists
+    std::vector<std::unique_ptr<KeyTable>> items;                 // of a list of maps
+    std::function<void(std::size_t, KeyTable&)> declare_item;
+    std::function<void()> forget_items;
     std::string where;
 
     std::string default_value() const;
@@ -96,6 +114,9 @@ private:
            std::function<void(const YamlValue&)> read, std::function<std::optional<std::string>()> written);
   // Whether something is given: an empty section among others is as if it were not there.
   bool read(const YAML::Node& node, const Source& source);
+  static KeyTable& add_item(KeyEntry& entry);
+  static void read_items(KeyEntry& entry, const YAML::Node& node, const Source& source);
+  static void write_items(const KeyEntry& entry, YAML::Emitter& emitter);
   bool read_entry(KeyEntry& entry, const YAML::Node& node, const Source& source);
   KeyEntry* find(const std::string& name);
   KeyEntry& make_named(const std::string& name);

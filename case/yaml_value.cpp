@@ -3,6 +3,7 @@
 #include "aeroloom/case/case_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -153,6 +154,32 @@ geometry::Vec3 YamlValue::point() const {
     point[axis] = *value;
   }
   return point;
+}
+
+std::pair<geometry::Vec3, geometry::Vec3> YamlValue::points() const {
+  const char* const wanted = "a list of two points, such as [[0, 0, 0], [1, 1, 1]]";
+  if (!_node.IsSequence() || _node.size() != 2) refuse(wanted);
+  std::array<geometry::Vec3, 2> both;
+  for (int i = 0; i < 2; ++i) {
+    const YAML::Node item = _node[i];
+    if (!item.IsSequence()) refuse(wanted);
+    both[i] = YamlValue(item, _path, _where).point();
+  }
+  return {both[0], both[1]};
+}
+
+std::pair<double, double> YamlValue::interval() const {
+  const char* const wanted = "a list of two numbers, the smaller one first";
+  if (!_node.IsSequence() || _node.size() != 2) refuse(wanted);
+  std::array<double, 2> both{};
+  for (int i = 0; i < 2; ++i) {
+    const YAML::Node item = _node[i];
+    const std::optional<double> value = item.IsScalar() ? parse_number(item.Scalar()) : std::nullopt;
+    if (!value) refuse(wanted);
+    both[i] = *value;
+  }
+  if (both[0] > both[1]) refuse(wanted);
+  return {both[0], both[1]};
 }
 
 std::size_t YamlValue::choice(const std::vector<std::string>& names) const {

@@ -45,6 +45,10 @@ public:
   std::vector<std::string> texts() const;
   /// A list of three finite numbers.
   geometry::Vec3 point() const;
+  /// A list of two of them.
+  std::pair<geometry::Vec3, geometry::Vec3> points() const;
+  /// A list of two finite numbers, the smaller one first.
+  std::pair<double, double> interval() const;
   /// The position among `names`.
   std::size_t choice(const std::vector<std::string>& names) const;
   /// The positions of a list, or of one alone, each once.

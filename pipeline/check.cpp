@@ -1,6 +1,7 @@
 #include "pipeline/check.hpp"
 
 #include "aeroloom/case/option_keys.hpp"
+#include "aeroloom/domain/face_patches.hpp"
 #include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/domain/size_domain.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
@@ -18,6 +19,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <ios>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -187,7 +190,10 @@ Json read_json(const cases::Case& input, const cad::Diagnosis& found) {
   return json;
 }
 
-Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& types) {
+Json domain_json(const cases::Case& input, const cad::Domain& domain,
+                 const std::vector<mesh::PatchType>& types) {
+  std::set<std::string> groups;
+  for (const cases::GroupRule& rule : input.groups.rules) groups.insert(rule.name);
   Json json = {{"kind", domain.report.kind == cad::DomainKind::fluid ? "fluid" : "body"},
                {"reason", domain.report.reason},
                {"changes", report::to_json(domain.report.changes)}};
@@ -207,7 +213,13 @@ Json domain_json(const cad::Domain& domain, const std::vector<mesh::PatchType>& 
   for (cad::FaceId f = 0; f < domain.model.face_count(); ++f) {
     const cad::Face& face = domain.model.face(f);
     Json row = report::face_row(face.name, domain.model.face_place(f));
-    row["patch"] = domain.model.patches()[static_cast<std::size_t>(face.patch)];
+    const std::string& patch = domain.model.patches()[static_cast<std::size_t>(face.patch)];
+    row["id"] = face.number >= 0 ? Json(face.number) : Json();
+    row["patch"] = patch;
+    row["group"] = groups.count(patch) > 0 ? Json(patch) : Json();
+    for (const auto& [key, text] :
+         {std::pair("part", &face.part), {"layer", &face.layer}, {"colour", &face.colour}})
+      if (!text->empty()) row[key] = *text;
     json["faces"].push_back(std::move(row));
   }
   return json;
@@ -245,7 +257,7 @@ Json record_json(const cases::Case& input, const CheckRecord& record) {
     json["failure"] = record.diagnosis.failure;
     return json;
   }
-  json["domain"] = domain_json(*record.diagnosis.domain, record.patch_types);
+  json["domain"] = domain_json(input, *record.diagnosis.domain, record.patch_types);
   json["forecast"] = forecast_json(record.forecast);
   return json;
 }
@@ -283,8 +295,8 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (!meshable) clock.end();
   if (meshable) {
-    cases::TypedPatches patches =
-        cases::apply_patch_rules(domain::share_model(communicator, std::move(bytes), clock), input.patches);
+    cases::TypedPatches patches = domain::find_patches(
+        communicator, domain::share_model(communicator, std::move(bytes), clock), input, clock);
     clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;

@@ -32,6 +32,8 @@ cases::Case relevant_part(const cases::Case& input, SavedStage stage) {
   part.domain = input.domain;
   if (!part.domain.file.empty()) part.domain.file = std::filesystem::path(input.domain.file).filename();
   if (stage >= SavedStage::sizing) {
+    part.groups.rules = input.groups.rules;
+    for (cases::GroupRule& rule : part.groups.rules) rule.type.reset();
     part.patches = input.patches;
     for (cases::PatchRule& rule : part.patches)
       rule.type.reset();  // what they are to a solver is for the output

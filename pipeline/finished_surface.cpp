@@ -14,10 +14,9 @@ using parallel::Communicator;
 
 namespace {
 
-/// Areas and counts by patch; sums run in the order of the pieces, whatever rank they live on.
-std::vector<report::PatchRow> table_of_patches(const Communicator& communicator, const cad::Model& model,
-                                               const mesh::DistributedMesh& surface,
-                                               const std::vector<mesh::PatchType>& types) {
+/// Areas and counts by face; sums run in the order of the pieces, whatever rank they live on.
+std::vector<report::FaceRow> table_of_faces(const Communicator& communicator, const cad::Model& model,
+                                            const mesh::DistributedMesh& surface) {
   struct PieceRow {
     mesh::PieceId piece;
     cad::FaceId face;
@@ -40,17 +39,35 @@ std::vector<report::PatchRow> table_of_patches(const Communicator& communicator,
   }
   std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
   std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+  std::vector<report::FaceRow> faces;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    const cad::Face& face = model.face(f);
+    faces.push_back({.name = face.name, .number = face.number, .patch = model.patches()[face.patch]});
+  }
+  for (const PieceRow& row : rows) {
+    report::FaceRow& face = faces[row.face];
+    if (face.triangles == 0) face.cad_area = model.face_area(row.face);
+    face.area += row.area;
+    face.triangles += row.triangles;
+  }
+  return faces;
+}
+
+/// The faces' sums by patch.
+std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
+                                               const std::vector<report::FaceRow>& faces,
+                                               const std::vector<mesh::PatchType>& types) {
   std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < model.patches().size(); ++p)
     patches.push_back({.name = model.patches()[p], .type = types.at(p)});
-  std::vector<char> counted(model.face_count(), 0);
-  for (const PieceRow& row : rows) {
-    report::PatchRow& patch = patches[model.face(row.face).patch];
-    patch.inner = patch.inner || model.face(row.face).back != cad::no_entity;
-    patch.area += row.area;
-    patch.triangles += row.triangles;
-    if (!counted[row.face]) patch.cad_area += model.face_area(row.face);
-    counted[row.face] = 1;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    const report::FaceRow& face = faces[f];
+    if (face.triangles == 0) continue;
+    report::PatchRow& patch = patches[model.face(f).patch];
+    patch.inner = patch.inner || model.face(f).back != cad::no_entity;
+    patch.area += face.area;
+    patch.cad_area += face.cad_area;
+    patch.triangles += face.triangles;
   }
   return patches;
 }
@@ -62,7 +79,8 @@ void inspect_surface(const Communicator& communicator, const cad::Model& model, 
   const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
-  record.patches = table_of_patches(communicator, model, surface.mesh, record.patch_types);
+  record.face_table = table_of_faces(communicator, model, surface.mesh);
+  record.patches = table_of_patches(model, record.face_table, record.patch_types);
 }
 
 void adopt_boundary(const Communicator& communicator, const cad::Model& model,

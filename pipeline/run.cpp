@@ -1,5 +1,6 @@
 #include "pipeline/run.hpp"
 
+#include "aeroloom/domain/face_patches.hpp"
 #include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/domain/size_domain.hpp"
 #include "aeroloom/io/vtk/vtk_writer.hpp"
@@ -99,7 +100,8 @@ private:
       parallel::log_info(fmt::format("geometry: '{}', {} bytes, hash {}", _input.domain.file, _identity.bytes,
                                      _record.input_hash));
     }
-    cases::TypedPatches patches = cases::apply_patch_rules(find_or_load_domain(), _input.patches);
+    cases::TypedPatches patches =
+        domain::find_patches(_communicator, find_or_load_domain(), _input, _record.clock);
     _record.patch_types = std::move(patches.types);
     if (_communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);

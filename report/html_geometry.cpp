@@ -93,6 +93,29 @@ std::string regions_table(const Json& regions) {
   return part("Regions", table.html());
 }
 
+std::string faces_table(const Json& faces) {
+  constexpr std::size_t most = 200;  // rows; report.json has all
+  if (faces.empty()) return {};
+  Table table({{"id", Align::right, "the number of the face in its file, from 0"},
+               {"face"},
+               {"group"},
+               {"patch"},
+               {"triangles", Align::right},
+               {"area", Align::right},
+               {"area of the CAD", Align::right}});
+  std::size_t shown = 0;
+  for (const Json& face : faces) {
+    if (shown++ == most) break;
+    const Json &id = find(face, "/id"), &group = find(face, "/group");
+    table.add({id.is_null() ? "–" : count(id), name(find(face, "/name")), group.is_null() ? "–" : name(group),
+               name(find(face, "/patch")), count(find(face, "/triangles")), quantity(find(face, "/area")),
+               quantity(find(face, "/cad_area"))});
+  }
+  const std::string more =
+      faces.size() > most ? paragraph(fmt::format("{} more are in report.json.", faces.size() - most)) : "";
+  return part("CAD faces", table.html() + more);
+}
+
 std::string changes_table(const Json& changes) {
   Table table({{"what was done"}, {"where"}, {"moved by at most", Align::right}});
   for (const Json& change : changes)
@@ -192,7 +215,9 @@ std::string patches_section(const Json& report, const std::vector<Picture>& pict
                escaped(text(find(patch, "/type"))), count(find(patch, "/triangles")),
                quantity(find(patch, "/area")), number(cad) > 0 ? quantity(cad) : "–", deviation(patch)});
   }
-  return section("patches", "Patches and regions", table.html() + regions_table(find(report, "/regions")));
+  return section(
+      "patches", "Patches and regions",
+      table.html() + regions_table(find(report, "/regions")) + faces_table(find(report, "/faces")));
 }
 
 std::string geometry_section(const Json& report) {

@@ -3,6 +3,9 @@
 #include "report/mixed_quality_json.hpp"
 #include "report/parts_json.hpp"
 
+#include <set>
+#include <string>
+
 namespace aeroloom::report {
 Json mesh_json(const RunRecord& record) {
   return {{"points", record.counts.vertices},
@@ -70,6 +73,22 @@ Json patches_json(const RunRecord& record) {
                     {"cad_area", patch.cad_area > 0 ? Json(patch.cad_area) : Json()},
                     {"triangles", patch.triangles},
                     {"inner", patch.inner}});
+  }
+  return json;
+}
+
+Json faces_json(const cases::Case& input, const RunRecord& record) {
+  std::set<std::string> groups;
+  for (const cases::GroupRule& rule : input.groups.rules) groups.insert(rule.name);
+  Json json = Json::array();
+  for (const FaceRow& face : record.face_table) {
+    json.push_back({{"id", face.number >= 0 ? Json(face.number) : Json()},
+                    {"name", face.name},
+                    {"group", groups.count(face.patch) > 0 ? Json(face.patch) : Json()},
+                    {"patch", face.patch},
+                    {"area", face.area},
+                    {"cad_area", face.cad_area},
+                    {"triangles", face.triangles}});
   }
   return json;
 }

@@ -24,6 +24,8 @@ Json improve_json(const cases::Case& input, const RunRecord& record);
 Json pinned_json(const RunRecord& record);
 Json unresolved_json(const RunRecord& record);
 Json patches_json(const RunRecord& record);
+/// Of each CAD face; `group` where one of the case's has it.
+Json faces_json(const cases::Case& input, const RunRecord& record);
 Json regions_json(const RunRecord& record);
 Json stages_json(const std::vector<parallel::StageSummary>& stages);
 /// Of a report with its stages, and the records of tasks; null where they tell nothing.

@@ -78,6 +78,7 @@ void add_finished_mesh(Json& json, const cases::Case& input, const RunRecord& re
   json["pinned"] = pinned_json(record);
   json["unresolved_features"] = unresolved_json(record);
   json["patches"] = patches_json(record);
+  json["faces"] = faces_json(input, record);
   json["regions"] = regions_json(record);
   json["pictures"] = pictures_json(record.pictures);
   json["wall_seconds"] = record.wall_seconds;

@@ -175,7 +175,12 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
   for (int i = 1; i <= faces.Extent(); ++i) {
     const FaceLabel* found = domain.labels.Seek(faces(i));
     const FaceLabel label = found ? *found : FaceLabel{};
-    FaceTag tag{shown_name(label), label.far_field ? std::string("farfield") : label.name, label.far_field};
+    FaceTag tag{shown_name(label), label.far_field ? std::string("farfield") : label.name,
+                label.far_field,   label.solid,
+                label.layer,       label.colour,
+                label.number};
+    // A built-in shape has no file: its faces count as they come.
+    if (!is_numbered && !label.far_field) tag.number = i - 1;
     // Numbers are those of the file: what was made here has none.
     if (tag.name.empty() && is_numbered) tag.name = fmt::format("new_face_{}", i - 1);
     if (label.symmetry) tag.patch = "symmetry";

@@ -20,7 +20,7 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr std::uint64_t magic = 0x334d4c4145524f41;  // "AOREALM3"
+constexpr std::uint64_t magic = 0x344d4c4145524f41;  // "AOREALM4"
 
 class ByteWriter {
 public:
@@ -113,6 +113,8 @@ void put_labels(const NamedShape& named, const std::vector<FaceTag>& tags, ByteW
     writer.put_text(tag.name);
     writer.put_text(tag.patch);
     writer.put<char>(tag.far_field);
+    for (const std::string* text : {&tag.part, &tag.layer, &tag.colour}) writer.put_text(*text);
+    writer.put(tag.number);
   }
 }
 
@@ -127,6 +129,8 @@ std::vector<FaceTag> get_labels(ByteReader& reader, Model::Data& data) {
     tag.name = reader.get_text();
     tag.patch = reader.get_text();
     tag.far_field = reader.get<char>() != 0;
+    for (std::string* text : {&tag.part, &tag.layer, &tag.colour}) *text = reader.get_text();
+    tag.number = reader.get<std::int32_t>();
   }
   return tags;
 }
@@ -136,6 +140,8 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
   for (std::size_t i = 0; i < tags.size(); ++i) {
     Face& face = data.faces[i];
     face.name = tags[i].name.empty() ? fmt::format("face_{}", i) : tags[i].name;
+    face.part = tags[i].part, face.layer = tags[i].layer, face.colour = tags[i].colour;
+    face.number = tags[i].number;
     const std::string& patch = tags[i].patch.empty() ? face.name : tags[i].patch;
     const auto found = std::find(data.patches.begin(), data.patches.end(), patch);
     face.patch = static_cast<std::int32_t>(found - data.patches.begin());

@@ -26,6 +26,8 @@ struct FaceTag {
   std::string name;
   std::string patch;
   bool far_field = false;
+  std::string part = {}, layer = {}, colour = {};
+  std::int32_t number = -1;  ///< in the file
 };
 
 /// The solids of a shape around each of its faces, both by TopExp's order; one, or two for inner faces.

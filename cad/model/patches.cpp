@@ -6,9 +6,16 @@
 #include <memory>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace aeroloom::cad {
 
-bool matches_pattern(const std::string& name, const std::string& pattern) {
+namespace {
+
+const std::string expression_mark = "re:";
+
+/// Patterns with * and ?.
+bool matches_glob(const std::string& name, const std::string& pattern) {
   // Where the last star was, and where in the name what follows it was tried.
   std::size_t n = 0, p = 0, star = std::string::npos, tried = 0;
   while (n < name.size()) {
@@ -23,6 +30,25 @@ bool matches_pattern(const std::string& name, const std::string& pattern) {
     }
   }
   return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
+}  // namespace
+
+NamePattern::NamePattern(const std::string& text) : _text(text) {
+  if (!text.starts_with(expression_mark)) return;
+  try {
+    _expression.emplace(text.substr(expression_mark.size()), std::regex::ECMAScript | std::regex::optimize);
+  } catch (const std::regex_error& error) {
+    throw std::invalid_argument(fmt::format("'{}' is no regular expression: {}", text, error.what()));
+  }
+}
+
+bool NamePattern::matches(const std::string& name) const {
+  return _expression ? std::regex_search(name, *_expression) : matches_glob(name, _text);
+}
+
+bool matches_pattern(const std::string& name, const std::string& pattern) {
+  return NamePattern(pattern).matches(name);
 }
 
 Model with_patches(const Model& model, const std::vector<std::string>& patch_of_face) {

@@ -49,6 +49,35 @@ std::vector<std::string> values_of(const cases::KeyInfo& key) {
     case cases::KeyKind::point:
       return {"[0, 1, 2]", "[0.5, -1e3, 2]", "[1, 2]",      "[1, 2, 3, 4]", "[a, 1, 2]", "5",
               "",          "[~, 1, 2]",      "[[1, 2, 3]]", "{a: 1}",       "[]",        "abc"};
+    case cases::KeyKind::direction:
+      return {"[0, 1, 2]", "[1, 0]", "[1, 0, a]", "5", "", "x", "{a: 1}", "[[1, 0, 0]]"};
+    case cases::KeyKind::interval:
+      return {"[0, 1]", "[-1.5, 1e9]", "[2]", "[0, 1, 2]", "[a, 1]", "5", "", "{a: 1}", "[[0, 1]]", "[~, 1]"};
+    case cases::KeyKind::box:
+      return {"[[0, 0, 0], [1, 1, 1]]",
+              "[[1, 2, 3], [0, 0, -1e3]]",
+              "[[0, 0, 0]]",
+              "[0, 1]",
+              "[[0, 0], [1, 1]]",
+              "[[0, 0, 0], [1, 1, a]]",
+              "5",
+              "",
+              "{a: 1}",
+              "[0, 0, 0]"};
+    case cases::KeyKind::sections: {
+      const std::string one = key.of_each.front().path + ": abc";
+      return {"[{" + one + "}]",
+              "[{}]",
+              "[{" + one + "}, {" + one + "}]",
+              "[{no_such_key: 1}]",
+              "[]",
+              "",
+              "5",
+              "{" + one + "}",
+              "[5]",
+              "[~]",
+              "[[{" + one + "}]]"};
+    }
     case cases::KeyKind::choice:
     case cases::KeyKind::choices:
       break;

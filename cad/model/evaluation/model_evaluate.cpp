@@ -273,6 +273,11 @@ double Model::face_area(FaceId id) const {
   return _data->integrals(id).area;
 }
 
+Vec3 Model::face_area_vector(FaceId id) const {
+  const FaceIntegrals& sums = _data->integrals(id);
+  return _data->face_evaluators.at(id).reversed ? -sums.area_vector : sums.area_vector;
+}
+
 double Model::region_volume(RegionId id) const {
   if (const JoinedModel* joined = _data->joined.get()) return joined->base.region_volume(id);
   // Seen from the middle of the region: from far off, what integrals lack is a part of areas times distances,

@@ -3,6 +3,7 @@
 
 #include "aeroloom/cad/domain/domain.hpp"
 #include "aeroloom/case/case_error.hpp"
+#include "aeroloom/case/face_groups.hpp"
 #include "aeroloom/case/patch_rules.hpp"
 #include "aeroloom/case/quality_gate.hpp"
 #include "aeroloom/case/source_rules.hpp"
@@ -31,7 +32,7 @@ struct SizingRequest : sizing::GivenSizes {
   /// minimum come on top.
   double feature_budget = sizing::default_feature_budget;
   std::vector<SourceRule> sources;             ///< regions with sizes of their own
-  std::vector<sizing::PatchSize> patch_sizes;  ///< of the patches that have any (PatchRule::size)
+  std::vector<sizing::PatchSize> patch_sizes;  ///< of patches and groups that have any
 };
 
 inline constexpr double default_target = 1'000'000;
@@ -65,7 +66,8 @@ struct Case {
   volume::VolumeOptions volume;
   improve::ImproveOptions improve;
   QualityGate gate;
-  std::vector<PatchRule> patches;  ///< the first that a face matches holds
+  FaceGroups groups;
+  std::vector<PatchRule> patches;  ///< the first that a face in no group matches holds
   OutputOptions output;
   parallel::Sandbox sandbox = parallel::Sandbox::process;  ///< changes no result
   /// Bytes that all ranks of this node may take together; 0: any. Not a key: it changes no result.

@@ -35,6 +35,16 @@ struct PatchRow {
   bool inner = false;  ///< has faces between two regions
 };
 
+/// A CAD face of the finished mesh.
+struct FaceRow {
+  std::string name;
+  std::int32_t number = -1;  ///< in its file; -1 of what the program made
+  std::string patch;
+  double area = 0;      ///< of the triangles, in the square of the model's unit
+  double cad_area = 0;  ///< of the CAD face
+  std::int64_t triangles = 0;
+};
+
 /// A region of the finished mesh.
 struct RegionRow {
   std::string name;
@@ -77,6 +87,7 @@ struct RunRecord {
   std::optional<mesh::QualitySummary> surface_quality, quality;
   std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for what only this has
   std::vector<PatchRow> patches;
+  std::vector<FaceRow> face_table;  ///< by face id; empty of a mesh from a file
   std::vector<RegionRow> regions_filled;
   std::vector<Picture> pictures;
   parallel::StageClock clock;

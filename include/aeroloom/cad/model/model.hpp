@@ -54,6 +54,9 @@ struct Face {
   std::int32_t patch = 0;                  ///< index into patches()
   /// As in the file; where it has none there, "face_<number>" with its number in the file, from 0.
   std::string name;
+  /// As in the file, of the face or of what it is part of; empty where there is none.
+  std::string part, layer, colour;  ///< the part (solid, product) it belongs to; of colours "#rrggbb"
+  std::int32_t number = -1;         ///< in its file, from 0; -1 of what the program made
   /// Region on the inner side of the oriented face and beyond it; `back` is no_entity on the domain's
   /// boundary.
   RegionId front = no_entity, back = no_entity;
@@ -166,6 +169,9 @@ public:
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
   /// Area by adaptive Gauss integration, to about 1e-4 of itself. Computed once.
   double face_area(FaceId id) const;
+  /// The normal out of the face's `front` region, integrated over the face; as precise as its area. Computed
+  /// once. Not for joined faces.
+  Vec3 face_area_vector(FaceId id) const;
   /// Of the geometry, as precise as the areas of its faces.
   double region_volume(RegionId id) const;
   /// How large the face is, and where. Computed anew each time.

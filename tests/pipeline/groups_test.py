@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Groups of CAD faces: who is in which, on any number of ranks; sizes on a group within a fifth of what it asks for; names and
+conditions in files for solvers; what a case is told that selects nothing.
+usage: groups_test.py PROGRAM"""
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+
+from program import COARSE_TRANSPORT, Run, SOURCE
+from sources_test import edges_of, read
+
+EXAMPLE = (SOURCE / "configs" / "groups.yaml").read_text().replace(
+    "geometry/duct.step", f"'{SOURCE}/configs/geometry/duct.step'") + "  pictures: false\n  formats: [vtu, su2, openfoam]\n"
+GROUPS = {"inlet": {0}, "outlet": {5, 9}, "branch": {7, 8}, "top": {2}, "walls": {1, 3, 4, 6}}
+TYPES = {"inlet": "inlet", "outlet": "outlet", "branch": "wall", "top": "slip", "walls": "wall"}
+WING = COARSE_TRANSPORT + """
+groups:
+  wing: {faces: 're:^wing_left_(upper|lower)$', size: 0.3}
+  tip: {adjacent_to: wing, area: [0, 1], type: slip}
+  canopy: {faces: 'canopy*', optional: true, size: 0.001}
+output: {pictures: false}
+"""
+
+
+def faces_of(report):
+    groups = {}
+    for face in report["faces"]:
+        groups.setdefault(face["group"], set()).add(face["id"])
+    return groups
+
+
+def median_edge(run, patch):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    surface = read(run.output / "surface.pvtp")
+    number = [each["name"] for each in run.report["patches"]].index(patch)
+    patches = vtk_to_numpy(surface.GetCellData().GetArray("patch"))
+    return statistics.median(length for length, _ in edges_of(surface, 3, lambda cell: patches[cell] == number))
+
+
+def check_example(program):
+    """The example: groups by each condition, the same on several ranks; outputs carry names and conditions."""
+    runs = [Run(program, EXAMPLE, ranks) for ranks in (1, 3)]
+    for run in runs:
+        assert run.code == 0, run.text
+        assert faces_of(run.report) == GROUPS, faces_of(run.report)
+    assert runs[0].report["mesh"]["hash"] == runs[1].report["mesh"]["hash"]
+    report = runs[0].report
+    patches = {patch["name"]: patch for patch in report["patches"]}
+    assert {name: patch["type"] for name, patch in patches.items()} == TYPES
+    for name, patch in patches.items():
+        own = [face for face in report["faces"] if face["patch"] == name]
+        assert sum(face["triangles"] for face in own) == patch["triangles"] and all(face["name"].startswith("face_") for face in own)
+        assert abs(sum(face["area"] for face in own) - patch["area"]) < 1e-9
+    su2 = (runs[0].output / "mesh.su2").read_text()
+    assert all(f"MARKER_TAG= {name}" in su2 for name in GROUPS)
+    boundary = next((runs[0].output / "mesh.openfoam").rglob("boundary"), None) if (runs[0].output / "mesh.openfoam").exists() else \
+        next(runs[0].output.rglob("boundary"))
+    assert all(name in boundary.read_text() for name in GROUPS)
+    branch, walls = median_edge(runs[0], "branch"), median_edge(runs[0], "walls")
+    print(f"branch: median edge {branch:.4f} where 0.06 is asked for; walls {walls:.4f}")
+    assert 0.8 * 0.06 < branch < 1.2 * 0.06 < walls
+
+
+def check_aircraft(program):
+    """On bodies, by an expression, sizes hold and others stay."""
+    run = Run(program, WING, 2)
+    assert run.code == 0, run.text
+    wing = median_edge(run, "wing")
+    print(f"wing: median edge {wing:.4f} where 0.3 is asked for")
+    assert 0.8 * 0.3 < wing < 1.2 * 0.3
+    groups = {face["name"]: face["group"] for face in run.report["faces"]}
+    assert groups["wing_left_upper"] == groups["wing_left_lower"] == "wing" and groups["fuselage"] is None
+    assert "tip" in groups.values() and "canopy" not in groups.values(), groups
+    assert all(face["id"] is None for face in run.report["faces"] if face["patch"] == "farfield")
+
+
+def check_faults(program):
+    """A group without faces and a face without group end a run at once, alike on all ranks, with the place in the case."""
+    for override, words in (
+            ("groups.lid={color: '#00ff00'}", ["'groups.lid'", "like '#00ff00'", "'#ff0000'", "Remedy"]),
+            ("groups.lid={area: [7, 8]}", ["'groups.lid': no face meets", "by area 0"]),
+            ("groups.lid={ids: 12}", ["no face has the id 12", "largest is 9"]),
+            ("groups.lid={color: green}", ["'groups.lid.color': expected a colour"]),
+            ("groups.walls={faces: face_1}", ["case.yaml:", "'groups.strict': 3 of 10 faces", "'face_3' (around 0.75, 1, 0.5)"])):
+        run = Run(program, EXAMPLE, 2, [override])
+        assert run.code == 2, (override, run.code, run.text)
+        assert all(word in run.text for word in words), (override, run.text)
+    broken = Run(program, EXAMPLE.replace("'#ff0000'", "'#ff0001'"), 2)
+    assert broken.code == 2 and "case.yaml:11:3: 'groups.inlet'" in broken.text, broken.text
+
+
+def check_check(program):
+    """The command check has ids, groups, layers and colours."""
+    folder = Run(program, EXAMPLE, 1, ["sizing.maximum=0.01"]).folder  # refused, at once
+    done = subprocess.run([program, "check", folder / "case.yaml", "--set", f"output.directory={folder / 'look'}"],
+                          capture_output=True, text=True, timeout=100, cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    rows = json.loads((folder / "look" / "check.json").read_text())["domain"]["faces"]
+    assert {row["id"] for row in rows} == set(range(10)) and all(row["id"] in GROUPS[row["group"]] for row in rows)
+    assert rows[0]["colour"] == "#ff0000" and rows[5]["layer"] == "outlet"
+
+
+def main():
+    program = pathlib.Path(sys.argv[1]).resolve()
+    check_example(program)
+    check_aircraft(program)
+    check_faults(program)
+    check_check(program)
+    print("groups: ok")
+
+
+if __name__ == "__main__":
+    main()
