@@ -25,6 +25,8 @@ struct CaseDraft {
   // They stay where they are while others are added.
   std::deque<PatchRule> patches;
   std::deque<SourceRule> sources;
+  std::deque<WallRule> walls;
+  std::deque<EdgeRule> edges;
 };
 
 /// The unit of lengths in the geometry's own unit.
