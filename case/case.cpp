@@ -3,6 +3,7 @@
 #include "case/case_keys.hpp"
 #include "case/group_keys.hpp"
 #include "case/source_keys.hpp"
+#include "case/wall_keys.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -68,11 +69,14 @@ std::string locate(const std::string& geometry_file, const std::string& case_fil
 Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& name) {
   check_geometry(keys, draft, name);
   check_sizing(keys, draft.result.sizing);
+  check_expression(keys, draft.result.sizing.expression);
   check_sources(keys, draft.sources);
   check_groups(keys, draft.groups, draft.patches);
   for (const PatchRule& rule : draft.patches)
     check_patterns(keys, "patches." + rule.name + ".faces", rule.faces);
   check_patterns(keys, "geometry.sharpen_faces", draft.result.domain.trailing_edges.faces);
+  check_walls(keys, draft.walls);
+  check_edges(keys, draft.edges);
   Case result = draft.result;
   result.groups.rules.assign(draft.groups.begin(), draft.groups.end());
   result.groups.where = keys.where("groups.strict");
@@ -82,13 +86,15 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   }
   result.patches.assign(draft.patches.begin(), draft.patches.end());
   result.sizing.sources.assign(draft.sources.begin(), draft.sources.end());
+  result.sizing.walls.assign(draft.walls.begin(), draft.walls.end());
+  result.sizing.edges.assign(draft.edges.begin(), draft.edges.end());
   for (const PatchRule& rule : result.patches) {
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
   }
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   if (draft.far_field_given) result.domain.far_field = draft.far_field;
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
-  result.domain.smallest_size = result.sizing.minimum.value_or(0);
+  result.domain.smallest_size = in_model_units(result.sizing).minimum.value_or(0);
   return result;
 }
 
@@ -140,11 +146,15 @@ std::string resolved_yaml(const Case& input) {
   draft.groups.assign(input.groups.rules.begin(), input.groups.rules.end());
   draft.patches.assign(input.patches.begin(), input.patches.end());
   draft.sources.assign(input.sizing.sources.begin(), input.sizing.sources.end());
+  draft.walls.assign(input.sizing.walls.begin(), input.sizing.walls.end());
+  draft.edges.assign(input.sizing.edges.begin(), input.sizing.edges.end());
   KeyTable keys;
   declare_case_keys(keys, draft);
   for (const GroupRule& rule : input.groups.rules) keys.add_named("groups", rule.name);
   for (const PatchRule& rule : input.patches) keys.add_named("patches", rule.name);
   for (const SourceRule& rule : input.sizing.sources) keys.add_named("sizing.sources", rule.name);
+  for (const WallRule& rule : input.sizing.walls) keys.add_named("sizing.walls", rule.name);
+  for (const EdgeRule& rule : input.sizing.edges) keys.add_named("sizing.edges", rule.name);
   return keys.write();
 }
 

@@ -2,6 +2,7 @@
 
 #include "aeroloom/sizing/size_field.hpp"
 #include "case/source_keys.hpp"
+#include "case/wall_keys.hpp"
 
 #include <string>
 
@@ -30,6 +31,7 @@ void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
 void declare_sizing(KeyTable& keys, CaseDraft& draft) {
   SizingRequest& sizing = draft.result.sizing;
   const sizing::SizingOptions preset;
+  declare_reference_length(keys, sizing.reference_length);
   declare_bounds(keys, sizing);
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
               sets("SizingOptions::curvature_angle",
@@ -63,7 +65,10 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
       "Features finer than the minimum, and after them gaps between walls, come on top of the target, "
       "up to this many times it in all. Beyond it strips get triangles longer than wide, and the log, "
       "the report and `check` name them with what they would take.");
+  declare_expression(keys, sizing.expression);
   declare_sources(keys, draft.sources);
+  declare_walls(keys, draft.walls);
+  declare_edges(keys, draft.edges);
 }
 
 void declare_surface(KeyTable& keys, Case& result) {
@@ -129,7 +134,8 @@ std::vector<KeyInfo> case_keys() {
   declare_case_keys(keys, draft);
   keys.add_named("groups", made_up_name);
   keys.add_named("patches", made_up_name);
-  keys.add_named("sizing.sources", made_up_name);
+  for (const char* each : {"sizing.sources", "sizing.walls", "sizing.edges"})
+    keys.add_named(each, made_up_name);
   return keys.infos();
 }
 

@@ -26,6 +26,8 @@ struct CaseDraft {
   std::deque<PatchRule> patches;
   std::deque<GroupRule> groups;
   std::deque<SourceRule> sources;
+  std::deque<WallRule> walls;
+  std::deque<EdgeRule> edges;
 };
 
 /// The unit of lengths in the geometry's own unit.

@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
 # What find_package(Aeroloom) looks for and what the static libraries are linked with (cmake/AeroloomConfig.cmake.in).
 set(suggested
   g++ cmake libopenmpi-dev libeigen3-dev libcgal-dev libfmt-dev libspdlog-dev libpng-dev libhdf5-openmpi-dev libvtk9-dev
-  libmetis-dev libp4est-dev libtet1.5-dev libxxhash-dev nlohmann-json3-dev libyaml-cpp-dev
+  libmetis-dev libp4est-dev libtet1.5-dev libxxhash-dev libmuparser-dev nlohmann-json3-dev libyaml-cpp-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev)
 list(JOIN suggested ", " CPACK_DEBIAN_PACKAGE_SUGGESTS)

@@ -169,7 +169,18 @@ SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& re
 
 sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
   sizing::SizeDemands demands{{}, request.patch_sizes};
-  for (const cases::SourceRule& rule : request.sources) demands.regions.push_back(cases::region_of(rule));
+  for (const cases::SourceRule& rule : request.sources) {
+    if (rule.shape == cases::SourceShape::wake) {
+      demands.wakes.push_back(cases::wake_of(rule));
+    } else {
+      demands.regions.push_back(cases::region_of(rule));
+    }
+  }
+  for (const cases::WallRule& rule : request.walls) demands.walls.push_back(cases::wall_of(rule));
+  for (const cases::EdgeRule& rule : request.edges) demands.edges.push_back(cases::edge_of(rule));
+  if (!request.expression.empty())
+    demands.formula = {sizing::SizeExpression(request.expression), request.minimum.value_or(0),
+                       request.reference_length.value_or(1)};
   return demands;
 }
 
@@ -227,8 +238,10 @@ void require_walls_apart(const SizedDomain& sized) {
 }
 
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
-                        const cases::SizingRequest& request, const Simplification& simplification,
+                        const cases::SizingRequest& given, const Simplification& simplification,
                         parallel::StageClock& clock, sizing::FieldFor purpose) {
+  const cases::SizingRequest request = cases::in_model_units(given);
+  sizing::require_faces(model, demands_of(request));
   return size_domain_near(communicator, model, request, simplification, clock, {purpose, {}});
 }
 

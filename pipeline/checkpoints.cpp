@@ -41,6 +41,7 @@ cases::Case relevant_part(const cases::Case& input, SavedStage stage) {
     part.sizing = input.sizing;
   } else {
     part.sizing.minimum = input.domain.smallest_size > 0 ? input.sizing.minimum : std::nullopt;
+    if (part.sizing.minimum) part.sizing.reference_length = input.sizing.reference_length;
   }
   if (stage >= SavedStage::surface) part.surface = input.surface;
   if (stage >= SavedStage::volume) part.volume = input.volume;

@@ -1,5 +1,6 @@
 #include "report/library_versions.hpp"
 
+#include "aeroloom/sizing/size_expression.hpp"
 #include "cad/library_version.hpp"
 #include "forest/library_version.hpp"
 #include "geometry/library_version.hpp"
@@ -23,6 +24,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
           {"HDF5", io::hdf5_version()},
           {"METIS", partition::metis_version()},
           {"p4est", forest::p4est_version()},
+          {"muparser", sizing::muparser_version()},
           {"CGAL", geometry::cgal_version()},
           {"Eigen", AEROLOOM_EIGEN_VERSION},
           {"MPI", parallel::mpi_version()},

@@ -11,7 +11,7 @@ packages=(
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev
   libvtk9-dev libhdf5-openmpi-dev libpng-dev
-  libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev
+  libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxxhash-dev libmuparser-dev
   # the build is configured with its tests
   libgtest-dev libbenchmark-dev python3
   # what cpack asks which files are programs; the rest it needs comes with build-essential

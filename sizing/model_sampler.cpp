@@ -103,6 +103,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
     list_corners();
   });
   gather_triangles();
+  lay_surfaces();
   measure_gaps(Notes::tell);
 }
 
@@ -117,6 +118,7 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
       _asked_on_faces(sizes_on_faces(joined, _demands)),
       _part_on_boundary(std::move(before._part_on_boundary)),
       _walls(std::move(before._walls)),
+      _surfaces(std::move(before._surfaces)),
       _body_box(before._body_box) {
   parallel::agree(_communicator, [&] {
     ScopedCpu cpu(_clock, ScopedCpu::As::task);
@@ -274,8 +276,8 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : mine) source.size *= coarser;
-  const std::vector<SizeSource> in_regions = sample_regions(coarser);
-  mine.insert(mine.end(), in_regions.begin(), in_regions.end());
+  const std::vector<SizeSource> demanded = sample_demands(options, coarser);
+  mine.insert(mine.end(), demanded.begin(), demanded.end());
   return mine;
 }
 

@@ -15,8 +15,8 @@ bool is_same(double a, double b) {
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
 }
 
-/// Cells in regions over leaves, from which on a field has clearly more leaves: cells may lie in several
-/// regions, and are counted with some to spare.
+/// Cells that demands ask for over leaves, from which on a field has clearly more leaves: cells may lie in
+/// several regions, and are counted with some to spare.
 constexpr double most_cells_per_leaf = 4;
 
 bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
@@ -37,10 +37,8 @@ SizeField ModelSampler::build_field(const SizingOptions& options) {
 
 std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& options, double coarser,
                                                      std::int64_t most_leaves) {
-  double in_regions = 0;
-  for (const SizeRegion& region : _demands.regions)
-    in_regions += cells_in(_root, region, coarser * region.size);
-  if (in_regions > most_cells_per_leaf * static_cast<double>(most_leaves)) return std::nullopt;
+  if (demands_more_cells(options, coarser, most_cells_per_leaf * static_cast<double>(most_leaves)))
+    return std::nullopt;
   SizingOptions coarse = options;
   for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum, &coarse.gap_minimum,
                        &coarse.surface_maximum, &coarse.maximum})

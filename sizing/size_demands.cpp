@@ -1,5 +1,7 @@
 #include "aeroloom/sizing/size_demands.hpp"
 
+#include "sizing/cells_where.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +18,7 @@ struct InPlane {
   double along, off;
 };
 
-double distance_in_plane(InPlane p, InPlane a, InPlane b) {
+double distance_to_side(InPlane p, InPlane a, InPlane b) {
   const double x = b.along - a.along, y = b.off - a.off, length = x * x + y * y;
   const double t = length > 0 ? ((p.along - a.along) * x + (p.off - a.off) * y) / length : 0;
   const double c = std::clamp(t, 0.0, 1.0);
@@ -35,49 +37,11 @@ double distance_to_cylinder(const SizeRegion& region, Vec3 p) {
   if (along >= 0 && along <= length && q.off <= radius) return 0;
   const std::array<InPlane, 4> outline{
       {{0, 0}, {0, region.start_radius}, {length, region.end_radius}, {length, 0}}};
-  double least = distance_in_plane(q, outline[0], outline[1]);
+  double least = distance_to_side(q, outline[0], outline[1]);
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    least = std::min(least, distance_in_plane(q, outline[i], outline[i + 1]));
+    least = std::min(least, distance_to_side(q, outline[i], outline[i + 1]));
   return least;
 }
-
-/// Visits the cells of the octree, coarse ones first, that are near a region, and keeps this rank's part of
-/// those of the wanted level.
-class CellFinder {
-public:
-  CellFinder(const RootCube& root, const SizeRegion& region, double size, int rank, int ranks)
-      : _root(root), _region(region), _size(size), _level(root.level(size)), _rank(rank), _ranks(ranks) {}
-
-  std::vector<SizeSource> find() {
-    visit(_root.low, _root.edge, 0);
-    return std::move(_found);
-  }
-
-private:
-  /// Subtrees of so many levels go to one rank after the other: what is above them every rank visits.
-  static constexpr int levels_of_subtree = 4;
-
-  void visit(Vec3 low, double edge, int level) {
-    const double half = 0.5 * edge;
-    const Vec3 center = low + Vec3{half, half, half};
-    if (_region.distance_to(center) > std::numbers::sqrt3 * half) return;
-    if (level == std::max(0, _level - levels_of_subtree) && _next++ % _ranks != _rank) return;
-    if (level == _level) {
-      _found.push_back({center, _size});
-      return;
-    }
-    for (int child = 0; child < 8; ++child)
-      visit(low + half * Vec3{double(child & 1), double(child >> 1 & 1), double(child >> 2)}, half,
-            level + 1);
-  }
-
-  const RootCube& _root;
-  const SizeRegion& _region;
-  double _size;
-  int _level, _rank, _ranks;
-  std::int64_t _next = 0;
-  std::vector<SizeSource> _found;
-};
 
 }  // namespace
 
@@ -131,7 +95,11 @@ double cells_in(const RootCube& root, const SizeRegion& region, double size) {
 
 std::vector<SizeSource> sources_in(const RootCube& root, const SizeRegion& region, double size, int rank,
                                    int ranks) {
-  return CellFinder(root, region, size, rank, ranks).find();
+  const auto ask = [&](Vec3 middle, double half) {
+    if (region.distance_to(middle) > std::numbers::sqrt3 * half) return CubeDemand{};
+    return CubeDemand{size, size};
+  };
+  return sources_where(root, ask, {rank, ranks});
 }
 
 }  // namespace aeroloom::sizing

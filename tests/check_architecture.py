@@ -48,6 +48,7 @@ ROOMS = [
     (re.compile(r"vtk[A-Z]\w*\.h$|hdf5\.h$"), {"io", "tests"}, None),
     (re.compile(r"png\.h$"), {"picture", "tests"}, None),
     (re.compile(r"yaml-cpp/"), {"case"}, None),
+    (re.compile(r"muParser\w*\.h$"), {"sizing"}, 1),
     (re.compile(r"CGAL/"), {"geometry"}, None),
 ]
 OPENCASCADE = re.compile(

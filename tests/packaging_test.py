@@ -31,6 +31,7 @@ DEPENDENCIES = {
     "HDF5": ({"libhdf5-openmpi-dev"}, "hdf5"),
     "TETGEN": ({"libtet1.5-dev"}, "tetgen"),
     "XXHASH": ({"libxxhash-dev"}, "xxhash"),
+    "MUPARSER": ({"libmuparser-dev"}, "muparser"),
     "METIS": ({"libmetis-dev"}, "metis"),
     "P4EST": ({"libp4est-dev"}, "p4est"),
     "SC": ({"libp4est-dev"}, "p4est"),

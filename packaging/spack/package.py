@@ -35,6 +35,7 @@ class Aeroloom(CMakePackage):
     # The tetrahedra are those of this TetGen.
     depends_on("tetgen@1.5")
     depends_on("xxhash@0.8:")
+    depends_on("muparser@2.3:")
     depends_on("metis@5.1:")
     # One tree has 18 levels there.
     depends_on("p4est@2.2: +mpi")

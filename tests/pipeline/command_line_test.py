@@ -99,7 +99,7 @@ def check_progress(shell):
 def check_version(shell):
     code, text, _ = shell.run("--version")
     assert code == 0 and text.startswith("aeroloom "), text
-    for library in ("OpenCASCADE", "TetGen", "VTK", "HDF5", "METIS", "p4est", "CGAL", "Eigen", "MPI", "yaml-cpp",
+    for library in ("OpenCASCADE", "TetGen", "VTK", "HDF5", "METIS", "p4est", "muparser", "CGAL", "Eigen", "MPI", "yaml-cpp",
                     "nlohmann_json", "CLI11", "fmt", "spdlog"):
         assert re.search(rf"^  {library} +\S*.*\d+\.\d+", text, re.M), f"{library}: {text}"
     assert "AGPL" in text

@@ -31,9 +31,17 @@ struct SizingRequest : sizing::GivenSizes {
   /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
   /// minimum come on top.
   double feature_budget = sizing::default_feature_budget;
+  /// What one unit of the lengths here and of their places is, in the model's unit; left out: 1.
+  std::optional<double> reference_length;
+  std::string expression;                      ///< a formula of the place (SizeExpression); empty: none
   std::vector<SourceRule> sources;             ///< regions with sizes of their own
+  std::vector<WallRule> walls;                 ///< bands off walls
+  std::vector<EdgeRule> edges;                 ///< sizes along CAD edges
   std::vector<sizing::PatchSize> patch_sizes;  ///< of patches and groups that have any
 };
+
+/// The request with all lengths and places but those of the expression in the model's unit.
+SizingRequest in_model_units(const SizingRequest& request);
 
 inline constexpr double default_target = 1'000'000;
 

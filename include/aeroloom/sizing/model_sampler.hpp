@@ -11,12 +11,15 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
+
+class SizedSurface;
 
 /// A field and what it predicts.
 struct Trial {
@@ -189,8 +192,17 @@ private:
   void gather_gaps();
   /// The options as they hold on a face: a size of its patch binds every other one there.
   SizingOptions options_on(cad::FaceId face, const SizingOptions& options) const;
-  /// What regions ask for, this rank's part; collective.
+  /// What regions ask for, this rank's part; collective, as what follows.
   std::vector<SizeSource> sample_regions(double coarser) const;
+  /// Walls, wakes and edges that demands name.
+  void lay_surfaces();
+  /// What the formula and those ask for; each ends early with one more than `most`.
+  std::vector<SizeSource> sample_formula(const SizingOptions& options, double coarser, double most) const;
+  std::vector<SizeSource> sample_surfaces(const SizingOptions& options, double coarser, double most) const;
+  /// All that demands ask for, but on patches.
+  std::vector<SizeSource> sample_demands(const SizingOptions& options, double coarser) const;
+  /// Whether that is clearly more than so many cells.
+  bool demands_more_cells(const SizingOptions& options, double coarser, double most) const;
   /// What the faces and edges of this rank ask for.
   std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser);
   /// What the faces, edges and corners of this rank ask for, all sizes `coarser` times as large. Collective,
@@ -220,6 +232,7 @@ private:
   std::vector<cad::FaceCorner> _corners;          // of those, where may_be_sharp
   std::optional<TriangleTree> _part_on_boundary;  // facets that bound the domain, where not all do
   std::optional<Walls> _walls;                    // facets of all faces
+  std::shared_ptr<const std::vector<SizedSurface>> _surfaces;
   geometry::Box _body_box;
   std::vector<Estimate> _estimates;
   std::vector<UnseenGaps> _unseen_gaps;
