@@ -1,6 +1,7 @@
 #include "aeroloom/case/case.hpp"
 
 #include "case/case_keys.hpp"
+#include "case/level_keys.hpp"
 #include "case/source_keys.hpp"
 
 #include <algorithm>
@@ -67,6 +68,7 @@ std::string locate(const std::string& geometry_file, const std::string& case_fil
 Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& name) {
   check_geometry(keys, draft, name);
   check_sizing(keys, draft.result.sizing);
+  check_levels(keys, draft.result.sizing);
   check_sources(keys, draft.sources);
   Case result = draft.result;
   result.patches.assign(draft.patches.begin(), draft.patches.end());
@@ -75,7 +77,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
   }
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
-  if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  set_far_field(draft, result.domain);
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
   result.domain.smallest_size = result.sizing.minimum.value_or(0);
   return result;
@@ -124,6 +126,7 @@ std::string resolved_yaml(const Case& input) {
   if (input.domain.trailing_edges.width > 0) draft.sharpen_width = input.domain.trailing_edges.width;
   if (input.domain.far_field) {
     draft.far_field = *input.domain.far_field;
+    draft.extent = draft.far_field.extent, draft.extent_unit = draft.far_field.unit;
     draft.far_field_given = true;
   }
   draft.patches.assign(input.patches.begin(), input.patches.end());

@@ -154,18 +154,30 @@ private:
     };
     const auto& stations = _element.stations;
     const std::size_t count = stations.size();
-    EdgeLine& line = _element.leading;
     std::vector<Vec3> before = beyond(0, stations[0], stations[1]);
     std::reverse(before.begin(), before.end());
-    line.points = std::move(before);
+    EdgeLine line{std::move(before), {}};
     line.chords.assign(line.points.size(), stations[0].chord);
-    for (const LiftingStation& station : stations) {
-      line.points.push_back(station.leading);
-      line.chords.push_back(station.chord);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0 && jumps(stations[i - 1], stations[i])) {
+        _element.leading.push_back(std::move(line));
+        line = {};
+      }
+      line.points.push_back(stations[i].leading);
+      line.chords.push_back(stations[i].chord);
     }
     const std::vector<Vec3> after = beyond(1, stations[count - 1], stations[count - 2]);
     line.points.insert(line.points.end(), after.begin(), after.end());
     line.chords.resize(line.points.size(), stations[count - 1].chord);
+    _element.leading.push_back(std::move(line));
+  }
+
+  /// Whether two stations are of different bodies: a section through a pylon may lead on in the wing above.
+  static bool jumps(const LiftingStation& a, const LiftingStation& b) {
+    // Steeper than any sweep, and farther than noses are rough. Chosen, not measured.
+    constexpr double steepest = 3, rough = 0.01;
+    return distance(a.leading, b.leading) >
+           steepest * distance(a.trailing, b.trailing) + rough * std::min(a.chord, b.chord);
   }
 
   double chord_at(Vec3 p) const {

@@ -62,7 +62,8 @@ TEST(Lifting, OfTheBuiltInAircraft) {
       EXPECT_NEAR(station.leading.x, wing.x + y * std::tan(degrees(wing.sweep)), 0.002 * chord);
     }
     double innermost = 100, outermost = 0;
-    for (const Vec3 p : element.leading.points)
+    ASSERT_EQ(element.leading.size(), 1u);
+    for (const Vec3 p : element.leading.front().points)
       innermost = std::min(innermost, std::abs(p.y)), outermost = std::max(outermost, std::abs(p.y));
     EXPECT_LT(innermost, 0.5 * options.transport->fuselage_diameter);
     EXPECT_GT(outermost, 0.995 * wing.half_span);
@@ -107,7 +108,8 @@ TEST(Lifting, OfPanelsOneAfterTheOther) {
   EXPECT_NEAR(bodies.reference_chord, 3.9, 0.1);
   // Panels do not reach into one another.
   for (const LiftingElement& element : bodies.elements) {
-    for (const geometry::Vec3 p : element.leading.points) {
+    ASSERT_EQ(element.leading.size(), 1u);
+    for (const Vec3 p : element.leading.front().points) {
       EXPECT_GT(p.y, element.stations.front().leading.y - 0.7);
       EXPECT_LT(p.y, element.stations.back().leading.y + 0.2);
     }

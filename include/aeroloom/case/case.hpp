@@ -12,6 +12,7 @@
 #include "aeroloom/parallel/observation/log.hpp"
 #include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "aeroloom/sizing/choose_sizes.hpp"
+#include "aeroloom/sizing/levels.hpp"
 #include "aeroloom/surface/surface_options.hpp"
 #include "aeroloom/volume/volume_options.hpp"
 
@@ -30,10 +31,15 @@ struct SizingRequest : sizing::GivenSizes {
   /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
   /// minimum come on top.
   double feature_budget = sizing::default_feature_budget;
-  std::vector<SourceRule> sources;             ///< regions with sizes of their own
+  std::optional<sizing::Level> level;                          ///< takes what is not given from guidelines
+  std::optional<sizing::LevelFamily> family;                   ///< of the level; left out: hlpw
+  sizing::SolverPoints solver = sizing::SolverPoints::vertex;  ///< what spacings of a level mean
+  std::optional<geometry::Vec3> flow;  ///< its direction, for levels; of any length; left out: default_flow
+  std::vector<SourceRule> sources;     ///< regions with sizes of their own
   std::vector<sizing::PatchSize> patch_sizes;  ///< of the patches that have any (PatchRule::size)
 };
 
+inline constexpr geometry::Vec3 default_flow{1, 0, 0};
 inline constexpr double default_target = 1'000'000;
 
 /// The treatment of faces narrower than the smallest size that go on smoothly in a neighbour.

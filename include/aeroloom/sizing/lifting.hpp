@@ -33,8 +33,8 @@ struct LiftingElement {
   cad::FaceId strip = cad::no_entity;    ///< the blunt trailing edge
   cad::EdgeId edge = cad::no_entity;     ///< the sharp one
   std::vector<LiftingStation> stations;  ///< from one end to the other, two at least
-  EdgeLine leading;                      ///< it may reach beyond the stations
-  EdgeLine trailing;                     ///< along the sharp edge, or a border of the strip
+  std::vector<EdgeLine> leading;  ///< in parts where sections change abruptly; may reach beyond stations
+  EdgeLine trailing;              ///< along the sharp edge, or a border of the strip
   std::vector<geometry::Vec3>
       opposite;                ///< of a strip: by point of `trailing`, the nearest of its other border
   std::set<cad::EdgeId> ends;  ///< where the skin meets other faces: roots and tips
