@@ -2,6 +2,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/group_keys.hpp"
+#include "case/level_keys.hpp"
 #include "case/source_keys.hpp"
 #include "case/wall_keys.hpp"
 
@@ -70,6 +71,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   check_geometry(keys, draft, name);
   check_sizing(keys, draft.result.sizing);
   check_expression(keys, draft.result.sizing.expression);
+  check_levels(keys, draft.result.sizing);
   check_sources(keys, draft.sources);
   check_groups(keys, draft.groups, draft.patches);
   for (const PatchRule& rule : draft.patches)
@@ -92,7 +94,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
   }
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
-  if (draft.far_field_given) result.domain.far_field = draft.far_field;
+  set_far_field(draft, result.domain);
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
   result.domain.smallest_size = in_model_units(result.sizing).minimum.value_or(0);
   return result;
@@ -141,6 +143,7 @@ std::string resolved_yaml(const Case& input) {
   if (input.domain.trailing_edges.width > 0) draft.sharpen_width = input.domain.trailing_edges.width;
   if (input.domain.far_field) {
     draft.far_field = *input.domain.far_field;
+    draft.extent = draft.far_field.extent, draft.extent_unit = draft.far_field.unit;
     draft.far_field_given = true;
   }
   draft.groups.assign(input.groups.rules.begin(), input.groups.rules.end());

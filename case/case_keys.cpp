@@ -1,6 +1,7 @@
 #include "case/case_keys.hpp"
 
 #include "aeroloom/sizing/size_field.hpp"
+#include "case/level_keys.hpp"
 #include "case/source_keys.hpp"
 #include "case/wall_keys.hpp"
 
@@ -65,6 +66,7 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
       "Features finer than the minimum, and after them gaps between walls, come on top of the target, "
       "up to this many times it in all. Beyond it strips get triangles longer than wide, and the log, "
       "the report and `check` name them with what they would take.");
+  declare_levels(keys, sizing);
   declare_expression(keys, sizing.expression);
   declare_sources(keys, draft.sources);
   declare_walls(keys, draft.walls);

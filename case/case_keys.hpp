@@ -20,6 +20,8 @@ struct CaseDraft {
   cad::TransportDimensions dimensions;
   bool dimensions_given = false;
   cad::FarFieldOptions far_field;
+  std::optional<double> extent;  // of the far field
+  std::optional<cad::ExtentUnit> extent_unit;
   bool far_field_given = false;
   std::optional<double> sharpen_width;
   // They stay where they are while others are added.

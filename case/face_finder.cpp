@@ -212,7 +212,7 @@ std::vector<char> FaceFinder::within_box(const geometry::Box& box) const {
   return where([&](cad::FaceId f) {
     // The box of a face takes long; its corners tell mostly that it is not within.
     for (const auto& loop : _model.face(f).loops)
-      for (const cad::EdgeUse& use : loop)
+      for (const cad::Coedge& use : loop)
         if (!around.contains(_model.vertex(_model.edge(use.edge).first))) return false;
     const geometry::Box face = _model.face_place(f).box;
     return around.contains(face.low) && around.contains(face.high);
@@ -249,7 +249,7 @@ std::vector<char> FaceFinder::beside(const std::vector<std::string>& others, con
   return where([&](cad::FaceId f) {
     if (those[f]) return false;
     for (const auto& loop : _model.face(f).loops)
-      for (const cad::EdgeUse& use : loop)
+      for (const cad::Coedge& use : loop)
         for (const cad::FaceId next : _model.edge(use.edge).faces)
           if (those[next]) return true;
     return false;

@@ -122,10 +122,16 @@ void declare_far_field(KeyTable& keys, CaseDraft& draft) {
                              common("Shape of the far field, around the body's centre. `hemisphere` makes a "
                                     "half model."));
   keys.number(
-      "extent", draft.far_field.extent, Range::above(0, "reference lengths"),
+      "extent", draft.extent, Range::above(0, "reference lengths"),
       sets("FarFieldOptions::extent",
-           common("How far away the far field is: radius, half side of the box, radius and half length "
-                  "of the cylinder. The reference length is the largest extent of the body.")));
+           common({"How far away the far field is: radius, half side of the box, radius and half length of "
+                   "the cylinder. The reference length is the largest extent of the body.",
+                   "10; 100 semispans with a level of sizes", "10"})));
+  keys.choice<std::optional<cad::ExtentUnit>>(
+      "unit", draft.extent_unit, {{"body", cad::ExtentUnit::body}, {"semispan", cad::ExtentUnit::semispan}},
+      {"What `extent` counts: lengths of the body, or semispans. A semispan is half of what the body extends "
+       "across the flow, of half models all from the plane of symmetry on.",
+       "body", "body"});
   keys.choice<Axis>("axis", draft.far_field.axis, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
                     "Axis of the cylinder.");
   keys.choice<Symmetry>(

@@ -4,6 +4,7 @@
 #include "aeroloom/parallel/observation/log.hpp"
 #include "aeroloom/sizing/choose_sizes.hpp"
 #include "cad/model/topology/joined_faces.hpp"
+#include "domain/level_sizes.hpp"
 #include "sizing/narrow_faces.hpp"
 
 #include <algorithm>
@@ -192,17 +193,19 @@ struct Aim {
 };
 
 SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
-                             const cases::SizingRequest& request, const Simplification& simplification,
+                             const cases::SizingRequest& asked, const Simplification& simplification,
                              parallel::StageClock& clock, Aim aim) {
   std::optional<sizing::SizingOptions>& near = aim.near;
-  const double layers = request.proximity.value_or(sizing::SizingOptions{}.proximity);
-  const std::optional<double> target = target_of(request);
+  const double layers = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
+  const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields,
-                                              demands_of(request));
+                                              demands_of(asked));
+  const cases::SizingRequest request = asked.level ? apply_level(*sampler, asked) : asked;
   const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
-  const bool automatic = simplification.trailing_edges == cad::TrailingEdges::automatic;
+  // A level resolves trailing edges, however thin.
+  const bool automatic = !asked.level && simplification.trailing_edges == cad::TrailingEdges::automatic;
   // An estimate tells which faces are narrow; sizes are chosen for the model without them.
   if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*sampler, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);

@@ -65,7 +65,7 @@ FaceAtEdge face_at(const cad::Model& model, cad::FaceId face, cad::EdgeId edge) 
   const cad::Edge& e = model.edge(edge);
   const double t = 0.5 * (e.first_parameter + e.last_parameter);
   for (const auto& loop : model.face(face).loops) {
-    for (const cad::EdgeUse& use : loop) {
+    for (const cad::Coedge& use : loop) {
       if (use.edge != edge) continue;
       const Vec3 normal = model.face_frame(face, model.edge_uv(face, use, t)).normal;
       const Vec3 along = (use.reversed ? -1.0 : 1.0) * normalized(model.edge_tangent(edge, t));

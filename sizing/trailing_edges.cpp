@@ -2,7 +2,7 @@
 
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "sizing/local_chord.hpp"
-#include "sizing/narrow_faces.hpp"
+#include "sizing/skin_faces.hpp"
 
 #include <algorithm>
 #include <set>
@@ -13,39 +13,16 @@ namespace {
 using cad::FaceId;
 using Kind = cad::BluntEdgeFinding::Kind;
 
-/// Degrees: a skin goes on beyond an edge that turns by less, but for tips and noses
-/// (docs/trailing_edges.md).
-constexpr double largest_kink = 50;
-/// A skin of more faces is cut off. Chosen, not measured.
-constexpr std::size_t most_faces_of_skin = 64;
 /// Of the chord near by, at an end of an edge: less is a section through a tip. Chosen, not measured.
 constexpr double least_end_share = 0.5;
 
 /// The faces on both sides of a strip and those that go on from them, over kinks.
 std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
-  std::set<FaceId> skin;
-  std::vector<FaceId> next;
-  const auto add = [&](FaceId face) {
-    if (face != strip.face && !model.is_far_field(face) && skin.size() < most_faces_of_skin &&
-        skin.insert(face).second)
-      next.push_back(face);
-  };
+  std::vector<FaceId> neighbours;
   for (const auto& border : strip.borders) {
-    for (const cad::BorderEdge& each : border) add(each.neighbour);
+    for (const cad::BorderEdge& each : border) neighbours.push_back(each.neighbour);
   }
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    const FaceId face = next[i];
-    for (const auto& loop : model.face(face).loops) {
-      for (const cad::Coedge& use : loop) {
-        const cad::Edge& edge = model.edge(use.edge);
-        if (edge.degenerate || edge.faces.size() != 2 || edge.faces[0] == edge.faces[1]) continue;
-        const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
-        if (skin.contains(other) || turn_across(model, face, other, use.edge) > largest_kink) continue;
-        add(other);
-      }
-    }
-  }
-  return skin;
+  return skin_faces(model, neighbours, strip.face, Kinks::all);
 }
 
 /// Facets of those faces, and their border but for the strip itself.

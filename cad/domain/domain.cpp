@@ -71,7 +71,8 @@ FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& c
   } else {
     solids = unite_bodies(std::move(solids), volumes, changes);
     if (!single) solids = close_noise(std::move(solids), options.smallest_size, changes);
-    solids = surround(std::move(solids), options.far_field.value_or(FarFieldOptions{}), volumes, changes);
+    solids =
+        surround(std::move(solids), options.far_field.value_or(options.default_far_field), volumes, changes);
   }
   return {std::move(solids), std::move(decision), hull, triangulated};
 }

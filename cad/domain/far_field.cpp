@@ -102,6 +102,16 @@ TopoDS_Solid make_far_field(const FarFieldOptions& options, const Extent& extent
 /// and there would be no fluid between them. Chosen, not measured.
 constexpr double least_clearance = 1.01;
 
+/// The length that the extent is given in. `whole`: of the body before it was cut, `body`: of what is left.
+double unit_of(const FarFieldOptions& options, const Box& whole, const Box& body,
+               const std::optional<SymmetryPlane>& symmetry) {
+  if (options.unit == ExtentUnit::body) return largest_extent(whole);
+  if (symmetry) return body.size()[symmetry->axis];
+  Vec3 across = body.size();
+  across[static_cast<int>(options.flow)] = 0;
+  return 0.5 * std::max({across.x, across.y, across.z});
+}
+
 /// How far the far field must extend from the centre to clear the bodies' box.
 double needed_extent(const FarFieldOptions& options, const Box& body, const gp_Pnt& center) {
   Vec3 needed;
@@ -120,9 +130,10 @@ void require_clearance(const FarFieldOptions& options, const Box& body, const gp
   const double needed = needed_extent(options, body, center) / reference;
   if (options.extent > least_clearance * needed) return;
   throw CadError(
-      fmt::format("the far field cuts the body: its extent of {:.4g} reference lengths ({:.6g}) must exceed "
+      fmt::format("the far field cuts the body: its extent of {:.4g} {} ({:.6g}) must exceed "
                   "{:.4g} for this body",
-                  options.extent, reference, least_clearance * needed));
+                  options.extent, options.unit == ExtentUnit::body ? "reference lengths" : "semispans",
+                  reference, least_clearance * needed));
 }
 
 bool holds(const Box& outer, const Box& inner) {
@@ -349,12 +360,13 @@ NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& 
   tell_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
   Box box = tight_box(bodies.shape);
-  const double reference = largest_extent(box);
+  const Box whole = box;
   if (symmetry) changes.push_back({describe(*symmetry)});
   if (symmetry) {
     bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
     box = tight_box(bodies.shape);
   }
+  const double reference = unit_of(options, whole, box, symmetry);
   gp_Pnt center(box.center().x, box.center().y, box.center().z);
   if (symmetry) center.SetCoord(symmetry->axis + 1, symmetry->position);
   require_clearance(options, box, center, reference);

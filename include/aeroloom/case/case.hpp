@@ -13,6 +13,7 @@
 #include "aeroloom/parallel/observation/log.hpp"
 #include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "aeroloom/sizing/choose_sizes.hpp"
+#include "aeroloom/sizing/levels.hpp"
 #include "aeroloom/surface/surface_options.hpp"
 #include "aeroloom/volume/volume_options.hpp"
 
@@ -33,16 +34,21 @@ struct SizingRequest : sizing::GivenSizes {
   double feature_budget = sizing::default_feature_budget;
   /// What one unit of the lengths here and of their places is, in the model's unit; left out: 1.
   std::optional<double> reference_length;
-  std::string expression;                      ///< a formula of the place (SizeExpression); empty: none
-  std::vector<SourceRule> sources;             ///< regions with sizes of their own
-  std::vector<WallRule> walls;                 ///< bands off walls
-  std::vector<EdgeRule> edges;                 ///< sizes along CAD edges
+  std::string expression;                                      ///< a formula of the place; empty: none
+  std::optional<sizing::Level> level;                          ///< takes what is not given from guidelines
+  std::optional<sizing::LevelFamily> family;                   ///< of the level; left out: hlpw
+  sizing::SolverPoints solver = sizing::SolverPoints::vertex;  ///< what spacings of a level mean
+  std::optional<geometry::Vec3> flow;  ///< its direction, for levels; of any length; left out: default_flow
+  std::vector<SourceRule> sources;     ///< regions with sizes of their own
+  std::vector<WallRule> walls;         ///< bands off walls
+  std::vector<EdgeRule> edges;         ///< sizes along CAD edges
   std::vector<sizing::PatchSize> patch_sizes;  ///< of patches and groups that have any
 };
 
 /// The request with all lengths and places but those of the expression in the model's unit.
 SizingRequest in_model_units(const SizingRequest& request);
 
+inline constexpr geometry::Vec3 default_flow{1, 0, 0};
 inline constexpr double default_target = 1'000'000;
 
 /// The treatment of faces narrower than the smallest size that go on smoothly in a neighbour.

@@ -94,6 +94,9 @@ public:
   /// For the model with some faces joined: what belongs to all others is taken over. Collective.
   ModelSampler(ModelSampler&& before, const cad::Model& joined);
 
+  /// What all fields to come ask for along lines, in place of what they did; the same on every rank.
+  void demand(std::vector<SizeLine> lines);
+
   /// Whether sampling the faces cuts them into more parts than that, about, as their facets tell before it is
   /// done. Collective.
   bool has_more_parts(const SizingOptions& options, double most);

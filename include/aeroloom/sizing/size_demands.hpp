@@ -73,6 +73,12 @@ struct EdgeSize {
   double size = 0;
 };
 
+/// A line through its points, on which elements are at most so large: linear in between.
+struct SizeLine {
+  std::vector<geometry::Vec3> points;
+  std::vector<double> sizes;
+};
+
 struct SizeDemands {
   std::vector<SizeRegion> regions;
   std::vector<PatchSize> patches;
@@ -80,10 +86,17 @@ struct SizeDemands {
   std::vector<WallSize> walls = {};
   std::vector<WakeSize> wakes = {};
   std::vector<EdgeSize> edges = {};
+  std::vector<SizeLine> lines = {};
 };
 
 /// Throws std::invalid_argument, with the key, where a pattern matches no face of the model.
 void require_faces(const cad::Model& model, const SizeDemands& demands);
+
+/// Sources along a line with all its sizes `coarser` times as large: no two of them farther apart than half
+/// of the size there; in a cell of the octree of about their size the smallest alone.
+std::vector<SizeSource> sources_along(const RootCube& root, const SizeLine& line, double coarser);
+/// How many there would be, at most.
+double points_along(const SizeLine& line, double coarser);
 
 /// The largest size that its patch allows on each face; 0 where nothing is asked for.
 std::vector<double> sizes_on_faces(const cad::Model& model, const SizeDemands& demands);

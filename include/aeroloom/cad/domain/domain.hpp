@@ -23,11 +23,17 @@ enum class Axis { x, y, z };
 /// the plane y = 0 the body is symmetric about, or else the coordinate plane it ends at.
 enum class Symmetry { automatic, none, x, y, z };
 
-/// The far field around a body. Its reference length is the largest extent of the body's box.
+/// The length in which the extent of a far field is given: the largest extent of the body's box; half of what
+/// that extends across the flow, of half models from the plane of symmetry on.
+enum class ExtentUnit { body, semispan };
+
+/// The far field around a body.
 struct FarFieldOptions {
   FarFieldShape shape = FarFieldShape::sphere;
-  double extent = 10;   ///< distance from the body's centre to the far field, in reference lengths; for box
-                        ///< and cylinder: from the centre to each side and end
+  double extent = 10;  ///< distance from the body's centre to the far field, in units; for box and cylinder:
+                       ///< from the centre to each side and end
+  ExtentUnit unit = ExtentUnit::body;
+  Axis flow = Axis::x;  ///< the axis nearest to the flow, along which there is no span
   Axis axis = Axis::x;  ///< of the cylinder
   /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
   /// on the positive side is kept; the far field is cut to the same half.
@@ -36,8 +42,9 @@ struct FarFieldOptions {
       {};  ///< of the plane on its axis; default: where the body ends, or 0
 
   static constexpr auto fields() {
-    return std::tuple(&FarFieldOptions::shape, &FarFieldOptions::extent, &FarFieldOptions::axis,
-                      &FarFieldOptions::symmetry, &FarFieldOptions::symmetry_position);
+    return std::tuple(&FarFieldOptions::shape, &FarFieldOptions::extent, &FarFieldOptions::unit,
+                      &FarFieldOptions::flow, &FarFieldOptions::axis, &FarFieldOptions::symmetry,
+                      &FarFieldOptions::symmetry_position);
   }
 };
 
@@ -64,13 +71,14 @@ struct DomainOptions {
   std::optional<TransportDimensions> transport;  ///< the built-in aircraft
   DomainKind kind = DomainKind::automatic;
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
+  FarFieldOptions default_far_field = {};
   TrailingEdgeOptions trailing_edges = {};
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
 
   static constexpr auto fields() {
     return std::tuple(&DomainOptions::file, &DomainOptions::transport, &DomainOptions::kind,
-                      &DomainOptions::far_field, &DomainOptions::trailing_edges,
-                      &DomainOptions::smallest_size);
+                      &DomainOptions::far_field, &DomainOptions::default_far_field,
+                      &DomainOptions::trailing_edges, &DomainOptions::smallest_size);
   }
 };
 

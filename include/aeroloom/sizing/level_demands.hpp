@@ -1,0 +1,24 @@
+/// What a level asks for on a model's lifting bodies.
+#pragma once
+
+#include "aeroloom/sizing/choose_sizes.hpp"
+#include "aeroloom/sizing/levels.hpp"
+#include "aeroloom/sizing/lifting.hpp"
+#include "aeroloom/sizing/size_demands.hpp"
+
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// Along leading and trailing edges the level's share of the local chord; on a blunt trailing edge its width
+/// over the cells across, if that is less; where the skin meets other faces, at roots and tips, the share of
+/// the semispan; in the wake, a surface behind each trailing edge along the flow, the share that walls have
+/// of the reference chord, but of the local one.
+std::vector<SizeLine> level_lines(const cad::Model& model, const LiftingBodies& bodies,
+                                  const LevelSizes& level, geometry::Vec3 flow);
+
+/// Bounds for all the rest: walls by the reference chord; the smallest size along edges for curvature and
+/// features; growth and curvature angle of the level; in the far field a share of the domain.
+GivenSizes level_bounds(const cad::Model& model, const LiftingBodies& bodies, const LevelSizes& level);
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,120 @@
+#include "aeroloom/sizing/lifting.hpp"
+
+#include "aeroloom/cad/domain/domain.hpp"
+#include "tests/cad/real_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Vec3;
+
+LiftingBodies find(const cad::DomainOptions& options) {
+  const cad::Model model = cad::prepare_domain(options).model;
+  parallel::StageClock clock;
+  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  return find_lifting_bodies(sampler, {1, 0, 0});
+}
+
+LiftingBodies find_in(const std::string& name) {
+  cad::DomainOptions options;
+  options.file = cad::real::file(name);
+  return find(options);
+}
+
+/// The chord of the outermost station.
+double tip_chord(const LiftingBodies& bodies) {
+  const LiftingStation* tip = nullptr;
+  for (const LiftingElement& element : bodies.elements) {
+    for (const LiftingStation& station : element.stations)
+      if (tip == nullptr || std::abs(station.trailing.y) > std::abs(tip->trailing.y)) tip = &station;
+  }
+  return tip == nullptr ? 0 : tip->chord;
+}
+
+double degrees(double angle) {
+  return angle * std::numbers::pi / 180;
+}
+
+TEST(Lifting, OfTheBuiltInAircraft) {
+  cad::DomainOptions options;
+  options.transport = cad::TransportDimensions{};
+  const LiftingBodies bodies = find(options);
+  ASSERT_EQ(bodies.elements.size(), 5u);
+  const cad::LiftingSurface& wing = options.transport->wing;
+  EXPECT_NEAR(bodies.semispan, wing.half_span, 0.01 * wing.half_span);
+  int wings = 0;
+  for (const LiftingElement& element : bodies.elements) {
+    const Vec3 at = element.stations.front().leading;
+    if (at.x > 25) continue;
+    ++wings;
+    for (const LiftingStation& station : element.stations) {
+      const double y = std::abs(station.leading.y), share = y / wing.half_span;
+      const double chord = wing.root_chord * (1 - share * (1 - wing.taper));
+      EXPECT_NEAR(station.chord, chord, 0.01 * chord);
+      // Incidence turns the section about its quarter chord: the nose moves by a few thousandths.
+      EXPECT_NEAR(station.leading.x, wing.x + y * std::tan(degrees(wing.sweep)), 0.002 * chord);
+    }
+    double innermost = 100, outermost = 0;
+    ASSERT_EQ(element.leading.size(), 1u);
+    for (const Vec3 p : element.leading.front().points)
+      innermost = std::min(innermost, std::abs(p.y)), outermost = std::max(outermost, std::abs(p.y));
+    EXPECT_LT(innermost, 0.5 * options.transport->fuselage_diameter);
+    EXPECT_GT(outermost, 0.995 * wing.half_span);
+  }
+  EXPECT_EQ(wings, 2);
+}
+
+TEST(Lifting, OfSharpEdges) {
+  cad::DomainOptions options;
+  options.transport = cad::TransportDimensions{};
+  cad::TransportDimensions& aircraft = *options.transport;
+  for (cad::LiftingSurface* surface : {&aircraft.wing, &aircraft.horizontal_tail, &aircraft.vertical_tail})
+    surface->trailing_edge = 0;
+  const LiftingBodies bodies = find(options);
+  ASSERT_EQ(bodies.elements.size(), 5u);
+  for (const LiftingElement& element : bodies.elements) EXPECT_EQ(element.strip, cad::no_entity);
+}
+
+// Half a wing in two parts with a nacelle below it; its pylon ends in an edge of its own.
+TEST(Lifting, OfAHalfModelWithNacelle) {
+  const char* name = "aircraft/gmsh_dlr_f6.brep";
+  if (!cad::real::has(name)) GTEST_SKIP();
+  const LiftingBodies bodies = find_in(name);
+  ASSERT_EQ(bodies.elements.size(), 4u);
+  EXPECT_NEAR(bodies.semispan, 586, 1);
+  EXPECT_NEAR(tip_chord(bodies), 61, 1);
+  // The nacelle is an annular wing of one chord.
+  const auto is_nacelle = [](const LiftingElement& element) {
+    return std::all_of(element.stations.begin(), element.stations.end(),
+                       [](const LiftingStation& at) { return std::abs(at.chord - 180) < 1; });
+  };
+  EXPECT_EQ(std::count_if(bodies.elements.begin(), bodies.elements.end(), is_nacelle), 1);
+}
+
+// One wing of three panels, beside a fuselage of 238 faces.
+TEST(Lifting, OfPanelsOneAfterTheOther) {
+  const char* name = "aircraft/tigl_D150_fused_aircraft.brep";
+  if (!cad::real::has(name)) GTEST_SKIP();
+  const LiftingBodies bodies = find_in(name);
+  ASSERT_EQ(bodies.elements.size(), 3u);
+  EXPECT_NEAR(tip_chord(bodies), 1.57, 0.05);
+  EXPECT_NEAR(bodies.reference_chord, 3.9, 0.1);
+  // Panels do not reach into one another.
+  for (const LiftingElement& element : bodies.elements) {
+    ASSERT_EQ(element.leading.size(), 1u);
+    for (const Vec3 p : element.leading.front().points) {
+      EXPECT_GT(p.y, element.stations.front().leading.y - 0.7);
+      EXPECT_LT(p.y, element.stations.back().leading.y + 0.2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::sizing
