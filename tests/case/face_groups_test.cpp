@@ -4,6 +4,7 @@
 #include "aeroloom/case/patch_rules.hpp"
 #include "tests/source_tree.hpp"
 
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -163,17 +164,19 @@ TEST(FaceGroups, BecomePatchesWithConditions) {
   std::vector<std::string> names;
   for (cad::FaceId f = 0; f < duct().face_count(); ++f)
     names.push_back(patches.model.patches()[patches.model.face(f).patch]);
+  // Face 5 is of the patch that is called as its layer.
+  const std::map<int, std::string> wanted{{0, "inlet"}, {2, "lid"}, {4, "floor"}, {5, "outlet"}};
   for (cad::FaceId f = 0; f < duct().face_count(); ++f) {
-    const int number = duct().face(f).number;
-    if (number == 0) EXPECT_EQ(names[f], "inlet");
-    if (number == 2) EXPECT_EQ(names[f], "lid");
-    if (number == 4) EXPECT_EQ(names[f], "floor");
-    if (number == 5) EXPECT_EQ(names[f], "outlet");  // as the layer is called
+    const auto known = wanted.find(duct().face(f).number);
+    EXPECT_EQ(names[f], known != wanted.end() ? known->second : names[f]);
   }
   for (std::size_t p = 0; p < patches.types.size(); ++p) {
     const std::string& name = patches.model.patches()[p];
-    if (name == "inlet") EXPECT_EQ(patches.types[p], PatchType::inlet);
-    if (name == "lid") EXPECT_EQ(patches.types[p], PatchType::slip);
+    const PatchType type = name == "inlet"    ? PatchType::inlet
+                           : name == "outlet" ? PatchType::outlet
+                           : name == "lid"    ? PatchType::slip
+                                              : PatchType::wall;
+    EXPECT_EQ(patches.types[p], type) << name;
   }
 }
 
