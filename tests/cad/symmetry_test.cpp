@@ -186,7 +186,11 @@ const Body bodies[] = {
 
 DomainOptions half(const FarField& far_field, Symmetry symmetry, std::optional<double> position = {}) {
   DomainOptions options;
-  options.far_field = FarFieldOptions{far_field.shape, extent, far_field.axis, symmetry, position};
+  options.far_field = FarFieldOptions{.shape = far_field.shape,
+                                      .extent = extent,
+                                      .axis = far_field.axis,
+                                      .symmetry = symmetry,
+                                      .symmetry_position = position};
   return options;
 }
 
