@@ -27,6 +27,11 @@ void declare_levels(KeyTable& keys, SizingRequest& request) {
               "far field. `A` to `F` and `coarse` to `extra` are finer and finer. Other keys of sizes "
               "that are given hold in place of what the level has.",
               "none", "B"}));
+  keys.number(
+      "budget", request.budget, Range::between(100, 1e11, "tetrahedra"),
+      {"Takes the finest level up to `level` whose forecast has no more tetrahedra. Where even the coarsest "
+       "has more, an error tells how many.",
+       "none", "5e7"});
   keys.choice<std::optional<LevelFamily>>("family", request.family,
                                           {{"hlpw", std::nullopt}, {"dpw", LevelFamily::dpw}},
                                           "Whose `coarse` to `extra` are meant: those of the high-lift "
@@ -48,6 +53,7 @@ void check_levels(const KeyTable& keys, const SizingRequest& request) {
   if (request.flow && !(norm(*request.flow) > 0))
     refuse("flow", "'sizing.flow' is a direction, and must not be zero");
   if (!request.level) {
+    if (request.budget) refuse("budget", "'sizing.budget' needs 'sizing.level', the finest that it may take");
     if (request.family) refuse("family", "'sizing.family: dpw' needs 'sizing.level'");
     return;
   }

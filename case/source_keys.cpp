@@ -102,8 +102,8 @@ void declare_rule(SourceRule& rule, KeyTable& keys) {
 void declare_reference_length(KeyTable& sizing, std::optional<double>& length) {
   sizing.number(
       "reference_length", length, Range::above(0, length_unit),
-      {"What 1 stands for below `sizing` and in `patches.NAME.size`: all sizes, lengths and places there "
-       "are multiples of it, such as of the mean chord ([Reference "
+      {"What 1 stands for below `sizing`, in `groups.NAME.size` and in `patches.NAME.size`: all sizes, "
+       "lengths and places there are multiples of it, such as of the mean chord ([Reference "
        "length](configuration.md#reference-length)).",
        "the length unit of the geometry", "4.2"});
 }
@@ -111,8 +111,8 @@ void declare_reference_length(KeyTable& sizing, std::optional<double>& length) {
 void declare_expression(KeyTable& sizing, std::string& expression) {
   sizing.text("expression", expression,
               {"Largest size of elements as a formula of `x`, `y` and `z`, all in the length unit of the "
-               "geometry ([Expression](configuration.md#expression)). Bounded below by `minimum` where that "
-               "is given.",
+               "geometry, or in reference lengths where `reference_length` is given "
+               "([Expression](configuration.md#expression)). Bounded below by `minimum` where that is given.",
                "none", "max(0.05, 0.1*sqrt(x^2 + y^2 + z^2))"});
 }
 

@@ -5,13 +5,16 @@
 #include "aeroloom/sizing/level_demands.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
-#include <utility>
+#include <span>
 
 #include <fmt/format.h>
 
 namespace aeroloom::domain {
 namespace {
+
+using sizing::Level;
 
 /// The request with bounds of a level where the user gave none.
 cases::SizingRequest with_bounds(const cases::SizingRequest& request, const sizing::GivenSizes& bounds) {
@@ -30,27 +33,77 @@ cases::SizingRequest with_bounds(const cases::SizingRequest& request, const sizi
   return result;
 }
 
-}  // namespace
-
-cases::SizingRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request) {
-  const geometry::Vec3 flow = normalized(request.flow.value_or(cases::default_flow));
-  const sizing::LiftingBodies bodies = sizing::find_lifting_bodies(sampler, flow);
-  if (bodies.elements.empty())
+/// A model under one level after another.
+class Levels {
+public:
+  Levels(sizing::ModelSampler& sampler, const cases::SizingRequest& request)
+      : _sampler(sampler),
+        _request(request),
+        _flow(normalized(request.flow.value_or(cases::default_flow))),
+        _bodies(sizing::find_lifting_bodies(sampler, _flow)) {
+    if (!_bodies.elements.empty()) return;
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
         fmt::format("sizing.level: no trailing edge was found behind which a body ends along the flow "
                     "({:.3g}, {:.3g}, {:.3g}): neither a blunt strip nor a sharp edge of the CAD. Remedy: "
                     "sizing.flow, the direction of the flow, or sizes of your own in place of the level",
-                    flow.x, flow.y, flow.z));
-  const sizing::LevelSizes level = sizing::sizes_of(*request.level, request.family, request.solver);
-  sampler.demand(sizing::level_lines(sampler.model(), bodies, level, flow));
-  cases::SizingRequest result = with_bounds(request, sizing::level_bounds(sampler.model(), bodies, level));
+                    _flow.x, _flow.y, _flow.z));
+  }
+
+  const sizing::LiftingBodies& bodies() const { return _bodies; }
+  sizing::LevelSizes sizes(Level level) const {
+    return sizing::sizes_of(level, _request.family, _request.solver);
+  }
+  /// The request with the level's bounds; what it asks for along lines the sampler's fields ask for from now
+  /// on.
+  cases::SizingRequest take(Level level) {
+    _sampler.demand(sizing::level_lines(_sampler.model(), _bodies, sizes(level), _flow));
+    return with_bounds(_request, sizing::level_bounds(_sampler.model(), _bodies, sizes(level)));
+  }
+  /// The finest one up to that asked for which the budget holds. Counts of a family go with the cube of its
+  /// factors, so the coarsest tells where to look; what is found is counted itself.
+  Level finest_within(double budget) {
+    const std::span<const Level> all = sizing::levels_like(*_request.level);
+    const double coarsest = count(all.front());
+    if (coarsest > budget)
+      throw parallel::CollectiveError(
+          parallel::FailureKind::input,
+          fmt::format("sizing.budget: {:.3g} tetrahedra do not hold level {}, which takes about {:.2g}. "
+                      "Remedy: a larger budget, sizing.solver: cell, a nearer far field (farfield.extent), "
+                      "or sizes of your own in place of the level",
+                      budget, sizing::name_of(all.front()), coarsest));
+    auto found = std::find(all.begin(), all.end(), *_request.level);
+    const double factor = sizes(all.front()).factor;
+    while (found != all.begin() && coarsest * std::pow(factor / sizes(*found).factor, 3) > budget) --found;
+    while (found != all.begin() && count(*found) > budget) --found;
+    return *found;
+  }
+
+private:
+  double count(Level level) {
+    const sizing::SizingOptions options = sizing::with_given({}, take(level));
+    return sizing::apply_sizes(_sampler, options, sizing::FieldFor::forecast).counts.tetrahedra;
+  }
+
+  sizing::ModelSampler& _sampler;
+  const cases::SizingRequest& _request;
+  geometry::Vec3 _flow;
+  sizing::LiftingBodies _bodies;
+};
+
+}  // namespace
+
+LevelRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request) {
+  Levels levels(sampler, request);
+  const Level level = request.budget ? levels.finest_within(*request.budget) : *request.level;
+  LevelRequest result{levels.take(level), level};
+  const sizing::LiftingBodies& bodies = levels.bodies();
   if (sampler.communicator().is_root())
     parallel::log_info(fmt::format(
         "sizing: level {}: {} trailing edges, reference chord {:.4g}, semispan {:.4g}; {:.3g} % of the local "
         "chord at leading and trailing edges, at most {:.3g} on walls, growth {:.3g}",
-        sizing::name_of(*request.level), bodies.elements.size(), bodies.reference_chord, bodies.semispan,
-        100 * level.edge, *result.surface_maximum, *result.growth));
+        sizing::name_of(level), bodies.elements.size(), bodies.reference_chord, bodies.semispan,
+        100 * levels.sizes(level).edge, *result.request.surface_maximum, *result.request.growth));
   return result;
 }
 

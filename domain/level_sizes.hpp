@@ -7,9 +7,13 @@
 
 namespace aeroloom::domain {
 
-/// Makes the sampler's fields ask for what the level does, and returns the request with its bounds in place
-/// of the level; those that the user gave stay. Collective. Throws CollectiveError where the model has no
-/// lifting body.
-cases::SizingRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request);
+struct LevelRequest {
+  cases::SizingRequest request;  ///< with the level's bounds in place of the level; those given stay
+  sizing::Level level;           ///< the one asked for, or a coarser one that the budget holds
+};
+
+/// Makes the sampler's fields ask for what the level does. Collective. Throws CollectiveError where the model
+/// has no lifting body, and where even the coarsest level takes more tetrahedra than the budget.
+LevelRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request);
 
 }  // namespace aeroloom::domain

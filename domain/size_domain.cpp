@@ -201,7 +201,9 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields,
                                               demands_of(asked));
-  const cases::SizingRequest request = asked.level ? apply_level(*sampler, asked) : asked;
+  std::optional<LevelRequest> of_level;
+  if (asked.level) of_level = apply_level(*sampler, asked);
+  const cases::SizingRequest& request = of_level ? of_level->request : asked;
   const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
   // A level resolves trailing edges, however thin.
@@ -230,6 +232,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   if (!closed) sized.walls = report_walls(model, coincident, *sampler, sized.field);
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
+  if (of_level) sized.level = of_level->level;
   return sized;
 }
 

@@ -69,6 +69,8 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cad::
   forecast.bounded = sized.bounded;
   forecast.walls = sized.walls;
   forecast.counts = sized.counts;
+  if (sized.level)
+    forecast.levels = forecast_levels(*sized.level, sized.counts, input.sizing, communicator.size());
   clock.end();
   forecast.worthwhile = worthwhile_ranks(communicator, clock, forecast.counts, input);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
@@ -164,12 +166,12 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
              "       {} rank(s) work with 80 % efficiency ({} where geometry does not count), {:.2g} s, "
              "{:.2g} GiB on the largest\n"
              "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
-             "{}\n",
+             "{}{}\n",
              forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
              forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
              forecast.bytes / gibibyte, forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
              forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / gibibyte, ranks,
-             forecast.piece_triangles, forecast.piece_tets,
+             forecast.piece_triangles, forecast.piece_tets, describe(forecast.levels),
              coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
 }
 
@@ -232,6 +234,7 @@ Json forecast_json(const RunForecast& forecast) {
           {"tetrahedra", forecast.counts.tetrahedra},
           {"seconds_on_one_core", forecast.seconds},
           {"bytes", forecast.bytes},
+          {"levels", to_json(forecast.levels)},
           {"scaling", study::to_json(forecast.worthwhile, {})},
           {"piece_triangles", forecast.piece_triangles},
           {"piece_tets", forecast.piece_tets},

@@ -10,6 +10,7 @@
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/report/exit_code.hpp"
 #include "aeroloom/sizing/size_field.hpp"
+#include "pipeline/level_forecast.hpp"
 #include "study/prediction_files.hpp"
 
 #include <cstdint>
@@ -37,6 +38,7 @@ struct RunForecast {
   sizing::PredictedCounts counts;
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together
+  std::vector<LevelForecast> levels;                 ///< all of those of the case's level; none without
   study::WorthwhileRanks worthwhile;                 ///< how many ranks are worth asking for
   std::int64_t piece_triangles = 0, piece_tets = 0;  ///< piece sizes that give every rank several pieces
 };

@@ -10,14 +10,17 @@ namespace {
 class LevelKeys : public CaseTest {};
 
 TEST_F(LevelKeys, ComeBack) {
-  const Case input =
-      read("geometry: {file: a.step}\nsizing: {level: fine, family: dpw, solver: cell, flow: [0, 0, 2]}\n");
+  const Case input = read(
+      "geometry: {file: a.step}\nsizing: {level: fine, budget: 5e7, family: dpw, solver: cell, flow: [0, 0, "
+      "2]}\n");
+  EXPECT_EQ(input.sizing.budget, 5e7);
   EXPECT_EQ(input.sizing.level, sizing::Level::fine);
   EXPECT_EQ(input.sizing.family, sizing::LevelFamily::dpw);
   EXPECT_EQ(input.sizing.solver, sizing::SolverPoints::cell);
   EXPECT_EQ(input.domain.default_far_field.flow, cad::Axis::z);
   const Case again = case_of_resolved(resolved_yaml(input));
   EXPECT_EQ(again.sizing.level, input.sizing.level);
+  EXPECT_EQ(again.sizing.budget, input.sizing.budget);
   EXPECT_EQ(again.sizing.family, input.sizing.family);
   EXPECT_EQ(again.sizing.solver, input.sizing.solver);
   EXPECT_EQ(again.sizing.flow, input.sizing.flow);
@@ -47,6 +50,7 @@ TEST_F(LevelKeys, LeaveNothingToChoose) {
   EXPECT_NE(refused("level: B, target_tetrahedra: 1000").find("none left to choose"), std::string::npos);
   EXPECT_NE(refused("level: B, family: dpw").find("dpw has coarse"), std::string::npos);
   EXPECT_NE(refused("family: dpw").find("'sizing.family: dpw' needs"), std::string::npos);
+  EXPECT_NE(refused("budget: 1e6").find("needs 'sizing.level'"), std::string::npos);
   EXPECT_NE(refused("level: G").find("'sizing.level'"), std::string::npos);
   EXPECT_NE(refused("level: B, flow: [0, 0, 0]").find("must not be zero"), std::string::npos);
 }

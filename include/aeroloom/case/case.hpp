@@ -36,6 +36,7 @@ struct SizingRequest : sizing::GivenSizes {
   std::optional<double> reference_length;
   std::string expression;                                      ///< a formula of the place; empty: none
   std::optional<sizing::Level> level;                          ///< takes what is not given from guidelines
+  std::optional<double> budget;                                ///< of tetrahedra: takes a coarser level
   std::optional<sizing::LevelFamily> family;                   ///< of the level; left out: hlpw
   sizing::SolverPoints solver = sizing::SolverPoints::vertex;  ///< what spacings of a level mean
   std::optional<geometry::Vec3> flow;  ///< its direction, for levels; of any length; left out: default_flow

@@ -11,6 +11,7 @@
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/parallel/observation/timers.hpp"
 #include "aeroloom/sizing/choose_sizes.hpp"
+#include "aeroloom/sizing/levels.hpp"
 #include "aeroloom/sizing/size_field.hpp"
 
 #include <optional>
@@ -43,11 +44,12 @@ struct SizedDomain {
   sizing::SizingOptions sizes;
   sizing::SizeField field;
   JoinedFaces joined;
-  sizing::PredictedCounts counts;         ///< that the field predicts
-  std::optional<FeatureReport> features;  ///< where sizes at features were chosen
-  std::vector<NamedBound> bounded;        ///< faces on which the minimum wins over curvature
-  TrailingEdgeReport edges = {};          ///< where that was looked at
-  WallFindings walls;                     ///< what was found of walls close to each other
+  sizing::PredictedCounts counts;           ///< that the field predicts
+  std::optional<FeatureReport> features;    ///< where sizes at features were chosen
+  std::vector<NamedBound> bounded;          ///< faces on which the minimum wins over curvature
+  TrailingEdgeReport edges = {};            ///< where that was looked at
+  WallFindings walls;                       ///< what was found of walls close to each other
+  std::optional<sizing::Level> level = {};  ///< whose sizes these are
 };
 
 /// Resolves sizes, closes trailing edges that trial sizes do not resolve where that moves little, joins

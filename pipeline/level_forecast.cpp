@@ -1,0 +1,46 @@
+#include "pipeline/level_forecast.hpp"
+
+#include "pipeline/forecast.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace aeroloom::pipeline {
+
+std::vector<LevelForecast> forecast_levels(sizing::Level level, const sizing::PredictedCounts& counted,
+                                           const cases::SizingRequest& request, int ranks) {
+  const auto factor = [&](sizing::Level of) { return sizing::sizes_of(of, request.family).factor; };
+  std::vector<LevelForecast> forecasts;
+  for (const sizing::Level each : sizing::levels_like(level)) {
+    const double finer = factor(level) / factor(each);
+    const sizing::PredictedCounts counts{counted.triangles * std::pow(finer, 2),
+                                         counted.tetrahedra * std::pow(finer, 3)};
+    forecasts.push_back({each, counts, predicted_seconds(counts), predicted_bytes(counts, ranks)});
+  }
+  return forecasts;
+}
+
+std::string describe(const std::vector<LevelForecast>& levels) {
+  if (levels.empty()) return {};
+  constexpr double gibibyte = 1024.0 * 1024 * 1024;
+  std::string text = fmt::format("levels: {:<8} {:>12} {:>12} {:>14} {:>8}\n", "level", "triangles",
+                                 "tetrahedra", "s on one core", "GiB");
+  for (const LevelForecast& each : levels)
+    text += fmt::format("        {:<8} {:>12.2g} {:>12.2g} {:>14.2g} {:>8.2g}\n", sizing::name_of(each.level),
+                        each.counts.triangles, each.counts.tetrahedra, each.seconds, each.bytes / gibibyte);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const std::vector<LevelForecast>& levels) {
+  auto json = nlohmann::ordered_json::array();
+  for (const LevelForecast& each : levels)
+    json.push_back({{"level", sizing::name_of(each.level)},
+                    {"triangles", each.counts.triangles},
+                    {"tetrahedra", each.counts.tetrahedra},
+                    {"seconds_on_one_core", each.seconds},
+                    {"bytes", each.bytes}});
+  return json;
+}
+
+}  // namespace aeroloom::pipeline

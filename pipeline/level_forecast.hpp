@@ -1,0 +1,32 @@
+/// The cost of a case at the other levels of the prediction workshops.
+#pragma once
+
+#include "aeroloom/case/case.hpp"
+#include "aeroloom/sizing/levels.hpp"
+#include "aeroloom/sizing/size_field.hpp"
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+
+struct LevelForecast {
+  sizing::Level level = sizing::Level::a;
+  sizing::PredictedCounts counts;
+  double seconds = 0;  ///< of one core
+  double bytes = 0;    ///< of memory, all ranks together
+};
+
+/// Of all levels of one kind, from what was counted at one of them: triangles go with the square of the
+/// levels' factors, tetrahedra with the cube. Sizes of the user's own, which do not follow the level, make
+/// this an overestimate of finer levels.
+std::vector<LevelForecast> forecast_levels(sizing::Level level, const sizing::PredictedCounts& counted,
+                                           const cases::SizingRequest& request, int ranks);
+
+/// A table; empty where there are no levels.
+std::string describe(const std::vector<LevelForecast>& levels);
+nlohmann::ordered_json to_json(const std::vector<LevelForecast>& levels);
+
+}  // namespace aeroloom::pipeline

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Levels of the prediction workshops: what check forecasts for each of them, and the level that a budget takes. Growth and bounds are
+given, so that fields are small.
+usage: levels_test.py PROGRAM"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+CASE = """
+geometry: {builtin: transport}
+farfield: {extent: 3}
+sizing: {level: C, growth: 2, curvature_angle: 40, surface_maximum: 0.8, maximum: 20}
+"""
+FACTORS = {"A": 1.5, "B": 1, "C": 2 / 3, "D": 0.5, "E": 1 / 3, "F": 2 / 9}
+
+
+def check(program, *settings):
+    with tempfile.TemporaryDirectory() as name:
+        case = pathlib.Path(name) / "case.yaml"
+        case.write_text(CASE)
+        command = [program, "check", str(case), "--set", f"output.directory={name}/out"]
+        for setting in settings:
+            command += ["--set", setting]
+        done = subprocess.run(command, capture_output=True, text=True)
+        record = pathlib.Path(name) / "out" / "check.json"
+        return done, json.loads(record.read_text())["forecast"] if record.exists() else None
+
+
+def main():
+    program = sys.argv[1]
+    done, forecast = check(program)
+    assert done.returncode == 0, done.stderr
+    assert "sizing: level C:" in done.stdout + done.stderr, done.stdout + done.stderr
+    levels = {row["level"]: row for row in forecast["levels"]}
+    assert list(levels) == list(FACTORS), levels
+    assert levels["C"]["tetrahedra"] == forecast["tetrahedra"] and levels["C"]["triangles"] == forecast["triangles"]
+    for name, factor in FACTORS.items():
+        finer = FACTORS["C"] / factor
+        assert abs(levels[name]["tetrahedra"] / (forecast["tetrahedra"] * finer ** 3) - 1) < 0.02, levels
+        assert abs(levels[name]["triangles"] / (forecast["triangles"] * finer ** 2) - 1) < 0.02, levels
+
+    coarse = check(program, "sizing.level=A")[1]["tetrahedra"]
+    assert coarse < forecast["tetrahedra"], (coarse, forecast["tetrahedra"])
+    done, within = check(program, f"sizing.budget={1.05 * coarse:.0f}")
+    assert done.returncode == 0 and "sizing: level A:" in done.stdout + done.stderr, done.stdout + done.stderr
+    assert within["tetrahedra"] <= 1.05 * coarse, within
+    done, none = check(program, f"sizing.budget={0.5 * coarse:.0f}")
+    assert done.returncode != 0 and "do not hold level A" in done.stderr, done.stderr
+    print("levels: forecasts by the cube, the level that a budget holds")
+
+
+if __name__ == "__main__":
+    main()
